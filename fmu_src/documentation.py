@@ -1,0 +1,69 @@
+"""The documentation page inside the FMU: fixed text around a table of the variables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from string import Template
+
+from fmu_src.model_description import DESCRIPTION
+from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
+
+ASSETS = Path(__file__).parent / "assets"
+
+_HEADINGS: tuple[tuple[str, str], ...] = (
+    ("input", "Inputs: may be set at any time, held over a step"),
+    ("tunable", "Tunable parameters: may be set at any time"),
+    ("fixed", "Fixed parameters: may be set until initialization ends"),
+    ("output", "Outputs"),
+)
+
+
+def documentation_page(
+    *,
+    model: str,
+    generation_tool: str,
+    variables: Sequence[Variable] = VARIABLES,
+) -> bytes:
+    """A self-contained HTML page as UTF-8 bytes; equal arguments give equal bytes."""
+    template = Template((ASSETS / "page.html").read_text(encoding="utf-8"))
+    page = template.substitute(
+        model=escape(model),
+        description=escape(DESCRIPTION),
+        generation_tool=escape(generation_tool),
+        variables=_variable_tables(variables),
+    )
+    return page.encode()
+
+
+def _variable_tables(variables: Sequence[Variable]) -> str:
+    references = {v.name: i for i, v in enumerate(variables)}
+    tables = []
+    for kind, heading in _HEADINGS:
+        rows = [
+            _row(references[v.name], v)
+            for v in variables
+            if kind in (v.causality, v.variability if v.causality == "parameter" else None)
+        ]
+        head = "".join(
+            f"<th>{title}</th>"
+            for title in ("Reference", "Name", "Type", "Unit", "Start", "Min", "Max", "Meaning")
+        )
+        body = "\n".join(rows)
+        tables.append(f"<h3>{heading}</h3>\n<table>\n<tr>{head}</tr>\n{body}\n</table>")
+    return "\n".join(tables)
+
+
+def _row(reference: int, v: Variable) -> str:
+    unit = v.unit or ""
+    if v.display_unit:
+        unit += f" (shown in {v.display_unit})"
+    numbers = "".join(
+        f'<td class="number">{"" if x is None else f"{x:g}"}</td>'
+        for x in (v.start, v.minimum, v.maximum)
+    )
+    return (
+        f'<tr><td class="number">{reference}</td><td><code>{escape(v.name)}</code></td>'
+        f"<td>{v.type}</td><td>{escape(unit)}</td>{numbers}<td>{escape(v.description)}</td></tr>"
+    )

@@ -1,0 +1,196 @@
+"""The component between numerics and FMI: values by name, time, initialization, steps, outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf, isfinite, ulp
+from typing import Any
+
+from .coulomb import Held, Moment, advance, hold, start
+from .device import Device, Inputs
+from .lifecycle import Lifecycle, require
+from .motion import State
+from .outputs import OUTPUTS, View
+from .refusal import Refusal
+from .snapshot import FORMAT, moment_from_plain, moment_to_plain
+from .values import BY_NAME, SETTABLE, checked, number
+
+
+class Component:
+    """A slider-resonator that is set, stepped and read by the names of the interface.
+
+    Every method leaves the component as it was when it raises Refusal.
+    """
+
+    def __init__(self) -> None:
+        self.lifecycle = Lifecycle.INSTANTIATED
+        self.time = 0.0
+        self._stop_time = inf
+        self._last_event_time = 0.0
+        self._values: dict[str, float] = {v.name: v.start or 0 for v in SETTABLE}
+        self._moment: Moment | None = None
+        self._prepared: tuple[Device, Inputs, Held] | None = None
+
+    def setup_experiment(self, start_time: float, stop_time: float | None) -> None:
+        """Take over start and stop time [s]; a stop time of None is open."""
+        require("setupExperiment", self.lifecycle, Lifecycle.INSTANTIATED)
+        if not isfinite(start_time):
+            raise Refusal(f"startTime = {start_time!r} refused: allowed is a finite number")
+        if stop_time is not None and not stop_time >= start_time:
+            raise Refusal(
+                f"stopTime = {stop_time!r} refused: allowed is a number from startTime = "
+                f"{start_time!r} on"
+            )
+        self.time = self._last_event_time = start_time
+        self._stop_time = inf if stop_time is None else stop_time
+
+    def enter_initialization(self) -> None:
+        """Begin initialization mode."""
+        require("enterInitializationMode", self.lifecycle, Lifecycle.INSTANTIATED)
+        self.lifecycle = Lifecycle.INITIALIZATION
+
+    def exit_initialization(self) -> None:
+        """Fix the parameters and the first moment."""
+        require("exitInitializationMode", self.lifecycle, Lifecycle.INITIALIZATION)
+        self._moment = self._first_moment()
+        self.lifecycle = Lifecycle.STEP_COMPLETE
+
+    def terminate(self) -> None:
+        """End the simulation; outputs stay readable."""
+        require("terminate", self.lifecycle, Lifecycle.STEP_COMPLETE)
+        self.lifecycle = Lifecycle.TERMINATED
+
+    def set(self, new: Mapping[str, object]) -> None:
+        """Set inputs and parameters by name: all of them or, if one is refused, none."""
+        if self.lifecycle == Lifecycle.TERMINATED:
+            require(f"setting {', '.join(new)}", self.lifecycle, Lifecycle.STEP_COMPLETE)
+        running = self.lifecycle == Lifecycle.STEP_COMPLETE
+        values = dict(self._values)
+        for name, value in new.items():
+            variable = BY_NAME[name]
+            if variable.causality == "output":
+                raise Refusal(f"{name} = {value!r} refused: it is an output and cannot be set")
+            if variable.variability == "fixed" and running:
+                raise Refusal(
+                    f"{name} = {value!r} refused: it is fixed and can be set only before "
+                    "initialization ends"
+                )
+            values[name] = checked(variable, value)
+        if values == self._values:
+            return
+        self._prepared = _prepare(values) if running else None
+        self._values = values
+
+    def get(self, name: str) -> float:
+        """Value of any variable; outputs from initialization mode on."""
+        if name in self._values:
+            return self._values[name]
+        if self.lifecycle == Lifecycle.INSTANTIATED:
+            require(f"reading {name}", self.lifecycle, Lifecycle.INITIALIZATION)
+        device, inputs, held = self._prepare()
+        moment = self._moment if self._moment is not None else self._first_moment()
+        return OUTPUTS[name](View(device, inputs, held, moment, self._last_event_time))
+
+    def step(self, time: float, step_size: float) -> None:
+        """Advance from `time` [s], the present one, by `step_size` > 0 [s], inputs held."""
+        require("doStep", self.lifecycle, Lifecycle.STEP_COMPLETE)
+        if not (isfinite(step_size) and step_size > 0.0):
+            raise Refusal(
+                f"doStep: communicationStepSize = {step_size!r} refused: allowed is a finite "
+                "number above 0"
+            )
+        # Hosts sum up their own time, so it may differ from this one by the rounding of a step.
+        slack = 1e-6 * step_size + 4.0 * ulp(max(abs(self.time), abs(time)))
+        if not abs(time - self.time) <= slack:
+            raise Refusal(
+                f"doStep: currentCommunicationPoint = {time!r} refused: allowed is the present "
+                f"time {self.time!r}"
+            )
+        end = time + step_size
+        if end > self._stop_time + slack + 1e-9 * abs(self._stop_time):
+            raise Refusal(
+                f"doStep: communicationStepSize = {step_size!r} refused: allowed is a step up to "
+                f"stopTime = {self._stop_time!r}"
+            )
+        moment = self._advanced(step_size)
+        if moment.event_age <= step_size:
+            self._last_event_time = time + (step_size - moment.event_age)
+        self._moment = moment
+        self.time = end
+
+    def snapshot(self) -> dict[str, Any]:
+        """The complete state, of plain numbers and names."""
+        return {
+            "format": FORMAT,
+            "lifecycle": self.lifecycle.value,
+            "time": self.time,
+            "stop_time": None if self._stop_time == inf else self._stop_time,
+            "last_event_time": self._last_event_time,
+            "values": dict(self._values),
+            "moment": None if self._moment is None else moment_to_plain(self._moment),
+        }
+
+    def restore(self, plain: Mapping[str, Any]) -> None:
+        """Go back to a snapshot, of this or another instance. Raises Refusal if it is none."""
+        if not isinstance(plain, Mapping) or plain.get("format") != FORMAT:
+            found = plain.get("format") if isinstance(plain, Mapping) else type(plain).__name__
+            raise Refusal(f"FMU state refused: its format is {found!r}; allowed is {FORMAT!r}")
+        try:
+            lifecycle = Lifecycle(plain["lifecycle"])
+            time = number("time", plain["time"])
+            stop = plain["stop_time"]
+            stop_time = inf if stop is None else number("stop_time", stop)
+            last_event_time = number("last_event_time", plain["last_event_time"])
+            stored = dict(plain["values"])
+            moment = plain["moment"]
+        except (KeyError, TypeError, ValueError) as error:
+            raise Refusal(f"FMU state refused: it does not fit ({error!r})") from error
+        if stored.keys() != self._values.keys():
+            odd = ", ".join(sorted(stored.keys() ^ self._values.keys()))
+            raise Refusal(f"FMU state refused: variables that do not fit: {odd}")
+        values = {name: checked(BY_NAME[name], value) for name, value in stored.items()}
+        restored = None if moment is None else moment_from_plain(moment)
+        if restored is None and lifecycle in (Lifecycle.STEP_COMPLETE, Lifecycle.TERMINATED):
+            raise Refusal("FMU state refused: it holds no motion; allowed is one after a step")
+        self._prepared = None if restored is None else _prepare(values)
+        self.lifecycle = lifecycle
+        self.time, self._stop_time, self._last_event_time = time, stop_time, last_event_time
+        self._values, self._moment = values, restored
+
+    def _prepare(self) -> tuple[Device, Inputs, Held]:
+        if self._prepared is None:
+            self._prepared = _prepare(self._values)
+        return self._prepared
+
+    def _first_moment(self) -> Moment:
+        device, _, held = self._prepare()
+        state = State(
+            device.initial_velocity,
+            device.initial_resonator_displacement,
+            device.initial_resonator_velocity,
+        )
+        return start(held, state, device.initial_position)
+
+    def _advanced(self, step_size: float) -> Moment:
+        _, _, held = self._prepare()
+        if self._moment is None:
+            raise Refusal("doStep refused: there is no motion before initialization has ended")
+        try:
+            moment = advance(held, self._moment, step_size)
+            state = moment.state
+            travelled = (moment.position, state.velocity, state.displacement, state.rate)
+            finite = all(map(isfinite, (*travelled, moment.psi, moment.theta)))
+        except (ArithmeticError, ValueError):
+            finite = False
+        if not finite:
+            raise Refusal(
+                f"doStep: communicationStepSize = {step_size!r} refused: the motion leaves the "
+                "range of floating point numbers; allowed are smaller forces, frequencies or steps"
+            )
+        return moment
+
+
+def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Held]:
+    inputs = Inputs(values["phase"], values["load"], values["frequency_ratio"])
+    device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
+    return device, inputs, hold(device, inputs)

@@ -1,0 +1,39 @@
+"""When the contact lifts and touches down: N = max(0, N0 + dN sin(chi)) with dN > N0."""
+
+from __future__ import annotations
+
+from math import asin, inf, pi, tau
+
+from .plant import Plant
+
+
+def flight_window(plant: Plant) -> tuple[float, float] | None:
+    """Open range of chi in (0, 2 pi) [rad] in which the contact is lifted; None if it never is."""
+    if plant.preload_share >= 1.0:
+        return None
+    dip = asin(plant.preload_share)
+    return pi + dip, tau - dip
+
+
+def is_lifted(window: tuple[float, float] | None, chi: float) -> bool:
+    """Whether the contact is lifted at normal phase `chi` [rad]."""
+    return window is not None and window[0] < chi % tau < window[1]
+
+
+def time_to_switch(
+    window: tuple[float, float] | None, chi: float, frequency: float, lifted: bool
+) -> float:
+    """Time [s] until the contact lifts, or touches down when `lifted`; infinite if never.
+
+    `frequency` [rad/s] is that of the normal load and may be negative.
+    """
+    if window is None or frequency == 0.0:
+        return inf
+    first, last = window if frequency > 0.0 else (window[1], window[0])
+    boundary = last if lifted else first
+    ahead = boundary - chi % tau
+    if frequency < 0.0:
+        ahead = -ahead
+    if ahead < 0.0:
+        ahead = 0.0 if lifted else ahead + tau
+    return ahead / abs(frequency)

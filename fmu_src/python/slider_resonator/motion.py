@@ -1,0 +1,36 @@
+"""What the event loop asks of the motion within one contact mode."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from .first_zero import Watch
+
+EPSILON = 2.0**-52
+"""Spacing of floating point numbers above 1: the unit of rounding errors."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Slider velocity [m/s], resonator displacement [m] and velocity [m/s]."""
+
+    velocity: float
+    displacement: float
+    rate: float
+
+
+class Motion(Protocol):
+    """Closed-form motion from a given state on, inputs held, contact mode unchanged."""
+
+    def watches(self) -> tuple[Watch, ...]:
+        """Signals that are positive while the mode lasts."""
+        ...
+
+    def travel(self, t: float) -> float:
+        """Displacement of the slider after `t` [s], in m."""
+        ...
+
+    def state(self, t: float) -> State:
+        """State after `t` [s]."""
+        ...

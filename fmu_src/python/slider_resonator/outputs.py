@@ -1,0 +1,83 @@
+"""The outputs of the interface, each from the present moment and the present inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from math import cos, sin, tau
+
+from .averaged import Averaged, averaged
+from .coulomb import STICK, Held, Moment, friction_force, mode_of
+from .device import Device, Inputs
+
+LEAD_DIGITS = 9
+"""Decimals to which psi - n theta [rad] is rounded for the averaged outputs: the rounding errors of
+the phases then do not make them flicker."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """What outputs are read from."""
+
+    device: Device
+    inputs: Inputs
+    held: Held
+    moment: Moment
+    last_event_time: float
+
+    @property
+    def mode(self) -> int:
+        """Contact mode under the present inputs."""
+        moment = self.moment
+        return mode_of(self.held, moment.state, moment.theta, moment.psi)
+
+
+def _resonator_displacement(view: View) -> float:
+    amplitude = view.held.plant.resonator_amplitude
+    if amplitude is None:
+        return view.moment.state.displacement
+    theta = view.moment.theta
+    return amplitude.real * sin(theta) + amplitude.imag * cos(theta)
+
+
+def _resonator_velocity(view: View) -> float:
+    amplitude = view.held.plant.resonator_amplitude
+    if amplitude is None:
+        return view.moment.state.rate
+    theta = view.moment.theta
+    turning = amplitude.real * cos(theta) - amplitude.imag * sin(theta)
+    return view.held.plant.drive_frequency * turning
+
+
+def _normal_force(view: View) -> float:
+    chi = view.moment.psi + view.inputs.phase
+    device = view.device
+    return max(0.0, device.normal_preload + device.normal_amplitude * sin(chi))
+
+
+def _theory(view: View) -> Averaged:
+    ratio = view.inputs.frequency_ratio
+    lead = (view.moment.psi - ratio * view.moment.theta) % tau if ratio == round(ratio) else 0.0
+    return _averaged(view.device, view.inputs, round(lead, LEAD_DIGITS))
+
+
+_averaged = lru_cache(maxsize=8)(averaged)
+
+OUTPUTS: dict[str, Callable[[View], float]] = {
+    "position": lambda view: view.moment.position,
+    "velocity": lambda view: view.moment.state.velocity,
+    "mean_velocity": lambda view: view.moment.means.present_mean_velocity(
+        view.moment.state.velocity
+    ),
+    "resonator_displacement": _resonator_displacement,
+    "resonator_velocity": _resonator_velocity,
+    "normal_force": _normal_force,
+    "friction_force": lambda view: friction_force(view.held, view.moment, view.mode),
+    "contact_mode": lambda view: float(view.mode),
+    "reversals": lambda view: float(view.moment.counts.reversals),
+    "stick_fraction": lambda view: view.moment.means.present_stick_fraction(view.mode == STICK),
+    "last_event_time": lambda view: view.last_event_time,
+    "steady_velocity": lambda view: _theory(view).steady_velocity,
+    "blocking_force": lambda view: _theory(view).blocking_force,
+}

@@ -1,0 +1,88 @@
+"""Means over whole drive periods, which end where the drive phase theta passes 2 pi."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import floor, tau
+
+MARK_TOLERANCE = 1e-7
+"""Angle [rad] by which a period may end after the present moment and still count as ended: steps
+of whole periods, rounded, then end on the period that they complete."""
+
+
+@dataclass(frozen=True, slots=True)
+class PeriodMeans:
+    """What was gathered since the last period ended, and the means of the last whole period.
+
+    `travel` [m], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);
+    `mean_velocity` [m/s] and `stick_fraction` of the last whole period once `complete`.
+    """
+
+    travel: float = 0.0
+    elapsed: float = 0.0
+    sticking: float = 0.0
+    complete: bool = False
+    mean_velocity: float = 0.0
+    stick_fraction: float = 0.0
+
+    def advanced(
+        self,
+        duration: float,
+        theta: float,
+        frequency: float,
+        sticks: bool,
+        travel_at: Callable[[float], float],
+        travelled: float,
+    ) -> tuple[PeriodMeans, float]:
+        """The means after a motion of `duration` [s] that began at drive phase `theta` [rad].
+
+        `travel_at(t)` is its displacement [m], `travelled` that at its end. Returns the new means
+        and the drive phase at the end, modulo 2 pi.
+        """
+        end = theta + frequency * duration
+        ended = floor((end + MARK_TOLERANCE) / tau)
+        if ended <= 0:
+            return (
+                replace(
+                    self,
+                    travel=self.travel + travelled,
+                    elapsed=self.elapsed + duration,
+                    sticking=self.sticking + (duration if sticks else 0.0),
+                ),
+                end,
+            )
+        last = (tau * ended - theta) / frequency
+        travel_last = travel_at(last)
+        if ended == 1:
+            length = self.elapsed + last
+            mean = (self.travel + travel_last) / length
+            fraction = (self.sticking + (last if sticks else 0.0)) / length
+        else:
+            length = tau / frequency
+            mean = (travel_last - travel_at(last - length)) / length
+            fraction = 1.0 if sticks else 0.0
+        rest = duration - last
+        means = PeriodMeans(
+            travelled - travel_last,
+            rest,
+            rest if sticks else 0.0,
+            True,
+            mean,
+            min(max(fraction, 0.0), 1.0),
+        )
+        return means, end - tau * ended
+
+    def present_mean_velocity(self, velocity: float) -> float:
+        """Mean of the last whole period, or since the start, or at the start `velocity` [m/s]."""
+        if self.complete:
+            return self.mean_velocity
+        return self.travel / self.elapsed if self.elapsed > 0.0 else velocity
+
+    def present_stick_fraction(self, sticks: bool) -> float:
+        """Fraction sticking of the last whole period, or since the start, or at the start."""
+        if self.complete:
+            return self.stick_fraction
+        if self.elapsed > 0.0:
+            return min(self.sticking / self.elapsed, 1.0)
+        return 1.0 if sticks else 0.0

@@ -1,0 +1,90 @@
+"""Sliding or flight in forms that stay regular everywhere: at resonance without damping, at and
+above critical damping, and for slow, constant or reversed normal loads.
+
+The slider follows from the momentum of the pair and the motion of the resonator.
+"""
+
+from __future__ import annotations
+
+from cmath import rect
+from math import inf
+
+from .first_zero import Watch
+from .forced_oscillator import ForcedOscillator
+from .motion import EPSILON, State
+from .oscillator import double_integral, integral
+from .plant import Plant
+
+
+class RegularSlide:
+    """Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight."""
+
+    __slots__ = ("_deceleration", "_fraction", "_pair", "_plant", "_resonator", "_sign", "_start")
+
+    def __init__(self, plant: Plant, sign: int, state: State, theta: float, chi: float) -> None:
+        resisting = sign * plant.friction_preload + plant.load
+        w, q = plant.drive_frequency, plant.normal_frequency
+        drive_turn = -1j * rect(1.0, theta)
+        friction = -1j * sign * plant.friction_amplitude * rect(1.0, chi)
+        self._plant = plant
+        self._sign = sign
+        self._start = state
+        self._fraction = plant.mass_fraction
+        self._deceleration = resisting / plant.total_mass
+        self._pair = ((w, plant.drive * drive_turn), (q, -friction / plant.total_mass))
+        self._resonator = ForcedOscillator(
+            plant.slip,
+            resisting / plant.slider_mass,
+            ((w, plant.relative_drive * drive_turn), (q, friction / plant.slider_mass)),
+            state.displacement,
+            state.rate,
+        )
+
+    def watches(self) -> tuple[Watch, ...]:
+        """The velocity in the direction of sliding; nothing in flight."""
+        if self._sign == 0:
+            return ()
+        plant = self._plant
+        fastest = max(plant.drive_frequency, abs(plant.normal_frequency))
+        horizon, rate = inf, 0.0
+        if self._fraction:
+            fastest = max(fastest, plant.slip.frequency)
+            horizon, rate = self._resonator.horizon, self._resonator.reach()[1]
+        swing = sum(abs(a) / max(abs(f), 0.02 * fastest) for f, a in self._pair)
+        scale = abs(self._start.velocity) + swing
+        if rate < inf:
+            scale += self._fraction * rate
+        return (Watch(self._velocity_ahead, EPSILON * scale, fastest, horizon),)
+
+    def travel(self, t: float) -> float:
+        """Displacement of the slider after `t` [s], in m."""
+        start = self._start
+        travel = start.velocity * t - 0.5 * self._deceleration * t * t
+        travel += sum((a * double_integral(f, t)).real for f, a in self._pair)
+        if self._fraction:
+            moved = self._resonator.sample(t).displacement - start.displacement
+            travel -= self._fraction * (moved - start.rate * t)
+        return travel
+
+    def state(self, t: float) -> State:
+        """State after `t` [s]."""
+        sample = self._resonator.sample(t)
+        return State(self._velocity(t, sample.rate), sample.displacement, sample.rate)
+
+    def _velocity(self, t: float, rate: float) -> float:
+        start = self._start
+        velocity = start.velocity - self._deceleration * t
+        velocity += sum((a * integral(f, t)).real for f, a in self._pair)
+        return velocity - self._fraction * (rate - start.rate)
+
+    def _velocity_ahead(self, t: float) -> tuple[float, float, float]:
+        acceleration, bound, rate = -self._deceleration, 0.0, 0.0
+        for f, a in self._pair:
+            acceleration += (a * rect(1.0, f * t)).real
+            bound += abs(a * f)
+        if self._fraction:
+            sample = self._resonator.sample(t)
+            rate = sample.rate
+            acceleration -= self._fraction * sample.acceleration
+            bound += self._fraction * sample.jerk_bound
+        return self._sign * self._velocity(t, rate), self._sign * acceleration, bound

@@ -1,0 +1,181 @@
+"""The FMI shell: pythonfmu's slave over the component.
+
+pythonfmu answers an exception with fmi2Fatal, and a False from do_step with fmi2Discard, on which
+hosts end a run early without an error. So refusals are raised. pythonfmu then also gives back one
+reference each to class, instance and message list that it never took, after which the instance
+would be freed under the host's feet: `outlive` takes these references beforehand.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import functools
+import json
+import sys
+from collections.abc import Callable
+from typing import Any, ParamSpec, TypeVar
+
+from pythonfmu import Fmi2Slave
+
+from .component import Component
+from .refusal import Refusal
+from .variables import VARIABLES, Variable
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def _refusing(method: Callable[P, R]) -> Callable[P, R]:
+    """A call of the slave that says on stderr what it refuses, and outlives the refusal."""
+
+    @functools.wraps(method)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            return method(*args, **kwargs)
+        except Exception as error:
+            slave = args[0]
+            if isinstance(slave, SliderResonatorPy):
+                slave.outlive(error)
+            raise
+
+    return call
+
+
+class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
+    """Slider with an embedded resonator on a friction surface (fig. 6, eqs 26-27)."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        if "logger" in kwargs:
+            # A host: pythonfmu has put the resources of this instance on sys.path for good.
+            with contextlib.suppress(ValueError):
+                sys.path.remove(kwargs["resources"])
+        self._component = Component()
+
+    def outlive(self, error: Exception) -> None:
+        """Report a refusal and keep pythonfmu from freeing this instance over it."""
+        if sys.stderr is not None:
+            print(f"{type(self).__name__} '{self.instance_name}': {error}", file=sys.stderr)
+        for owned in (type(self), self, self.log_queue):
+            ctypes.pythonapi.Py_IncRef(ctypes.py_object(owned))
+
+    @_refusing
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None, tolerance: float | None
+    ) -> None:
+        """fmi2SetupExperiment. Coulomb friction has no use for the tolerance."""
+        self._component.setup_experiment(start_time, stop_time)
+
+    @_refusing
+    def enter_initialization_mode(self) -> None:
+        """fmi2EnterInitializationMode."""
+        self._component.enter_initialization()
+
+    @_refusing
+    def exit_initialization_mode(self) -> None:
+        """fmi2ExitInitializationMode."""
+        self._component.exit_initialization()
+
+    @_refusing
+    def terminate(self) -> None:
+        """fmi2Terminate."""
+        self._component.terminate()
+
+    @_refusing
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """fmi2DoStep: always a whole step, or a refusal."""
+        self._component.step(current_time, step_size)
+        return True
+
+    @_refusing
+    def get_real(self, vrs: list[int]) -> list[float]:
+        """fmi2GetReal."""
+        return [self._component.get(v.name) for v in _variables("Real", vrs)]
+
+    @_refusing
+    def get_integer(self, vrs: list[int]) -> list[int]:
+        """fmi2GetInteger."""
+        return [int(self._component.get(v.name)) for v in _variables("Integer", vrs)]
+
+    @_refusing
+    def get_boolean(self, vrs: list[int]) -> list[bool]:
+        """fmi2GetBoolean: there are no such variables."""
+        return [bool(v) for v in _variables("Boolean", vrs)]
+
+    @_refusing
+    def get_string(self, vrs: list[int]) -> list[str]:
+        """fmi2GetString: there are no such variables."""
+        return [str(v) for v in _variables("String", vrs)]
+
+    @_refusing
+    def set_real(self, vrs: list[int], values: list[float]) -> None:
+        """fmi2SetReal: all values or, if one is refused, none."""
+        names = [v.name for v in _variables("Real", vrs)]
+        self._component.set(dict(zip(names, values, strict=True)))
+
+    @_refusing
+    def set_integer(self, vrs: list[int], values: list[int]) -> None:
+        """fmi2SetInteger: all values or, if one is refused, none."""
+        names = [v.name for v in _variables("Integer", vrs)]
+        self._component.set(dict(zip(names, values, strict=True)))
+
+    @_refusing
+    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
+        """fmi2SetBoolean: there are no such variables."""
+        _variables("Boolean", vrs)
+
+    @_refusing
+    def set_string(self, vrs: list[int], values: list[str]) -> None:
+        """fmi2SetString: there are no such variables."""
+        _variables("String", vrs)
+
+    @_refusing
+    def _get_fmu_state(self) -> dict[str, Any]:
+        return self._component.snapshot()
+
+    @_refusing
+    def _set_fmu_state(self, state: dict[str, Any]) -> None:
+        self._component.restore(state)
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
+        return json.dumps(state, sort_keys=True).encode()
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:
+        # Without an instance at hand an error here could not be outlived: what is no state is
+        # passed on, and refused when it is set.
+        try:
+            plain = json.loads(state.decode())
+        except ValueError as error:
+            return {"format": f"unreadable bytes ({error})"}
+        return plain if isinstance(plain, dict) else {"format": type(plain).__name__}
+
+
+def outlast_loading(namespace: dict[str, Any]) -> None:
+    """Keep the namespace of the loaded script from being freed, once per evaluation of it.
+
+    Each time pythonfmu loads an instance it evaluates the script in the namespace of its module,
+    and then gives back a reference to that namespace which it never took.
+    """
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(namespace))
+
+
+def _variables(kind: str, references: list[int]) -> list[Variable]:
+    """The variables behind value references. Raises Refusal for one that has not this type."""
+    found = []
+    for reference in references:
+        known = 0 <= reference < len(VARIABLES)
+        if not known:
+            raise Refusal(
+                f"valueReference = {reference} refused: allowed is 0 to {len(VARIABLES) - 1}"
+            )
+        variable = VARIABLES[reference]
+        if variable.type != kind:
+            raise Refusal(
+                f"{variable.name} (valueReference = {reference}) refused: its type is "
+                f"{variable.type}, not {kind}"
+            )
+        found.append(variable)
+    return found

@@ -1,0 +1,52 @@
+"""The complete state of a component as plain numbers and names, which JSON carries exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from math import inf
+from typing import Any
+
+from .coulomb import BACKWARD, LIFTED, Counts, Moment
+from .motion import State
+from .period import PeriodMeans
+from .refusal import Refusal
+from .values import integer, number
+
+FORMAT = "slider-resonator state 1"
+
+
+def moment_to_plain(moment: Moment) -> dict[str, Any]:
+    """The moment as nested dictionaries; an event that never was has the age None."""
+    plain = asdict(moment)
+    plain["counts"] = moment.counts._asdict()
+    if moment.event_age == inf:
+        plain["event_age"] = None
+    return plain
+
+
+def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
+    """The inverse of `moment_to_plain`. Raises Refusal when an entry is missing or no number."""
+    try:
+        age = plain["event_age"]
+        means = dict(plain["means"])
+        complete = means.pop("complete")
+        moment = Moment(
+            State(**_numbers("state", plain["state"])),
+            number("position", plain["position"]),
+            number("theta", plain["theta"]),
+            number("psi", plain["psi"]),
+            integer("mode", plain["mode"]),
+            Counts(**{name: integer(name, value) for name, value in plain["counts"].items()}),
+            inf if age is None else number("event_age", age),
+            PeriodMeans(complete=bool(complete), **_numbers("means", means)),
+        )
+    except (KeyError, TypeError, AttributeError) as error:
+        raise Refusal(f"FMU state refused: its motion does not fit ({error!r})") from error
+    if not BACKWARD <= moment.mode <= LIFTED:
+        raise Refusal(f"FMU state refused: mode = {moment.mode!r}; allowed is -1 to 2")
+    return moment
+
+
+def _numbers(name: str, plain: Mapping[str, Any]) -> dict[str, float]:
+    return {key: number(f"{name}.{key}", value) for key, value in plain.items()}

@@ -1,0 +1,357 @@
+"""The one table of FMU variables: names, units, bounds and starts (SI throughout).
+
+Everything that describes the interface is generated from these rows: the model description, the
+checks of values that a host sets, and the table in the documentation. The value reference of a
+variable is its position in `VARIABLES`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Literal
+
+Type = Literal["Real", "Integer"]
+Causality = Literal["input", "parameter", "output"]
+Variability = Literal["continuous", "discrete", "tunable", "fixed"]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One row of the interface.
+
+    `start` is None for outputs. `minimum` and `maximum` are inclusive; None means unbounded.
+    `depends_on` lists the inputs that an output depends on directly at a communication point.
+    """
+
+    name: str
+    description: str
+    type: Type
+    causality: Causality
+    variability: Variability
+    start: float | None = None
+    unit: str | None = None
+    display_unit: str | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    nominal: float | None = None
+    depends_on: tuple[str, ...] = ()
+
+    @property
+    def allowed(self) -> str:
+        """The allowed values in words, for error messages."""
+        kind = "an integer" if self.type == "Integer" else "a finite number"
+        unit = f" {self.unit}" if self.unit and self.unit != "1" else ""
+        if self.minimum is not None and self.maximum is not None:
+            return f"{kind} from {self.minimum:g} to {self.maximum:g}{unit}"
+        if self.minimum is not None:
+            return f"{kind} of at least {self.minimum:g}{unit}"
+        if self.maximum is not None:
+            return f"{kind} of at most {self.maximum:g}{unit}"
+        return kind
+
+
+_input = partial(Variable, type="Real", causality="input", variability="continuous")
+_fixed = partial(Variable, type="Real", causality="parameter", variability="fixed")
+_tunable = partial(Variable, type="Real", causality="parameter", variability="tunable")
+_choice = partial(Variable, type="Integer", causality="parameter", variability="fixed")
+_output = partial(Variable, type="Real", causality="output", variability="continuous")
+_count = partial(Variable, type="Real", causality="output", variability="discrete")
+
+_INPUTS = ("phase", "load", "frequency_ratio")
+
+VARIABLES: tuple[Variable, ...] = (
+    _input(
+        "phase",
+        "Phase of the normal load variation relative to its own drive (phi_1 in eq. 26)",
+        start=0.0,
+        unit="rad",
+        display_unit="deg",
+        nominal=1.0,
+    ),
+    _input(
+        "load",
+        "External tangential load on the slider; positive opposes motion in +X",
+        start=0.0,
+        unit="N",
+        display_unit="mN",
+        nominal=0.1,
+    ),
+    _input(
+        "frequency_ratio",
+        "Frequency of the normal load variation over the drive frequency; a change alters a rate, "
+        "never a phase",
+        start=1.0,
+        unit="1",
+        nominal=1.0,
+    ),
+    _fixed(
+        "slider_mass",
+        "Mass M of the slider without its resonator",
+        start=1.0,
+        unit="kg",
+        display_unit="g",
+        minimum=1e-12,
+        nominal=1.0,
+    ),
+    _fixed(
+        "resonator_mass",
+        "Mass m of the resonator; 0 leaves a rigid slider (fig. 1)",
+        start=0.1,
+        unit="kg",
+        display_unit="g",
+        minimum=0.0,
+        nominal=0.1,
+    ),
+    _fixed(
+        "resonator_frequency",
+        "Natural angular frequency of the resonator on a held slider, (k/m)^(1/2)",
+        start=3500.0,
+        unit="rad/s",
+        display_unit="Hz",
+        minimum=1e-6,
+        nominal=3500.0,
+    ),
+    _fixed(
+        "damping_ratio",
+        "Damping ratio of the resonator on a held slider, c/(2 (k m)^(1/2))",
+        start=0.05,
+        unit="1",
+        minimum=0.0,
+        nominal=0.05,
+    ),
+    _tunable(
+        "normal_preload",
+        "Constant part N_0 of the normal load",
+        start=1.0,
+        unit="N",
+        minimum=0.0,
+        nominal=1.0,
+    ),
+    _tunable(
+        "normal_amplitude",
+        "Amplitude Delta N of the normal load variation; above normal_preload the contact lifts",
+        start=1.0,
+        unit="N",
+        minimum=0.0,
+        nominal=1.0,
+    ),
+    _tunable(
+        "base_amplitude",
+        "Amplitude A of the base excitation of the resonator",
+        start=1e-4,
+        unit="m",
+        display_unit="um",
+        minimum=0.0,
+        nominal=1e-4,
+    ),
+    _tunable(
+        "drive_frequency",
+        "Angular frequency w of the tangential drive",
+        start=3500.0,
+        unit="rad/s",
+        display_unit="Hz",
+        minimum=1e-6,
+        nominal=3500.0,
+    ),
+    _tunable(
+        "tangential_force",
+        "Amplitude of a direct tangential drive force on the slider (fig. 1)",
+        start=0.0,
+        unit="N",
+        nominal=1.0,
+    ),
+    _tunable(
+        "friction_coefficient",
+        "Coulomb coefficient mu of each face",
+        start=0.1,
+        unit="1",
+        minimum=0.0,
+        nominal=0.1,
+    ),
+    _choice(
+        "friction_faces",
+        "Number of faces that rub: 2 in fig. 6, 1 in fig. 1",
+        start=2,
+        minimum=1,
+        maximum=2,
+    ),
+    _choice(
+        "friction_law",
+        "0: Coulomb, 1: LuGre",
+        start=0,
+        minimum=0,
+        maximum=1,
+    ),
+    _fixed(
+        "bristle_stiffness",
+        "LuGre bristle stiffness per unit normal load, sigma_0 (eq. 8)",
+        start=1e5,
+        unit="1/m",
+        minimum=0.0,
+        nominal=1e5,
+    ),
+    _fixed(
+        "bristle_damping",
+        "LuGre bristle damping per unit normal load, sigma_1 (eq. 8)",
+        start=10.0,
+        unit="s/m",
+        minimum=0.0,
+        nominal=10.0,
+    ),
+    _choice(
+        "fidelity",
+        "Number of resolved degrees of freedom: 0 averaged motion, 1 slider under the steady "
+        "resonator force (eq. 34), 2 full device (eqs 26-27)",
+        start=2,
+        minimum=0,
+        maximum=2,
+    ),
+    _fixed(
+        "tolerance",
+        "Relative tolerance of the LuGre integration; Coulomb friction needs none",
+        start=1e-8,
+        unit="1",
+        minimum=1e-14,
+        maximum=1e-2,
+        nominal=1e-8,
+    ),
+    _fixed(
+        "initial_position",
+        "Slider position at the start",
+        start=0.0,
+        unit="m",
+        display_unit="mm",
+        nominal=1e-3,
+    ),
+    _fixed(
+        "initial_velocity",
+        "Slider velocity at the start",
+        start=0.0,
+        unit="m/s",
+        display_unit="mm/s",
+        nominal=0.1,
+    ),
+    _fixed(
+        "initial_resonator_displacement",
+        "Resonator displacement relative to the slider at the start",
+        start=0.0,
+        unit="m",
+        display_unit="um",
+        nominal=1e-3,
+    ),
+    _fixed(
+        "initial_resonator_velocity",
+        "Resonator velocity relative to the slider at the start",
+        start=0.0,
+        unit="m/s",
+        display_unit="mm/s",
+        nominal=1.0,
+    ),
+    _fixed(
+        "initial_bristle_deflection",
+        "LuGre bristle deflection z at the start",
+        start=0.0,
+        unit="m",
+        display_unit="um",
+        nominal=1e-6,
+    ),
+    _output(
+        "position",
+        "Slider position X",
+        unit="m",
+        display_unit="mm",
+        nominal=1e-3,
+    ),
+    _output(
+        "velocity",
+        "Slider velocity X'",
+        unit="m/s",
+        display_unit="mm/s",
+        nominal=0.1,
+    ),
+    _output(
+        "mean_velocity",
+        "Exact mean velocity over the last whole drive period (since the start before the first "
+        "period is complete)",
+        unit="m/s",
+        display_unit="mm/s",
+        nominal=0.1,
+    ),
+    _output(
+        "resonator_displacement",
+        "Resonator displacement Y relative to the slider",
+        unit="m",
+        display_unit="um",
+        nominal=1e-3,
+    ),
+    _output(
+        "resonator_velocity",
+        "Resonator velocity Y' relative to the slider",
+        unit="m/s",
+        display_unit="mm/s",
+        nominal=1.0,
+    ),
+    _output(
+        "normal_force",
+        "Normal load N of each face; 0 while the contact is lifted",
+        unit="N",
+        nominal=1.0,
+        depends_on=("phase",),
+    ),
+    _output(
+        "friction_force",
+        "Friction force F of all faces on the slider; positive opposes motion in +X",
+        unit="N",
+        display_unit="mN",
+        nominal=0.1,
+        depends_on=("phase", "load"),
+    ),
+    _count(
+        "contact_mode",
+        "-1: slips backwards, 0: sticks, 1: slips forwards, 2: lifted",
+        unit="1",
+        minimum=-1.0,
+        maximum=2.0,
+        depends_on=("phase", "load"),
+    ),
+    _count(
+        "reversals",
+        "Number of times that sliding began in the direction opposite to the sliding before",
+        unit="1",
+        minimum=0.0,
+    ),
+    _output(
+        "stick_fraction",
+        "Fraction of the last whole drive period spent sticking",
+        unit="1",
+        display_unit="%",
+        minimum=0.0,
+        maximum=1.0,
+        nominal=1.0,
+    ),
+    _count(
+        "last_event_time",
+        "Time of the last reversal, stick, release, lift-off or touchdown; at first the start time",
+        unit="s",
+        display_unit="ms",
+    ),
+    _output(
+        "steady_velocity",
+        "Steady velocity that averaged theory predicts for the present inputs (eq. 20)",
+        unit="m/s",
+        display_unit="mm/s",
+        nominal=0.1,
+        depends_on=_INPUTS,
+    ),
+    _output(
+        "blocking_force",
+        "Load that stops the slider by averaged theory, for the present inputs (eq. 22)",
+        unit="N",
+        display_unit="mN",
+        nominal=0.1,
+        depends_on=_INPUTS,
+    ),
+)
+
+VALUE_REFERENCE: dict[str, int] = {v.name: i for i, v in enumerate(VARIABLES)}

@@ -1,0 +1,7 @@
+"""The script that pythonfmu loads: it shows the class of the component and nothing else."""
+
+from slider_resonator.slave import SliderResonatorPy, outlast_loading
+
+__all__ = ["SliderResonatorPy"]
+
+outlast_loading(globals())
