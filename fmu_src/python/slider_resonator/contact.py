@@ -6,6 +6,10 @@ from math import asin, inf, pi, tau
 
 from .plant import Plant
 
+REACHED = 1e-12
+"""Angle [rad] past a boundary, from rounding, at which it counts as just reached. The shortest
+flight that floating point numbers can ask for is 3e-8 rad long."""
+
 
 def flight_window(plant: Plant) -> tuple[float, float] | None:
     """Open range of chi in (0, 2 pi) [rad] in which the contact is lifted; None if it never is."""
@@ -30,10 +34,6 @@ def time_to_switch(
     if window is None or frequency == 0.0:
         return inf
     first, last = window if frequency > 0.0 else (window[1], window[0])
-    boundary = last if lifted else first
-    ahead = boundary - chi % tau
-    if frequency < 0.0:
-        ahead = -ahead
-    if ahead < 0.0:
-        ahead = 0.0 if lifted else ahead + tau
-    return ahead / abs(frequency)
+    ahead = (last if lifted else first) - chi
+    ahead = (ahead if frequency > 0.0 else -ahead) % tau
+    return 0.0 if tau - ahead < REACHED else ahead / abs(frequency)

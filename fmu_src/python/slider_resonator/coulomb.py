@@ -154,13 +154,14 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
         psi = (psi + q * t) % tau
         state = motion.state(t)
         age += t
-        before = mode
-        leaving = ended_by >= 0
+        before, leaving = mode, False
         if ended_by >= 0 and mode == STICK:
             mode = (FORWARD, BACKWARD)[ended_by]
+            leaving = True
         elif ended_by >= 0:
             state = State(0.0, state.displacement, state.rate)
             mode = _mode_in_contact(plant, state, theta, psi)
+            leaving = mode == before
         elif t == switch:
             mode = _mode_in_contact(plant, state, theta, psi) if mode == LIFTED else LIFTED
         stalled = stalled + 1 if 1e12 * t < arc else 0

@@ -10,14 +10,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 Signal = Callable[[float], tuple[float, float, float]]
 """t [s] -> (f, f', bound of |f''| from t on, over the horizon that goes with the signal)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Watch:
+class Watch(NamedTuple):
     """A signal whose first zero ends the mode, with the scales that its search needs.
 
     `noise` is the rounding error of its values, `fastest` [rad/s] its highest frequency, and
@@ -41,7 +40,7 @@ def first_zero(watch: Watch, limit: float, start: float = 0.0) -> float | None:
     The signal is non-negative at `start`. Two zeros closer than 1e-7 / fastest enclose a dip
     within rounding and count as a touch, which is no zero.
     """
-    signal, noise, fastest, horizon = watch.signal, watch.noise, watch.fastest, watch.horizon
+    signal, noise, fastest, horizon = watch
     t = start
     floor = 1e-7 / fastest
     evaluations = 0
@@ -51,10 +50,10 @@ def first_zero(watch: Watch, limit: float, start: float = 0.0) -> float | None:
         if slope < 0.0:
             square = slope * slope
             if value <= noise:
-                if value < -noise or square > 4.0 * noise * bound:
+                if value < -noise or square > 16.0 * noise * bound:
                     return t
                 value = noise
-            elif square > 2.2 * bound * value:
+            elif square > 2.2 * bound * (value + noise):
                 root = _newton(signal, t, value, slope, fastest)
                 return root if root < limit else None
         elif value < noise:

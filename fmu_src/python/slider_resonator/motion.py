@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from .first_zero import Watch
 
@@ -11,8 +10,7 @@ EPSILON = 2.0**-52
 """Spacing of floating point numbers above 1: the unit of rounding errors."""
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(NamedTuple):
     """Slider velocity [m/s], resonator displacement [m] and velocity [m/s]."""
 
     velocity: float

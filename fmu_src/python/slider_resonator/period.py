@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from math import floor, tau
+from typing import NamedTuple
 
 MARK_TOLERANCE = 1e-7
 """Angle [rad] by which a period may end after the present moment and still count as ended: steps
 of whole periods, rounded, then end on the period that they complete."""
 
 
-@dataclass(frozen=True, slots=True)
-class PeriodMeans:
+class PeriodMeans(NamedTuple):
     """What was gathered since the last period ended, and the means of the last whole period.
 
     `travel` [m], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);
@@ -44,11 +43,13 @@ class PeriodMeans:
         ended = floor((end + MARK_TOLERANCE) / tau)
         if ended <= 0:
             return (
-                replace(
-                    self,
-                    travel=self.travel + travelled,
-                    elapsed=self.elapsed + duration,
-                    sticking=self.sticking + (duration if sticks else 0.0),
+                PeriodMeans(
+                    self.travel + travelled,
+                    self.elapsed + duration,
+                    self.sticking + (duration if sticks else 0.0),
+                    self.complete,
+                    self.mean_velocity,
+                    self.stick_fraction,
                 ),
                 end,
             )

@@ -54,7 +54,7 @@ class RegularSlide:
         scale = abs(self._start.velocity) + swing
         if rate < inf:
             scale += self._fraction * rate
-        return (Watch(self._velocity_ahead, EPSILON * scale, fastest, horizon),)
+        return (Watch(self._velocity_ahead, 2.0 * EPSILON * scale, fastest, horizon),)
 
     def travel(self, t: float) -> float:
         """Displacement of the slider after `t` [s], in m."""

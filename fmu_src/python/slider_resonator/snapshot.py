@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import fields
 from math import inf
 from typing import Any
 
@@ -18,8 +18,9 @@ FORMAT = "slider-resonator state 1"
 
 def moment_to_plain(moment: Moment) -> dict[str, Any]:
     """The moment as nested dictionaries; an event that never was has the age None."""
-    plain = asdict(moment)
-    plain["counts"] = moment.counts._asdict()
+    plain: dict[str, Any] = {f.name: getattr(moment, f.name) for f in fields(moment)}
+    for name in ("state", "counts", "means"):
+        plain[name] = plain[name]._asdict()
     if moment.event_age == inf:
         plain["event_age"] = None
     return plain

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from cmath import exp, rect
 from dataclasses import dataclass
-from math import sin
+from math import inf, sin
 
 from .first_zero import Signal, Watch
 from .motion import EPSILON, State
@@ -26,6 +26,7 @@ class Split:
 
     plant: Plant
     eigenvalue: complex
+    fastest: float
     resonator_drive: complex
     velocity_drive: complex
     resonator_normal: complex
@@ -55,6 +56,7 @@ def split(plant: Plant) -> Split | None:
     return Split(
         plant,
         eigenvalue,
+        max(w, abs(q), abs(eigenvalue)),
         turn * resonator_drive,
         turn * velocity_drive,
         turn * resonator_normal,
@@ -97,15 +99,13 @@ class SplitSlide:
         ve = split.velocity_drive * drive_turn
         vq = split.velocity_normal * normal_turn
         constant = (friction + plant.load) / (plant.slider_mass * plant.slip.stiffness)
+        eigenvalue = split.eigenvalue
+        free = vh = 0j
         if plant.mass_fraction:
-            eigenvalue = split.eigenvalue
             displacement = state.displacement - constant - (ae + aq).real
             rate = state.rate + w * ae.imag + q * aq.imag
             free = complex(displacement, -(rate - eigenvalue.real * displacement) / eigenvalue.imag)
             vh = -plant.mass_fraction * eigenvalue * free
-        else:
-            eigenvalue = split.eigenvalue
-            free = vh = 0j
         self._split = split
         self._sign = sign
         self._eigenvalue = eigenvalue
@@ -130,15 +130,13 @@ class SplitSlide:
         ve, vq, vh = sign * self._velocity_drive, sign * self._velocity_normal, self._velocity_free
         k0, k1, vh = sign * self._k0, sign * self._k1, sign * vh
         eigenvalue = self._eigenvalue
-        frequency = abs(eigenvalue)
-        noise = EPSILON * (abs(k0) + abs(ve) + abs(vq) + abs(vh))
-        fastest = max(w, abs(q), frequency)
+        noise = 2.0 * EPSILON * (abs(k0) + abs(ve) + abs(vq) + abs(vh))
         signal = (
             _two_frequencies(k0, k1, ve + vq, w, vh, eigenvalue)
             if q in (w, 0.0)
             else _three_frequencies(k0, k1, ve, w, vq, q, vh, eigenvalue)
         )
-        return (Watch(signal, noise, fastest, 60.0 / fastest),)
+        return (Watch(signal, noise, self._split.fastest, inf),)
 
     def travel(self, t: float) -> float:
         """Displacement of the slider after `t` [s], in m."""

@@ -51,7 +51,7 @@ class Stick:
         limit = plant.friction_preload + plant.friction_amplitude
         if reach < 0.999999 * (plant.friction_preload - plant.friction_amplitude):
             return ()
-        noise = EPSILON * (limit + min(reach, 1e3 * limit))
+        noise = 4.0 * EPSILON * (limit + min(reach, 1e3 * limit))
         return tuple(
             Watch(self._margin(direction), noise, fastest, horizon) for direction in (1.0, -1.0)
         )

@@ -1,0 +1,93 @@
+"""Averaged theory against the paper's formulas and the figures that were measured for them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fmu_src.python.slider_resonator.averaged import averaged
+from fmu_src.python.slider_resonator.device import Device, Inputs
+from fmu_src.python.slider_resonator.plant import equivalent_force
+
+TABLE_1 = Device()
+FAST_VELOCITY = abs(equivalent_force(TABLE_1)) / 1.1 / 3500.0
+LAG = 0.733313
+
+
+def test_equivalent_force_of_table_1() -> None:
+    force = equivalent_force(TABLE_1)
+    assert abs(force) == pytest.approx(910.947, abs=5e-4)
+    assert -math.atan2(force.imag, force.real) == pytest.approx(LAG, abs=5e-7)
+
+
+def test_table_1() -> None:
+    theory = averaged(TABLE_1, Inputs(), 0.0)
+    assert theory.steady_velocity == pytest.approx(0.126731, abs=5e-7)
+    assert theory.blocking_force == pytest.approx(0.085222, abs=5e-7)
+
+
+@pytest.mark.parametrize("phase", [-2.0, 0.0, 0.4, 1.5])
+@pytest.mark.parametrize("load", [-0.05, 0.0, 0.05])
+def test_load_speed_curve_is_equation_20(phase: float, load: float) -> None:
+    theory = averaged(TABLE_1, Inputs(phase, load), 0.0)
+    turning = math.acos(theory.steady_velocity / FAST_VELOCITY)
+    lead = math.sin(turning) * math.sin(phase + LAG)
+    balance = 1.0 - 2.0 / math.pi * turning - 2.0 / math.pi * lead + load / 0.2
+    assert balance == pytest.approx(0.0, abs=2e-6)
+    assert theory.blocking_force == pytest.approx(
+        2.0 / math.pi * 0.2 * math.sin(phase + LAG), rel=2e-6
+    )
+
+
+@pytest.mark.parametrize(
+    ("ratio", "phase", "resolved"),
+    [(1, 0.0, 0.6966), (1, 1.5, 0.7719), (3, 0.0, -0.2780), (3, 1.5, 0.2036),
+     (5, 0.0, -0.1169), (5, 1.5, -0.1795), (7, 0.0, 0.1297), (7, 1.5, -0.0600)],
+)  # fmt: skip
+def test_integer_ratios(ratio: int, phase: float, resolved: float) -> None:
+    """Resolved mean velocity over 2 mu N0 / (M + m) x 1 s; averaging errs by 1 / Omega."""
+    theory = averaged(TABLE_1, Inputs(phase, 0.0, float(ratio)), 0.0)
+    assert theory.steady_velocity / (0.2 / 1.1) == pytest.approx(resolved, abs=1e-3)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 3.0, -1.0, 2.0, 0.0, 1.37])
+@pytest.mark.parametrize("amplitude", [0.7, 2.5])
+def test_mean_friction_by_quadrature(ratio: float, amplitude: float) -> None:
+    """At the steady velocity, with flight, friction and load cancel over the phases met."""
+    device = replace(TABLE_1, normal_amplitude=amplitude)
+    inputs = Inputs(0.3, 0.02, ratio)
+    velocity = averaged(device, inputs, 0.0).steady_velocity
+    angles = (np.arange(400_000) + 0.5) / 400_000 * math.tau
+    if ratio == round(ratio):
+        load = np.maximum(0.0, 1.0 + amplitude * np.sin(ratio * (angles + LAG) + 0.3))
+    else:
+        load = np.mean(np.maximum(0.0, 1.0 + amplitude * np.sin(angles)))
+    sliding = np.sign(velocity - FAST_VELOCITY * np.cos(angles))
+    assert np.mean(0.2 * load * sliding) == pytest.approx(-0.02, abs=3e-6)
+
+
+def test_lead_of_the_normal_drive_counts_as_phase() -> None:
+    assert averaged(TABLE_1, Inputs(0.1), 0.3) == averaged(TABLE_1, Inputs(0.4), 0.0)
+
+
+def test_no_vibration_no_velocity() -> None:
+    still = replace(TABLE_1, base_amplitude=0.0)
+    assert averaged(still, Inputs(0.5, 0.1), 0.0) == averaged(still, Inputs(), 0.0)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_overload_saturates(sign: float) -> None:
+    theory = averaged(TABLE_1, Inputs(load=0.3 * sign), 0.0)
+    assert theory.steady_velocity == pytest.approx(-sign * FAST_VELOCITY, rel=1e-12)
+
+
+def test_undamped_resonance_has_no_steady_velocity() -> None:
+    device = replace(TABLE_1, damping_ratio=0.0, resonator_mass=1.0, resonator_frequency=7.0)
+    resonant = replace(device, drive_frequency=math.sqrt(49.0 / 0.5))
+    if resonant.drive_frequency**2 != 49.0 / 0.5:
+        resonant = replace(resonant, resonator_frequency=8.0, slider_mass=1.0 / 3.0,
+                           resonator_mass=1.0, drive_frequency=16.0)  # fmt: skip
+    assert averaged(resonant, Inputs(), 0.0).steady_velocity == 0.0

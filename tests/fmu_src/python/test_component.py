@@ -1,0 +1,145 @@
+"""The component: what may be called when, what stays after a refusal, and exact replay."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+from fmu_src.python.slider_resonator.component import Component
+from fmu_src.python.slider_resonator.outputs import OUTPUTS
+from fmu_src.python.slider_resonator.refusal import Refusal
+
+
+def running(start_time: float = 0.0, **values: float) -> Component:
+    component = Component()
+    component.setup_experiment(start_time, None)
+    component.enter_initialization()
+    component.set(values)
+    component.exit_initialization()
+    return component
+
+
+def outputs(component: Component) -> dict[str, float]:
+    return {name: component.get(name) for name in OUTPUTS}
+
+
+def test_replay_is_bit_equal() -> None:
+    component = running(phase=0.4, load=0.01)
+    component.step(0.0, 0.0123)
+    stored = json.loads(json.dumps(component.snapshot()))
+    component.step(0.0123, 0.1)
+    later = outputs(component)
+    other = Component()
+    other.restore(stored)
+    other.step(0.0123, 0.1)
+    assert outputs(other) == later
+
+
+def test_refusals_leave_everything_as_it_was() -> None:
+    component = running()
+    component.step(0.0, 0.01)
+    before = component.snapshot()
+    for call in (
+        lambda: component.step(0.01, 0.0),
+        lambda: component.step(0.01, -1e-3),
+        lambda: component.step(0.01, math.nan),
+        lambda: component.step(0.01, math.inf),
+        lambda: component.step(0.02, 1e-3),
+        lambda: component.step(math.nan, 1e-3),
+        lambda: component.set({"phase": 1.0, "load": math.nan}),
+        lambda: component.set({"slider_mass": 2.0}),
+        lambda: component.set({"velocity": 2.0}),
+        lambda: component.set({"normal_preload": -1.0}),
+        lambda: component.setup_experiment(0.0, None),
+        lambda: component.enter_initialization(),
+        lambda: component.exit_initialization(),
+        lambda: component.restore({"format": "something else"}),
+        lambda: component.restore({**before, "time": math.nan}),
+        lambda: component.restore({**before, "values": {"phase": 0.0}}),
+        lambda: component.restore({**before, "moment": {**before["moment"], "psi": "x"}}),
+        lambda: component.restore({**before, "moment": None}),
+    ):
+        with pytest.raises(Refusal, match=r"refused"):
+            call()
+        assert component.snapshot() == before
+
+
+def test_hosts_may_round_their_time() -> None:
+    component, time = running(), 0.0
+    for _ in range(10_000):
+        component.step(time, 1e-4 / 3.0)
+        time += 1e-4 / 3.0
+    assert component.time == time
+
+
+@pytest.mark.parametrize("start_time", [0.0, -5.0, 1e12])
+def test_the_start_time_does_not_matter(start_time: float) -> None:
+    late, plain = running(start_time), running()
+    assert late.get("last_event_time") == start_time
+    for i in range(10):
+        late.step(late.time, 2.0**-8)
+        plain.step(i * 2.0**-8, 2.0**-8)
+    assert late.get("position") == plain.get("position")
+    assert late.get("last_event_time") - start_time == pytest.approx(
+        plain.get("last_event_time"), abs=2 * math.ulp(start_time) + 1e-15
+    )
+
+
+def test_stop_time_is_kept() -> None:
+    component = Component()
+    component.setup_experiment(0.0, 0.01)
+    component.enter_initialization()
+    component.exit_initialization()
+    component.step(0.0, 0.01)
+    with pytest.raises(Refusal, match=r"stopTime = 0\.01"):
+        component.step(0.01, 1e-3)
+
+
+def test_all_inputs_zero_is_a_sane_run() -> None:
+    component = running(phase=0.0, load=0.0, frequency_ratio=0.0)
+    component.step(0.0, 0.1)
+    assert all(math.isfinite(value) for value in outputs(component).values())
+
+
+def test_beyond_the_range_of_numbers_is_refused() -> None:
+    component = running(initial_velocity=1e308)
+    before = component.snapshot()
+    with pytest.raises(Refusal, match="leaves the range of floating point numbers"):
+        component.step(0.0, 10.0)
+    assert component.snapshot() == before
+
+
+def test_undamped_resonance_has_no_steady_force() -> None:
+    """Slider and resonator of equal mass: slipping resonance at exactly wn sqrt(2)."""
+    component = Component()
+    component.setup_experiment(0.0, None)
+    component.enter_initialization()
+    component.set({"fidelity": 1, "damping_ratio": 0.0, "slider_mass": 1.0 / 3.0,
+                   "resonator_mass": 1.0, "resonator_frequency": 8.0,
+                   "drive_frequency": 16.0})  # fmt: skip
+    with pytest.raises(Refusal, match=r"damping_ratio = 0.0 refused: without damping"):
+        component.exit_initialization()
+    component.set({"damping_ratio": 0.01})
+    component.exit_initialization()
+
+
+def test_outputs_before_the_first_step() -> None:
+    component = Component()
+    with pytest.raises(Refusal, match="reading position refused in state 'instantiated'"):
+        component.get("position")
+    component.enter_initialization()
+    component.set({"initial_velocity": 0.3, "phase": math.pi / 2})
+    assert component.get("velocity") == component.get("mean_velocity") == 0.3
+    assert component.get("normal_force") == 2.0
+    assert component.get("contact_mode") == 1.0
+    assert component.get("stick_fraction") == 0.0
+
+
+def test_outputs_feel_inputs_at_once() -> None:
+    component = running()
+    component.step(0.0, 0.01)
+    component.set({"phase": 1.0})
+    psi = component.snapshot()["moment"]["psi"]
+    assert component.get("normal_force") == pytest.approx(1.0 + math.sin(psi + 1.0), rel=1e-14)

@@ -1,0 +1,72 @@
+"""Lift-off and touchdown: N0 + dN sin(chi) < 0 inside the window and nowhere else."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fmu_src.python.slider_resonator.contact import flight_window, is_lifted, time_to_switch
+from fmu_src.python.slider_resonator.device import Device, Inputs
+from fmu_src.python.slider_resonator.plant import plant
+
+
+def window_of(preload: float, amplitude: float) -> tuple[float, float] | None:
+    device = Device(normal_preload=preload, normal_amplitude=amplitude)
+    return flight_window(plant(device, Inputs()))
+
+
+@pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0])
+def test_no_flight_up_to_full_modulation(amplitude: float) -> None:
+    window = window_of(1.0, amplitude)
+    assert window is None
+    assert not is_lifted(window, 1.5 * math.pi)
+    assert time_to_switch(window, 0.0, 10.0, lifted=False) == math.inf
+
+
+@given(st.floats(0.0, 0.999999), st.floats(-20.0, 20.0))
+def test_window_is_where_the_load_would_be_negative(share: float, chi: float) -> None:
+    load = share + math.sin(chi)
+    if abs(load) > 1e-12:
+        assert is_lifted(window_of(share, 1.0), chi) == (load < 0.0)
+
+
+@given(
+    st.floats(0.0, 0.999999),
+    st.floats(-20.0, 20.0),
+    st.one_of(st.floats(0.1, 50.0), st.floats(-50.0, -0.1)),
+)
+def test_load_is_zero_at_the_next_switch(share: float, chi: float, frequency: float) -> None:
+    window = window_of(share, 1.0)
+    lifted = is_lifted(window, chi)
+    time = time_to_switch(window, chi, frequency, lifted)
+    assert 0.0 <= time <= math.tau / abs(frequency)
+    assert share + math.sin(chi + frequency * time) == pytest.approx(0.0, abs=2e-12)
+    for part in (0.1, 0.5, 0.9):
+        between = chi + frequency * time * part
+        if abs(share + math.sin(between)) > 1e-12:
+            assert is_lifted(window, between) == lifted, "a switch was passed over"
+
+
+def test_shortest_flight() -> None:
+    window = window_of(1.0, 1.0 + 2.0**-52)
+    assert window is not None
+    first, last = window
+    assert 1e-8 < last - first < 1e-7
+    assert time_to_switch(window, first, 1.0, lifted=False) == 0.0
+    assert time_to_switch(window, first, 1.0, lifted=True) == pytest.approx(last - first)
+    assert time_to_switch(window, last, 1.0, lifted=False) == pytest.approx(math.tau, rel=1e-7)
+
+
+@pytest.mark.parametrize("past", [0.0, 4e-16])
+def test_rounding_past_a_boundary_is_not_a_turn_more(past: float) -> None:
+    first, last = window_of(0.5, 1.0) or (0.0, 0.0)
+    assert time_to_switch((first, last), first + past, 1.0, lifted=False) == 0.0
+    assert time_to_switch((first, last), last + past, 1.0, lifted=True) == 0.0
+    assert time_to_switch((first, last), last - past, -1.0, lifted=False) == 0.0
+
+
+def test_constant_load_never_switches() -> None:
+    assert time_to_switch(window_of(0.5, 1.0), 4.0, 0.0, lifted=True) == math.inf

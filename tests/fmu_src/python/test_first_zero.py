@@ -1,0 +1,100 @@
+"""The first zero is found, none is passed over, and touches are no zeros."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fmu_src.python.slider_resonator.first_zero import Signal, Watch, first_zero
+
+
+def sine_sum(offset: float, waves: list[tuple[float, float, float]]) -> Signal:
+    """offset + sum of a sin(w t + p), with the curvature bound sum |a| w^2."""
+    bound = sum(abs(a) * w * w for a, w, _ in waves)
+
+    def signal(t: float) -> tuple[float, float, float]:
+        value = offset + sum(a * math.sin(w * t + p) for a, w, p in waves)
+        slope = sum(a * w * math.cos(w * t + p) for a, w, p in waves)
+        return value, slope, bound
+
+    return signal
+
+
+def watch(signal: Signal, noise: float = 1e-16, fastest: float = 1.0) -> Watch:
+    return Watch(signal, noise, fastest, math.inf)
+
+
+def test_simple_zero_to_rounding() -> None:
+    zero = first_zero(watch(sine_sum(0.0, [(1.0, 1.0, 0.5)])), 10.0)
+    assert zero == pytest.approx(math.pi - 0.5, abs=4e-16)
+
+
+def test_start_at_zero_and_rising_is_not_a_zero() -> None:
+    zero = first_zero(watch(sine_sum(0.0, [(1.0, 1.0, 0.0)])), 10.0)
+    assert zero == pytest.approx(math.pi, abs=4e-16), "the zero that the motion leaves was found"
+
+
+def test_none_before_the_limit() -> None:
+    assert first_zero(watch(sine_sum(0.0, [(1.0, 1.0, 0.0)])), 3.14) is None
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_twin_zeros_of_a_shallow_dip(depth: float) -> None:
+    """1 - depth + cos(t) dips below zero by `depth` around pi."""
+    signal = sine_sum(1.0 - depth, [(1.0, 1.0, math.pi / 2)])
+    zero = first_zero(watch(signal), 10.0)
+    expected = math.pi - math.acos(1.0 - depth)
+    assert zero is not None, f"a dip of depth {depth} was passed over"
+    assert abs(zero - expected) < 1e-3 * (math.pi - expected)
+
+
+@pytest.mark.parametrize("height", [0.0, 1e-15, 1e-12, 1e-6])
+def test_touch_is_no_zero(height: float) -> None:
+    signal = sine_sum(1.0 + height, [(1.0, 1.0, math.pi / 2)])
+    assert first_zero(watch(signal, noise=4e-16), 2.0 * math.pi) is None
+
+
+def test_touch_then_zero() -> None:
+    """(1 + cos t)(1.5 + cos(t / 7)) - touches at pi; a later slow fall crosses."""
+    slow = sine_sum(1.0, [(1.0, 1.0, math.pi / 2)])
+
+    def signal(t: float) -> tuple[float, float, float]:
+        value, slope, bound = slow(t)
+        drop = 1e-3 * max(0.0, t - 4.0) ** 3
+        return value - drop, slope - 3e-3 * max(0.0, t - 4.0) ** 2, bound + 6e-3 * 40.0
+
+    zero = first_zero(watch(signal, noise=4e-16), 30.0)
+    assert zero is not None
+    assert zero > 4.0, "the touch at pi counted as a zero"
+    value, slope, _ = signal(zero)
+    assert abs(value) < 1e-12
+    assert slope < 0.0
+
+
+def test_identically_zero_ends() -> None:
+    assert first_zero(watch(lambda t: (0.0, 0.0, 1.0)), 1e3) is None
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(0.01, 2.0), st.floats(0.1, 5.0), st.floats(0.0, 2.0 * math.pi)),
+        min_size=1,
+        max_size=4,
+    ),
+    st.floats(-1.0, 1.0),
+)
+def test_nothing_is_passed_over(waves: list[tuple[float, float, float]], offset: float) -> None:
+    """Before the zero found, a dense scan sees no negative value."""
+    signal = sine_sum(offset, waves)
+    if signal(0.0)[0] <= 0.0:
+        return
+    limit = 20.0
+    zero = first_zero(watch(signal, noise=1e-14, fastest=5.0), limit)
+    end = limit if zero is None else zero
+    lowest = min(signal(end * i / 4000)[0] for i in range(4000))
+    assert lowest > -1e-12, f"a zero before {end} was passed over: the signal fell to {lowest}"
+    if zero is not None:
+        assert abs(signal(zero)[0]) < 1e-12

@@ -1,0 +1,208 @@
+"""What holds for every device and every input, on devices that hypothesis makes up."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from fmu_src.python.slider_resonator.coulomb import (
+    LIFTED,
+    STICK,
+    Held,
+    Moment,
+    advance,
+    friction_force,
+    friction_limit,
+    hold,
+    mode_of,
+    start,
+)
+from fmu_src.python.slider_resonator.device import Device, Inputs
+from fmu_src.python.slider_resonator.motion import State
+
+ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5]), st.floats(-3.0, 3.0))
+devices = st.builds(
+    Device,
+    slider_mass=st.floats(0.02, 3.0),
+    resonator_mass=st.floats(0.01, 0.5),
+    resonator_frequency=st.floats(30.0, 300.0),
+    damping_ratio=st.one_of(st.sampled_from([0.0, 1.0]), st.floats(0.0, 3.0)),
+    normal_preload=st.floats(0.1, 2.0),
+    normal_amplitude=st.floats(0.0, 3.0),
+    base_amplitude=st.floats(0.0, 2e-3),
+    drive_frequency=st.floats(50.0, 200.0),
+    tangential_force=st.one_of(st.just(0.0), st.floats(-2.0, 2.0)),
+    friction_coefficient=st.floats(0.0, 0.8),
+    friction_faces=st.sampled_from([1, 2]),
+    fidelity=st.sampled_from([1, 2]),
+)
+inputs = st.builds(
+    Inputs,
+    phase=st.floats(-math.pi, math.pi),
+    load=st.one_of(st.just(0.0), st.floats(-1.0, 1.0)),
+    frequency_ratio=ratios,
+)
+REST = State(0.0, 0.0, 0.0)
+PERIODS = 3.3
+
+
+def bounded(device: Device) -> bool:
+    """At fidelity 1 the steady resonator exists and is not absurdly large."""
+    return device.fidelity == 2 or device.damping_ratio > 1e-3
+
+
+def duration(device: Device) -> float:
+    return PERIODS * math.tau / device.drive_frequency
+
+
+def scale(device: Device, moment: Moment) -> float:
+    """Velocity scale of the device [m/s], for tolerances."""
+    w = device.drive_frequency
+    fast = device.base_amplitude * w * (1.0 + abs(moment.state.rate)) + abs(moment.state.velocity)
+    forces = device.friction_coefficient * device.friction_faces * (
+        device.normal_preload + device.normal_amplitude
+    ) + abs(device.tangential_force)
+    return fast + forces / device.slider_mass / w + 1e-6
+
+
+@given(devices, inputs, st.lists(st.floats(0.01, 1.0), min_size=2, max_size=40))
+def test_the_partition_into_steps_does_not_matter(
+    device: Device, held_inputs: Inputs, parts: list[float]
+) -> None:
+    assume(bounded(device))
+    held = hold(device, held_inputs)
+    whole = advance(held, start(held, REST, 0.0), duration(device))
+    moment = start(held, REST, 0.0)
+    for part in parts:
+        moment = advance(held, moment, duration(device) * part / sum(parts))
+    size = scale(device, whole)
+    assert moment.state.velocity == pytest.approx(whole.state.velocity, abs=1e-9 * size)
+    assert moment.position == pytest.approx(
+        whole.position, abs=1e-9 * size / device.drive_frequency
+    )
+    assert moment.state.displacement == pytest.approx(
+        whole.state.displacement, rel=1e-9, abs=1e-9 * size / device.drive_frequency
+    )
+
+
+@given(devices, inputs)
+def test_mirror_symmetry(device: Device, held_inputs: Inputs) -> None:
+    """X(t) solves the equations for (load, phase); then -X(t + T/2) does for (-load, phase + r pi).
+
+    Half a drive period turns both drives around, and advances the normal load by r pi.
+    """
+    assume(bounded(device))
+    half = math.pi / device.drive_frequency
+    held = hold(device, held_inputs)
+    moment = advance(held, start(held, REST, 0.0), half)
+    mirrored_inputs = Inputs(
+        held_inputs.phase + held_inputs.frequency_ratio * math.pi,
+        -held_inputs.load,
+        held_inputs.frequency_ratio,
+    )
+    mirrored_held = hold(device, mirrored_inputs)
+    mirrored = start(mirrored_held, State(*(-part for part in moment.state)), -moment.position)
+    moment = advance(held, moment, duration(device))
+    mirrored = advance(mirrored_held, mirrored, duration(device))
+    size = scale(device, moment)
+    assert mirrored.state.velocity == pytest.approx(-moment.state.velocity, abs=1e-9 * size)
+    assert mirrored.position == pytest.approx(
+        -moment.position, abs=1e-9 * size / device.drive_frequency
+    )
+
+
+@given(devices, inputs)
+def test_friction_within_the_limit_and_equal_to_it_in_slip(
+    device: Device, held_inputs: Inputs
+) -> None:
+    assume(bounded(device))
+    held = hold(device, held_inputs)
+    moment = start(held, REST, 0.0)
+    for _ in range(40):
+        moment = advance(held, moment, duration(device) / 40)
+        mode = mode_of(held, moment.state, moment.theta, moment.psi)
+        force = friction_force(held, moment, mode)
+        limit = friction_limit(held.plant, moment.psi)
+        slack = 1e-9 * (limit + abs(held_inputs.load) + 1e-3)
+        assert abs(force) <= limit + slack, f"friction {force} N exceeds its limit {limit} N"
+        if mode == LIFTED:
+            assert force == 0.0
+        elif mode != STICK:
+            assert force == math.copysign(limit, moment.state.velocity or mode)
+
+
+@given(devices, st.floats(0.0, 1.0), st.floats(0.0, 0.999), st.floats(-math.pi, math.pi), ratios)
+def test_no_motion_below_the_stick_limit(
+    device: Device, amplitude: float, share: float, phase: float, ratio: float
+) -> None:
+    """Without vibration a load below the least friction never moves the slider."""
+    device = replace(
+        device,
+        base_amplitude=0.0,
+        tangential_force=0.0,
+        normal_amplitude=amplitude * device.normal_preload,
+    )
+    least = device.friction_faces * device.friction_coefficient * (1.0 - amplitude)
+    held = hold(device, Inputs(phase, share * least * device.normal_preload, ratio))
+    moment = advance(held, start(held, REST, 0.0), 10 * duration(device))
+    assert (moment.position, moment.state.velocity) == (0.0, 0.0)
+    assert moment.counts.reversals == 0
+
+
+def event_times(held: Held, moment: Moment, length: float) -> list[float]:
+    """Times [s] of all events within `length` [s]: each run reports its last one."""
+    later = advance(held, moment, length)
+    if later.event_age >= length:
+        return []
+    last = length - later.event_age
+    before = last * (1.0 - 1e-9)
+    return ([*event_times(held, moment, before), last]) if before > 0.0 else [last]
+
+
+@pytest.mark.slow
+@settings(max_examples=25)
+@given(devices, inputs)
+def test_energy_balance_closes(device: Device, held_inputs: Inputs) -> None:
+    """Energy gained = work of drives and load, less friction and damper; by Gauss quadrature."""
+    device = replace(device, fidelity=2)
+    held = hold(device, held_inputs)
+    first = start(held, REST, 0.0)
+    length = 1.2 * math.tau / device.drive_frequency
+    m, big = device.resonator_mass, device.slider_mass
+    k = m * device.resonator_frequency**2
+    c = 2.0 * device.damping_ratio * m * device.resonator_frequency
+    w = device.drive_frequency
+
+    def energy(state: State) -> float:
+        kinetic = big * state.velocity**2 + m * (state.velocity + state.rate) ** 2
+        return 0.5 * (kinetic + k * state.displacement**2)
+
+    def powers(t: float) -> tuple[float, float]:
+        moment = advance(held, first, t)
+        v, _, u = moment.state
+        mode = mode_of(held, moment.state, moment.theta, moment.psi)
+        push = device.tangential_force * math.sin(moment.theta) - held_inputs.load
+        base = m * device.base_amplitude * w * w * math.sin(moment.theta)
+        lost = friction_force(held, moment, mode) * v + c * u * u
+        return push * v + base * (v + u) - lost, abs(push * v) + abs(base * (v + u)) + lost
+
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    gained = moved = 0.0
+    edges = [0.0, *event_times(held, first, length), length]
+    for begin, end in itertools.pairwise(edges):
+        parts = max(1, math.ceil((end - begin) * 4.0 * max(w, device.resonator_frequency)))
+        for i in range(parts):
+            a = begin + (end - begin) * i / parts
+            half = 0.5 * (end - begin) / parts
+            for node, weight in zip(nodes, weights, strict=True):
+                net, gross = powers(a + half * (1.0 + float(node)))
+                gained += half * float(weight) * net
+                moved += half * float(weight) * gross
+    balance = energy(advance(held, first, length).state) - gained
+    assert abs(balance) <= 1e-8 * (moved + 1e-12), f"{balance:.3g} J of {moved:.3g} J unaccounted"

@@ -1,0 +1,62 @@
+"""Values are checked against the table, and the message names name, value and what is allowed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+
+import pytest
+
+from fmu_src.python.slider_resonator.device import Device, Inputs
+from fmu_src.python.slider_resonator.outputs import OUTPUTS
+from fmu_src.python.slider_resonator.refusal import Refusal
+from fmu_src.python.slider_resonator.values import BY_NAME, SETTABLE, checked
+from fmu_src.python.slider_resonator.variables import VARIABLES
+
+
+def test_the_table_is_the_interface() -> None:
+    """Device, inputs and outputs have the names and starts of the table, and no others."""
+    device = {f.name: getattr(Device(), f.name) for f in fields(Device)}
+    inputs = {f.name: getattr(Inputs(), f.name) for f in fields(Inputs)}
+    table = {c: {v.name: v.start for v in VARIABLES if v.causality == c} for c in
+             ("parameter", "input", "output")}  # fmt: skip
+    assert table["parameter"] == device
+    assert table["input"] == inputs
+    assert set(table["output"]) == set(OUTPUTS)
+
+
+@pytest.mark.parametrize("name", [v.name for v in SETTABLE])
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, "1", True, None])
+def test_what_is_no_finite_number_is_refused(name: str, value: object) -> None:
+    with pytest.raises(Refusal, match=rf"{name} = .* refused: allowed is (a finite|an integer)"):
+        checked(BY_NAME[name], value)
+
+
+@pytest.mark.parametrize("name", [v.name for v in SETTABLE if v.minimum is not None])
+def test_below_the_minimum_is_refused(name: str) -> None:
+    variable = BY_NAME[name]
+    assert variable.minimum is not None
+    low = variable.minimum - max(1.0, abs(variable.minimum))
+    with pytest.raises(
+        Refusal, match=f"{name} = {low!r} refused: allowed is .*{variable.minimum:g}"
+    ):
+        checked(variable, low)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "reason"),
+    [
+        ("friction_faces", 1.5, "allowed is an integer from 1 to 2"),
+        ("fidelity", 0, "averaged motion is not available"),
+        ("friction_law", 1, "LuGre friction is not available"),
+        ("tolerance", 0.1, "allowed is a finite number from 1e-14 to 0.01"),
+    ],
+)
+def test_refused_by_name(name: str, value: float, reason: str) -> None:
+    with pytest.raises(Refusal, match=f"{name} = {value!r} refused: {reason}"):
+        checked(BY_NAME[name], value)
+
+
+def test_starts_are_allowed() -> None:
+    for variable in SETTABLE:
+        assert checked(variable, variable.start) == variable.start

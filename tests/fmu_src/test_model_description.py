@@ -1,0 +1,193 @@
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from xml.etree import ElementTree as ET
+
+import pytest
+from pythonfmu import Fmi2Slave
+
+from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
+from fmu_src.model_description import LOG_CATEGORIES, model_description
+from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
+from fmu_src.units import UNITS
+
+NAMES = [v.name for v in VARIABLES]
+INPUTS = {v.name for v in VARIABLES if v.causality == "input"}
+OUTPUTS = [v.name for v in VARIABLES if v.causality == "output"]
+
+
+def describe(**changes: object) -> bytes:
+    arguments: dict[str, object] = {
+        "model": "SliderResonatorPy",
+        "guid": "a-guid",
+        "generation_tool": "a tool",
+        "generated": "1980-01-01T00:00:00Z",
+    }
+    return model_description(**(arguments | changes))
+
+
+@pytest.fixture(scope="module")
+def root() -> ET.Element:
+    return ET.fromstring(describe())
+
+
+def found(root: ET.Element, path: str) -> ET.Element:
+    element = root.find(path)
+    assert element is not None, f"{path} is missing from the description"
+    return element
+
+
+def unknowns(root: ET.Element, section: str) -> dict[str, ET.Element]:
+    elements = root.iterfind(f"ModelStructure/{section}/Unknown")
+    return {NAMES[int(e.attrib["index"]) - 1]: e for e in elements}
+
+
+def dependencies(unknown: ET.Element) -> set[str]:
+    return {NAMES[int(i) - 1] for i in unknown.attrib["dependencies"].split()}
+
+
+def test_equal_arguments_give_equal_bytes() -> None:
+    assert describe() == describe()
+
+
+def test_variables_are_those_of_the_table_in_its_order(root: ET.Element) -> None:
+    elements = list(root.iterfind("ModelVariables/ScalarVariable"))
+    assert [e.attrib["name"] for e in elements] == NAMES
+    assert [int(e.attrib["valueReference"]) for e in elements] == list(range(len(VARIABLES))), (
+        "the value reference is the position in the table"
+    )
+
+
+@pytest.mark.parametrize("variable", VARIABLES, ids=lambda v: v.name)
+def test_numbers_read_back_exactly(root: ET.Element, variable: Variable) -> None:
+    element = found(root, f"ModelVariables/ScalarVariable[@name='{variable.name}']/*")
+    assert element.tag == variable.type
+    expected = {
+        "start": variable.start,
+        "min": variable.minimum,
+        "max": variable.maximum,
+        "nominal": variable.nominal,
+    }
+    for attribute, number in expected.items():
+        text = element.get(attribute)
+        assert (None if text is None else float(text)) == number, (
+            f"{attribute} of {variable.name} must read back as the very same number"
+        )
+
+
+def test_start_of_many_digits_reads_back_exactly() -> None:
+    changed = [replace(v, start=0.1 + 0.2) if v.name == "load" else v for v in VARIABLES]
+    element = found(ET.fromstring(describe(variables=changed)), ".//*[@name='load']/Real")
+    assert float(element.attrib["start"]) == 0.1 + 0.2, "16 digits are not enough for a float"
+
+
+@pytest.mark.parametrize("variable", VARIABLES, ids=lambda v: v.name)
+def test_initial_is_legal(root: ET.Element, variable: Variable) -> None:
+    element = found(root, f"ModelVariables/ScalarVariable[@name='{variable.name}']")
+    expected = {"input": None, "parameter": "exact", "output": "calculated"}[variable.causality]
+    assert element.get("initial") == expected
+    assert ("start" in element[0].attrib) == (variable.causality != "output")
+
+
+@pytest.mark.parametrize(
+    ("unit", "display", "value", "shown"),
+    [
+        ("rad", "deg", math.pi, 180.0),
+        ("rad/s", "Hz", 2 * math.pi * 557.0, 557.0),
+        ("m", "mm", 0.002, 2.0),
+        ("m", "um", 67.6e-6, 67.6),
+        ("m/s", "mm/s", 0.1267, 126.7),
+        ("N", "mN", 0.085, 85.0),
+        ("kg", "g", 0.1, 100.0),
+        ("s", "ms", 0.2, 200.0),
+        ("1", "%", 0.25, 25.0),
+    ],
+)
+def test_display_units(
+    root: ET.Element, unit: str, display: str, value: float, shown: float
+) -> None:
+    path = f"UnitDefinitions/Unit[@name='{unit}']/DisplayUnit[@name='{display}']"
+    factor = float(found(root, path).attrib["factor"])
+    assert factor * value == pytest.approx(shown, rel=1e-14), f"{value} {unit} in {display}"
+
+
+def test_force_is_in_base_units(root: ET.Element) -> None:
+    base = found(root, "UnitDefinitions/Unit[@name='N']/BaseUnit")
+    assert base.attrib == {"kg": "1", "m": "1", "s": "-2"}
+
+
+def test_every_unit_of_the_units_table_is_used() -> None:
+    assert set(UNITS) == {v.unit for v in VARIABLES if v.unit}
+
+
+def test_structure_lists_every_output_once(root: ET.Element) -> None:
+    for section in ("Outputs", "InitialUnknowns"):
+        assert list(unknowns(root, section)) == OUTPUTS, f"{section}: exactly the outputs"
+
+
+def test_output_dependencies_are_those_of_the_table(root: ET.Element) -> None:
+    for name, unknown in unknowns(root, "Outputs").items():
+        variable = VARIABLES[NAMES.index(name)]
+        assert dependencies(unknown) == set(variable.depends_on), name
+
+
+def test_initial_unknowns_depend_on_known_start_values_only(root: ET.Element) -> None:
+    known = INPUTS | {v.name for v in VARIABLES if v.causality == "parameter"}
+    for name, unknown in unknowns(root, "InitialUnknowns").items():
+        assert dependencies(unknown) <= known, name
+        assert dependencies(unknown) == set(INITIAL_DEPENDENCIES[name]), name
+        kinds = unknown.attrib["dependenciesKind"].split()
+        assert len(kinds) == len(dependencies(unknown)), f"{name}: one kind per dependency"
+
+
+def test_capabilities(root: ET.Element) -> None:
+    assert found(root, "CoSimulation").attrib == {
+        "modelIdentifier": "SliderResonatorPy",
+        "needsExecutionTool": "false",
+        "canHandleVariableCommunicationStepSize": "true",
+        "canInterpolateInputs": "false",
+        "canRunAsynchronuously": "false",
+        "canBeInstantiatedOnlyOncePerProcess": "false",
+        "canNotUseMemoryManagementFunctions": "true",
+        "canGetAndSetFMUstate": "true",
+        "canSerializeFMUstate": "true",
+        "providesDirectionalDerivative": "false",
+    }
+
+
+def test_default_experiment(root: ET.Element) -> None:
+    experiment = {k: float(v) for k, v in found(root, "DefaultExperiment").attrib.items()}
+    assert experiment == {"startTime": 0.0, "stopTime": 0.2, "stepSize": 1e-3}
+
+
+def test_log_categories_are_those_that_the_binary_uses(root: ET.Element) -> None:
+    names = [e.attrib["name"] for e in root.iterfind("LogCategories/Category")]
+    assert names == list(LOG_CATEGORIES) == list(Fmi2Slave.log_categories)
+
+
+def _with_load(**changes: object) -> list[Variable]:
+    return [replace(v, **changes) if v.name == "load" else v for v in VARIABLES]
+
+
+@pytest.mark.parametrize(
+    ("broken", "text"),
+    [
+        (lambda: describe(variables=_with_load(unit="lbf")), "load: unit 'lbf' is not defined"),
+        (
+            lambda: describe(variables=_with_load(display_unit="kN")),
+            "load: unit 'N' has no display unit 'kN'; it has mN",
+        ),
+        (
+            lambda: describe(
+                initial_dependencies=dict(INITIAL_DEPENDENCIES, position=["velocity"])
+            ),
+            "position cannot depend on velocity",
+        ),
+    ],
+    ids=["unit", "display unit", "dependency"],
+)
+def test_a_broken_table_is_refused_by_name(broken: Callable[[], bytes], text: str) -> None:
+    with pytest.raises(ValueError, match=text):
+        broken()
