@@ -27,12 +27,17 @@ class Component:
         self.time = 0.0
         self._stop_time = inf
         self._last_event_time = 0.0
-        self._values: dict[str, float] = {v.name: v.start or 0 for v in SETTABLE}
+        self._values: dict[str, float] = {v.name: checked(v, v.start) for v in SETTABLE}
         self._moment: Moment | None = None
         self._prepared: tuple[Device, Inputs, Held] | None = None
 
-    def setup_experiment(self, start_time: float, stop_time: float | None) -> None:
-        """Take over start and stop time [s]; a stop time of None is open."""
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        """Take over start and stop time [s]; a stop time of None is open.
+
+        Coulomb friction has no use for the tolerance, which must still be a number.
+        """
         require("setupExperiment", self.lifecycle, Lifecycle.INSTANTIATED)
         if not isfinite(start_time):
             raise Refusal(f"startTime = {start_time!r} refused: allowed is a finite number")
@@ -41,6 +46,8 @@ class Component:
                 f"stopTime = {stop_time!r} refused: allowed is a number from startTime = "
                 f"{start_time!r} on"
             )
+        if tolerance is not None and not (isfinite(tolerance) and tolerance > 0.0):
+            raise Refusal(f"tolerance = {tolerance!r} refused: allowed is a finite number above 0")
         self.time = self._last_event_time = start_time
         self._stop_time = inf if stop_time is None else stop_time
 
@@ -100,7 +107,7 @@ class Component:
                 "number above 0"
             )
         # Hosts sum up their own time, so it may differ from this one by the rounding of a step.
-        slack = 1e-6 * step_size + 4.0 * ulp(max(abs(self.time), abs(time)))
+        slack = 1e-6 * step_size + 4.0 * ulp(self.time)
         if not abs(time - self.time) <= slack:
             raise Refusal(
                 f"doStep: currentCommunicationPoint = {time!r} refused: allowed is the present "

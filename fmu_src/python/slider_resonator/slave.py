@@ -8,18 +8,20 @@ would be freed under the host's feet: `outlive` takes these references beforehan
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import ctypes
 import functools
-import json
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from pythonfmu import Fmi2Slave
 
 from .component import Component
 from .refusal import Refusal
+from .snapshot import from_bytes, to_bytes
 from .variables import VARIABLES, Variable
 
 P = ParamSpec("P")
@@ -51,6 +53,8 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
             # A host: pythonfmu has put the resources of this instance on sys.path for good.
             with contextlib.suppress(ValueError):
                 sys.path.remove(kwargs["resources"])
+            if sys.platform == "linux":
+                _let_go_at_exit(Path(kwargs["resources"]).parent)
         self._component = Component()
 
     def outlive(self, error: Exception) -> None:
@@ -64,8 +68,8 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
     def setup_experiment(
         self, start_time: float, stop_time: float | None, tolerance: float | None
     ) -> None:
-        """fmi2SetupExperiment. Coulomb friction has no use for the tolerance."""
-        self._component.setup_experiment(start_time, stop_time)
+        """fmi2SetupExperiment."""
+        self._component.setup_experiment(start_time, stop_time, tolerance)
 
     @_refusing
     def enter_initialization_mode(self) -> None:
@@ -140,17 +144,11 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
 
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
-        return json.dumps(state, sort_keys=True).encode()
+        return to_bytes(state)
 
     @staticmethod
     def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:
-        # Without an instance at hand an error here could not be outlived: what is no state is
-        # passed on, and refused when it is set.
-        try:
-            plain = json.loads(state.decode())
-        except ValueError as error:
-            return {"format": f"unreadable bytes ({error})"}
-        return plain if isinstance(plain, dict) else {"format": type(plain).__name__}
+        return from_bytes(state)
 
 
 def outlast_loading(namespace: dict[str, Any]) -> None:
@@ -160,6 +158,17 @@ def outlast_loading(namespace: dict[str, Any]) -> None:
     and then gives back a reference to that namespace which it never took.
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(namespace))
+
+
+@functools.cache
+def _let_go_at_exit(unpacked: Path) -> None:
+    """Ask the binary of an unpacked FMU to release the interpreter before the process ends.
+
+    Unasked it does so while its static objects are destroyed, after the one that it then uses.
+    """
+    binary = unpacked / "binaries" / "linux64" / f"{SliderResonatorPy.__name__}.so"
+    with contextlib.suppress(OSError):
+        atexit.register(ctypes.CDLL(str(binary)).finalizePythonInterpreter)
 
 
 def _variables(kind: str, references: list[int]) -> list[Variable]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import fields
 from math import inf
@@ -13,7 +15,9 @@ from .period import PeriodMeans
 from .refusal import Refusal
 from .values import integer, number
 
-FORMAT = "slider-resonator state 1"
+FORMAT = f"{__name__.rpartition('.')[0]} state"
+"""Names the build, for inside an FMU the package is named after its content: a state of one build
+does not fit another."""
 
 
 def moment_to_plain(moment: Moment) -> dict[str, Any]:
@@ -51,3 +55,29 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
 
 def _numbers(name: str, plain: Mapping[str, Any]) -> dict[str, float]:
     return {key: number(f"{name}.{key}", value) for key, value in plain.items()}
+
+
+def to_bytes(plain: Mapping[str, Any]) -> bytes:
+    """A snapshot in bytes, headed by their checksum."""
+    body = json.dumps(plain, sort_keys=True).encode()
+    return _checksum(body) + b"\n" + body
+
+
+def from_bytes(data: bytes) -> dict[str, Any]:
+    """The inverse of `to_bytes`. What is no snapshot becomes one whose format says so.
+
+    It raises nothing, because no instance is at hand there that could outlive an error; setting
+    such a snapshot is refused.
+    """
+    checksum, _, body = data.partition(b"\n")
+    if checksum != _checksum(body):
+        return {"format": f"damaged: {len(data)} bytes that do not match their checksum"}
+    try:
+        plain = json.loads(body)
+    except ValueError as error:
+        return {"format": f"unreadable: {error}"}
+    return plain if isinstance(plain, dict) else {"format": type(plain).__name__}
+
+
+def _checksum(body: bytes) -> bytes:
+    return hashlib.sha256(body).hexdigest().encode()

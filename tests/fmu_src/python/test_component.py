@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 
 import pytest
@@ -10,6 +9,7 @@ import pytest
 from fmu_src.python.slider_resonator.component import Component
 from fmu_src.python.slider_resonator.outputs import OUTPUTS
 from fmu_src.python.slider_resonator.refusal import Refusal
+from fmu_src.python.slider_resonator.snapshot import from_bytes, to_bytes
 
 
 def running(start_time: float = 0.0, **values: float) -> Component:
@@ -28,7 +28,7 @@ def outputs(component: Component) -> dict[str, float]:
 def test_replay_is_bit_equal() -> None:
     component = running(phase=0.4, load=0.01)
     component.step(0.0, 0.0123)
-    stored = json.loads(json.dumps(component.snapshot()))
+    stored = from_bytes(to_bytes(component.snapshot()))
     component.step(0.0123, 0.1)
     later = outputs(component)
     other = Component()

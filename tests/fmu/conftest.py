@@ -1,0 +1,33 @@
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.fmu.host import Instance, Unpacked, unpack
+
+
+@pytest.fixture(scope="session")
+def unpacked(python_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Unpacked:
+    return unpack(python_fmu, tmp_path_factory.mktemp("unpacked"))
+
+
+@pytest.fixture
+def instantiate(unpacked: Unpacked) -> Iterator[Callable[[], Instance]]:
+    """Makes instances that are not initialized yet, and frees them after the test."""
+    made: list[Instance] = []
+
+    def make() -> Instance:
+        made.append(Instance(unpacked))
+        return made[-1]
+
+    yield make
+    for instance in made:
+        instance.free()
+
+
+@pytest.fixture
+def instance(instantiate: Callable[[], Instance]) -> Instance:
+    """One initialized instance with start values."""
+    return instantiate().initialize()

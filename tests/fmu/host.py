@@ -1,0 +1,137 @@
+"""A small host on top of fmpy: one instance, addressed by names, with its log collected."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from fmpy import calloc, extract, free, read_model_description
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+    fmi2Fatal,
+)
+from fmpy.model_description import ModelDescription
+
+OUTPUTS = (
+    "position",
+    "velocity",
+    "mean_velocity",
+    "resonator_displacement",
+    "resonator_velocity",
+    "normal_force",
+    "friction_force",
+    "contact_mode",
+    "reversals",
+    "stick_fraction",
+    "last_event_time",
+    "steady_velocity",
+    "blocking_force",
+)
+
+
+@dataclass(frozen=True)
+class Unpacked:
+    folder: Path
+    description: ModelDescription
+
+
+def unpack(fmu: Path, folder: Path) -> Unpacked:
+    extract(str(fmu), str(folder))
+    return Unpacked(folder, read_model_description(str(fmu)))
+
+
+class Instance:
+    """One instance; `slave` is fmpy's object, for calls that a proper host does not make."""
+
+    def __init__(self, unpacked: Unpacked, *, logging_on: bool = True) -> None:
+        self.log: list[str] = []
+        self.time = 0.0
+        self._variables = {v.name: v for v in unpacked.description.modelVariables}
+        self.slave = FMU2Slave(
+            guid=unpacked.description.guid,
+            modelIdentifier=unpacked.description.coSimulation.modelIdentifier,
+            unzipDirectory=str(unpacked.folder),
+            instanceName="slider",
+        )
+        # Not fmpy's own logger: that sends the messages of all instances to the newest of them.
+        callbacks = fmi2CallbackFunctions(
+            logger=fmi2CallbackLoggerTYPE(self._receive),
+            allocateMemory=fmi2CallbackAllocateMemoryTYPE(calloc),
+            freeMemory=fmi2CallbackFreeMemoryTYPE(free),
+        )
+        self.slave.instantiate(callbacks=callbacks, loggingOn=logging_on)
+
+    def _receive(self, _: object, __: bytes, ___: int, ____: bytes, message: bytes) -> None:
+        self.log.append(message.decode())
+
+    def initialize(self, start_time: float = 0.0, **values: float) -> Instance:
+        self.slave.setupExperiment(startTime=start_time)
+        self.slave.enterInitializationMode()
+        self.set(**values)
+        self.slave.exitInitializationMode()
+        self.time = start_time
+        return self
+
+    def reference(self, name: str) -> int:
+        return int(self._variables[name].valueReference)
+
+    def set(self, **values: float) -> None:
+        """One call per variable, in the order given."""
+        for name, value in values.items():
+            if self._variables[name].type == "Integer":
+                self.slave.setInteger([self.reference(name)], [int(value)])
+            else:
+                self.slave.setReal([self.reference(name)], [value])
+
+    def get(self, *names: str) -> tuple[float, ...]:
+        return tuple(self.slave.getReal([self.reference(name) for name in names]))
+
+    def step(self, size: float) -> None:
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=size)
+        self.time += size
+
+    def run(self, steps: int, size: float) -> list[tuple[float, ...]]:
+        """All outputs after each of equal steps."""
+        rows = []
+        for _ in range(steps):
+            self.step(size)
+            rows.append(self.get(*OUTPUTS))
+        return rows
+
+    def state(self) -> bytes:
+        """The serialized state: everything that decides how a run goes on."""
+        state = self.slave.getFMUstate()
+        try:
+            return bytes(self.slave.serializeFMUstate(state))
+        finally:
+            self.slave.freeFMUstate(state)
+
+    def restore(self, data: bytes) -> None:
+        state = self.slave.deSerializeFMUstate(data)
+        try:
+            self.slave.setFMUstate(state)
+        finally:
+            self.slave.freeFMUstate(state)
+
+    def free(self) -> None:
+        self.slave.freeInstance()
+
+    @contextmanager
+    def refuses(self, *fragments: str) -> Iterator[None]:
+        """Expects the calls inside to be refused with a text, and to change nothing."""
+        before, messages = self.state(), len(self.log)
+        with pytest.raises(FMICallException) as caught:
+            yield
+        assert caught.value.status == fmi2Fatal, "a refusal is an error, never fmi2Discard"
+        assert len(self.log) == messages + 1, "a refusal sends one message to the host's log"
+        for fragment in fragments:
+            assert fragment in self.log[-1], "the text names the thing, its value, what is allowed"
+        assert self.state() == before, "a refused call leaves the state as it was, bit by bit"

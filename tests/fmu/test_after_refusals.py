@@ -1,0 +1,152 @@
+"""What comes after a refused call: the run goes on as if it had never been made."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+from fmpy.fmi1 import FMICallException
+from numpy.typing import NDArray
+
+from tests.fmu.host import Instance
+
+STEP = 1.7e-3
+MALTREATMENT: tuple[Callable[[Instance], object], ...] = (
+    lambda i: i.set(load=math.nan),
+    lambda i: i.set(normal_preload=-1.0),
+    lambda i: i.set(slider_mass=2.0),
+    lambda i: i.set(friction_faces=1),
+    lambda i: i.set(position=0.0),
+    lambda i: i.slave.doStep(i.time, 0.0),
+    lambda i: i.slave.doStep(i.time, math.nan),
+    lambda i: i.slave.doStep(i.time + 1.0, STEP),
+    lambda i: i.slave.setupExperiment(startTime=0.0),
+    lambda i: i.slave.exitInitializationMode(),
+    lambda i: i.slave.getReal([999]),
+    lambda i: i.slave.getInteger([0]),
+    lambda i: i.restore(b"not a state"),
+)
+
+
+def maltreat(instance: Instance) -> None:
+    for call in MALTREATMENT:
+        with pytest.raises(FMICallException):
+            call(instance)
+
+
+def test_the_run_goes_on_as_if_never_disturbed(instantiate: Callable[[], Instance]) -> None:
+    quiet, disturbed = instantiate(), instantiate()
+    for instance in (quiet, disturbed):
+        instance.initialize(phase=0.4, load=0.05)
+    rows = []
+    for _ in range(20):
+        maltreat(disturbed)
+        rows += disturbed.run(1, STEP)
+    assert rows == quiet.run(20, STEP), "refused calls must leave no trace, to the last bit"
+
+
+def test_a_refused_initialization_can_be_mended(instantiate: Callable[[], Instance]) -> None:
+    mended, plain = instantiate(), instantiate().initialize()
+    with pytest.raises(FMICallException):
+        mended.slave.exitInitializationMode()
+    mended.slave.setupExperiment(startTime=0.0)
+    mended.slave.enterInitializationMode()
+    with pytest.raises(FMICallException):
+        mended.set(slider_mass=-1.0)
+    mended.slave.exitInitializationMode()
+    assert mended.run(5, STEP) == plain.run(5, STEP)
+
+
+def test_reset_after_refusals(instance: Instance, instantiate: Callable[[], Instance]) -> None:
+    maltreat(instance)
+    instance.slave.reset()
+    instance.initialize()
+    assert instance.run(5, STEP) == instantiate().initialize().run(5, STEP)
+
+
+STORM = """
+import sys, tempfile
+from pathlib import Path
+from tests.fmu.host import Instance, unpack
+from tests.fmu.test_after_refusals import maltreat
+unpacked = unpack(Path(sys.argv[1]), Path(sys.argv[2]))
+for _ in range(5):
+    instance = Instance(unpacked).initialize()
+    for _ in range(40):
+        maltreat(instance)
+    instance.step(1e-3)
+    instance.slave.reset()
+    instance.initialize().step(1e-3)
+    maltreat(instance)
+    instance.free()
+print("alive", instance.time)
+"""
+
+
+def test_the_host_outlives_thousands_of_refusals(python_fmu: Path, tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-X", "faulthandler", "-c", STORM, python_fmu, tmp_path],
+        cwd=Path(__file__).resolve().parents[2],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert done.stdout.startswith("alive"), "no crash, also when the process ends"
+
+
+def signal(**columns: list[float]) -> NDArray[np.void]:
+    return np.array(
+        list(zip(*columns.values(), strict=True)), dtype=[(name, float) for name in columns]
+    )
+
+
+REFUSED_RUNS: dict[str, dict[str, object]] = {
+    "start value not finite": {"start_values": {"load": math.nan}},
+    "start value out of bounds": {"start_values": {"slider_mass": 0.0}},
+    "choice out of bounds": {"start_values": {"friction_faces": 3}},
+    "model that is not there yet": {"start_values": {"fidelity": 0}},
+    "input turns into nan": {
+        "input": signal(time=[0, 0.05, 0.05, 0.1], load=[0, 0, math.nan, math.nan])
+    },
+    "input turns infinite": {
+        "input": signal(time=[0, 0.05, 0.05, 0.1], phase=[0, 0, math.inf, math.inf])
+    },
+    "tunable leaves its bounds": {
+        "input": signal(time=[0, 0.05, 0.05, 0.1], normal_preload=[1, 1, -1, -1])
+    },
+    "tunable turns into nan": {
+        "input": signal(time=[0, 0.05, 0.05, 0.1], base_amplitude=[1e-4, 1e-4, math.nan, math.nan])
+    },
+    "step of zero": {"output_interval": 0.0, "stop_time": 0.1},
+}
+
+
+@pytest.mark.parametrize("run", REFUSED_RUNS.values(), ids=REFUSED_RUNS)
+def test_simulate_fmu_raises(python_fmu: Path, run: dict[str, object]) -> None:
+    reached: list[float] = []
+
+    def note(time: float, _: object) -> bool:
+        reached.append(time)
+        return True
+
+    with pytest.raises(FMICallException) as caught:
+        simulate_fmu(str(python_fmu), **({"stop_time": 0.1, "step_finished": note} | run))
+    assert caught.value.status == 4, "fmi2Discard would end the run short without a word"
+    if "input" in run:
+        assert 0.04 < reached[-1] < 0.06, "the first half is fine, the refusal comes in the middle"
+
+
+def test_simulate_fmu_reaches_the_end_otherwise(python_fmu: Path) -> None:
+    result = simulate_fmu(
+        str(python_fmu),
+        input=signal(time=[0, 0.05, 0.05, 0.1], load=[0, 0, 0.2, 0.2]),
+        stop_time=0.1,
+    )
+    assert result["time"][-1] == pytest.approx(0.1, abs=1e-12)

@@ -1,0 +1,288 @@
+"""Refused calls, call by call: the text names what is wrong, and nothing changes."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable
+
+import pytest
+from fmpy.fmi1 import FMICallException
+
+from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
+from tests.fmu.host import Instance
+
+NAN, INF = math.nan, math.inf
+NOT_THERE_YET = [("fidelity", 0), ("friction_law", 1)]
+STEP = 1.7e-3
+
+SETTABLE = [v for v in VARIABLES if v.causality != "output"]
+FIXED = [v for v in SETTABLE if v.variability == "fixed"]
+ANYTIME = [v for v in SETTABLE if v.variability != "fixed"]
+OUTPUTS = [v for v in VARIABLES if v.causality == "output"]
+
+
+def by_name(variables: list[Variable]) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("variable", variables, ids=lambda v: v.name)
+
+
+def outside(variable: Variable) -> list[float]:
+    """The nearest values that the bounds of a variable shut out."""
+    if variable.type == "Integer":
+        near = [
+            None if variable.minimum is None else variable.minimum - 1,
+            None if variable.maximum is None else variable.maximum + 1,
+        ]
+    else:
+        near = [
+            None if variable.minimum is None else math.nextafter(variable.minimum, -INF),
+            None if variable.maximum is None else math.nextafter(variable.maximum, INF),
+        ]
+    return [x for x in near if x is not None]
+
+
+def in_initialization_mode(instance: Instance) -> Instance:
+    instance.slave.setupExperiment(startTime=0.0)
+    instance.slave.enterInitializationMode()
+    return instance
+
+
+@by_name([v for v in SETTABLE if v.type == "Real"])
+@pytest.mark.parametrize("value", [NAN, INF, -INF])
+def test_not_finite_before_the_run(
+    instantiate: Callable[[], Instance], variable: Variable, value: float
+) -> None:
+    instance = in_initialization_mode(instantiate())
+    with instance.refuses(f"{variable.name} = {value!r} refused", variable.allowed):
+        instance.set(**{variable.name: value})
+
+
+@by_name(ANYTIME)
+@pytest.mark.parametrize("value", [NAN, INF, -INF])
+def test_not_finite_during_the_run(instance: Instance, variable: Variable, value: float) -> None:
+    instance.step(STEP)
+    with instance.refuses(f"{variable.name} = {value!r} refused", variable.allowed):
+        instance.set(**{variable.name: value})
+
+
+@by_name([v for v in SETTABLE if outside(v)])
+def test_out_of_bounds_before_the_run(
+    instantiate: Callable[[], Instance], variable: Variable
+) -> None:
+    instance = in_initialization_mode(instantiate())
+    for value in outside(variable):
+        shown = int(value) if variable.type == "Integer" else value
+        with instance.refuses(f"{variable.name} = {shown!r} refused", variable.allowed):
+            instance.set(**{variable.name: value})
+
+
+@by_name([v for v in ANYTIME if outside(v)])
+def test_out_of_bounds_during_the_run(instance: Instance, variable: Variable) -> None:
+    instance.step(STEP)
+    for value in outside(variable):
+        with instance.refuses(f"{variable.name} = {value!r} refused", variable.allowed):
+            instance.set(**{variable.name: value})
+
+
+@by_name([v for v in SETTABLE if v.minimum is not None or v.maximum is not None])
+def test_the_bounds_themselves_are_allowed(
+    instantiate: Callable[[], Instance], variable: Variable
+) -> None:
+    instance = in_initialization_mode(instantiate())
+    for value in (variable.minimum, variable.maximum):
+        if value is not None and (variable.name, value) not in NOT_THERE_YET:
+            instance.set(**{variable.name: value})
+
+
+@by_name(FIXED)
+def test_fixed_parameter_after_initialization(instance: Instance, variable: Variable) -> None:
+    assert variable.start is not None
+    value = int(variable.start) if variable.type == "Integer" else variable.start
+    with instance.refuses(f"{variable.name} = {value!r} refused", "it is fixed"):
+        instance.set(**{variable.name: value})
+
+
+@by_name(OUTPUTS)
+def test_output_set_from_outside(instance: Instance, variable: Variable) -> None:
+    with instance.refuses(variable.name, "0.5", "output"):
+        instance.set(**{variable.name: 0.5})
+
+
+@pytest.mark.parametrize(("name", "value"), NOT_THERE_YET)
+def test_models_that_are_not_there_yet(
+    instantiate: Callable[[], Instance], name: str, value: int
+) -> None:
+    instance = in_initialization_mode(instantiate())
+
+    def choose() -> None:
+        instance.set(**{name: value})
+        instance.slave.exitInitializationMode()
+
+    with pytest.raises(FMICallException):
+        choose()
+    assert f"{name} = {value} refused" in instance.log[-1]
+
+
+@pytest.mark.parametrize("size", [0.0, -0.0, -1e-3, NAN, INF, -INF])
+def test_step_size(instance: Instance, size: float) -> None:
+    instance.step(STEP)
+    expected = f"communicationStepSize = {size!r} refused: allowed is a finite number above 0"
+    with instance.refuses("doStep", expected):
+        instance.slave.doStep(instance.time, size)
+
+
+@pytest.mark.parametrize("jump", [-STEP, -1e-6, 1e-6, STEP, 1e9, NAN, INF, -INF])
+def test_step_that_does_not_continue_from_the_present(instance: Instance, jump: float) -> None:
+    instance.step(STEP)
+    with instance.refuses("doStep", repr(instance.time + jump), repr(instance.time)):
+        instance.slave.doStep(instance.time + jump, STEP)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("startTime", NAN),
+        ("startTime", INF),
+        ("startTime", -INF),
+        ("stopTime", NAN),
+        ("stopTime", -INF),
+        ("stopTime", 4.0),
+        ("tolerance", NAN),
+    ],
+)
+def test_experiment(instantiate: Callable[[], Instance], name: str, value: float) -> None:
+    instance = instantiate()
+    experiment = {"startTime": 5.0} | {name: value}
+    with instance.refuses(f"{name} = {value!r} refused: allowed is"):
+        instance.slave.setupExperiment(**experiment)
+
+
+def test_step_beyond_the_stop_time(instantiate: Callable[[], Instance]) -> None:
+    instance = instantiate()
+    instance.slave.setupExperiment(startTime=0.0, stopTime=0.1)
+    instance.slave.enterInitializationMode()
+    instance.slave.exitInitializationMode()
+    instance.step(0.06)
+    with instance.refuses("doStep", "0.05", "stopTime = 0.1"):
+        instance.slave.doStep(instance.time, 0.05)
+    instance.step(0.04)
+
+
+UNKNOWN = [len(VARIABLES), 10**6, 2**31 - 1, 2**31, 2**32 - 1]
+
+
+@pytest.mark.parametrize("reference", UNKNOWN)
+@pytest.mark.parametrize("kind", ["Real", "Integer", "Boolean", "String"])
+def test_unknown_value_reference(instance: Instance, reference: int, kind: str) -> None:
+    value = {"Real": 0.5, "Integer": 1, "Boolean": True, "String": "x"}[kind]
+    with instance.refuses("refused"):
+        getattr(instance.slave, f"set{kind}")([reference], [value])
+    with instance.refuses("refused"):
+        getattr(instance.slave, f"get{kind}")([reference])
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "value"),
+    [
+        ("load", "Integer", 1),
+        ("load", "Boolean", True),
+        ("load", "String", "1"),
+        ("friction_faces", "Real", 1.0),
+        ("fidelity", "Boolean", True),
+    ],
+)
+def test_type_of_another_variable(
+    instantiate: Callable[[], Instance], name: str, kind: str, value: object
+) -> None:
+    instance = in_initialization_mode(instantiate())
+    reference = [instance.reference(name)]
+    with instance.refuses(name, kind):
+        getattr(instance.slave, f"set{kind}")(reference, [value])
+    with instance.refuses(name, kind):
+        getattr(instance.slave, f"get{kind}")(reference)
+
+
+def test_one_bad_value_among_good_ones_sets_none_of_them(instance: Instance) -> None:
+    references = [instance.reference(n) for n in ("phase", "load", "frequency_ratio")]
+    with instance.refuses("load = nan refused"):
+        instance.slave.setReal(references, [1.0, NAN, 2.0])
+    assert tuple(instance.slave.getReal(references)) == (0.0, 0.0, 1.0)
+
+
+def _instantiated(_: Instance) -> None:
+    pass
+
+
+def _experiment_set_up(instance: Instance) -> None:
+    instance.slave.setupExperiment(startTime=0.0)
+
+
+def _initializing(instance: Instance) -> None:
+    in_initialization_mode(instance)
+
+
+def _stepping(instance: Instance) -> None:
+    instance.initialize()
+
+
+def _terminated(instance: Instance) -> None:
+    instance.initialize().slave.terminate()
+
+
+CALLS: dict[str, Callable[[Instance], object]] = {
+    "setupExperiment": lambda i: i.slave.setupExperiment(startTime=0.0),
+    "enterInitializationMode": lambda i: i.slave.enterInitializationMode(),
+    "exitInitializationMode": lambda i: i.slave.exitInitializationMode(),
+    "doStep": lambda i: i.slave.doStep(0.0, STEP),
+    "terminate": lambda i: i.slave.terminate(),
+    "setReal": lambda i: i.set(load=0.1),
+}
+
+
+@pytest.mark.parametrize(
+    ("reach", "call"),
+    [
+        (_instantiated, "exitInitializationMode"),
+        (_instantiated, "doStep"),
+        (_experiment_set_up, "exitInitializationMode"),
+        (_experiment_set_up, "doStep"),
+        (_initializing, "setupExperiment"),
+        (_initializing, "enterInitializationMode"),
+        (_initializing, "doStep"),
+        (_stepping, "setupExperiment"),
+        (_stepping, "enterInitializationMode"),
+        (_stepping, "exitInitializationMode"),
+        (_terminated, "setupExperiment"),
+        (_terminated, "enterInitializationMode"),
+        (_terminated, "exitInitializationMode"),
+        (_terminated, "doStep"),
+        (_terminated, "terminate"),
+        (_terminated, "setReal"),
+    ],
+)
+def test_call_out_of_order(
+    instantiate: Callable[[], Instance], reach: Callable[[Instance], None], call: str
+) -> None:
+    instance = instantiate()
+    reach(instance)
+    with instance.refuses(call, "refused", "allowed"):
+        CALLS[call](instance)
+
+
+def test_text_reaches_standard_error_without_a_logger(
+    unpacked: object, capsys: pytest.CaptureFixture[str]
+) -> None:
+    instance = Instance(unpacked, logging_on=False).initialize()  # type: ignore[arg-type]
+    with pytest.raises(FMICallException):
+        instance.set(load=NAN)
+    instance.free()
+    assert instance.log == [], "the host asked for no log"
+    assert "load = nan refused: allowed is a finite number" in capsys.readouterr().err
+
+
+def test_status_inquiries_do_not_speak_of_an_end(instance: Instance) -> None:
+    with instance.refuses("doStep"):
+        instance.slave.doStep(0.0, NAN)
+    terminated = ctypes.c_int()
+    instance.slave.fmi2GetBooleanStatus(instance.slave.component, 3, ctypes.byref(terminated))
+    assert terminated.value == 0, "a refused step is not a wish to end the run"

@@ -1,0 +1,119 @@
+"""The built FMU against the Taylor referee: every signal, and the counts of events."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from harness.references.taylor import simulate
+from harness.references.trajectory import Trajectory
+from tests.fmu.host import Instance
+from tests.problems import DURATION, PROBLEMS, Problem
+
+SIGNALS = (
+    "position",
+    "velocity",
+    "resonator_displacement",
+    "resonator_velocity",
+    "normal_force",
+    "friction_force",
+)
+ALLOWED = 1e-9
+"""Deviation allowed, as a fraction of the peak of each signal."""
+
+Instantiate = Callable[[], Instance]
+
+
+def fmu_run(
+    instantiate: Instantiate, problem: Problem, times: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], dict[str, float]]:
+    """Signals (n, 6) at `times`, which must include the starts of the pieces, and end values."""
+    inputs = {start: values for start, values in problem.pieces}
+    first = inputs.pop(0.0)
+    instance = instantiate().initialize(**problem.parameters, **first)
+    rows = []
+    for time in times:
+        instance.step(time - instance.time)
+        rows.append(instance.get(*SIGNALS))
+        if time in inputs:
+            instance.set(phase=0.0, load=0.0, frequency_ratio=1.0)
+            instance.set(**inputs[time])
+    names = ("reversals", "last_event_time", "contact_mode")
+    ends = dict(zip(names, instance.get(*names), strict=True))
+    ends["sticks"] = json.loads(instance.state().partition(b"\n")[2])["moment"]["counts"]["sticks"]
+    return np.array(rows), ends
+
+
+def grid(problem: Problem, count: int) -> NDArray[np.float64]:
+    starts = [start for start, _ in problem.pieces[1:]]
+    return np.union1d(np.linspace(0.0, DURATION, count + 1)[1:], starts)
+
+
+def assert_equal(signals: NDArray[np.float64], referee: Trajectory, allowed: float) -> None:
+    for name, column in zip(SIGNALS, signals.T, strict=True):
+        expected = getattr(referee, name)
+        peak = np.abs(expected).max()
+        deviation = np.abs(column - expected).max()
+        assert deviation <= allowed * peak, (
+            f"{name} deviates by {deviation:.3g}, {deviation / peak:.3g} of its peak; "
+            f"allowed is {allowed:g}"
+        )
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_against_the_referee(instantiate: Instantiate, name: str) -> None:
+    problem = PROBLEMS[name]
+    times = grid(problem, 230)
+    signals, ends = fmu_run(instantiate, problem, times)
+    referee = simulate(problem.device, problem.held, times)
+    assert_equal(signals, referee, ALLOWED)
+    assert ends["reversals"] == referee.reversals
+    assert ends["sticks"] == referee.sticks
+    assert ends["contact_mode"] == referee.contact_mode[-1]
+    if referee.event_times.size:
+        assert ends["last_event_time"] == pytest.approx(referee.event_times[-1], abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["table 1", "sticking every period", "lift-off with sticking"])
+@pytest.mark.parametrize("count", [1, 7, 1000])
+def test_independent_of_the_partition(instantiate: Instantiate, name: str, count: int) -> None:
+    problem = PROBLEMS[name]
+    signals, ends = fmu_run(instantiate, problem, grid(problem, count))
+    referee = simulate(problem.device, problem.held, np.array([DURATION]))
+    for column, signal in enumerate(SIGNALS[:4]):
+        expected = getattr(referee, signal)[-1]
+        assert signals[-1, column] == pytest.approx(expected, rel=1e-9, abs=1e-13)
+    assert ends["reversals"] == referee.reversals
+
+
+def test_one_step_of_a_quarter_second(instantiate: Instantiate) -> None:
+    whole = instantiate().initialize()
+    whole.step(0.25)
+    fine = instantiate().initialize()
+    for _ in range(250):
+        fine.step(1e-3)
+    for one, other in zip(whole.get(*SIGNALS), fine.get(*SIGNALS), strict=True):
+        assert one == pytest.approx(other, rel=1e-9)
+    assert whole.get("reversals") == fine.get("reversals")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "name", ["table 1", "sticking every period", "undamped, slipping resonance"]
+)
+def test_steps_of_two_microseconds(instantiate: Instantiate, name: str) -> None:
+    problem = PROBLEMS[name]
+    times = np.arange(1, 100_001) * 2e-6
+    instance = instantiate().initialize(**problem.parameters)
+    rows = []
+    for i, time in enumerate(times):
+        instance.slave.doStep(currentCommunicationPoint=time - 2e-6, communicationStepSize=2e-6)
+        if (i + 1) % 500 == 0:
+            rows.append(instance.get(*SIGNALS))
+    referee = simulate(problem.device, problem.held, times[499::500])
+    assert_equal(np.array(rows), referee, ALLOWED)
+    assert instance.get("reversals")[0] == referee.reversals
