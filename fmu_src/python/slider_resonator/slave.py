@@ -12,6 +12,7 @@ import atexit
 import contextlib
 import ctypes
 import functools
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -162,13 +163,17 @@ def outlast_loading(namespace: dict[str, Any]) -> None:
 
 @functools.cache
 def _let_go_at_exit(unpacked: Path) -> None:
-    """Ask the binary of an unpacked FMU to release the interpreter before the process ends.
+    """Have the binary of an unpacked FMU release the interpreter before the process ends.
 
     Unasked it does so while its static objects are destroyed, after the one that it then uses.
     """
-    binary = unpacked / "binaries" / "linux64" / f"{SliderResonatorPy.__name__}.so"
+    atexit.register(_let_go, unpacked / "binaries" / "linux64" / f"{SliderResonatorPy.__name__}.so")
+
+
+def _let_go(binary: Path) -> None:
+    # Only if the host has not unloaded it: keeping it loaded would cost 0.3 MB per unpacked FMU.
     with contextlib.suppress(OSError):
-        atexit.register(ctypes.CDLL(str(binary)).finalizePythonInterpreter)
+        ctypes.CDLL(str(binary), mode=os.RTLD_NOLOAD | os.RTLD_NOW).finalizePythonInterpreter()
 
 
 def _variables(kind: str, references: list[int]) -> list[Variable]:
