@@ -31,8 +31,8 @@ validate: build ## build the FMU, run every built-in scene and compare it with t
 test: lint ## lint, check types, run the tests that take seconds
 	$(PY) -m pytest
 
-ci: lint ## lint, check types, run every test
-	$(PY) -m pytest -m ''
+ci: test ## make test, then the slow tests
+	$(PY) -m pytest -m slow
 
 lint: $(READY) ## check style, formatting and types
 	$(PY) -m ruff check .

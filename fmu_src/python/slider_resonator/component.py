@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from math import inf, isfinite, ulp
 from typing import Any
 
-from .coulomb import Held, Moment, advance, hold, start
+from .coulomb import Held, Moment, advance, hold, mode_of, start
 from .device import Device, Inputs
 from .lifecycle import Lifecycle, require
 from .motion import State
@@ -88,15 +88,18 @@ class Component:
         self._prepared = _prepare(values) if running else None
         self._values = values
 
-    def get(self, name: str) -> float:
-        """Value of any variable; outputs from initialization mode on."""
-        if name in self._values:
-            return self._values[name]
-        if self.lifecycle == Lifecycle.INSTANTIATED:
-            require(f"reading {name}", self.lifecycle, Lifecycle.INITIALIZATION)
-        device, inputs, held = self._prepare()
-        moment = self._moment if self._moment is not None else self._first_moment()
-        return OUTPUTS[name](View(device, inputs, held, moment, self._last_event_time))
+    def get(self, *names: str) -> list[float]:
+        """Values of any variables; outputs from initialization mode on."""
+        view: View | None = None
+        found = []
+        for name in names:
+            output = OUTPUTS.get(name)
+            if output is None:
+                found.append(self._values[name])
+            else:
+                view = view or self._view(name)
+                found.append(output(view))
+        return found
 
     def step(self, time: float, step_size: float) -> None:
         """Advance from `time` [s], the present one, by `step_size` > 0 [s], inputs held."""
@@ -163,6 +166,14 @@ class Component:
         self.lifecycle = lifecycle
         self.time, self._stop_time, self._last_event_time = time, stop_time, last_event_time
         self._values, self._moment = values, restored
+
+    def _view(self, name: str) -> View:
+        if self.lifecycle == Lifecycle.INSTANTIATED:
+            require(f"reading {name}", self.lifecycle, Lifecycle.INITIALIZATION)
+        device, inputs, held = self._prepare()
+        moment = self._moment if self._moment is not None else self._first_moment()
+        mode = mode_of(held, moment.state, moment.theta, moment.psi)
+        return View(device, inputs, held, moment, mode, self._last_event_time)
 
     def _prepare(self) -> tuple[Device, Inputs, Held]:
         if self._prepared is None:

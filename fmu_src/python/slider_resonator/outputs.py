@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from math import cos, sin, tau
+from typing import NamedTuple
 
 from .averaged import Averaged, averaged
-from .coulomb import STICK, Held, Moment, friction_force, mode_of
+from .coulomb import STICK, Held, Moment, friction_force
 from .device import Device, Inputs
 
 LEAD_DIGITS = 9
@@ -16,21 +16,15 @@ LEAD_DIGITS = 9
 the phases then do not make them flicker."""
 
 
-@dataclass(frozen=True, slots=True)
-class View:
-    """What outputs are read from."""
+class View(NamedTuple):
+    """What outputs are read from; `mode` is the contact mode under the present inputs."""
 
     device: Device
     inputs: Inputs
     held: Held
     moment: Moment
+    mode: int
     last_event_time: float
-
-    @property
-    def mode(self) -> int:
-        """Contact mode under the present inputs."""
-        moment = self.moment
-        return mode_of(self.held, moment.state, moment.theta, moment.psi)
 
 
 def _resonator_displacement(view: View) -> float:

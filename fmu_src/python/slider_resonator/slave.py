@@ -96,12 +96,12 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
     @_refusing
     def get_real(self, vrs: list[int]) -> list[float]:
         """fmi2GetReal."""
-        return [self._component.get(v.name) for v in _variables("Real", vrs)]
+        return self._component.get(*(v.name for v in _variables("Real", vrs)))
 
     @_refusing
     def get_integer(self, vrs: list[int]) -> list[int]:
         """fmi2GetInteger."""
-        return [int(self._component.get(v.name)) for v in _variables("Integer", vrs)]
+        return [int(v) for v in self._component.get(*(v.name for v in _variables("Integer", vrs)))]
 
     @_refusing
     def get_boolean(self, vrs: list[int]) -> list[bool]:

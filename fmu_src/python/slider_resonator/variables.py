@@ -350,7 +350,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="N",
         display_unit="mN",
         nominal=0.1,
-        depends_on=_INPUTS,
+        depends_on=("phase", "frequency_ratio"),
     ),
 )
 

@@ -1,0 +1,87 @@
+"""The command line: every command ends with 0 (pass), 1 (fail) or 2 (could not run)."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Sequence
+from typing import Any, NoReturn
+
+import click
+
+from harness.commands.bench import bench_command
+from harness.commands.blocking import blocking_command
+from harness.commands.picture import picture_command
+from harness.commands.run import run_command
+from harness.commands.scenes import scenes_command
+from harness.commands.steady import steady_command
+from harness.commands.validate import validate_command
+from harness.errors import HarnessError
+from harness.json_output import to_json
+
+COULD_NOT_RUN = 2
+
+
+class HarnessGroup(click.Group):
+    """A group of commands that never lets an error pass for a verdict.
+
+    Python and click end with 1 on some errors; here 1 means that something was judged and failed.
+    """
+
+    def main(
+        self,
+        args: Sequence[str] | None = None,
+        prog_name: str | None = None,
+        complete_var: str | None = None,
+        standalone_mode: bool = True,
+        **extra: Any,
+    ) -> NoReturn:
+        """Run a command and leave with its exit code; with --json an error is JSON too."""
+        arguments = list(sys.argv[1:] if args is None else args)
+        as_json = "--json" in arguments
+        try:
+            code = super().main(arguments, prog_name, complete_var, standalone_mode=False, **extra)
+            sys.exit(code if isinstance(code, int) else 0)
+        except click.ClickException as error:
+            error.show()
+            message = error.format_message()
+        except click.Abort:
+            message = "interrupted"
+            click.echo(message, err=True)
+        except HarnessError as error:
+            message = str(error)
+            click.echo(f"error: {message}", err=True)
+        except Exception as error:
+            traceback.print_exc()
+            message = f"internal error: {error!r}"
+        if as_json:
+            click.echo(to_json({"error": message}))
+        sys.exit(COULD_NOT_RUN)
+
+
+@click.group(cls=HarnessGroup, context_settings={"help_option_names": ["-h", "--help"]})
+def main() -> None:
+    """Run a slider-resonator FMU and say with numbers whether it is right.
+
+    Every command leaves with 0 (pass), 1 (fail) or 2 (could not run).
+
+    \b
+    Examples:
+      python -m harness validate
+      python -m harness validate my.fmu --scene table_1 --scene lift_off
+      python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
+      python -m harness steady my.fmu --set phase=0.4 --set load=0.05 --json
+      python -m harness blocking my.fmu --json
+    """
+
+
+for command in (
+    validate_command,
+    run_command,
+    steady_command,
+    blocking_command,
+    scenes_command,
+    bench_command,
+    picture_command,
+):
+    main.add_command(command)

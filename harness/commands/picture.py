@@ -1,0 +1,34 @@
+"""`picture`: the picture of the README."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from harness.commands.options import default_fmu
+from harness.console import progress_bar
+from harness.picture import draw_picture
+
+
+@click.command("picture")
+@click.argument("fmu", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    default=Path("docs/picture.png"),
+    show_default=True,
+    help="PNG, SVG or PDF to write.",
+)
+def picture_command(fmu: Path | None, out: Path) -> None:
+    """Draw the picture of the README from the FMU.
+
+    \b
+    Examples:
+      python -m harness picture
+      python -m harness picture my.fmu --out picture.svg
+    """
+    with progress_bar() as progress:
+        progress("picture", 0.0)
+        draw_picture(default_fmu(fmu), out)
+    click.echo(f"written  {out}")

@@ -1,0 +1,216 @@
+"""Driving an FMU through fmpy: instances, steps, and whole runs."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from ctypes import c_double
+from dataclasses import dataclass
+from itertools import count
+
+import numpy as np
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2ValueReference
+from fmpy.model_description import ModelVariable
+from numpy.typing import NDArray
+
+from harness import fmu_log
+from harness.errors import FmuError, Refusal
+from harness.fmu import Fmu
+from harness.interface import INPUTS, OUTPUTS
+from harness.names import unknown_name
+from harness.schedule import Schedule
+
+_numbers = count(1)
+
+
+@dataclass(frozen=True)
+class Record:
+    """What an FMU did at the communication points `times` (s), shape (n,).
+
+    `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as held
+    from each point on. `wall_time` (s) covers initialisation and stepping.
+    """
+
+    times: NDArray[np.float64]
+    inputs: NDArray[np.float64]
+    outputs: Mapping[str, NDArray[np.float64]]
+    wall_time: float
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        """Return one output over the run, shape (n,)."""
+        return self.outputs[name]
+
+    def final(self, name: str) -> float:
+        """Return the last value of an output."""
+        return float(self.outputs[name][-1])
+
+
+class Block:
+    """A fixed set of Real variables that is read or written many times without allocation."""
+
+    def __init__(self, slave: FMU2Slave, references: Sequence[int]) -> None:
+        self.slave = slave
+        self.size = len(references)
+        self.references = (fmi2ValueReference * self.size)(*references)
+        self.values = (c_double * self.size)()
+
+    def read(self) -> list[float]:
+        """Return the present values."""
+        self.slave.fmi2GetReal(self.slave.component, self.references, self.size, self.values)
+        return list(self.values)
+
+    def write(self, values: Sequence[float]) -> None:
+        """Set the variables."""
+        self.values[:] = list(values)
+        self.slave.fmi2SetReal(self.slave.component, self.references, self.size, self.values)
+
+
+class Instance:
+    """One instance of an FMU, reused through fmi2Reset by every `start`.
+
+    `start` raises Refusal with the FMU's own words when a call fails; the other methods, which are
+    called a million times over, do so inside an `explained` block.
+    """
+
+    def __init__(self, fmu: Fmu, slave: FMU2Slave, messages: list[str]) -> None:
+        self.fmu = fmu
+        self.slave = slave
+        self.messages = messages
+        self.time = 0.0
+        self._used = False
+        self._initialised = False
+        self._inputs = self.block(list(INPUTS))
+
+    def block(self, names: Sequence[str]) -> Block:
+        """Return a block of Real variables of the FMU; FmuError for an unknown name."""
+        return Block(self.slave, [self._variable(name).valueReference for name in names])
+
+    def start(self, values: Mapping[str, float], stop_time: float | None = None) -> None:
+        """Initialise at time 0 with the given parameters and inputs, all others at their start.
+
+        Raises FmuError for an unknown name and Refusal for a value that the FMU does not take.
+        """
+        self.time = 0.0
+        with self.explained():
+            if self._used:
+                self.slave.reset()
+            self._used = True
+            self._initialised = False
+            self.slave.setupExperiment(startTime=0.0, stopTime=stop_time)
+            for name, value in values.items():
+                self._set(name, value)
+            self.slave.enterInitializationMode()
+            self.slave.exitInitializationMode()
+            self._initialised = True
+
+    def set_inputs(self, values: Sequence[float]) -> None:
+        """Set phase (rad), load (N), frequency_ratio."""
+        self._inputs.write(values)
+
+    def step_to(self, target: float) -> None:
+        """Advance to `target` (s)."""
+        size = target - self.time
+        self.slave.fmi2DoStep(self.slave.component, self.time, size, True)
+        self.time += size
+
+    def value(self, name: str) -> float:
+        """Return the present value of any variable; FmuError for an unknown name."""
+        variable = self._variable(name)
+        if variable.type == "Integer":
+            return float(self.slave.getInteger([variable.valueReference])[0])
+        return float(self.slave.getReal([variable.valueReference])[0])
+
+    def end(self) -> None:
+        """Terminate, where the FMU is in a state that allows it, and free the instance."""
+        if self._initialised:
+            with suppress(FMICallException):  # nothing is lost: the instance is freed at once
+                self.slave.terminate()
+        self.slave.freeInstance()
+
+    def _variable(self, name: str) -> ModelVariable:
+        if name not in self.fmu.variables:
+            raise FmuError(unknown_name("variable", name, self.fmu.variables))
+        return self.fmu.variables[name]
+
+    def _set(self, name: str, value: float) -> None:
+        variable = self.fmu.settable(name)
+        if variable.type == "Integer":
+            if value != int(value):
+                raise FmuError(f"{name} = {value!r}: an integer is needed")
+            self.slave.setInteger([variable.valueReference], [int(value)])
+        else:
+            self.slave.setReal([variable.valueReference], [value])
+
+    @contextmanager
+    def explained(self) -> Iterator[None]:
+        """Turn a failed FMI call into a Refusal that carries what the FMU logged meanwhile."""
+        del self.messages[:]
+        try:
+            yield
+        except FMICallException as error:
+            said = "; ".join(self.messages) or "the FMU logged no reason"
+            where = f"{self.fmu.path.name} at t = {self.time:.9g} s"
+            raise Refusal(f"{where}: {said} ({error})") from error
+
+
+@contextmanager
+def instantiate(fmu: Fmu) -> Iterator[Instance]:
+    """Instantiate an FMU for the length of the block; FmuError when it cannot be."""
+    name = f"harness{next(_numbers)}"
+    messages, callbacks = fmu_log.collect(name)
+    try:
+        try:
+            slave = FMU2Slave(
+                instanceName=name,
+                guid=fmu.description.guid,
+                modelIdentifier=fmu.identifier,
+                unzipDirectory=str(fmu.folder),
+            )
+            slave.instantiate(callbacks=callbacks, loggingOn=True)
+        except Exception as error:  # fmpy raises bare Exception for all that goes wrong here
+            said = "; ".join([str(error), *messages])
+            raise FmuError(f"{fmu.path}: cannot be instantiated: {said}") from error
+        instance = Instance(fmu, slave, messages)
+        try:
+            yield instance
+        finally:
+            instance.end()
+    finally:
+        fmu_log.forget(name)
+
+
+def run(
+    instance: Instance,
+    parameters: Mapping[str, float],
+    schedule: Schedule,
+    *,
+    outputs: Sequence[str] = tuple(OUTPUTS),
+    progress: Callable[[float], None] = lambda share: None,
+) -> Record:
+    """Run the schedule from the given parameters and return the outputs at all its points.
+
+    `progress` is told now and then which share of the points is done.
+    """
+    times = schedule.times
+    inputs = schedule.sampled()
+    held = inputs.tolist()
+    values = np.empty((len(times), len(outputs)))
+    began = time.perf_counter()
+    first = dict(zip(INPUTS, held[0], strict=True))
+    instance.start({**parameters, **first}, stop_time=float(times[-1]))
+    block = instance.block(outputs)
+    report_every = max(1, len(times) // 100)
+    with instance.explained():
+        values[0] = block.read()
+        for index, target in enumerate(times[1:].tolist(), start=1):
+            if index > 1 and held[index - 1] != held[index - 2]:
+                instance.set_inputs(held[index - 1])
+            instance.step_to(target)
+            values[index] = block.read()
+            if index % report_every == 0:
+                progress(index / (len(times) - 1))
+    wall_time = time.perf_counter() - began
+    columns = {name: values[:, i].copy() for i, name in enumerate(outputs)}
+    return Record(times, inputs, columns, wall_time)

@@ -1,0 +1,111 @@
+"""Opening an FMU: the archive, its description, and whether it has the interface."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import fmpy
+from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
+
+from harness.errors import FmuError
+from harness.interface import INPUTS, OUTPUTS, PARAMETERS
+from harness.names import unknown_name
+
+
+@dataclass(frozen=True)
+class Fmu:
+    """An FMU unpacked in a folder that lasts as long as the `open_fmu` block."""
+
+    path: Path
+    folder: Path
+    description: ModelDescription
+    variables: Mapping[str, ModelVariable]
+
+    @property
+    def identifier(self) -> str:
+        """The model identifier, which is also the name of the binary."""
+        return str(self.description.coSimulation.modelIdentifier)
+
+    def settable(self, name: str) -> ModelVariable:
+        """Return the parameter or input called `name`; FmuError names the nearest if none is."""
+        allowed = [*PARAMETERS, *INPUTS]
+        if name not in allowed:
+            raise FmuError(unknown_name("parameter or input", name, allowed))
+        return self.variables[name]
+
+
+@contextmanager
+def open_fmu(path: str | Path) -> Iterator[Fmu]:
+    """Unpack the FMU at `path` for the length of the block.
+
+    Raises FmuError when it is no FMI 2.0 co-simulation FMU, lacks a variable of the interface,
+    gives one of them another causality or unit, or has no binary for this platform.
+    """
+    path = Path(path)
+    description = _read_description(path)
+    variables = {variable.name: variable for variable in description.modelVariables}
+    _check_interface(path, description, variables)
+    folder = Path(tempfile.mkdtemp(prefix="slider-resonator-"))
+    try:
+        try:
+            fmpy.extract(path, folder)
+        except Exception as error:  # fmpy raises bare Exception for illegal paths
+            raise FmuError(f"{path}: cannot be unpacked: {error}") from error
+        yield Fmu(path, folder, description, variables)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _read_description(path: Path) -> ModelDescription:
+    if not path.is_file():
+        raise FmuError(f"{path}: no such file")
+    if not zipfile.is_zipfile(path):
+        raise FmuError(f"{path}: not an FMU: it is no zip archive")
+    with zipfile.ZipFile(path) as archive:
+        if "modelDescription.xml" not in archive.namelist():
+            raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml")
+    try:
+        return read_model_description(str(path))
+    except Exception as error:  # fmpy, lxml and the schema each raise their own
+        raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
+
+
+def _check_interface(
+    path: Path, description: ModelDescription, variables: Mapping[str, Any]
+) -> None:
+    if description.fmiVersion != "2.0" or description.coSimulation is None:
+        kind = "" if description.coSimulation else " without co-simulation"
+        raise FmuError(
+            f"{path}: an FMI 2.0 co-simulation FMU is needed, this is FMI "
+            f"{description.fmiVersion}{kind}"
+        )
+    problems = []
+    for causality, wanted in (("input", INPUTS), ("parameter", PARAMETERS), ("output", OUTPUTS)):
+        for name, unit in wanted.items():
+            if name not in variables:
+                problems.append(f"{causality} {name} is missing")
+                continue
+            variable = variables[name]
+            if variable.causality != causality:
+                problems.append(f"{name} is {variable.causality}, must be {causality}")
+            found = _unit(variable)
+            if found != unit:
+                problems.append(f"{name} has unit {found}, must be {unit}")
+    platforms = fmpy.supported_platforms(str(path))
+    if not problems and fmpy.platform not in platforms:
+        problems.append(f"no binary for {fmpy.platform}, only for {', '.join(platforms) or 'none'}")
+    if problems:
+        raise FmuError(f"{path}: not usable as a slider-resonator: {'; '.join(problems)}")
+
+
+def _unit(variable: ModelVariable) -> str:
+    """Return the unit of a variable, "1" where it has none."""
+    declared = variable.declaredType.unit if variable.declaredType else None
+    return str(variable.unit or declared or "1")

@@ -1,0 +1,55 @@
+"""Collects what FMUs write to their log, so that a refusal can be reported in their own words.
+
+fmpy formats the variadic log calls of an FMU with one native proxy per process that passes them
+to the function that was registered last. So there is one function here, registered again before
+every instantiation, and it finds the collector by the instance name.
+"""
+
+from __future__ import annotations
+
+from ctypes import byref
+from typing import Any
+
+from fmpy import calloc, free
+from fmpy.fmi2 import (
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+    printLogMessage,
+)
+from fmpy.logging import addLoggerProxy
+
+_collectors: dict[bytes, list[str]] = {}
+
+
+def _dispatch(
+    environment: Any, instance_name: bytes, status: int, category: bytes, message: bytes
+) -> None:
+    collector = _collectors.get(instance_name)
+    if collector is None:
+        printLogMessage(environment, instance_name, status, category, message)
+    else:
+        collector.append(message.decode("utf-8", errors="replace").strip())
+
+
+_logger = fmi2CallbackLoggerTYPE(_dispatch)
+_allocate = fmi2CallbackAllocateMemoryTYPE(calloc)
+_free = fmi2CallbackFreeMemoryTYPE(free)
+
+
+def collect(instance_name: str) -> tuple[list[str], fmi2CallbackFunctions]:
+    """Return the list that the messages of this instance go to, and the callbacks for fmpy."""
+    messages: list[str] = []
+    _collectors[instance_name.encode()] = messages
+    callbacks = fmi2CallbackFunctions()
+    callbacks.logger = _logger
+    callbacks.allocateMemory = _allocate
+    callbacks.freeMemory = _free
+    addLoggerProxy(byref(callbacks))
+    return messages, callbacks
+
+
+def forget(instance_name: str) -> None:
+    """Stop collecting for this instance."""
+    _collectors.pop(instance_name.encode(), None)

@@ -1,0 +1,31 @@
+"""The ripple: the fast oscillation of a position around its slow course."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+POINTS_PER_PERIOD = 8
+
+
+def ripple_amplitude(times: Array, position: Array, period: float, periods: int = 4) -> float:
+    """Return the amplitude of the component at the drive frequency, in the unit of the position.
+
+    It is fitted, together with a straight line, to the last few drive periods (s) of the record.
+    Raises ValueError for a record that is shorter or has fewer than 8 points per period.
+    """
+    window = times >= times[-1] - periods * period * (1.0 + 1e-9)
+    if times[-1] - times[0] < periods * period * (1.0 - 1e-9):
+        raise ValueError(f"the ripple needs a record of at least {periods} drive periods")
+    if window.sum() < periods * POINTS_PER_PERIOD:
+        raise ValueError(
+            f"the ripple needs at least {POINTS_PER_PERIOD} points per drive period, "
+            f"the record has {window.sum() / periods:.1f}"
+        )
+    time = (times[window] - times[-1]) / period
+    angle = 2.0 * np.pi * time
+    basis = np.column_stack([np.ones_like(time), time, np.cos(angle), np.sin(angle)])
+    coefficients = np.linalg.lstsq(basis, position[window], rcond=None)[0]
+    return float(np.hypot(coefficients[2], coefficients[3]))

@@ -1,0 +1,129 @@
+"""Damped Newton iteration for small systems whose function is expensive and exact to rounding.
+
+The progress of an iteration is judged by the size of the correction that follows it, not by the
+residual (Deuflhard's natural monotonicity): that is blind to how rows and columns are scaled,
+which matters where one direction is a thousand times softer than the others. A Jacobian that
+still contracts fast is kept, for a new one costs 2 n evaluations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+Matrix = NDArray[np.float64]
+Ending = Literal["converged", "singular", "stalled", "limit"]
+
+SINGULAR = 1e-9
+"""Smallest over largest singular value of a Jacobian that counts as singular."""
+KEEP = 0.05
+"""A correction that shrinks to this share or less shows that the Jacobian still serves."""
+SMALLEST_DAMPING = 1.0 / 256.0
+ROUNDING = 100.0
+"""A correction this many tolerances small that shrinks no more has met rounding: good enough."""
+
+
+@dataclass(frozen=True)
+class Root:
+    """Where an iteration ended.
+
+    `x` shape (n,); `jacobian` (n, n) is the last one that was computed, at `jacobian_at` (n,);
+    `correction` is the norm of the Newton step that remains and `residual` the largest remaining
+    function value, both in units of the scale. With a singular Jacobian, `x` is one last step
+    onward in the directions that it does determine: a residual that is then gone shows a family of
+    zeros, one that stays shows that there is none.
+    """
+
+    status: Ending
+    x: Vector
+    jacobian: Matrix
+    jacobian_at: Vector
+    iterations: int
+    correction: float
+    residual: float
+
+
+def central_jacobian(function: Callable[[Vector], Vector], x: Vector, steps: Vector) -> Matrix:
+    """Return the Jacobian (n, n) at `x` by central differences with the steps (n,).
+
+    Central, because their error is of second order in a step that must stay well above rounding.
+    """
+    columns = []
+    for index, size in enumerate(steps):
+        shift = np.zeros_like(x)
+        shift[index] = size
+        columns.append((function(x + shift) - function(x - shift)) / (2.0 * size))
+    return np.column_stack(columns)
+
+
+def solve(
+    function: Callable[[Vector], Vector],
+    guess: Vector,
+    scale: Vector,
+    *,
+    tolerance: float = 1e-11,
+    difference: float = 1e-4,
+    max_iterations: int = 60,
+) -> Root:
+    """Find a zero of `function`, (n,) -> (n,) and finite, starting at `guess` (n,).
+
+    `scale` (n,) is the typical size of each unknown and of the function value beside it;
+    `tolerance` bounds the last correction and `difference` sets the steps of the Jacobian, both
+    in units of it.
+    """
+
+    def scaled(y: Vector) -> Vector:
+        return function(y * scale) / scale
+
+    def result(status: Ending) -> Root:
+        unscaled = jacobian * scale[:, None] / scale[None, :]
+        residual = float(np.abs(value).max())
+        return Root(status, y * scale, unscaled, at * scale, iterations, size, residual)
+
+    y = guess / scale
+    steps = np.full_like(y, difference)
+    iterations = 0
+    size = np.inf
+    value = scaled(y)
+    at, jacobian = y, central_jacobian(scaled, y, steps)
+    inverse = _inverse(jacobian)
+    while inverse is not None:
+        correction = -inverse @ value
+        size = float(np.linalg.norm(correction))
+        if size <= tolerance:
+            return result("converged")
+        if iterations == max_iterations:
+            return result("limit")
+        iterations += 1
+        damping = 1.0
+        while True:
+            trial = y + damping * correction
+            trial_value = scaled(trial)
+            contraction = float(np.linalg.norm(inverse @ trial_value)) / size
+            if contraction <= 1.0 - damping / 4.0:
+                break
+            if size <= ROUNDING * tolerance:
+                return result("converged")
+            damping /= 2.0
+            if damping < SMALLEST_DAMPING:
+                return result("stalled")
+        y, value = trial, trial_value
+        if contraction > KEEP:
+            at, jacobian = y, central_jacobian(scaled, y, steps)
+            inverse = _inverse(jacobian)
+    y = y - np.linalg.pinv(jacobian, rcond=SINGULAR) @ value
+    value = scaled(y)
+    return result("singular")
+
+
+def _inverse(jacobian: Matrix) -> Matrix | None:
+    """Return the inverse, or None where there is none worth the name."""
+    singular_values = np.linalg.svd(jacobian, compute_uv=False)
+    if singular_values[-1] <= SINGULAR * singular_values[0]:
+        return None
+    return np.asarray(np.linalg.inv(jacobian), dtype=np.float64)

@@ -1,0 +1,80 @@
+"""How every picture of the harness looks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+COLOURS: Mapping[str, str] = {
+    "position": "#1f3b57",
+    "velocity": "#1f3b57",
+    "slow": "#1f5f8b",
+    "theory": "#c8553d",
+    "marker": "#1f5f8b",
+}
+CONTACT: Mapping[int, tuple[str, str]] = {
+    -1: ("slips backward", "#f3dcd5"),
+    0: ("sticks", "#e2e2e2"),
+    1: ("slips forward", "#d8e6ee"),
+    2: ("lifted", "#fdf6dc"),
+}
+"""Contact mode to name and background."""
+
+IN_FRONT: Mapping[str, Any] = {"frameon": True, "framealpha": 0.8, "edgecolor": "none"}
+"""A legend over shaded ground."""
+
+_STYLE: dict[Any, Any] = {
+    "font.size": 9.5,
+    "axes.titlesize": 10.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "0.35",
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "0.9",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.4,
+    "legend.frameon": False,
+    "xtick.color": "0.25",
+    "ytick.color": "0.25",
+    "svg.hashsalt": "slider-resonator",
+}
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Apply the common look to figures made in the block."""
+    with mpl.rc_context(_STYLE):
+        yield
+
+
+def save(figure: Figure, path: Path, dots_per_inch: int = 150) -> None:
+    """Write a figure without needing a display; the suffix of `path` chooses the format."""
+    FigureCanvasAgg(figure)
+    figure.savefig(path, dpi=dots_per_inch)
+
+
+def shade_directions(axes: Axes, abscissa: Array, modes: Array) -> list[Patch]:
+    """Shade each stretch of constant contact mode, and return the legend entries of those present.
+
+    `abscissa` and `modes` have shape (n,); a mode holds up to the middle between two points.
+    """
+    changes = np.flatnonzero(np.diff(modes)) + 1
+    middles = 0.5 * (abscissa[changes] + abscissa[changes - 1])
+    edges = [float(abscissa[0]), *middles.tolist(), float(abscissa[-1])]
+    for left, right, first in zip(edges, edges[1:], [0, *changes.tolist()], strict=False):
+        axes.axvspan(left, right, color=CONTACT[round(modes[first])][1], linewidth=0.0, zorder=0)
+    present = sorted({round(mode) for mode in modes})
+    return [Patch(color=CONTACT[mode][1], label=CONTACT[mode][0]) for mode in present]

@@ -1,0 +1,141 @@
+"""What the references say about a scene: each thing is computed once, when first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import cached_property
+from math import floor, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.reference_steady import reference_blocking_force, reference_steady_velocity
+from harness.references import closed_forms, located_events, taylor
+from harness.references.trajectory import Trajectory
+from harness.scene import Scene
+
+Array = NDArray[np.float64]
+
+_SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
+    "located_events": located_events.simulate,
+    "taylor": taylor.simulate,
+}
+
+
+class ReferenceSide:
+    """Trajectories, steady motion and closed forms for one scene."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.device = scene.device
+        self.inputs = {name: signal.at(0.0) for name, signal in scene.signals.items()}
+        self._trajectories: dict[str, Trajectory] = {}
+
+    @property
+    def drive_period(self) -> float:
+        """Drive period in seconds."""
+        return 2.0 * pi / self.device.drive_frequency
+
+    @cached_property
+    def times(self) -> Array:
+        """Communication points of the scene (s), shape (n,)."""
+        return self.scene.schedule().times
+
+    def trajectory(self, referee: str) -> Trajectory:
+        """Return the run of the scene by `located_events` or `taylor`.
+
+        It also has the two ends of the last whole drive period.
+        """
+        if referee not in self._trajectories:
+            simulate = _SIMULATORS[referee]
+            held = self.scene.schedule().held()
+            times = np.union1d(self.times, self._last_period)
+            self._trajectories[referee] = simulate(self.device, held, times)
+        return self._trajectories[referee]
+
+    def signal(self, referee: str, name: str) -> Array:
+        """Return one output of that run at the communication points, shape (n,)."""
+        run = self.trajectory(referee)
+        values = np.asarray(getattr(run, name), dtype=np.float64)
+        return values[np.searchsorted(run.time, self.times)]
+
+    @cached_property
+    def mean_velocity(self) -> float:
+        """Mean velocity (m/s) over the last whole drive period of the run."""
+        run = self.trajectory("located_events")
+        begin, end = run.position[np.searchsorted(run.time, self._last_period)]
+        return float(end - begin) / self.drive_period
+
+    @cached_property
+    def stick_fraction(self) -> float:
+        """Share of the last whole drive period of the run that is spent sticking."""
+        begin, end = (self._stick_time(float(time)) for time in self._last_period)
+        return (end - begin) / self.drive_period
+
+    @property
+    def last_event_time(self) -> float:
+        """Time (s) of the last change of contact mode, 0 without any."""
+        events = self.trajectory("located_events").event_times
+        return float(events[-1]) if events.size else 0.0
+
+    @cached_property
+    def steady_velocity(self) -> float | None:
+        """Mean velocity (m/s) of the steady motion, by shooting with located events."""
+        try:
+            guess = self.averaged_velocity
+        except ValueError:
+            guess = 0.0
+        inputs = (self.inputs["phase"], self.inputs["load"], self.inputs["frequency_ratio"])
+        return reference_steady_velocity(self.device, *inputs, guess)
+
+    @cached_property
+    def blocking_force(self) -> float | None:
+        """Load (N) that makes the mean velocity zero, by shooting with located events."""
+        phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
+        return reference_blocking_force(self.device, phase, ratio)
+
+    @property
+    def averaged_velocity(self) -> float:
+        """Steady velocity (m/s) of averaged theory, (5) and (20); for equal frequencies only."""
+        self._require_equal_frequencies()
+        phase, load = self.inputs["phase"], self.inputs["load"]
+        return closed_forms.device_steady_velocity(self.device, phase, load)
+
+    @property
+    def averaged_blocking_force(self) -> float:
+        """Blocking force (N) of averaged theory, (22) for all faces; for equal frequencies only."""
+        self._require_equal_frequencies()
+        return closed_forms.device_blocking_force(self.device, self.inputs["phase"])
+
+    @property
+    def ripple_amplitude(self) -> float:
+        """Amplitude (m) of the fast displacement, (33)-(34)."""
+        return closed_forms.equivalent_force(self.device).ripple_amplitude
+
+    @property
+    def difference_frequency(self) -> float:
+        """Difference (Hz) of the frequencies of normal force and drive: appendix A's beat."""
+        return abs(self.inputs["frequency_ratio"] - 1.0) / self.drive_period
+
+    @cached_property
+    def _last_period(self) -> Array:
+        """Begin and end (s) of the last whole drive period, shape (2,)."""
+        stop = float(self.times[-1])
+        whole = floor(stop / self.drive_period * (1.0 + 1e-12))
+        if whole < 1:
+            raise ValueError(f"the run of {stop:.6g} s is shorter than one drive period")
+        return np.minimum(np.array([whole - 1, whole]) * self.drive_period, stop)
+
+    def _stick_time(self, stop: float) -> float:
+        """Return the time (s) spent sticking from the start until `stop` (s)."""
+        held = [inputs for inputs in self.scene.schedule().held() if inputs.start < stop]
+        if not held:
+            return 0.0
+        held[-1] = replace(held[-1], stop=min(held[-1].stop, stop))
+        return located_events.simulate(self.device, held, np.array([stop])).stick_time
+
+    def _require_equal_frequencies(self) -> None:
+        ratio = self.inputs["frequency_ratio"]
+        if ratio != 1.0:
+            raise ValueError(f"frequency_ratio = {ratio!r}: the closed form allows only 1")

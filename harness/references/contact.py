@@ -1,0 +1,59 @@
+"""Contact modes of a rigid Coulomb slider, and the instants at which its contact lifts."""
+
+from __future__ import annotations
+
+import math
+
+SLIP_BACKWARD = -1
+STICK = 0
+SLIP_FORWARD = 1
+LIFTED = 2
+
+_TURN = 2.0 * math.pi
+
+
+def mode_at_rest(needed_force: float, friction_limit: float) -> int:
+    """Return the contact mode of a slider whose velocity is zero.
+
+    ``needed_force`` (N) would hold it, friction holds at most ``friction_limit`` (N).
+    """
+    if abs(needed_force) <= friction_limit:
+        return STICK
+    return SLIP_FORWARD if needed_force > 0.0 else SLIP_BACKWARD
+
+
+def time_to_lift_off(preload: float, amplitude: float, angle: float, rate: float) -> float:
+    """Return the time in s until ``preload + amplitude sin(angle + rate t)`` falls through zero.
+
+    Infinite if it never does. A contact that only touches zero does not lift.
+    """
+    if amplitude <= preload or rate == 0.0:
+        return math.inf
+    half_flight = math.acos(preload / amplitude)
+    return _time_to_angle(1.5 * math.pi - math.copysign(half_flight, rate), angle, rate)
+
+
+def time_to_touchdown(preload: float, amplitude: float, angle: float, rate: float) -> float:
+    """Return the time in s until ``preload + amplitude sin(angle + rate t)`` rises through zero.
+
+    Infinite if it never does.
+    """
+    if amplitude <= preload or rate == 0.0:
+        return math.inf
+    half_flight = math.acos(preload / amplitude)
+    return _time_to_angle(1.5 * math.pi + math.copysign(half_flight, rate), angle, rate)
+
+
+def is_lifted(preload: float, amplitude: float, angle: float, rate: float) -> bool:
+    """Return whether the contact is open just after the normal load has the given angle (rad)."""
+    if rate == 0.0 or amplitude == 0.0:
+        return preload + amplitude * math.sin(angle) <= 0.0
+    # The order of the next two crossings decides, not the sign of the normal load: at a crossing
+    # that sign is rounding, and a decision against the crossing times would lose a whole flight.
+    touchdown = time_to_touchdown(preload, amplitude, angle, rate)
+    lift_off = time_to_lift_off(preload, amplitude, angle, rate)
+    return lift_off == 0.0 or 0.0 < touchdown < lift_off
+
+
+def _time_to_angle(target: float, angle: float, rate: float) -> float:
+    return math.copysign(1.0, rate) * (target - angle) % _TURN / abs(rate)

@@ -1,0 +1,169 @@
+"""The schema of a scene file. Every key is listed here; any other is refused."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+
+from harness.interface import INPUTS, PARAMETERS
+from harness.names import unknown_name
+from harness.quantities import QUANTITIES
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
+NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
+Point = tuple[Number, Number]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+def _exactly_one(table: str, given: list[str], choices: str) -> None:
+    if len(given) != 1:
+        raise ValueError(f"{table} needs exactly one of {choices}, has {given or 'none'}")
+
+
+class InputTable(_Table):
+    """One input: a constant, steps, a ramp (polyline), or a CSV file beside the scene."""
+
+    constant: Number | None = None
+    steps: tuple[Point, ...] | None = None
+    ramp: tuple[Point, ...] | None = None
+    csv: str | None = None
+    column: str | None = None
+    between: Literal["linear", "hold"] = "linear"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _plain_number(cls, value: object) -> object:
+        return value if isinstance(value, dict) else {"constant": value}
+
+    @model_validator(mode="after")
+    def _one_kind(self) -> InputTable:
+        kinds = ("constant", "steps", "ramp", "csv")
+        given = [kind for kind in kinds if getattr(self, kind) is not None]
+        _exactly_one("an input", given, "a number, steps, ramp, csv")
+        if self.csv is None and self.model_fields_set & {"column", "between"}:
+            raise ValueError("column and between belong to a csv")
+        return self
+
+
+class InputsTable(_Table):
+    """The inputs of the FMU; those left out keep their start value."""
+
+    phase: InputTable = InputTable(constant=0.0)
+    load: InputTable = InputTable(constant=0.0)
+    frequency_ratio: InputTable = InputTable(constant=1.0)
+
+
+class RunTable(_Table):
+    """How long the scene runs and in which communication steps, in seconds or drive periods."""
+
+    stop_time: Positive | None = None
+    drive_periods: Positive | None = None
+    step_size: Positive | None = None
+    steps_per_period: Positive | None = None
+
+    @model_validator(mode="after")
+    def _one_of_each(self) -> RunTable:
+        for pair in (("stop_time", "drive_periods"), ("step_size", "steps_per_period")):
+            given = [name for name in pair if getattr(self, name) is not None]
+            _exactly_one("run", given, " or ".join(pair))
+        return self
+
+
+class ExpectTable(_Table):
+    """One thing that must hold: a quantity of the FMU against a reference, a value or a bound.
+
+    The deviation allowed is `absolute + relative * |reference|`; for a signal it is `relative`, a
+    share of the reference's peak.
+    """
+
+    quantity: str
+    reference: str | None = None
+    value: Number | str | None = None
+    at_most: Number | None = None
+    at_least: Number | None = None
+    absolute: NotNegative = 0.0
+    relative: NotNegative = 0.0
+    why: str
+
+    @field_validator("quantity")
+    @classmethod
+    def _known_quantity(cls, name: str) -> str:
+        if name not in QUANTITIES:
+            raise ValueError(unknown_name("quantity", name, QUANTITIES))
+        return name
+
+    @model_validator(mode="after")
+    def _comparable(self) -> ExpectTable:
+        kinds = ("reference", "value", "at_most", "at_least")
+        given = [kind for kind in kinds if getattr(self, kind) is not None]
+        _exactly_one("expect", given, ", ".join(kinds))
+        quantity = QUANTITIES.get(self.quantity)
+        if quantity is None:
+            return self
+        if self.reference is not None and self.reference not in quantity.references:
+            name = f"reference for {self.quantity}"
+            raise ValueError(unknown_name(name, self.reference, quantity.references))
+        if quantity.kind == "signal" and self.reference is None:
+            raise ValueError(f"{self.quantity} is a signal: it needs a reference")
+        if isinstance(self.value, str) != (quantity.kind == "word") and self.value is not None:
+            raise ValueError(
+                f"{self.quantity} is a {quantity.kind}, the value {self.value!r} is not"
+            )
+        if given in (["at_most"], ["at_least"]) and quantity.kind != "number":
+            raise ValueError(f"{self.quantity} is a {quantity.kind}: it cannot have a bound")
+        return self
+
+
+class SweepTable(_Table):
+    """One parameter or input that takes several values in turn; every expectation holds at each."""
+
+    variable: str
+    values: tuple[Number, ...] = Field(min_length=1)
+
+    @field_validator("variable")
+    @classmethod
+    def _known_variable(cls, name: str) -> str:
+        allowed = [*PARAMETERS, *INPUTS]
+        if name not in allowed:
+            raise ValueError(unknown_name("parameter or input", name, allowed))
+        return name
+
+
+class SceneTable(_Table):
+    """A whole scene file."""
+
+    name: str = Field(pattern=r"^[A-Za-z0-9_\-]+$")
+    title: str
+    description: str = ""
+    device: dict[str, Number] = {}
+    inputs: InputsTable = InputsTable()
+    run: RunTable | None = None
+    expect: tuple[ExpectTable, ...] = ()
+    sweep: SweepTable | None = None
+
+    @field_validator("device")
+    @classmethod
+    def _known_parameters(cls, device: dict[str, float]) -> dict[str, float]:
+        for name in device:
+            if name not in PARAMETERS:
+                raise ValueError(unknown_name("parameter", name, PARAMETERS))
+        return device
+
+    @model_validator(mode="after")
+    def _runnable(self) -> SceneTable:
+        for expect in self.expect:
+            quantity = QUANTITIES[expect.quantity]
+            if quantity.needs_run and self.run is None:
+                raise ValueError(f"{expect.quantity} is measured in a run: [run] is missing")
+            if not quantity.needs_run and not self._constant_inputs():
+                raise ValueError(f"{expect.quantity} needs constant inputs")
+        return self
+
+    def _constant_inputs(self) -> bool:
+        inputs = (self.inputs.phase, self.inputs.load, self.inputs.frequency_ratio)
+        return all(table.constant is not None for table in inputs)

@@ -1,0 +1,34 @@
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+import pytest
+
+from harness.atomic import replacing
+from harness.errors import HarnessError
+
+
+def test_the_file_appears_whole_with_usual_rights(tmp_path: Path) -> None:
+    path = tmp_path / "new" / "out.csv"
+    with replacing(path) as temporary:
+        temporary.write_text("done")
+        assert not path.exists()
+    assert path.read_text() == "done"
+    assert stat.S_IMODE(path.stat().st_mode) & 0o400
+    assert [p.name for p in path.parent.iterdir()] == ["out.csv"], "no temporary file stays behind"
+
+
+def test_a_failure_keeps_what_was_there(tmp_path: Path) -> None:
+    path = tmp_path / "out.csv"
+    path.write_text("old")
+    with pytest.raises(ZeroDivisionError), replacing(path) as temporary:
+        temporary.write_text(f"half {1 / 0}")
+    assert path.read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["out.csv"]
+
+
+def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(HarnessError, match="cannot be written"), replacing(tmp_path / "file" / "x"):
+        pass

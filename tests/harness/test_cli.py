@@ -1,0 +1,194 @@
+"""The command line as users and CI jobs meet it: output, JSON, exit codes."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from harness.cli import main
+
+HEAD = 'name = "mine"\ntitle = "Mine"\n'
+EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
+COMMANDS = ("validate", "run", "steady", "blocking", "scenes", "bench", "picture")
+
+
+def call(*arguments: object) -> Result:
+    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+def scene_file(folder: Path, text: str) -> Path:
+    path = folder / "mine.toml"
+    path.write_text(HEAD + text)
+    return path
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_shows_examples(command: str) -> None:
+    result = call(command, "--help")
+    assert result.exit_code == 0
+    assert f"python -m harness {command}" in result.stdout
+
+
+def test_every_command_is_listed() -> None:
+    result = call("--help")
+    assert result.exit_code == 0
+    assert all(command in result.stdout for command in COMMANDS)
+
+
+def test_validate_passes_with_0_and_fails_with_1(python_fmu: Path, tmp_path: Path) -> None:
+    right = call("validate", python_fmu, "--scene", scene_file(tmp_path, EXPECT.format(0.126667)))
+    assert right.exit_code == 0, right.output
+    assert "1 of 1 checks passed" in right.stdout
+    wrong = call("validate", python_fmu, "--scene", scene_file(tmp_path, EXPECT.format(0.1267)))
+    assert wrong.exit_code == 1
+    assert "FAIL" in wrong.stdout
+
+
+def test_validate_as_json(python_fmu: Path, tmp_path: Path) -> None:
+    path = scene_file(tmp_path, EXPECT.format(0.1267))
+    result = call("validate", python_fmu, "--scene", path, "--json")
+    assert result.exit_code == 1
+    report = json.loads(result.stdout)
+    assert report["passed"] is False
+    (check,) = report["checks"]
+    assert check["quantity"] == "steady_velocity"
+    assert check["fmu"] == pytest.approx(0.126667, rel=1e-6)
+    assert check["deviation"] > check["allowed"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["validate", "no.fmu"], "no.fmu: no such file"),
+        (["validate", "no.fmu", "--scene", "tabel_1"], "did you mean 'table_1'"),
+        (["run", "no.fmu", "table_1"], "no.fmu: no such file"),
+        (["run", "no.fmu", "no.toml"], "no such scene file"),
+        (["steady", "no.fmu", "--set", "phse=1"], "did you mean 'phase'"),
+        (["steady", "no.fmu", "--set", "phase"], "is not NAME=VALUE"),
+        (["steady", "no.fmu", "--set", "phase=x"], "a number is needed"),
+        (["blocking", "no.fmu"], "no such file"),
+        (["bench", "no.fmu"], "no such file"),
+        (["picture", "no.fmu"], "no such file"),
+        (["steady"], "Missing argument"),
+        (["stedy"], "No such command"),
+        (["scenes", "--jsn"], "No such option"),
+    ],
+)
+def test_what_cannot_run_ends_with_2_and_says_why(arguments: list[str], said: str) -> None:
+    result = call(*arguments)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert result.stdout == ""
+
+
+def test_an_error_is_json_too_where_json_was_asked_for() -> None:
+    result = call("steady", "no.fmu", "--json")
+    assert result.exit_code == 2
+    assert "no such file" in json.loads(result.stdout)["error"]
+
+
+def test_a_bug_is_not_taken_for_a_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken() -> None:
+        raise KeyError("oops")
+
+    monkeypatch.setattr("harness.commands.scenes.built_in_scenes", broken)
+    result = call("scenes")
+    assert result.exit_code == 2, "Python itself would have left with 1"
+    assert "KeyError" in result.stderr
+
+
+def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
+    steady = call("steady", python_fmu, "--set", "phase=0.4", "--set", "load=0.05", "--json")
+    assert steady.exit_code == 0
+    motion = json.loads(steady.stdout)
+    assert motion["steady_velocity"] == pytest.approx(0.0986951, rel=1e-6)
+    assert motion["periods"] <= 100
+    assert motion["status"] == "steady"
+    assert motion["stable"] is True
+    assert len(motion["multipliers"]) == 3
+    blocking = call("blocking", python_fmu, "--json")
+    assert blocking.exit_code == 0
+    assert json.loads(blocking.stdout)["blocking_force"] == pytest.approx(0.0851861, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("settings", "status"),
+    [("load=0.25", "load_above_friction"), ("frequency_ratio=1.001", "slow_beat")],
+)
+def test_no_steady_motion_ends_with_1_and_a_status(
+    python_fmu: Path, settings: str, status: str
+) -> None:
+    result = call("steady", python_fmu, "--set", settings, "--json")
+    assert result.exit_code == 1
+    motion = json.loads(result.stdout)
+    assert motion["steady_velocity"] is None
+    assert motion["status"] == status
+    spoken = call("steady", python_fmu, "--set", settings)
+    assert spoken.exit_code == 1
+    assert status in spoken.stdout
+
+
+def test_a_value_that_the_fmu_refuses_could_not_run(python_fmu: Path) -> None:
+    result = call("steady", python_fmu, "--set", "slider_mass=-1")
+    assert result.exit_code == 2
+    assert "slider_mass = -1.0" in result.stderr
+
+
+def test_run_writes_csv_and_plot_and_tells_the_cost(python_fmu: Path, tmp_path: Path) -> None:
+    out, plot = tmp_path / "run.csv", tmp_path / "run.png"
+    result = call("run", python_fmu, "lift_off", "--out", out, "--plot", plot)
+    assert result.exit_code == 0, result.output
+    assert "60 drive periods" in result.stdout
+    assert "119 reversals" in result.stdout
+    assert "us per drive period" in result.stdout
+    assert plot.stat().st_size > 10_000
+    with out.open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 60 * 32 + 1
+    assert float(rows[-1]["reversals"]) == 119.0
+
+
+def test_run_as_json_with_another_load(python_fmu: Path) -> None:
+    result = call("run", python_fmu, "overload", "--set", "load=0.3", "--json")
+    assert result.exit_code == 0
+    summary = json.loads(result.stdout)
+    assert summary["drive_periods"] == pytest.approx(60.0)
+    assert summary["wall_time_per_simulated_time"] > 0.0
+    weaker = json.loads(call("run", python_fmu, "overload", "--json").stdout)
+    assert summary["mean_velocity"] < weaker["mean_velocity"], "0.3 N brakes more than 0.25 N"
+
+
+def test_scenes_are_listed() -> None:
+    assert "table_1_high_frequency" in call("scenes").stdout
+    names = [scene["name"] for scene in json.loads(call("scenes", "--json").stdout)]
+    assert "detuned_beat" in names
+
+
+def test_an_fmu_with_wrong_physics_is_rejected(python_fmu: Path, tmp_path: Path) -> None:
+    """The component with another coefficient of friction than its description says.
+
+    In a process of its own, for two FMUs with one package name would share their modules.
+    """
+    wrong = tmp_path / "wrong.fmu"
+    changed = 0
+    with zipfile.ZipFile(python_fmu) as old, zipfile.ZipFile(wrong, "w") as new:
+        for name in old.namelist():
+            content = old.read(name)
+            if name.startswith("resources/") and name.endswith("/variables.py"):
+                row, separator, rest = content.partition(b'"friction_coefficient",')
+                altered = row + separator + rest.replace(b"start=0.1,", b"start=0.1001,", 1)
+                changed += altered != content
+                content = altered
+            new.writestr(name, content)
+    assert changed == 1, "the alteration must alter something"
+    command = [sys.executable, "-m", "harness", "validate", str(wrong), "--scene", "table_1"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert result.returncode == 1, result.stderr
+    assert "FAIL" in result.stdout

@@ -1,0 +1,18 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from harness.picture import draw_picture
+
+
+@pytest.mark.slow
+def test_the_picture_fits_a_readme(python_fmu: Path, tmp_path: Path) -> None:
+    path = tmp_path / "docs" / "picture.png"
+    draw_picture(python_fmu, path)
+    picture = imread(path)
+    assert picture.shape[1] == 1200
+    assert np.ptp(picture[..., :3]) > 0.5, "something must be drawn"

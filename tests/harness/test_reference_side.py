@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness.reference_side import ReferenceSide
+from harness.scene import read_scene
+
+RUN = "[run]\ndrive_periods = 12.3\nsteps_per_period = 8\n"
+
+
+def side(folder: Path, text: str) -> ReferenceSide:
+    path = folder / "scene.toml"
+    path.write_text('name = "scene"\ntitle = "Scene"\n' + text)
+    return ReferenceSide(read_scene(path))
+
+
+def test_signals_are_at_the_communication_points(tmp_path: Path) -> None:
+    reference = side(tmp_path, RUN)
+    position = reference.signal("located_events", "position")
+    assert position.shape == reference.times.shape
+    assert position[0] == 0.0
+    taylor = reference.signal("taylor", "position")
+    assert np.abs(position - taylor).max() < 1e-10 * np.abs(taylor).max()
+
+
+def test_the_mean_velocity_is_that_of_the_last_whole_period(tmp_path: Path) -> None:
+    reference = side(tmp_path, RUN.replace("12.3", "12").replace("8", "1"))
+    position = reference.signal("located_events", "position")
+    expected = (position[-1] - position[-2]) / reference.drive_period
+    assert reference.mean_velocity == pytest.approx(expected, rel=1e-12)
+    assert side(tmp_path, RUN).mean_velocity == pytest.approx(expected, rel=1e-9), (
+        "the third of a period after it does not count"
+    )
+
+
+def test_a_device_that_never_moves_sticks_all_the_time(tmp_path: Path) -> None:
+    weak = "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n"
+    reference = side(tmp_path, weak + RUN)
+    assert reference.stick_fraction == pytest.approx(1.0, abs=1e-12)
+    assert reference.last_event_time == 0.0
+
+
+def test_closed_forms_are_those_of_the_paper(tmp_path: Path) -> None:
+    reference = side(tmp_path, RUN)
+    assert reference.averaged_velocity == pytest.approx(0.126731, rel=1e-5)
+    assert reference.averaged_blocking_force == pytest.approx(0.085222, rel=1e-5)
+    assert reference.ripple_amplitude == pytest.approx(67.603e-6, rel=1e-4)
+
+
+def test_closed_forms_hold_for_equal_frequencies_only(tmp_path: Path) -> None:
+    reference = side(tmp_path, "[inputs]\nfrequency_ratio = 3.0\n" + RUN)
+    with pytest.raises(ValueError, match=r"frequency_ratio = 3.0"):
+        _ = reference.averaged_velocity
+    with pytest.raises(ValueError, match=r"frequency_ratio = 3.0"):
+        _ = reference.averaged_blocking_force
+
+
+def test_the_difference_frequency_is_that_of_normal_force_and_drive(tmp_path: Path) -> None:
+    reference = side(tmp_path, "[inputs]\nfrequency_ratio = 1.02\n" + RUN)
+    assert reference.difference_frequency == pytest.approx(11.1408460, rel=1e-7)
+
+
+def test_a_run_shorter_than_a_period_has_no_mean_velocity(tmp_path: Path) -> None:
+    reference = side(tmp_path, RUN.replace("12.3", "0.7"))
+    with pytest.raises(ValueError, match="shorter than one drive period"):
+        _ = reference.mean_velocity

@@ -1,0 +1,37 @@
+from __future__ import annotations
+
+import pytest
+
+from harness.reference_steady import reference_blocking_force, reference_steady_velocity
+from harness.references.device import Device
+
+TABLE_1 = Device()
+
+
+@pytest.mark.parametrize(
+    ("phase", "load", "ratio", "velocity"),
+    [(0.0, 0.0, 1.0, 0.12666700), (0.4, 0.05, 1.0, 0.0986951), (0.4, 0.0, 3.0, -0.0362968)],
+)
+def test_figures_of_taylor_integration_are_met(
+    phase: float, load: float, ratio: float, velocity: float
+) -> None:
+    found = reference_steady_velocity(TABLE_1, phase, load, ratio)
+    assert found == pytest.approx(velocity, rel=1e-6)
+
+
+def test_the_blocking_force_of_table_1() -> None:
+    assert reference_blocking_force(TABLE_1, 0.0, 1.0) == pytest.approx(0.0851861, rel=1e-6)
+
+
+def test_fidelity_1_has_a_single_state() -> None:
+    found = reference_steady_velocity(Device(fidelity=1), 0.0, 0.0, 1.0)
+    assert found == pytest.approx(0.126667, rel=1e-4)
+
+
+def test_a_ratio_without_a_common_period_has_none() -> None:
+    assert reference_steady_velocity(TABLE_1, 0.0, 0.0, 1.001) is None
+    assert reference_blocking_force(TABLE_1, 0.0, 1.001) is None
+
+
+def test_a_load_above_friction_has_none() -> None:
+    assert reference_steady_velocity(TABLE_1, 0.0, 0.25, 1.0) is None

@@ -1,0 +1,86 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from harness.references.held_inputs import HeldInputs, check_contiguous
+from harness.schedule import Signal, communication_points, constant, ramp, schedule, steps
+
+
+def test_steps_hold_their_value_until_the_next_and_jump_to_the_right() -> None:
+    signal = steps([(0.0, 1.0), (0.5, 2.0)])
+    assert [signal.at(t) for t in (-1.0, 0.0, 0.4999, 0.5, 9.0)] == [1.0, 1.0, 1.0, 2.0, 2.0]
+    assert signal.jumps == (0.5,)
+
+
+def test_ramp_is_a_polyline_without_jumps() -> None:
+    signal = ramp([(0.0, 1.0), (1.0, 1.0), (2.0, 3.0)])
+    assert [signal.at(t) for t in (-1.0, 0.5, 1.5, 2.0, 5.0)] == [1.0, 1.0, 2.0, 3.0, 3.0]
+    assert signal.jumps == ()
+
+
+@pytest.mark.parametrize(
+    ("times", "values", "said"),
+    [
+        ((), (), "at least one"),
+        ((0.0, 1.0), (1.0,), "as many values"),
+        ((0.0, 0.0), (1.0, 2.0), "increase strictly"),
+        ((0.0, 1.0), (1.0, float("nan")), "finite"),
+    ],
+)
+def test_a_signal_that_makes_no_sense_is_refused(
+    times: tuple[float, ...], values: tuple[float, ...], said: str
+) -> None:
+    with pytest.raises(ValueError, match=said):
+        Signal(times, values)
+
+
+def test_communication_points_end_exactly_at_the_stop_time() -> None:
+    points = communication_points(1.0, 0.3)
+    assert points.tolist() == pytest.approx([0.0, 0.3, 0.6, 0.9, 1.0])
+    assert points[-1] == 1.0
+
+
+def test_a_stop_time_that_is_a_multiple_of_the_step_but_for_rounding_adds_no_sliver() -> None:
+    points = communication_points(0.1 * 3, 0.1)
+    assert len(points) == 4, f"three steps of 0.1 make 0.3, got {points}"
+
+
+@given(
+    stop=st.floats(0.1, 10.0),
+    step=st.floats(0.01, 3.0),
+    jumps=st.lists(st.floats(0.0, 10.0), max_size=5),
+)
+def test_communication_points_contain_every_jump_inside(
+    stop: float, step: float, jumps: list[float]
+) -> None:
+    points = communication_points(stop, step, jumps)
+    assert points[0] == 0.0
+    assert points[-1] == stop
+    assert np.all(np.diff(points) > 0.0)
+    assert np.diff(points).max() <= step * (1.0 + 1e-6)
+    assert {t for t in jumps if 0.0 < t < stop} <= set(points.tolist())
+
+
+def test_a_grid_point_just_before_a_jump_gives_way_to_it() -> None:
+    """Otherwise a whole step, or a sliver of one, would hold the old value."""
+    jump = 0.3 * (1.0 + 1e-12)
+    made = schedule(1.0, 0.1, load=steps([(0.0, 0.0), (jump, 5.0)]))
+    assert len(made.times) == 11
+    assert jump in made.times
+    assert made.sampled()[3, 1] == 5.0
+
+
+def test_held_inputs_merge_equal_neighbours() -> None:
+    made = schedule(1.0, 0.1, phase=steps([(0.0, 0.2), (0.25, 0.7)]), load=constant(0.05))
+    held = made.held()
+    assert held == [HeldInputs(0.0, 0.25, 0.2, 0.05, 1.0), HeldInputs(0.25, 1.0, 0.7, 0.05, 1.0)]
+
+
+def test_a_ramp_is_sampled_and_held_over_each_step() -> None:
+    made = schedule(0.4, 0.1, frequency_ratio=ramp([(0.0, 1.0), (0.4, 2.0)]))
+    held = made.held()
+    check_contiguous(held)
+    assert [inputs.frequency_ratio for inputs in held] == pytest.approx([1.0, 1.25, 1.5, 1.75])
