@@ -10,7 +10,7 @@ NOISE = 1e-15
 
 
 def fall(polynomial: Polynomial, stop: float = 1.0) -> float | None:
-    return first_fall(polynomial.coef, stop, NOISE)
+    return first_fall(polynomial.coef.astype(np.float64), stop, NOISE)
 
 
 def test_first_of_several_falls_is_found() -> None:

@@ -7,9 +7,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from harness.references import taylor
+from harness.references import located_events, taylor
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
 from harness.references.trajectory import Trajectory
@@ -183,6 +185,59 @@ def test_long_run_settles_at_the_measured_steady_velocity(
     motion = taylor.simulate(Device.from_mapping(start), [HeldInputs(0.0, stop, **inputs)], times)
     velocity = np.diff(motion.position)[0] / (10 * PERIOD)
     assert velocity == pytest.approx(expected, rel=2e-6), "mean velocity after the transient"
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_located_events_by_another_method_agree(name: str) -> None:
+    problem = PROBLEMS[name]
+    held = [replace(inputs, stop=min(inputs.stop, 0.06)) for inputs in problem.held]
+    held = [inputs for inputs in held if inputs.start < inputs.stop]
+    times = np.linspace(0.0, 0.06, 301)
+    exact = taylor.simulate(problem.device, held, times)
+    other = located_events.simulate(problem.device, held, times)
+    assert_agree(exact, other, allowed=1e-8)
+    assert other.event_times == pytest.approx(exact.event_times, rel=1e-10, abs=1e-14)
+
+
+def _between(least: float, greatest: float) -> st.SearchStrategy[float]:
+    return st.floats(least, greatest, allow_subnormal=False)
+
+
+@pytest.mark.slow
+@settings(max_examples=100)
+@given(
+    parameters=st.fixed_dictionaries(
+        {
+            "slider_mass": _between(0.01, 2.0),
+            "resonator_mass": _between(0.001, 0.5),
+            "resonator_frequency": _between(300.0, 9000.0),
+            "damping_ratio": _between(0.0, 2.0),
+            "normal_amplitude": _between(0.0, 3.0),
+            "base_amplitude": _between(-9.0, -4.0).map(lambda power: 10.0**power),
+            "tangential_force": _between(-1.0, 1.0),
+            "friction_coefficient": _between(0.05, 0.8),
+            "fidelity": st.sampled_from([1, 2]),
+            "initial_velocity": _between(-0.1, 0.1),
+        }
+    ),
+    inputs=st.lists(
+        st.tuples(_between(0.001, 0.01), _between(-4, 4), _between(-0.3, 0.3), _between(-8, 8)),
+        min_size=1,
+        max_size=4,
+    ),
+)
+def test_random_devices_agree_with_the_other_method(
+    parameters: dict[str, float], inputs: list[tuple[float, float, float, float]]
+) -> None:
+    stops = np.cumsum([duration for duration, *_ in inputs]).tolist()
+    held = [
+        HeldInputs(start, stop, *values)
+        for start, stop, (_, *values) in zip([0.0, *stops[:-1]], stops, inputs, strict=True)
+    ]
+    device = Device.from_mapping(parameters)
+    times = np.linspace(0.0, stops[-1], 101)
+    exact = taylor.simulate(device, held, times)
+    assert_agree(exact, located_events.simulate(device, held, times), allowed=1e-7)
 
 
 def test_missing_heyoka_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
