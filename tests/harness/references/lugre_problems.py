@@ -1,0 +1,74 @@
+"""Motions on bristles that the tests of the LuGre references share."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from harness.references.device import Device
+from harness.references.held_inputs import HeldInputs
+from harness.references.lugre_trajectory import LugreTrajectory
+
+DURATION = 0.012
+TIMES = np.linspace(0.0, DURATION, 121)
+SIGNALS = (
+    "position",
+    "velocity",
+    "resonator_displacement",
+    "resonator_velocity",
+    "normal_force",
+    "friction_force",
+    "bristle_deflection",
+)
+
+
+def constant(**inputs: float) -> list[HeldInputs]:
+    return [HeldInputs(0.0, DURATION, **inputs)]
+
+
+SCHEDULE = [
+    HeldInputs(0.0, 0.0031, phase=0.3),
+    HeldInputs(0.0031, 0.0077, phase=1.9, load=0.1, frequency_ratio=2.0),
+    HeldInputs(0.0077, DURATION, phase=-1.0, load=-0.05, frequency_ratio=1.37),
+]
+
+PROBLEMS = {
+    "table 1": (Device(), constant()),
+    "soft": (Device(bristle_stiffness=1.0, bristle_damping=100.0), constant(load=0.05)),
+    "undamped": (Device(bristle_stiffness=1e3, bristle_damping=0.0), constant()),
+    "ratio 3": (Device(bristle_stiffness=1e4), constant(frequency_ratio=3.0, phase=0.4)),
+    "ratio 1.37, lift-off": (Device(normal_amplitude=2.0), constant(frequency_ratio=1.37)),
+    "presliding": (Device(base_amplitude=5e-8), constant()),
+    "deep presliding": (Device(base_amplitude=1e-12, bristle_damping=100.0), constant()),
+    "presliding, lift-off": (Device(base_amplitude=5e-8, normal_amplitude=2.0), constant()),
+    "fidelity 1, lift-off": (Device(fidelity=1, normal_amplitude=2.0), constant(phase=0.4)),
+    "one face": (Device(friction_faces=1, friction_coefficient=0.3), constant(phase=1.0)),
+    "initial state": (
+        Device(
+            initial_position=0.01,
+            initial_velocity=-0.2,
+            initial_resonator_displacement=3e-4,
+            initial_resonator_velocity=1.5,
+            initial_bristle_deflection=4e-6,
+        ),
+        constant(),
+    ),
+    "schedule": (Device(), SCHEDULE),
+}
+
+STIFF = {
+    "1e6": (Device(bristle_stiffness=1e6), constant(phase=0.4)),
+    "1e8, presliding": (Device(bristle_stiffness=1e8, base_amplitude=5e-8), constant()),
+    "1e8, deep presliding": (
+        Device(bristle_stiffness=1e8, base_amplitude=1e-9, bristle_damping=0.0),
+        constant(frequency_ratio=1.37),
+    ),
+}
+
+
+def assert_agree(expected: LugreTrajectory, found: LugreTrajectory, allowed: float) -> None:
+    for signal in SIGNALS:
+        reference = getattr(expected, signal)
+        error = np.abs(getattr(found, signal) - reference).max()
+        peak = np.abs(reference).max()
+        assert error <= allowed * peak, f"{signal} deviates by {error:.1e}, its peak is {peak:.1e}"
+    assert found.reversals == expected.reversals, "both must see every change of direction"
