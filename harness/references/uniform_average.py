@@ -12,11 +12,11 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from harness.references.averaged_lugre import LugreCase
 from harness.references.closed_forms import equivalent_force
 from harness.references.device import Device
+from harness.references.slow_equilibria import stable_velocity
 
 Array = NDArray[np.float64]
 
@@ -67,23 +67,13 @@ def steady_velocity(
 ) -> float:
     """Return the steady slow velocity under a load in units of N0.
 
-    Raises ValueError for a load that is not below the mean friction of full sliding, mu.
+    Raises ValueError for a load that no velocity holds.
     """
-    limit = case.friction_coefficient
-    if not -limit < load < limit:
-        raise ValueError(
-            f"load = {load!r} must lie between -{limit!r} and {limit!r}, the mean friction of full "
-            "sliding: a greater load runs away"
-        )
-    q = case.strength
-    root: float = brentq(
-        lambda angle: mean_friction(q * math.cos(angle), case, stiffness, frequency, ratio) + load,
-        0.0,
-        math.pi,
-        xtol=1e-13,
-        rtol=1e-12,
+    return stable_velocity(
+        lambda velocity: mean_friction(velocity, case, stiffness, frequency, ratio),
+        case.strength,
+        load,
     )
-    return q * math.cos(root)
 
 
 def blocking_load(

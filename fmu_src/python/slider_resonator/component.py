@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import inf, isfinite, ulp
+from math import inf, isfinite, remainder, tau, ulp
 from typing import Any
 
 from .coulomb import Moment
@@ -209,6 +209,7 @@ class Component:
 
 
 def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
-    inputs = Inputs(values["phase"], values["load"], values["frequency_ratio"])
+    phase = remainder(values["phase"], tau)
+    inputs = Inputs(phase, values["load"], values["frequency_ratio"])
     device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
     return device, inputs, law_of(device, inputs)
