@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp
+from math import expm1
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,4 +17,6 @@ class Bristle:
     def after(self, friction: float, travel: float) -> float:
         """sigma_0 z after `travel` [m] in one direction (its sign), from `friction` on."""
         limit = self.coefficient if travel >= 0.0 else -self.coefficient
-        return limit + (friction - limit) * exp(-self.stiffness * abs(travel) / self.coefficient)
+        return friction - (limit - friction) * expm1(
+            -self.stiffness * abs(travel) / self.coefficient
+        )

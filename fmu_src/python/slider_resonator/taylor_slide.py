@@ -4,9 +4,10 @@ With s the direction of sliding, g = sigma_0 z the friction of the bristle and g
 this series starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):
 
     g = s mu + (g_r - s mu) E,    E = exp(-sigma_0 d / mu),    E' = -(sigma_0 / mu) |v| E
-    F = faces N (s mu + (mu - s g_r) E (sigma_1 v / mu - s))
+    F = faces N (g_r + (mu - s g_r) (s (1 - E) + E sigma_1 v / mu))
 
-so no stiff state is left. All factors have Taylor coefficients by recurrence.
+so no stiff state is left, and deep presliding, where g_r and 1 - E are small, keeps its digits. All
+factors have Taylor coefficients by recurrence.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class TaylorSlide:
     ) -> None:
         w, q = plant.drive_frequency, plant.normal_frequency
         mu = bristle.coefficient
-        bend = mu - sign * friction
+        bend, share = mu - sign * friction, friction / mu
         drag, rate_factor = bristle.damping / mu, -sign * bristle.stiffness / mu
         mass, spring, damper = plant.slider_mass, plant.spring, plant.damper
         stiffness, damping = plant.stick.stiffness, 2.0 * plant.stick.decay
@@ -60,8 +61,9 @@ class TaylorSlide:
             step = 1.0 / (k + 1)
             limit[k] += normal.real
             product = sum(map(mul, v, reversed(decay)))
-            bent.append(drag * product - sign * decay[k])
-            force = sign * limit[k] + bend / mu * sum(map(mul, limit, reversed(bent)))
+            lost = (1.0 if k == 0 else 0.0) - decay[k]
+            bent.append(drag * product + sign * lost)
+            force = share * limit[k] + bend / mu * sum(map(mul, limit, reversed(bent)))
             held = (plant.holding_drive * drive).real + damper * u[k] + spring * y[k] - load
             acceleration = (held - force) / mass
             v.append(acceleration * step)
