@@ -13,7 +13,7 @@ from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
 from tests.fmu.host import Instance
 
 NAN, INF = math.nan, math.inf
-NOT_THERE_YET = [("fidelity", 0), ("friction_law", 1)]
+NOT_THERE_YET = [("fidelity", 0)]
 STEP = 1.7e-3
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]

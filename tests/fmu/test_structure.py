@@ -21,6 +21,8 @@ SITUATIONS: dict[str, dict[str, float]] = {
     "about to touch": {"normal_preload": 0.0, "initial_velocity": 0.1},
     "one degree of freedom": {"fidelity": 1, "load": 0.03, "phase": 1.0},
     "one degree of freedom, held": {"fidelity": 1, "base_amplitude": 1e-9, "load": 0.03},
+    "bristles": {"friction_law": 1, "phase": 0.2},
+    "bristles, sliding": {"friction_law": 1, "initial_velocity": 0.2, "phase": 0.2},
     "third multiple": {"frequency_ratio": 3.0, "phase": 1.5, "load": -0.01},
 }
 OTHER_VALUES: dict[str, float] = {

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import inf, isfinite, ulp
+from math import inf, isfinite, remainder, tau, ulp
 from typing import Any
 
-from .coulomb import Held, Moment, advance, hold, mode_of, start
+from .coulomb import Moment
 from .device import Device, Inputs
+from .law import Law, law_of
 from .lifecycle import Lifecycle, require
 from .motion import State
 from .outputs import OUTPUTS, View
@@ -29,7 +30,7 @@ class Component:
         self._last_event_time = 0.0
         self._values: dict[str, float] = {v.name: checked(v, v.start) for v in SETTABLE}
         self._moment: Moment | None = None
-        self._prepared: tuple[Device, Inputs, Held] | None = None
+        self._prepared: tuple[Device, Inputs, Law] | None = None
 
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
@@ -170,31 +171,30 @@ class Component:
     def _view(self, name: str) -> View:
         if self.lifecycle == Lifecycle.INSTANTIATED:
             require(f"reading {name}", self.lifecycle, Lifecycle.INITIALIZATION)
-        device, inputs, held = self._prepare()
+        device, inputs, law = self._prepare()
         moment = self._moment if self._moment is not None else self._first_moment()
-        mode = mode_of(held, moment.state, moment.theta, moment.psi)
-        return View(device, inputs, held, moment, mode, self._last_event_time)
+        return View(device, inputs, law, moment, law.mode(moment), self._last_event_time)
 
-    def _prepare(self) -> tuple[Device, Inputs, Held]:
+    def _prepare(self) -> tuple[Device, Inputs, Law]:
         if self._prepared is None:
             self._prepared = _prepare(self._values)
         return self._prepared
 
     def _first_moment(self) -> Moment:
-        device, _, held = self._prepare()
+        device, _, law = self._prepare()
         state = State(
             device.initial_velocity,
             device.initial_resonator_displacement,
             device.initial_resonator_velocity,
         )
-        return start(held, state, device.initial_position)
+        return law.start(state, device.initial_position)
 
     def _advanced(self, step_size: float) -> Moment:
-        _, _, held = self._prepare()
+        _, _, law = self._prepare()
         if self._moment is None:
             raise Refusal("doStep refused: there is no motion before initialization has ended")
         try:
-            moment = advance(held, self._moment, step_size)
+            moment = law.advance(self._moment, step_size)
             state = moment.state
             travelled = (moment.position, state.velocity, state.displacement, state.rate)
             finite = all(map(isfinite, (*travelled, moment.psi, moment.theta)))
@@ -208,7 +208,8 @@ class Component:
         return moment
 
 
-def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Held]:
-    inputs = Inputs(values["phase"], values["load"], values["frequency_ratio"])
+def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
+    phase = remainder(values["phase"], tau)
+    inputs = Inputs(phase, values["load"], values["frequency_ratio"])
     device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
-    return device, inputs, hold(device, inputs)
+    return device, inputs, law_of(device, inputs)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import cos, inf, sin, tau
 from typing import NamedTuple
 
+from .clock import Clock
 from .contact import flight_window, is_lifted, time_to_switch
 from .departure import departure_time
 from .device import Device, Inputs
@@ -61,7 +62,8 @@ class Counts(NamedTuple):
 class Moment:
     """Everything that the motion carries on: position [m], phases [rad], contact mode.
 
-    `event_age` is the time [s] since the last event, infinite before any.
+    `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
+    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction.
     """
 
     state: State
@@ -72,6 +74,7 @@ class Moment:
     counts: Counts
     event_age: float
     means: PeriodMeans
+    bristle: float = 0.0
 
 
 def hold(device: Device, inputs: Inputs) -> Held:
@@ -130,7 +133,7 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
     if mode != moment.mode:
         counts, age = counts.begun(mode), 0.0
     leaving = state.velocity == 0.0
-    elapsed = elapsed_low = 0.0
+    clock = Clock(duration)
     remaining = duration
     stalled = 0
     while True:
@@ -169,14 +172,10 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
             counts, age = counts.begun(mode), 0.0
         if t == remaining:
             break
-        total = elapsed + t
-        carried = total - elapsed
-        elapsed_low += (elapsed - (total - carried)) + (t - carried)
-        elapsed = total
-        remaining = (duration - elapsed) - elapsed_low
+        remaining = clock.advance(t)
         if remaining <= 0.0:
             break
-    return Moment(state, position, theta, psi, mode, counts, age, means)
+    return Moment(state, position, theta, psi, mode, counts, age, means, moment.bristle)
 
 
 def _mode_in_contact(plant: Plant, state: State, theta: float, psi: float) -> int:
@@ -189,10 +188,17 @@ def _mode_in_contact(plant: Plant, state: State, theta: float, psi: float) -> in
     return BACKWARD if needed < -limit else STICK
 
 
+def slide(
+    held: Held, sign: int, state: State, theta: float, chi: float, direction: int
+) -> SplitSlide | RegularSlide:
+    """Sliding or flight in closed form, by the form that serves the device."""
+    if held.split is not None:
+        return SplitSlide(held.split, sign, state, theta, chi, direction)
+    return RegularSlide(held.plant, sign, state, theta, chi, direction)
+
+
 def _motion(held: Held, mode: int, state: State, theta: float, chi: float) -> Motion:
     if mode == STICK:
         return Stick(held.plant, state, theta, chi)
     sign = 0 if mode == LIFTED else mode
-    if held.split is not None:
-        return SplitSlide(held.split, sign, state, theta, chi)
-    return RegularSlide(held.plant, sign, state, theta, chi)
+    return slide(held, sign, state, theta, chi, sign)

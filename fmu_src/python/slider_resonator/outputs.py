@@ -8,8 +8,9 @@ from math import cos, sin, tau
 from typing import NamedTuple
 
 from .averaged import Averaged, averaged
-from .coulomb import STICK, Held, Moment, friction_force
+from .coulomb import STICK, Moment
 from .device import Device, Inputs
+from .law import Law
 
 LEAD_DIGITS = 9
 """Decimals to which psi - n theta [rad] is rounded for the averaged outputs: the rounding errors of
@@ -21,14 +22,14 @@ class View(NamedTuple):
 
     device: Device
     inputs: Inputs
-    held: Held
+    law: Law
     moment: Moment
     mode: int
     last_event_time: float
 
 
 def _resonator_displacement(view: View) -> float:
-    amplitude = view.held.plant.resonator_amplitude
+    amplitude = view.law.held.plant.resonator_amplitude
     if amplitude is None:
         return view.moment.state.displacement
     theta = view.moment.theta
@@ -36,12 +37,12 @@ def _resonator_displacement(view: View) -> float:
 
 
 def _resonator_velocity(view: View) -> float:
-    amplitude = view.held.plant.resonator_amplitude
+    amplitude = view.law.held.plant.resonator_amplitude
     if amplitude is None:
         return view.moment.state.rate
     theta = view.moment.theta
     turning = amplitude.real * cos(theta) - amplitude.imag * sin(theta)
-    return view.held.plant.drive_frequency * turning
+    return view.law.held.plant.drive_frequency * turning
 
 
 def _normal_force(view: View) -> float:
@@ -67,7 +68,7 @@ OUTPUTS: dict[str, Callable[[View], float]] = {
     "resonator_displacement": _resonator_displacement,
     "resonator_velocity": _resonator_velocity,
     "normal_force": _normal_force,
-    "friction_force": lambda view: friction_force(view.held, view.moment, view.mode),
+    "friction_force": lambda view: view.law.friction_force(view.moment, view.mode),
     "contact_mode": lambda view: float(view.mode),
     "reversals": lambda view: float(view.moment.counts.reversals),
     "stick_fraction": lambda view: view.moment.means.present_stick_fraction(view.mode == STICK),

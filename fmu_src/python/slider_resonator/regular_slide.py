@@ -17,17 +17,30 @@ from .plant import Plant
 
 
 class RegularSlide:
-    """Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight."""
+    """Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight.
 
-    __slots__ = ("_deceleration", "_fraction", "_pair", "_plant", "_resonator", "_sign", "_start")
+    The velocity is watched in `direction`, unless that is 0.
+    """
 
-    def __init__(self, plant: Plant, sign: int, state: State, theta: float, chi: float) -> None:
+    __slots__ = (
+        "_deceleration",
+        "_direction",
+        "_fraction",
+        "_pair",
+        "_plant",
+        "_resonator",
+        "_start",
+    )
+
+    def __init__(
+        self, plant: Plant, sign: int, state: State, theta: float, chi: float, direction: int
+    ) -> None:
         resisting = sign * plant.friction_preload + plant.load
         w, q = plant.drive_frequency, plant.normal_frequency
         drive_turn = -1j * rect(1.0, theta)
         friction = -1j * sign * plant.friction_amplitude * rect(1.0, chi)
         self._plant = plant
-        self._sign = sign
+        self._direction = direction
         self._start = state
         self._fraction = plant.mass_fraction
         self._deceleration = resisting / plant.total_mass
@@ -41,8 +54,8 @@ class RegularSlide:
         )
 
     def watches(self) -> tuple[Watch, ...]:
-        """The velocity in the direction of sliding; nothing in flight."""
-        if self._sign == 0:
+        """The velocity in the direction to watch."""
+        if self._direction == 0:
             return ()
         plant = self._plant
         fastest = max(plant.drive_frequency, abs(plant.normal_frequency))
@@ -87,4 +100,4 @@ class RegularSlide:
             rate = sample.rate
             acceleration -= self._fraction * sample.acceleration
             bound += self._fraction * sample.jerk_bound
-        return self._sign * self._velocity(t, rate), self._sign * acceleration, bound
+        return self._direction * self._velocity(t, rate), self._direction * acceleration, bound

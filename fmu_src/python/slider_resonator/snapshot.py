@@ -45,6 +45,7 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
             Counts(**{name: integer(name, value) for name, value in plain["counts"].items()}),
             inf if age is None else number("event_age", age),
             PeriodMeans(complete=bool(complete), **_numbers("means", means)),
+            number("bristle", plain["bristle"]),
         )
     except (KeyError, TypeError, AttributeError) as error:
         raise Refusal(f"FMU state refused: its motion does not fit ({error!r})") from error

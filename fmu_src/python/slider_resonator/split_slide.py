@@ -65,10 +65,14 @@ def split(plant: Plant) -> Split | None:
 
 
 class SplitSlide:
-    """Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight."""
+    """Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight.
+
+    The velocity is watched in `direction`, unless that is 0.
+    """
 
     __slots__ = (
         "_constant",
+        "_direction",
         "_displacement",
         "_eigenvalue",
         "_k0",
@@ -76,7 +80,6 @@ class SplitSlide:
         "_resonator_drive",
         "_resonator_free",
         "_resonator_normal",
-        "_sign",
         "_split",
         "_velocity",
         "_velocity_drive",
@@ -84,7 +87,9 @@ class SplitSlide:
         "_velocity_normal",
     )
 
-    def __init__(self, split: Split, sign: int, state: State, theta: float, chi: float) -> None:
+    def __init__(
+        self, split: Split, sign: int, state: State, theta: float, chi: float, direction: int
+    ) -> None:
         plant = split.plant
         w, q = plant.drive_frequency, plant.normal_frequency
         drive_turn = rect(1.0, theta)
@@ -107,7 +112,7 @@ class SplitSlide:
             free = complex(displacement, -(rate - eigenvalue.real * displacement) / eigenvalue.imag)
             vh = -plant.mass_fraction * eigenvalue * free
         self._split = split
-        self._sign = sign
+        self._direction = direction
         self._eigenvalue = eigenvalue
         self._velocity = state.velocity
         self._constant = constant
@@ -121,8 +126,8 @@ class SplitSlide:
         self._k1 = -(friction + plant.load) / plant.total_mass
 
     def watches(self) -> tuple[Watch, ...]:
-        """The velocity in the direction of sliding; nothing in flight."""
-        sign = self._sign
+        """The velocity in the direction to watch."""
+        sign = self._direction
         if sign == 0:
             return ()
         plant = self._split.plant

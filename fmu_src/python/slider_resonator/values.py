@@ -9,7 +9,6 @@ from .variables import VARIABLES, Variable
 
 NOT_AVAILABLE = {
     ("fidelity", 0): "averaged motion is not available in this version; allowed are 1 and 2",
-    ("friction_law", 1): "LuGre friction is not available in this version; allowed is 0 (Coulomb)",
 }
 BY_NAME = {variable.name: variable for variable in VARIABLES}
 SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "output")

@@ -147,3 +147,14 @@ def test_outputs_feel_inputs_at_once() -> None:
     component.set({"phase": 1.0})
     psi = component.snapshot()["moment"]["psi"]
     assert one(component, "normal_force") == pytest.approx(1.0 + math.sin(psi + 1.0), rel=1e-14)
+
+
+@pytest.mark.parametrize("phase", [0.3, -2.0, 3.0])
+def test_whole_turns_of_phase_change_nothing(phase: float) -> None:
+    far = phase + 1e12 * math.tau
+    near = running(phase=math.remainder(far, math.tau))
+    turned = running(phase=far)
+    near.step(0.0, 0.01)
+    turned.step(0.0, 0.01)
+    assert outputs(turned) == outputs(near)
+    assert one(turned, "phase") == far

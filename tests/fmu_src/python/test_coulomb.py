@@ -105,8 +105,8 @@ def test_both_closed_forms_agree(ratio: float, sign: int, damping: float) -> Non
         assert damping < 0.02, "this device is split"
         return
     state = State(0.1 * sign, 2e-4, -1.1)
-    fast = SplitSlide(amplitudes, sign, state, 1.0, 2.0)
-    slow = RegularSlide(held.plant, sign, state, 1.0, 2.0)
+    fast = SplitSlide(amplitudes, sign, state, 1.0, 2.0, sign)
+    slow = RegularSlide(held.plant, sign, state, 1.0, 2.0, sign)
     for t in (1e-7, 3e-4, 2e-3):
         assert fast.travel(t) == pytest.approx(slow.travel(t), abs=1e-17)
         for one, other in zip(fast.state(t), slow.state(t), strict=True):

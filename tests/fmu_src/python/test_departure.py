@@ -29,7 +29,7 @@ def test_moves_on_until_then(fidelity: int, damping: float) -> None:
         state = State(0.0, at_release.state.displacement, at_release.state.rate)
         chi = at_release.psi + held.plant.phase
         time = departure_time(held.plant, moment.mode, state, at_release.theta, chi)
-        slide = RegularSlide(held.plant, moment.mode, state, at_release.theta, chi)
+        slide = RegularSlide(held.plant, moment.mode, state, at_release.theta, chi, moment.mode)
         assert time > 0.0, "a released slider departs"
         for i in range(1, 50):
             assert moment.mode * slide.state(time * i / 50).velocity > 0.0

@@ -1,0 +1,129 @@
+"""Sliding against a bristle that is still being bent: LuGre friction as a Taylor series in time.
+
+With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value where
+this series starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):
+
+    g = s mu + (g_r - s mu) E,    E = exp(-sigma_0 d / mu),    E' = -(sigma_0 / mu) |v| E
+    F = faces N (g_r + (mu - s g_r) (s (1 - E) + E sigma_1 v / mu))
+
+so no stiff state is left, and deep presliding, where g_r and 1 - E are small, keeps its digits. All
+factors have Taylor coefficients by recurrence.
+"""
+
+from __future__ import annotations
+
+from cmath import rect
+from math import inf
+from operator import mul
+
+from .bristle import Bristle
+from .first_zero import Watch
+from .motion import EPSILON, State
+from .plant import Plant
+
+ORDER = 22
+"""Terms of the series: near the order at which a digit costs least, whatever the tolerance."""
+
+
+class TaylorSlide:
+    """Motion in contact from `state` on, in direction `sign`, until the series no longer holds.
+
+    `friction` is sigma_0 z at the start. The series is cut off at `reach` [s], where its last terms
+    are `tolerance` [m/s].
+    """
+
+    __slots__ = ("_displacement", "_position", "_rate", "_sign", "_velocity", "reach")
+
+    def __init__(
+        self,
+        plant: Plant,
+        bristle: Bristle,
+        sign: int,
+        state: State,
+        friction: float,
+        theta: float,
+        chi: float,
+        tolerance: float,
+    ) -> None:
+        w, q = plant.drive_frequency, plant.normal_frequency
+        mu = bristle.coefficient
+        bend, share = mu - sign * friction, friction / mu
+        drag, rate_factor = bristle.damping / mu, -sign * bristle.stiffness / mu
+        mass, spring, damper = plant.slider_mass, plant.spring, plant.damper
+        stiffness, damping = plant.stick.stiffness, 2.0 * plant.stick.decay
+        drive = -1j * rect(1.0, theta)
+        normal = -1j * plant.friction_amplitude * rect(1.0, chi)
+        v, y, u = [state.velocity], [state.displacement], [state.rate]
+        limit, decay, bent = [plant.friction_preload], [1.0], []
+        load = plant.load
+        resonates = plant.mass_fraction != 0.0
+        for k in range(ORDER):
+            step = 1.0 / (k + 1)
+            limit[k] += normal.real
+            product = sum(map(mul, v, reversed(decay)))
+            lost = (1.0 if k == 0 else 0.0) - decay[k]
+            bent.append(drag * product + sign * lost)
+            force = share * limit[k] + bend / mu * sum(map(mul, limit, reversed(bent)))
+            held = (plant.holding_drive * drive).real + damper * u[k] + spring * y[k] - load
+            acceleration = (held - force) / mass
+            v.append(acceleration * step)
+            swing = plant.base_acceleration * drive.real - damping * u[k] - stiffness * y[k]
+            u.append((swing - acceleration) * step if resonates else 0.0)
+            y.append(u[k] * step if resonates else 0.0)
+            decay.append(rate_factor * product * step)
+            limit.append(0.0)
+            load = 0.0
+            drive *= complex(0.0, w * step)
+            normal *= complex(0.0, q * step)
+        self._sign = sign
+        self._velocity, self._displacement, self._rate = v, y, u
+        self._position = [0.0] + [c / (k + 1) for k, c in enumerate(v)]
+        self.reach = _reach(v, tolerance)
+        if resonates:
+            self.reach = min(self.reach, _reach(u, tolerance / plant.mass_fraction))
+
+    def departs(self) -> bool:
+        """Whether the motion begins in direction `sign`, or stays at rest."""
+        first = next((c for c in self._velocity if c != 0.0), 0.0)
+        return self._sign * first >= 0.0
+
+    def watch(self, horizon: float) -> Watch:
+        """The velocity in the direction of sliding, up to `horizon` [s]."""
+        velocity = [self._sign * c for c in self._velocity]
+        slope = [k * c for k, c in enumerate(velocity)][1:]
+        curvature = [k * abs(c) for k, c in enumerate(slope)][1:]
+        bound = _value(curvature, horizon)
+        scale = _value([abs(c) for c in velocity], horizon)
+
+        def signal(t: float) -> tuple[float, float, float]:
+            return _value(velocity, t), _value(slope, t), bound
+
+        return Watch(signal, 4.0 * EPSILON * scale, 1.0 / horizon, inf)
+
+    def travel(self, t: float) -> float:
+        """Displacement of the slider after `t` [s], in m."""
+        return _value(self._position, t)
+
+    def state(self, t: float) -> State:
+        """State after `t` [s]."""
+        return State(
+            _value(self._velocity, t), _value(self._displacement, t), _value(self._rate, t)
+        )
+
+
+def _value(coefficients: list[float], t: float) -> float:
+    total = 0.0
+    for c in reversed(coefficients):
+        total = total * t + c
+    return total
+
+
+def _reach(coefficients: list[float], tolerance: float) -> float:
+    """How far a series holds [s]: where its last two terms are `tolerance`."""
+    last = len(coefficients) - 1
+    reach = inf
+    for k in (last - 1, last):
+        size = abs(coefficients[k])
+        if size > 0.0:
+            reach = min(reach, (tolerance / size) ** (1.0 / k))
+    return reach

@@ -1,0 +1,146 @@
+"""The averaged slow motion under Coulomb friction, at any integer ratio of the two frequencies.
+
+Dimensionless as in `closed_forms`: velocities in units of ``x0 w0``, forces in units of the mean
+friction ``faces mu N0``, time in ``1 / w0``. ``strength`` is q, ``amplitude_ratio`` alpha, ``ratio``
+the frequency of the normal load over that of the drive, and ``phase`` the phase of the normal load
+when the tangential force passes through zero upward. Functions on a device are dimensional.
+"""
+
+from __future__ import annotations
+
+import math
+
+from scipy.optimize import brentq
+
+from harness.references.closed_forms import REFERENCE_FREQUENCY, EquivalentForce, equivalent_force
+from harness.references.device import Device
+
+
+def mean_friction(
+    velocity: float, strength: float, amplitude_ratio: float, phase: float, ratio: float = 1.0
+) -> float:
+    """Return the friction averaged over the fast motion, the bracket of (4) for any ratio.
+
+    The fast velocity is ``velocity - strength cos(theta)``; at and beyond ``strength`` friction no
+    longer changes sign. An integer ratio n gives
+    ``1 - 2 theta / pi - 2 alpha / (n pi) sin(n theta) sin(phase)``, at other ratios only the mean
+    load counts. Raises ValueError as `steady_velocity_at_ratio` does for strength and
+    amplitude_ratio.
+    """
+    _check(strength, amplitude_ratio)
+    angle = math.acos(max(-1.0, min(1.0, velocity / strength)))
+    slide = 1.0 - 2.0 * angle / math.pi
+    if ratio == 0.0:
+        return slide * (1.0 + amplitude_ratio * math.sin(phase))
+    if ratio != round(ratio):
+        return slide
+    share = 2.0 * amplitude_ratio / (ratio * math.pi)
+    return slide - share * math.sin(ratio * angle) * math.sin(phase)
+
+
+def slow_acceleration(
+    velocity: float,
+    strength: float,
+    amplitude_ratio: float,
+    phase: float,
+    *,
+    ratio: float = 1.0,
+    load: float = 0.0,
+) -> float:
+    """Return the acceleration of the slow motion, (4) with the load of (20).
+
+    With `drifting_phase` as the phase it is (A.2).
+    """
+    return -mean_friction(velocity, strength, amplitude_ratio, phase, ratio) - load
+
+
+def linear_slow_acceleration(
+    velocity: float, strength: float, amplitude_ratio: float, phase: float
+) -> float:
+    """Return the acceleration of the slow motion for velocities small against q, (6).
+
+    With `drifting_phase` as the phase it is (A.3).
+    """
+    return 2.0 / math.pi * (amplitude_ratio * math.sin(phase) - velocity / strength)
+
+
+def drifting_phase(time: float, detuning: float, phase: float) -> float:
+    """Return the phase in rad at a dimensionless time for frequencies that differ, psi of (A.1)."""
+    return detuning * time + phase
+
+
+def linear_beat_velocity(strength: float, amplitude_ratio: float, detuning: float) -> float:
+    """Return the amplitude of the slow velocity that (A.3) settles to at a detuning."""
+    return 2.0 * amplitude_ratio / math.pi / math.hypot(detuning, 2.0 / (math.pi * strength))
+
+
+def linear_beat_displacement(strength: float, amplitude_ratio: float, detuning: float) -> float:
+    """Return the amplitude of the slow displacement that (A.3) settles to at a detuning.
+
+    Raises ValueError for no detuning: the slider then slides on.
+    """
+    if detuning == 0.0:
+        raise ValueError("detuning = 0: the slider does not oscillate, it slides on")
+    return linear_beat_velocity(strength, amplitude_ratio, detuning) / abs(detuning)
+
+
+def steady_velocity_at_ratio(
+    strength: float, amplitude_ratio: float, phase: float, ratio: float, load: float = 0.0
+) -> float:
+    """Return the steady slow velocity at any ratio under a load, (20) for ratio 1.
+
+    Raises ValueError unless ``strength`` > 0, 0 <= ``amplitude_ratio`` <= 1, and the load is less
+    than the mean friction of full sliding (1, at ratio 0 that of the load as it stands).
+    """
+    _check(strength, amplitude_ratio)
+    limit = 1.0 + amplitude_ratio * math.sin(phase) if ratio == 0.0 else 1.0
+    if not -limit < load < limit:
+        raise ValueError(
+            f"load = {load!r} must lie between -{limit!r} and {limit!r}, the mean friction of full "
+            "sliding: a greater load runs away"
+        )
+
+    def imbalance(angle: float) -> float:
+        velocity = strength * math.cos(angle)
+        return mean_friction(velocity, strength, amplitude_ratio, phase, ratio) + load
+
+    # For |alpha sin(phase)| <= 1 the imbalance never rises over this interval.
+    root: float = brentq(imbalance, 0.0, math.pi, xtol=1e-15, rtol=1e-14)
+    return strength * math.cos(root)
+
+
+def device_steady_velocity_at_ratio(
+    device: Device, phase: float, ratio: float, load: float = 0.0
+) -> float:
+    """Return the steady velocity of a device in m/s at any ratio, phase in rad, load in N.
+
+    Raises ValueError as `equivalent_force` and `steady_velocity_at_ratio` do.
+    """
+    force = equivalent_force(device)
+    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
+    return (
+        steady_velocity_at_ratio(
+            force.strength,
+            device.normal_amplitude / device.normal_preload,
+            phase_to_force(force, phase, ratio),
+            ratio,
+            load / friction,
+        )
+        * force.length_scale
+        * REFERENCE_FREQUENCY
+    )
+
+
+def phase_to_force(force: EquivalentForce, phase: float, ratio: float) -> float:
+    """Return the phase in rad relative to the equivalent force from that to the base excitation."""
+    return phase + ratio * force.angle
+
+
+def _check(strength: float, amplitude_ratio: float) -> None:
+    if not strength > 0.0:
+        raise ValueError(f"strength = {strength!r} must be greater than 0")
+    if not 0.0 <= amplitude_ratio <= 1.0:
+        raise ValueError(
+            f"amplitude_ratio = {amplitude_ratio!r} must lie between 0 and 1: above 1 the contact "
+            "lifts and these averages do not hold"
+        )

@@ -1,0 +1,33 @@
+"""The course of a slow motion from its averaged acceleration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+Array = NDArray[np.float64]
+
+
+def slow_course(
+    acceleration: Callable[[float, float], float], times: Array, velocity: float = 0.0
+) -> tuple[Array, Array]:
+    """Return slow position and velocity at ``times`` (n,), from position 0 at the first of them.
+
+    ``acceleration`` is a function of time and velocity. Raises RuntimeError when it cannot be
+    integrated.
+    """
+    solution = solve_ivp(
+        lambda time, state: (state[1], acceleration(time, state[1])),
+        (times[0], times[-1]),
+        (0.0, velocity),
+        method="LSODA",
+        t_eval=times,
+        rtol=1e-8,
+        atol=1e-10,
+    )
+    if not solution.success:
+        raise RuntimeError(f"the slow motion cannot be integrated: {solution.message}")
+    return np.asarray(solution.y[0]), np.asarray(solution.y[1])

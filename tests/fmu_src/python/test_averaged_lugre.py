@@ -1,0 +1,64 @@
+"""The uniform average: figures measured elsewhere, and both limits of the bristle stiffness."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fmu_src.python.slider_resonator.averaged import averaged
+from fmu_src.python.slider_resonator.averaged_lugre import gauss_legendre
+from fmu_src.python.slider_resonator.device import Device, Inputs
+
+UNIT = Device(
+    slider_mass=1.0,
+    resonator_mass=0.0,
+    base_amplitude=0.0,
+    friction_faces=1,
+    friction_coefficient=0.4,
+    friction_law=1,
+    bristle_damping=1.0,
+)
+"""Model 2 with x0 = 1 m and w0 = 1 rad/s, so that its parameters are the dimensionless ones."""
+
+
+def steady(stiffness: float, omega: float) -> float:
+    device = replace(
+        UNIT, bristle_stiffness=stiffness, drive_frequency=omega, tangential_force=omega
+    )
+    return averaged(device, Inputs(phase=math.pi / 2), 0.0).steady_velocity
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "omega", "velocity"),
+    [(10.0, 1e3, 0.50828), (100.0, 1e3, 0.50936), (1e3, 1e3, 0.55625), (1e4, 1e3, 0.65274),
+     (100.0, 100.0, 0.55625), (100.0, 10.0, 0.65274)],
+)  # fmt: skip
+def test_uniform_average(stiffness: float, omega: float, velocity: float) -> None:
+    assert steady(stiffness, omega) == pytest.approx(velocity, abs=6e-6)
+
+
+def test_soft_bristles_are_the_slow_manifold() -> None:
+    """0.50827 by eq. (17)."""
+    assert steady(0.1, 1e3) == pytest.approx(0.50827, abs=6e-6)
+
+
+def test_hard_bristles_are_coulomb_friction() -> None:
+    """The time that bending takes falls with stiffness^(-1/2), and so does the difference."""
+    coulomb = averaged(Device(), Inputs(), 0.0)
+    gaps = []
+    for stiffness in (1e6, 1e8, 1e10):
+        hard = Device(friction_law=1, bristle_stiffness=stiffness, bristle_damping=0.0)
+        lugre = averaged(hard, Inputs(), 0.0)
+        gaps.append(abs(lugre.steady_velocity - coulomb.steady_velocity))
+    assert gaps[1] / gaps[2] == pytest.approx(10.0, rel=0.05)
+    assert gaps[2] < 5e-4 * coulomb.steady_velocity
+
+
+def test_quadrature_rule() -> None:
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    ours = np.array(sorted(gauss_legendre(12)))
+    assert ours[:, 0] == pytest.approx(nodes, abs=1e-15)
+    assert ours[:, 1] == pytest.approx(weights, abs=1e-14)
