@@ -1,0 +1,41 @@
+"""Integrals of the vibrating normal load by quadrature, lift-off included."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fmu_src.python.slider_resonator.device import Device
+from fmu_src.python.slider_resonator.vibrating_load import VibratingLoad
+
+
+@given(
+    st.sampled_from([1.0, 2.0, 3.0, -1.0, 0.0]),
+    st.floats(0.0, 3.0),
+    st.floats(-4.0, 4.0),
+    st.floats(-7.0, 7.0),
+    st.floats(0.0, 10.0),
+)
+def test_integral(ratio: float, amplitude: float, delta: float, begin: float, span: float) -> None:
+    load = VibratingLoad(Device(normal_amplitude=amplitude), ratio, delta)
+    angles = begin + span * (np.arange(20_000) + 0.5) / 20_000
+    normal = np.maximum(0.0, 1.0 + amplitude * np.sin(ratio * angles + delta))
+    assert load.integral(begin, begin + span) == pytest.approx(
+        float(normal.mean()) * span, abs=2e-5 * (1.0 + span)
+    )
+    assert load.at(begin) == pytest.approx(
+        max(0.0, 1.0 + amplitude * math.sin(ratio * begin + delta)), abs=1e-12
+    )
+
+
+@pytest.mark.parametrize("amplitude", [0.5, 2.5])
+def test_between_integers_only_the_mean_counts(amplitude: float) -> None:
+    angles = (np.arange(100_000) + 0.5) / 100_000 * math.tau
+    mean = float(np.maximum(0.0, 1.0 + amplitude * np.sin(angles)).mean())
+    load = VibratingLoad(Device(normal_amplitude=amplitude), 1.37, 0.4)
+    assert load.at(0.1) == load.at(2.0) == pytest.approx(mean, rel=1e-8)
+    assert load.integral(1.0, 3.5) == pytest.approx(2.5 * mean, rel=1e-8)
