@@ -77,6 +77,18 @@ PROBLEMS: dict[str, Problem] = {
             (0.15, {"phase": -1.0, "load": 0.0, "frequency_ratio": 1.0}),
         ),
     ),
+    "soft resonator": Problem({"resonator_frequency": 1.0}, under(phase=0.4)),
+    "very soft resonator": Problem(
+        {"resonator_frequency": 0.03, "damping_ratio": 1.5}, under(phase=0.4)
+    ),
+    "softest resonator": Problem(
+        {"resonator_frequency": 1e-6}, under(phase=0.4, frequency_ratio=0.0, load=0.3)
+    ),
+    "no preload": Problem({"normal_preload": 0.0}, under(frequency_ratio=-1.5)),
+    "undriven under a lifting contact": Problem(
+        {"base_amplitude": 0.0, "normal_amplitude": 1.7}, under(phase=-1.4695858455634698)
+    ),
+    "no friction": Problem({"friction_coefficient": 0.0}, under(load=0.01)),
     "fidelity 1": Problem({"fidelity": 1}, under(phase=0.4, load=0.05)),
     "fidelity 1, lift-off, ratio 3": Problem(
         {"fidelity": 1, "normal_amplitude": 2.0}, under(frequency_ratio=3.0)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from cmath import phase as argument
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import cos, pi, tau
+from math import copysign, cos, pi, tau
 
 from .averaged_lugre import FastMotion, mean_friction
 from .bristle import Bristle
@@ -54,6 +54,9 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
     delta = inputs.phase + normal_lead - inputs.frequency_ratio * argument(force)
     load = VibratingLoad(device, inputs.frequency_ratio, delta)
     friction = _lugre(device, fast, load) if device.friction_law else _coulomb(device, load)
+    if friction(0.0) == friction(pi):
+        # Nothing holds the slider back: every velocity is steady, or with a load none.
+        return Averaged(-copysign(fast.velocity, inputs.load) if inputs.load else 0.0, 0.0)
     low, high = 0.0, pi
     for _ in range(ITERATIONS):
         middle = 0.5 * (low + high)

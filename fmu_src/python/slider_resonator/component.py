@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from math import inf, isfinite, remainder, tau, ulp
 from typing import Any
 
-from .coulomb import Moment
+from .coulomb import LONGEST_ARC, Moment
 from .device import Device, Inputs
 from .law import Law, law_of
 from .lifecycle import Lifecycle, require
@@ -15,6 +15,9 @@ from .outputs import OUTPUTS, View
 from .refusal import Refusal
 from .snapshot import FORMAT, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, checked, number
+
+MOST_TURNS = 1e8
+"""Turns of the fastest oscillation in one step up to which its work is accepted."""
 
 
 class Component:
@@ -123,6 +126,7 @@ class Component:
                 f"doStep: communicationStepSize = {step_size!r} refused: allowed is a step up to "
                 f"stopTime = {self._stop_time!r}"
             )
+        self._require_bounded_work(step_size)
         moment = self._advanced(step_size)
         if moment.event_age <= step_size:
             self._last_event_time = time + (step_size - moment.event_age)
@@ -172,13 +176,16 @@ class Component:
         if self.lifecycle == Lifecycle.INSTANTIATED:
             require(f"reading {name}", self.lifecycle, Lifecycle.INITIALIZATION)
         device, inputs, law = self._prepare()
-        moment = self._moment if self._moment is not None else self._first_moment()
+        moment = self._present()
         return View(device, inputs, law, moment, law.mode(moment), self._last_event_time)
 
     def _prepare(self) -> tuple[Device, Inputs, Law]:
         if self._prepared is None:
             self._prepared = _prepare(self._values)
         return self._prepared
+
+    def _present(self) -> Moment:
+        return self._moment if self._moment is not None else self._first_moment()
 
     def _first_moment(self) -> Moment:
         device, _, law = self._prepare()
@@ -189,12 +196,19 @@ class Component:
         )
         return law.start(state, device.initial_position)
 
+    def _require_bounded_work(self, step_size: float) -> None:
+        _, _, law = self._prepare()
+        frequency = LONGEST_ARC / law.held.arc
+        if step_size * frequency > tau * MOST_TURNS:
+            raise Refusal(
+                f"doStep: communicationStepSize = {step_size!r} refused: the fastest oscillation "
+                f"has {frequency!r} rad/s; allowed is a step of at most {MOST_TURNS:g} turns of it"
+            )
+
     def _advanced(self, step_size: float) -> Moment:
         _, _, law = self._prepare()
-        if self._moment is None:
-            raise Refusal("doStep refused: there is no motion before initialization has ended")
         try:
-            moment = law.advance(self._moment, step_size)
+            moment = law.advance(self._present(), step_size)
             state = moment.state
             travelled = (moment.position, state.velocity, state.displacement, state.rate)
             finite = all(map(isfinite, (*travelled, moment.psi, moment.theta)))
@@ -212,4 +226,10 @@ def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
     phase = remainder(values["phase"], tau)
     inputs = Inputs(phase, values["load"], values["frequency_ratio"])
     device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
-    return device, inputs, law_of(device, inputs)
+    try:
+        return device, inputs, law_of(device, inputs)
+    except ArithmeticError as error:
+        raise Refusal(
+            "the parameters are refused: masses, frequencies and amplitudes together leave the "
+            f"range of floating point numbers ({error})"
+        ) from error

@@ -7,21 +7,42 @@ from math import asin, inf, pi, tau
 from .plant import Plant
 
 REACHED = 1e-12
-"""Angle [rad] past a boundary, from rounding, at which it counts as just reached. The shortest
-flight that floating point numbers can ask for is 3e-8 rad long."""
+"""Angle [rad] before a boundary, or past it by rounding, at which it counts as just reached. The
+shortest flight that floating point numbers can ask for is 3e-8 rad long."""
 
 
 def flight_window(plant: Plant) -> tuple[float, float] | None:
-    """Open range of chi in (0, 2 pi) [rad] in which the contact is lifted; None if it never is."""
+    """Range of chi [rad] in which the contact is lifted; None if it never is.
+
+    A whole turn from 0 on if there is no normal load at all.
+    """
     if plant.preload_share >= 1.0:
         return None
+    if plant.preload_share < 0.0:
+        return 0.0, tau
     dip = asin(plant.preload_share)
     return pi + dip, tau - dip
 
 
-def is_lifted(window: tuple[float, float] | None, chi: float) -> bool:
-    """Whether the contact is lifted at normal phase `chi` [rad]."""
-    return window is not None and window[0] < chi % tau < window[1]
+def is_lifted(window: tuple[float, float] | None, chi: float, frequency: float) -> bool:
+    """Whether the contact is lifted at normal phase `chi` [rad].
+
+    On a boundary that depends on where the phase goes: `frequency` [rad/s] is its rate. At rate 0
+    the contact is lifted where the normal load is 0.
+    """
+    if window is None:
+        return False
+    width = window[1] - window[0]
+    if width >= tau:
+        return True
+    inside = (chi - window[0]) % tau
+    if tau - inside < REACHED:
+        inside -= tau
+    if frequency > 0.0:
+        return -REACHED < inside < width - REACHED
+    if frequency < 0.0:
+        return REACHED < inside < width + REACHED
+    return -REACHED < inside < width + REACHED
 
 
 def time_to_switch(
@@ -31,7 +52,7 @@ def time_to_switch(
 
     `frequency` [rad/s] is that of the normal load and may be negative.
     """
-    if window is None or frequency == 0.0:
+    if window is None or frequency == 0.0 or window[1] - window[0] >= tau:
         return inf
     first, last = window if frequency > 0.0 else (window[1], window[0])
     ahead = (last if lifted else first) - chi

@@ -15,9 +15,10 @@ from .contact import flight_window, is_lifted, time_to_switch
 from .departure import departure_time
 from .device import Device, Inputs
 from .first_zero import first_zero
-from .motion import Motion, State
+from .motion import EPSILON, Motion, State
 from .period import PeriodMeans
 from .plant import Plant, plant
+from .refusal import Refusal
 from .regular_slide import RegularSlide
 from .split_slide import Split, SplitSlide, split
 from .stick import Stick
@@ -28,8 +29,8 @@ LONGEST_ARC = 60.0
 """Angle [rad] of the fastest oscillation after which a motion is anchored anew: keeps the rounding
 of large arguments of sine and cosine out."""
 
-STALLED = 20
-"""Events in a row without progress in time after which the mode is held for a moment."""
+MOST_STALLED = 1000
+"""Events in a row without progress in time that are followed before a step is refused."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,11 +52,11 @@ class Counts(NamedTuple):
 
     def begun(self, mode: int) -> Counts:
         """The counts once contact mode `mode` has begun."""
-        if mode == STICK:
-            return Counts(self.sliding, self.reversals, self.sticks + 1)
-        if mode == LIFTED:
-            return self
-        return Counts(mode, self.reversals + (self.sliding == -mode), self.sticks)
+        return self._replace(sticks=self.sticks + 1) if mode == STICK else self
+
+    def slid(self, direction: int) -> Counts:
+        """The counts once the slider has moved on in `direction`."""
+        return Counts(direction, self.reversals + (self.sliding == -direction), self.sticks)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +110,7 @@ def friction_limit(plant: Plant, psi: float) -> float:
 
 def mode_of(held: Held, state: State, theta: float, psi: float) -> int:
     """Contact mode of `state` under the held inputs."""
-    if is_lifted(held.window, psi + held.plant.phase):
+    if is_lifted(held.window, psi + held.plant.phase, held.plant.normal_frequency):
         return LIFTED
     return _mode_in_contact(held.plant, state, theta, psi)
 
@@ -140,23 +141,24 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
         chi = psi + plant.phase
         motion = _motion(held, mode, state, theta, chi)
         switch = time_to_switch(window, chi, q, mode == LIFTED)
-        t = min(remaining, switch, arc)
-        ended_by = -1
-        if stalled < STALLED:
-            watches = motion.watches()
-            begin = departure_time(plant, mode, state, theta, chi) if leaving and mode else 0.0
-            for index, watch in enumerate(watches):
-                zero = first_zero(watch, t, begin)
-                if zero is not None:
-                    t, ended_by = zero, index
-        else:
-            t = min(t, 1e-6 * arc)
+        t = until = min(remaining, switch, arc)
+        ended_by, begin = -1, 0.0
+        if leaving and mode in (FORWARD, BACKWARD):
+            begin = departure_time(plant, mode, state, theta, chi)
+        for index, watch in enumerate(motion.watches()):
+            zero = first_zero(watch, t, begin)
+            if zero is not None:
+                t, ended_by = zero, index
+        if ended_by >= 0 and mode == STICK and _lifts_first(plant, chi + q * t, switch, until):
+            t, ended_by = switch, -1
         travelled = motion.travel(t)
         means, theta = means.advanced(t, theta, w, mode == STICK, motion.travel, travelled)
         position += travelled
         psi = (psi + q * t) % tau
         state = motion.state(t)
         age += t
+        if travelled * mode > 0.0 and mode != counts.sliding and mode != LIFTED:
+            counts = counts.slid(mode)
         before, leaving = mode, False
         if ended_by >= 0 and mode == STICK:
             mode = (FORWARD, BACKWARD)[ended_by]
@@ -168,6 +170,8 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
         elif t == switch:
             mode = _mode_in_contact(plant, state, theta, psi) if mode == LIFTED else LIFTED
         stalled = stalled + 1 if 1e12 * t < arc else 0
+        if stalled > MOST_STALLED:
+            raise stalling()
         if mode != before:
             counts, age = counts.begun(mode), 0.0
         if t == remaining:
@@ -176,6 +180,21 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
         if remaining <= 0.0:
             break
     return Moment(state, position, theta, psi, mode, counts, age, means, moment.bristle)
+
+
+def stalling() -> Refusal:
+    """The refusal of a step in which time does not get on."""
+    return Refusal(
+        f"doStep refused: more than {MOST_STALLED} events at one instant; allowed are parameters "
+        "and inputs whose forces differ by more than rounding"
+    )
+
+
+def _lifts_first(plant: Plant, chi: float, switch: float, until: float) -> bool:
+    """Whether a stick ends only because the contact lifts: all friction is gone by then."""
+    limit = plant.friction_preload + plant.friction_amplitude * sin(chi)
+    spare = 16.0 * EPSILON * (plant.friction_preload + plant.friction_amplitude)
+    return switch == until and limit <= spare
 
 
 def _mode_in_contact(plant: Plant, state: State, theta: float, psi: float) -> int:

@@ -18,13 +18,14 @@ from .coulomb import (
     BACKWARD,
     FORWARD,
     LIFTED,
-    STALLED,
+    MOST_STALLED,
     STICK,
     Counts,
     Held,
     Moment,
     friction_limit,
     slide,
+    stalling,
 )
 from .first_zero import Watch, first_zero
 from .motion import State
@@ -57,7 +58,7 @@ def start(held: Held, bristle: Bristle, state: State, position: float, deflectio
 
 def mode_of(held: Held, state: State, psi: float) -> int:
     """Contact mode: lifted, or the direction of sliding; 0 only at rest."""
-    if is_lifted(held.window, psi + held.plant.phase):
+    if is_lifted(held.window, psi + held.plant.phase, held.plant.normal_frequency):
         return LIFTED
     if state.velocity == 0.0:
         return STICK
@@ -82,7 +83,7 @@ def advance(
     w, q = plant.drive_frequency, plant.normal_frequency
     state, position, means, bent = moment.state, moment.position, moment.means, moment.bristle
     theta, psi, counts, age = moment.theta, moment.psi, moment.counts, moment.event_age
-    lifted = is_lifted(window, psi + plant.phase)
+    lifted = is_lifted(window, psi + plant.phase, q)
     if lifted != (moment.mode == LIFTED):
         age = 0.0
     clock = Clock(duration)
@@ -93,7 +94,7 @@ def advance(
         leg = _leg(held, bristle, lifted, state, bent, theta, chi, tolerance)
         switch = time_to_switch(window, chi, q, lifted)
         t = min(remaining, switch, leg.reach)
-        zero = first_zero(leg.watch(t), t) if stalled < STALLED else None
+        zero = first_zero(leg.watch(t), t)
         if zero is not None:
             t = zero
         travelled = leg.motion.travel(t)
@@ -103,13 +104,15 @@ def advance(
         state = leg.motion.state(t)
         bent = bristle.after(bent, travelled)
         if travelled != 0.0 and counts.sliding != leg.direction:
-            counts, age = counts.begun(leg.direction), 0.0
+            counts, age = counts.slid(leg.direction), 0.0
         age += t
         if zero is not None:
             state = State(0.0, state.displacement, state.rate)
         elif t == switch:
             lifted, age = not lifted, 0.0
         stalled = stalled + 1 if 1e12 * t < held.arc else 0
+        if stalled > MOST_STALLED:
+            raise stalling()
         remaining = clock.advance(t) if t != remaining else 0.0
     mode = mode_of(held, state, psi) if not lifted else LIFTED
     return Moment(state, position, theta, psi, mode, counts, age, means, bent)

@@ -13,6 +13,15 @@ from dataclasses import dataclass
 OSCILLATORY = 0.9
 """Damping ratio below which the complex eigenvalue is used; above, hyperbolic forms."""
 
+SLOW = 0.02
+"""Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady
+response would be far larger than what it reaches between two reversals."""
+
+SOON = 0.3
+"""Angle [rad] up to which a few terms of a series in time say all."""
+
+TERMS = 40
+
 RESONANT = 0.02
 """Relative distance of forcing frequency and eigenvalue below which the particular solution,
 which grows with the inverse of that distance, is replaced by the response from rest."""
@@ -103,6 +112,48 @@ def response_from_rest(
     far = _divided_difference(conjugate, forcing, t)
     width = complex(0.0, 2.0 * eigenvalue.imag)
     return (near - far) / width, (eigenvalue * near - conjugate * far) / width
+
+
+def step_response(oscillator: Oscillator, t: float) -> tuple[float, float]:
+    """Response to 1 from rest: displacement [s^2] and velocity [s] at `t` [s].
+
+    Free of cancellation for soft oscillators, whose displacement at rest 1 / stiffness is far from
+    what they reach in time.
+    """
+    decay, stiffness, frequency = oscillator.decay, oscillator.stiffness, oscillator.frequency
+    cosine, sine = free_response(oscillator, t)
+    if max(decay, frequency) * t < SOON:
+        return slow_response_from_rest(oscillator, 0.0, t)[0].real, sine
+    if decay > frequency:
+        spread = math.sqrt(decay * decay - stiffness)
+        slow, fast = stiffness / (decay + spread), decay + spread
+        if spread > 0.1 * decay:
+            return (math.expm1(-fast * t) / fast - math.expm1(-slow * t) / slow) / (
+                fast - slow
+            ), sine
+    return (1.0 - cosine - decay * sine) / stiffness, sine
+
+
+def slow_response_from_rest(
+    oscillator: Oscillator, frequency: float, t: float
+) -> tuple[complex, complex]:
+    """Response to exp(i frequency t) from rest while little of any period has passed.
+
+    Displacement [s^2] and velocity [s] at `t` [s] by their Taylor series in t.
+    """
+    decay, stiffness = oscillator.decay, oscillator.stiffness
+    before, term = 0j, complex(0.5 * t * t)
+    forcing = complex(t * t)
+    displacement, velocity = term, 2.0 * term / t if t > 0.0 else 0j
+    for n in range(3, TERMS):
+        forcing *= complex(0.0, frequency * t) / (n - 2)
+        following = (forcing - 2.0 * decay * t * (n - 1) * term - stiffness * t * t * before) / (
+            n * (n - 1)
+        )
+        before, term = term, following
+        displacement += term
+        velocity += n * term / t if t > 0.0 else 0j
+    return displacement, velocity
 
 
 def integral(frequency: float, t: float) -> complex:

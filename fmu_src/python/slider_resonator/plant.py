@@ -27,8 +27,9 @@ class Plant:
     At fidelity 1 `slider_mass` is the total and `mass_fraction`, `spring` and `damper` are 0, for
     the resonator then acts by its steady force only; `resonator_amplitude` holds its steady
     displacement [m], and is None at fidelity 2. `preload_share` is N0 / dN: below 1 the contact
-    lifts. `holding_drive` is the part of the force on a held
-    slider that follows the drive directly [N], `drive` that on the pair per total mass [m/s^2].
+    lifts, and -1 stands for no normal load at all. `holding_drive` is the part of the force on a
+    held slider that follows the drive directly [N], `drive` that on the pair per total mass
+    [m/s^2].
     """
 
     slider_mass: float
@@ -50,6 +51,11 @@ class Plant:
     spring: float
     damper: float
     resonator_amplitude: complex | None
+
+    @property
+    def resolves_resonator(self) -> bool:
+        """Whether the motion of the resonator is followed: at fidelity 2."""
+        return self.resonator_amplitude is None
 
 
 def steady_resonator(device: Device) -> complex:
@@ -105,9 +111,7 @@ def plant(device: Device, inputs: Inputs) -> Plant:
         load=inputs.load,
         friction_preload=faces_mu * device.normal_preload,
         friction_amplitude=faces_mu * device.normal_amplitude,
-        preload_share=device.normal_preload / device.normal_amplitude
-        if device.normal_amplitude > 0.0
-        else inf,
+        preload_share=_preload_share(device),
         slip=_slip_oscillator(device),
         stick=Oscillator(device.damping_ratio * wn, wn * wn),
         drive=force / total,
@@ -118,6 +122,12 @@ def plant(device: Device, inputs: Inputs) -> Plant:
         damper=2.0 * device.damping_ratio * m * wn if full else 0.0,
         resonator_amplitude=None if full else steady_resonator(device),
     )
+
+
+def _preload_share(device: Device) -> float:
+    if device.normal_amplitude > 0.0:
+        return device.normal_preload / device.normal_amplitude
+    return inf if device.normal_preload > 0.0 else -1.0
 
 
 def _slip_oscillator(device: Device) -> Oscillator:

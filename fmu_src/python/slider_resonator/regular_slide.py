@@ -51,6 +51,7 @@ class RegularSlide:
             ((w, plant.relative_drive * drive_turn), (q, friction / plant.slider_mass)),
             state.displacement,
             state.rate,
+            max(w, abs(q)),
         )
 
     def watches(self) -> tuple[Watch, ...]:

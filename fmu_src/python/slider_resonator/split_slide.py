@@ -13,7 +13,7 @@ from math import inf, sin
 
 from .first_zero import Signal, Watch
 from .motion import EPSILON, State
-from .oscillator import RESONANT, resonates, transfer
+from .oscillator import SLOW, resonates, transfer
 from .plant import Plant
 
 
@@ -39,16 +39,24 @@ def split(plant: Plant) -> Split | None:
     w, q = plant.drive_frequency, plant.normal_frequency
     if (
         eigenvalue is None
-        or 0.0 < abs(q) < RESONANT * w
-        or (plant.mass_fraction and any(resonates(plant.slip, f) for f in (w, q)))
+        or 0.0 < abs(q) < SLOW * w
+        or (
+            plant.resolves_resonator
+            and (
+                plant.slip.frequency < SLOW * max(w, abs(q))
+                or any(resonates(plant.slip, f) for f in (w, q))
+            )
+        )
     ):
         return None
     fraction = plant.mass_fraction
-    resonator_drive = plant.relative_drive * transfer(plant.slip, w)
+    follows = plant.resolves_resonator
+    resonator_drive = plant.relative_drive * transfer(plant.slip, w) if follows else 0j
     velocity_drive = (plant.drive + fraction * w * w * resonator_drive) / complex(0.0, w)
     resonator_normal = velocity_normal = 0j
     if q != 0.0:
-        resonator_normal = plant.friction_amplitude / plant.slider_mass * transfer(plant.slip, q)
+        push = plant.friction_amplitude / plant.slider_mass
+        resonator_normal = push * transfer(plant.slip, q) if follows else 0j
         velocity_normal = (
             fraction * q * q * resonator_normal - plant.friction_amplitude / plant.total_mass
         ) / complex(0.0, q)
@@ -106,7 +114,7 @@ class SplitSlide:
         constant = (friction + plant.load) / (plant.slider_mass * plant.slip.stiffness)
         eigenvalue = split.eigenvalue
         free = vh = 0j
-        if plant.mass_fraction:
+        if plant.resolves_resonator:
             displacement = state.displacement - constant - (ae + aq).real
             rate = state.rate + w * ae.imag + q * aq.imag
             free = complex(displacement, -(rate - eigenvalue.real * displacement) / eigenvalue.imag)

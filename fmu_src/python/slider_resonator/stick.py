@@ -29,12 +29,13 @@ class Stick:
             ((plant.drive_frequency, plant.base_acceleration * drive_turn),),
             state.displacement,
             state.rate,
+            max(plant.drive_frequency, abs(plant.normal_frequency)),
         )
 
     def watches(self) -> tuple[Watch, ...]:
         """Forward margin (limit - needed force), then backward margin (limit + needed force).
 
-        None when the needed force cannot reach the least limit at any time.
+        None when no force is needed, or never one that reaches the least limit.
         """
         plant = self._plant
         reach = abs(plant.load) + abs(self._direct)
@@ -49,7 +50,7 @@ class Stick:
             horizon = self._resonator.horizon
             fastest = max(fastest, plant.stick.frequency)
         limit = plant.friction_preload + plant.friction_amplitude
-        if reach < 0.999999 * (plant.friction_preload - plant.friction_amplitude):
+        if reach == 0.0 or reach < 0.999999 * (plant.friction_preload - plant.friction_amplitude):
             return ()
         noise = 4.0 * EPSILON * (limit + min(reach, 1e3 * limit))
         return tuple(

@@ -22,7 +22,7 @@ def window_of(preload: float, amplitude: float) -> tuple[float, float] | None:
 def test_no_flight_up_to_full_modulation(amplitude: float) -> None:
     window = window_of(1.0, amplitude)
     assert window is None
-    assert not is_lifted(window, 1.5 * math.pi)
+    assert not is_lifted(window, 1.5 * math.pi, 1.0)
     assert time_to_switch(window, 0.0, 10.0, lifted=False) == math.inf
 
 
@@ -30,7 +30,7 @@ def test_no_flight_up_to_full_modulation(amplitude: float) -> None:
 def test_window_is_where_the_load_would_be_negative(share: float, chi: float) -> None:
     load = share + math.sin(chi)
     if abs(load) > 1e-12:
-        assert is_lifted(window_of(share, 1.0), chi) == (load < 0.0)
+        assert is_lifted(window_of(share, 1.0), chi, 1.0) == (load < 0.0)
 
 
 @given(
@@ -40,14 +40,14 @@ def test_window_is_where_the_load_would_be_negative(share: float, chi: float) ->
 )
 def test_load_is_zero_at_the_next_switch(share: float, chi: float, frequency: float) -> None:
     window = window_of(share, 1.0)
-    lifted = is_lifted(window, chi)
+    lifted = is_lifted(window, chi, frequency)
     time = time_to_switch(window, chi, frequency, lifted)
     assert 0.0 <= time <= math.tau / abs(frequency)
     assert share + math.sin(chi + frequency * time) == pytest.approx(0.0, abs=2e-12)
     for part in (0.1, 0.5, 0.9):
         between = chi + frequency * time * part
         if abs(share + math.sin(between)) > 1e-12:
-            assert is_lifted(window, between) == lifted, "a switch was passed over"
+            assert is_lifted(window, between, frequency) == lifted, "a switch was passed over"
 
 
 def test_shortest_flight() -> None:
@@ -70,3 +70,27 @@ def test_rounding_past_a_boundary_is_not_a_turn_more(past: float) -> None:
 
 def test_constant_load_never_switches() -> None:
     assert time_to_switch(window_of(0.5, 1.0), 4.0, 0.0, lifted=True) == math.inf
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5])
+@pytest.mark.parametrize("past", [-4e-16, 0.0, 4e-16])
+def test_on_a_boundary_the_direction_decides(share: float, past: float) -> None:
+    window = window_of(share, 1.0)
+    assert window is not None
+    first, last = window
+    assert is_lifted(window, first + past, 1.0)
+    assert not is_lifted(window, last + past, 1.0)
+    assert not is_lifted(window, first + past, -1.0)
+    assert is_lifted(window, last + past, -1.0)
+
+
+def test_constant_load_of_zero_is_flight() -> None:
+    assert is_lifted(window_of(0.0, 1.0), 0.0, 0.0)
+    assert not is_lifted(window_of(0.0, 1.0), 0.5, 0.0)
+
+
+def test_no_normal_load_at_all_is_flight() -> None:
+    window = window_of(0.0, 0.0)
+    for chi in (0.0, 1.0, 5.0):
+        assert is_lifted(window, chi, 1.0)
+        assert time_to_switch(window, chi, 1.0, lifted=True) == math.inf

@@ -18,6 +18,7 @@ from fmu_src.python.slider_resonator.oscillator import (
     free_response,
     integral,
     resonates,
+    step_response,
 )
 
 DAMPING = [0.0, 1e-12, 0.05, 0.5, 0.9, 1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.7, 100.0]
@@ -67,7 +68,7 @@ def test_forced_from_any_state(damping: float, frequency: float, t: float) -> No
     """Undamped resonance, where the response grows with t, included."""
     oscillator = Oscillator(damping * 3.0, 9.0)
     forcing = ((frequency, 2.0 - 1.0j), (1.1, 0.4j))
-    sample = ForcedOscillator(oscillator, 0.3, forcing, 0.2, -0.5).sample(t)
+    sample = ForcedOscillator(oscillator, 0.3, forcing, 0.2, -0.5, 40.0).sample(t)
     y, u = exact(oscillator, 0.3, forcing, 0.2, -0.5, t)
     scale = 1.0 + abs(y) + abs(u)
     assert sample.displacement == pytest.approx(y, abs=2e-13 * scale)
@@ -88,7 +89,7 @@ def test_bounds_hold_ahead(
     damping: float, frequency: float, y0: float, u0: float, t: float
 ) -> None:
     oscillator = Oscillator(damping * 3.0, 9.0)
-    motion = ForcedOscillator(oscillator, 0.1, ((frequency, 1.0 + 0.5j),), y0, u0)
+    motion = ForcedOscillator(oscillator, 0.1, ((frequency, 1.0 + 0.5j),), y0, u0, 10.0)
     here = motion.sample(t)
     step = min(motion.horizon, 1.0) / 16
     samples = [motion.sample(t + i * step) for i in range(17)]
@@ -118,3 +119,26 @@ def test_integrals(frequency: float, t: float) -> None:
     assert integral(frequency, t) == pytest.approx(complex(weights @ wave), rel=1e-13)
     expected = complex(weights @ ((t - s) * wave))
     assert double_integral(frequency, t) == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.05, 1.0, 1.5])
+@pytest.mark.parametrize("frequency", [1e-9, 1e-5, 1e-2, 0.5])
+@pytest.mark.parametrize("t", [1e-3, 0.2, 3.0])
+def test_soft_oscillators_keep_their_digits(damping: float, frequency: float, t: float) -> None:
+    """Forced by a constant, at rest before: u = S exactly, and y near t^2 / 2 while w t << 1."""
+    oscillator = Oscillator(damping * frequency, frequency * frequency)
+    displacement, velocity = step_response(oscillator, t)
+    y, u = exact(oscillator, 1.0, (), 0.0, 0.0, t)
+    assert displacement == pytest.approx(y, rel=3e-13)
+    assert velocity == pytest.approx(u, rel=3e-13)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.05, 1.5])
+def test_slow_forcing_of_a_soft_oscillator(damping: float) -> None:
+    oscillator = Oscillator(damping * 1e-3, 1e-6)
+    forcing = ((1e-3, 2.0 - 1.0j), (-2e-4, 0.4j), (7.0, 0.3 + 0j))
+    for t in (1e-3, 0.4, 5.0):
+        sample = ForcedOscillator(oscillator, 0.3, forcing, 0.2, -0.5, 7.0).sample(t)
+        y, u = exact(oscillator, 0.3, forcing, 0.2, -0.5, t)
+        assert sample.displacement == pytest.approx(y, rel=1e-12, abs=1e-13)
+        assert sample.rate == pytest.approx(u, rel=1e-12, abs=1e-13)
