@@ -24,6 +24,8 @@ _FRICTION = (
     *_CHOICES,
     *_STEADY_RESONATOR,
     "load",
+    # On the boundary of a flight its sign decides which way the normal phase goes.
+    "frequency_ratio",
     "friction_coefficient",
     "friction_faces",
     "bristle_stiffness",

@@ -111,7 +111,7 @@ REFUSED_RUNS: dict[str, dict[str, object]] = {
     "start value not finite": {"start_values": {"load": math.nan}},
     "start value out of bounds": {"start_values": {"slider_mass": 0.0}},
     "choice out of bounds": {"start_values": {"friction_faces": 3}},
-    "model that is not there yet": {"start_values": {"fidelity": 0}},
+    "model that is not there yet": {"start_values": {"fidelity": 0, "friction_law": 1}},
     "input turns into nan": {
         "input": signal(time=[0, 0.05, 0.05, 0.1], load=[0, 0, math.nan, math.nan])
     },

@@ -13,7 +13,6 @@ from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
 from tests.fmu.host import Instance
 
 NAN, INF = math.nan, math.inf
-NOT_THERE_YET = [("fidelity", 0)]
 STEP = 1.7e-3
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]
@@ -90,7 +89,7 @@ def test_the_bounds_themselves_are_allowed(
 ) -> None:
     instance = in_initialization_mode(instantiate())
     for value in (variable.minimum, variable.maximum):
-        if value is not None and (variable.name, value) not in NOT_THERE_YET:
+        if value is not None:
             instance.set(**{variable.name: value})
 
 
@@ -108,19 +107,13 @@ def test_output_set_from_outside(instance: Instance, variable: Variable) -> None
         instance.set(**{variable.name: 0.5})
 
 
-@pytest.mark.parametrize(("name", "value"), NOT_THERE_YET)
-def test_models_that_are_not_there_yet(
-    instantiate: Callable[[], Instance], name: str, value: int
-) -> None:
+def test_choices_that_do_not_fit_each_other(instantiate: Callable[[], Instance]) -> None:
     instance = in_initialization_mode(instantiate())
-
-    def choose() -> None:
-        instance.set(**{name: value})
+    instance.set(fidelity=0, friction_law=1)
+    with instance.refuses("fidelity = 0 refused with friction_law = 1", "0 (Coulomb)"):
         instance.slave.exitInitializationMode()
-
-    with pytest.raises(FMICallException):
-        choose()
-    assert f"{name} = {value} refused" in instance.log[-1]
+    instance.set(friction_law=0)
+    instance.slave.exitInitializationMode()
 
 
 @pytest.mark.parametrize("size", [0.0, -0.0, -1e-3, NAN, INF, -INF])

@@ -197,9 +197,9 @@ class Component:
         return law.start(state, device.initial_position)
 
     def _require_bounded_work(self, step_size: float) -> None:
-        _, _, law = self._prepare()
+        device, _, law = self._prepare()
         frequency = LONGEST_ARC / law.held.arc
-        if step_size * frequency > tau * MOST_TURNS:
+        if device.fidelity > 0 and step_size * frequency > tau * MOST_TURNS:
             raise Refusal(
                 f"doStep: communicationStepSize = {step_size!r} refused: the fastest oscillation "
                 f"has {frequency!r} rad/s; allowed is a step of at most {MOST_TURNS:g} turns of it"

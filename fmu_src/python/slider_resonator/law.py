@@ -11,6 +11,7 @@ from .coulomb import Held, Moment, hold
 from .device import Device, Inputs
 from .motion import State
 from .refusal import Refusal
+from .slow_motion import slow_law
 
 
 class Law(Protocol):
@@ -89,6 +90,8 @@ class LugreLaw:
 
 def law_of(device: Device, inputs: Inputs) -> Law:
     """The device's friction law. Raises Refusal where device and law do not fit."""
+    if device.fidelity == 0:
+        return slow_law(device, inputs)
     held = hold(device, inputs)
     if device.friction_law == 0:
         return CoulombLaw(held)

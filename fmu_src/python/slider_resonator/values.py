@@ -7,9 +7,6 @@ from math import isfinite
 from .refusal import Refusal
 from .variables import VARIABLES, Variable
 
-NOT_AVAILABLE = {
-    ("fidelity", 0): "averaged motion is not available in this version; allowed are 1 and 2",
-}
 BY_NAME = {variable.name: variable for variable in VARIABLES}
 SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "output")
 
@@ -26,9 +23,6 @@ def checked(variable: Variable, value: object) -> float:
         return float(value)
     if value != int(value):
         raise refused
-    reason = NOT_AVAILABLE.get((variable.name, int(value)))
-    if reason is not None:
-        raise Refusal(f"{variable.name} = {value!r} refused: {reason}")
     return int(value)
 
 

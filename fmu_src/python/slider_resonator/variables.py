@@ -273,7 +273,7 @@ VARIABLES: tuple[Variable, ...] = (
     _output(
         "mean_velocity",
         "Exact mean velocity over the last whole drive period (since the start before the first "
-        "period is complete)",
+        "period is complete); at fidelity 0 the slow velocity",
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
@@ -305,7 +305,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="N",
         display_unit="mN",
         nominal=0.1,
-        depends_on=("phase", "load"),
+        depends_on=_INPUTS,
     ),
     _count(
         "contact_mode",
@@ -313,7 +313,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="1",
         minimum=-1.0,
         maximum=2.0,
-        depends_on=("phase", "load"),
+        depends_on=_INPUTS,
     ),
     _count(
         "reversals",

@@ -47,7 +47,6 @@ def test_below_the_minimum_is_refused(name: str) -> None:
     ("name", "value", "reason"),
     [
         ("friction_faces", 1.5, "allowed is an integer from 1 to 2"),
-        ("fidelity", 0, "averaged motion is not available"),
         ("tolerance", 0.1, "allowed is a finite number from 1e-14 to 0.01"),
     ],
 )

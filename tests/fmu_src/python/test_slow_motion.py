@@ -1,0 +1,123 @@
+"""Averaged motion against the resolved one: its error falls with 1 / Omega, at any step."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import replace
+
+import pytest
+
+from fmu_src.python.slider_resonator.coulomb import Moment
+from fmu_src.python.slider_resonator.device import Device, Inputs
+from fmu_src.python.slider_resonator.law import law_of
+from fmu_src.python.slider_resonator.motion import State
+from fmu_src.python.slider_resonator.refusal import Refusal
+
+TABLE_1 = Device(fidelity=0)
+FAST_VELOCITY = 0.2366097
+
+
+def run(device: Device, inputs: Inputs, periods: int, steps: int = 40) -> Moment:
+    law = law_of(device, inputs)
+    state = State(device.initial_velocity, device.initial_resonator_displacement, 0.0)
+    moment = law.start(state, device.initial_position)
+    for _ in range(steps):
+        moment = law.advance(moment, periods * math.tau / device.drive_frequency / steps)
+    return moment
+
+
+def pair(device: Device, inputs: Inputs, periods: int) -> tuple[Moment, Moment]:
+    return run(device, inputs, periods), run(replace(device, fidelity=2), inputs, periods)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "inputs"),
+    [
+        ({}, Inputs()),
+        ({}, Inputs(0.4, 0.05)),
+        ({}, Inputs(0.4, 0.0, 3.0)),
+        ({}, Inputs(1.5, 0.0, 5.0)),
+        ({}, Inputs(1.5, 0.0, 7.0)),
+        ({}, Inputs(0.0, 0.0, 1.002)),
+        ({}, Inputs(0.3, 0.0, 3.004)),
+        ({}, Inputs(0.0, 0.0, 1.37)),
+        ({}, Inputs(0.6, 0.01, 0.0)),
+        ({}, Inputs(0.0, 0.5)),
+        ({"normal_amplitude": 2.0}, Inputs(0.4)),
+        ({"initial_velocity": -1.0}, Inputs(0.4)),
+        ({"initial_resonator_displacement": 1e-3}, Inputs(0.4)),
+        ({"base_amplitude": 0.0, "tangential_force": 900.0}, Inputs(1.0)),
+        ({"friction_faces": 1}, Inputs(1.0)),
+    ],
+)
+def test_against_the_resolved_device(parameters: dict[str, float], inputs: Inputs) -> None:
+    """Within 1 % of v_q after 560 drive periods, about a second; position accordingly."""
+    slow, full = pair(replace(TABLE_1, **parameters), inputs, 560)
+    gap = slow.means.mean_velocity - full.means.mean_velocity
+    assert abs(gap) <= 0.004 * FAST_VELOCITY
+    assert slow.position == pytest.approx(full.position, abs=0.004 * FAST_VELOCITY)
+    assert slow.theta == pytest.approx(full.theta, abs=1e-9)
+
+
+def test_error_falls_with_the_drive_frequency() -> None:
+    """Same fast velocity and slow time scale at each frequency: table 1 and its variants."""
+    errors = []
+    for factor in (1.0, 3.0, 9.0):
+        device = replace(
+            TABLE_1,
+            base_amplitude=1e-4 / factor,
+            drive_frequency=3500.0 * factor,
+            resonator_frequency=3500.0 * factor,
+        )
+        slow, full = pair(device, Inputs(), round(560 * factor))
+        errors.append(abs(slow.means.mean_velocity - full.means.mean_velocity))
+    for one, other in itertools.pairwise(errors):
+        assert one / other == pytest.approx(3.0, rel=0.15), "averaging errs by 1 / Omega"
+
+
+def test_instantaneous_outputs_carry_the_vibration() -> None:
+    slow, full = pair(TABLE_1, Inputs(), 560)
+    assert slow.state.velocity - slow.means.mean_velocity == pytest.approx(
+        full.state.velocity - full.means.mean_velocity, abs=0.005 * FAST_VELOCITY
+    )
+    assert slow.state.displacement == pytest.approx(full.state.displacement, rel=2e-3)
+    assert slow.state.rate == pytest.approx(full.state.rate, rel=2e-3)
+
+
+@pytest.mark.parametrize("steps", [1, 7, 400])
+def test_any_communication_step(steps: int) -> None:
+    one = run(TABLE_1, Inputs(0.3, 0.02), 560, steps)
+    other = run(TABLE_1, Inputs(0.3, 0.02), 560, 50)
+    assert one.means.mean_velocity == pytest.approx(other.means.mean_velocity, abs=1e-8)
+    assert one.position == pytest.approx(other.position, abs=1e-8)
+
+
+def test_a_tuned_drive_makes_no_jump() -> None:
+    """The momentum of the pair goes on: with less drive the slow velocity changes by its share."""
+    device, inputs = replace(TABLE_1, tangential_force=0.0), Inputs()
+    moment = law_of(device, inputs).advance(law_of(device, inputs).start(State(0.0, 0.0, 0.0), 0.0),
+                                            0.0123)  # fmt: skip
+    weaker = replace(device, base_amplitude=5e-5)
+    after = law_of(weaker, inputs).advance(moment, 1e-9)
+    share = device.mass_fraction
+    momentum = [m.state.velocity + share * m.state.rate for m in (moment, after)]
+    assert momentum[1] == pytest.approx(momentum[0], abs=1e-6)
+
+
+@pytest.mark.parametrize(("load", "moves"), [(0.0, False), (0.19, False), (0.3, True)])
+def test_without_vibration_it_is_a_block(load: float, moves: bool) -> None:
+    still = replace(TABLE_1, base_amplitude=0.0, normal_amplitude=0.0)
+    end = run(still, Inputs(load=load), 560)
+    assert (end.position != 0.0) is moves
+    duration = 560 * math.tau / 3500.0
+    expected = -0.5 * max(0.0, load - 0.2) / 1.1 * duration**2
+    assert end.position == pytest.approx(expected, rel=1e-9, abs=1e-15)
+    sliding = run(replace(still, initial_velocity=0.05), Inputs(), 560)
+    assert sliding.position == pytest.approx(0.05**2 / (2 * 0.2 / 1.1), rel=1e-9)
+    assert sliding.means.mean_velocity == 0.0
+
+
+def test_lugre_friction_is_refused() -> None:
+    with pytest.raises(Refusal, match="fidelity = 0 refused with friction_law = 1"):
+        law_of(replace(TABLE_1, friction_law=1), Inputs())
