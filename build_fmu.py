@@ -73,9 +73,11 @@ def build_python(dest: Path, package: Path = PACKAGE) -> Path:
 
     Raises BuildError.
     """
+    _check_folder(dest)
+    date = _date()
     content = _collect(package)
     files = _run_pythonfmu(content)
-    files["modelDescription.xml"] = _description(content.generation_tool, content.guid, _date())
+    files["modelDescription.xml"] = _description(content.generation_tool, content.guid, date)
     files |= content.extras
     dest.mkdir(parents=True, exist_ok=True)
     target = dest / f"{MODEL}.fmu"
@@ -86,6 +88,13 @@ def build_python(dest: Path, package: Path = PACKAGE) -> Path:
     finally:
         partial.unlink(missing_ok=True)
     return target
+
+
+def _check_folder(dest: Path) -> None:
+    """Refuse a folder that cannot be created because a file is in its place or in its way."""
+    there = next(path for path in (dest, *dest.parents) if path.exists())
+    if not there.is_dir():
+        raise BuildError(f"folder {dest} refused: {there} is a file; allowed is a folder")
 
 
 def _collect(package: Path) -> Content:
@@ -154,11 +163,13 @@ def _date() -> datetime:
     if seconds is None:
         return _EPOCH
     try:
+        if int(seconds) < 0:
+            raise ValueError(seconds)
         return datetime.fromtimestamp(int(seconds), UTC)
     except (ValueError, OverflowError, OSError):
         raise BuildError(
             f"SOURCE_DATE_EPOCH = {seconds!r} refused: allowed is a whole number of seconds "
-            "since 1970-01-01"
+            "since 1970-01-01, not below 0"
         ) from None
 
 
@@ -194,8 +205,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     folder: Path = parser.parse_args(arguments).out
     try:
         fmu = build_python(folder)
-    except (BuildError, OSError) as error:
+    except BuildError as error:
         print(f"build_fmu.py: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"build_fmu.py: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
     print(f"{fmu}: {fmu.stat().st_size} bytes, SHA-256 {_sha256(fmu)}")
     return 0

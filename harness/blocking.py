@@ -25,7 +25,8 @@ class Blocking:
 
     `blocking_force` (N) is None where there is none; `predicted` is the FMU's own output
     `blocking_force`. `status` is blocked, unstable or neutral; without a force it is stuck,
-    slow_beat, hidden_state, no_fixed_point, not_unique or not_converged.
+    slow_beat (frequency_ratio next to an integer), no_common_period, hidden_state,
+    no_fixed_point, not_unique or not_converged.
     """
 
     status: str

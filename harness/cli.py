@@ -5,17 +5,21 @@ from __future__ import annotations
 import sys
 import traceback
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any, NoReturn
 
 import click
 
+from fmu_src import __version__
 from harness.commands.bench import bench_command
 from harness.commands.blocking import blocking_command
+from harness.commands.paper import paper_command
 from harness.commands.picture import picture_command
 from harness.commands.run import run_command
 from harness.commands.scenes import scenes_command
 from harness.commands.steady import steady_command
 from harness.commands.validate import validate_command
+from harness.console import leave
 from harness.errors import HarnessError
 from harness.json_output import to_json
 
@@ -38,28 +42,39 @@ class HarnessGroup(click.Group):
     ) -> NoReturn:
         """Run a command and leave with its exit code; with --json an error is JSON too."""
         arguments = list(sys.argv[1:] if args is None else args)
-        as_json = "--json" in arguments
         try:
             code = super().main(arguments, prog_name, complete_var, standalone_mode=False, **extra)
-            sys.exit(code if isinstance(code, int) else 0)
-        except click.ClickException as error:
-            error.show()
-            message = error.format_message()
-        except click.Abort:
-            message = "interrupted"
-            click.echo(message, err=True)
-        except HarnessError as error:
-            message = str(error)
-            click.echo(f"error: {message}", err=True)
+        except SystemExit as end:  # click and rich leave with 1 when nobody reads their output
+            leave(COULD_NOT_RUN if end.code else 0)
         except Exception as error:
-            traceback.print_exc()
-            message = f"internal error: {error!r}"
-        if as_json:
-            click.echo(to_json({"error": message}))
-        sys.exit(COULD_NOT_RUN)
+            with suppress(OSError):
+                message = _told(error)
+                if "--json" in arguments:
+                    click.echo(to_json({"error": message}))
+            leave(COULD_NOT_RUN)
+        leave(code if isinstance(code, int) else 0)
+
+
+def _told(error: Exception) -> str:
+    """Say on stderr what went wrong, and return it."""
+    if isinstance(error, click.ClickException):
+        error.show()
+        return error.format_message()
+    if isinstance(error, click.Abort):
+        message = "interrupted"
+    elif isinstance(error, HarnessError):
+        message = f"error: {error}"
+    elif isinstance(error, OSError):
+        message = f"error: {error.filename or 'standard output'}: {error.strerror}"
+    else:
+        traceback.print_exc()
+        return f"internal error: {error!r}"
+    click.echo(message, err=True)
+    return message.removeprefix("error: ")
 
 
 @click.group(cls=HarnessGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="slider-resonator")
 def main() -> None:
     """Run a slider-resonator FMU and say with numbers whether it is right.
 
@@ -72,6 +87,7 @@ def main() -> None:
       python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
       python -m harness steady my.fmu --set phase=0.4 --set load=0.05 --json
       python -m harness blocking my.fmu --json
+      python -m harness paper --out paper
     """
 
 
@@ -83,5 +99,6 @@ for command in (
     scenes_command,
     bench_command,
     picture_command,
+    paper_command,
 ):
     main.add_command(command)

@@ -2,20 +2,37 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import NoReturn
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-WIDTH_OF_A_LOG = 180
+WIDTH_OF_A_LOG = 120
 
 
 def output() -> Console:
-    """Return the console for results; wide where the output is not a terminal."""
-    terminal = sys.stdout.isatty()
+    """Return the console for results; 120 columns wide where there is no terminal."""
+    terminal = sys.stdout is not None and sys.stdout.isatty()
     return Console(file=sys.stdout, highlight=False, width=None if terminal else WIDTH_OF_A_LOG)
+
+
+def leave(code: int) -> NoReturn:
+    """End the process with `code`, whatever its output still holds and cannot be rid of.
+
+    Python itself would end with another code, and complain, when it cannot flush its streams.
+    """
+    for stream in filter(None, (sys.stdout, sys.stderr)):  # None where it was closed from the start
+        try:
+            stream.flush()
+        except OSError:
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, stream.fileno())
+            os.close(nowhere)
+    sys.exit(code)
 
 
 @contextmanager

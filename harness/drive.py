@@ -21,6 +21,7 @@ from harness.fmu import Fmu
 from harness.interface import INPUTS, OUTPUTS
 from harness.names import unknown_name
 from harness.schedule import Schedule
+from harness.values import check_integer
 
 _numbers = count(1)
 
@@ -137,8 +138,10 @@ class Instance:
     def _set(self, name: str, value: float) -> None:
         variable = self.fmu.settable(name)
         if variable.type == "Integer":
-            if value != int(value):
-                raise FmuError(f"{name} = {value!r}: an integer is needed")
+            try:
+                check_integer(name, value)
+            except ValueError as error:
+                raise FmuError(str(error)) from error
             self.slave.setInteger([variable.valueReference], [int(value)])
         else:
             self.slave.setReal([variable.valueReference], [value])
@@ -150,9 +153,9 @@ class Instance:
         try:
             yield
         except FMICallException as error:
-            said = "; ".join(self.messages) or "the FMU logged no reason"
+            said = "; ".join(dict.fromkeys(self.messages)) or f"{error} The FMU logged no reason."
             where = f"{self.fmu.path.name} at t = {self.time:.9g} s"
-            raise Refusal(f"{where}: {said} ({error})") from error
+            raise Refusal(f"{where}: {said}") from error
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree as ET
 
 import fmpy
 from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
@@ -64,28 +65,38 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
 
 
 def _read_description(path: Path) -> ModelDescription:
+    if path.is_dir():
+        raise FmuError(f"{path}: is a directory; allowed is an FMU file")
     if not path.is_file():
         raise FmuError(f"{path}: no such file")
     if not zipfile.is_zipfile(path):
         raise FmuError(f"{path}: not an FMU: it is no zip archive")
+    try:
+        version = _fmi_version(path)
+        if version != "2.0":
+            raise FmuError(f"{path}: FMI version {version}; allowed is 2.0")
+        return read_model_description(str(path))
+    except FmuError:
+        raise
+    except Exception as error:  # fmpy, lxml and the schema each raise their own
+        raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
+
+
+def _fmi_version(path: Path) -> str:
+    """Return the version that the description claims, before anything else in it is believed."""
     with zipfile.ZipFile(path) as archive:
         if "modelDescription.xml" not in archive.namelist():
             raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml")
-    try:
-        return read_model_description(str(path))
-    except Exception as error:  # fmpy, lxml and the schema each raise their own
-        raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
+        with archive.open("modelDescription.xml") as file:
+            _, root = next(iter(ET.iterparse(file, events=("start",))))
+            return str(root.get("fmiVersion", "unknown"))
 
 
 def _check_interface(
     path: Path, description: ModelDescription, variables: Mapping[str, Any]
 ) -> None:
-    if description.fmiVersion != "2.0" or description.coSimulation is None:
-        kind = "" if description.coSimulation else " without co-simulation"
-        raise FmuError(
-            f"{path}: an FMI 2.0 co-simulation FMU is needed, this is FMI "
-            f"{description.fmiVersion}{kind}"
-        )
+    if description.coSimulation is None:
+        raise FmuError(f"{path}: an FMU for model exchange only; allowed is co-simulation")
     problems = []
     for causality, wanted in (("input", INPUTS), ("parameter", PARAMETERS), ("output", OUTPUTS)):
         for name, unit in wanted.items():

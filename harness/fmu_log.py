@@ -7,6 +7,8 @@ every instantiation, and it finds the collector by the instance name.
 
 from __future__ import annotations
 
+import ast
+import re
 from ctypes import byref
 from typing import Any
 
@@ -22,6 +24,22 @@ from fmpy.logging import addLoggerProxy
 
 _collectors: dict[bytes, list[str]] = {}
 
+_PYTHON_EXCEPTION = re.compile(
+    r"""\w+ py exception encountered: .*\n\w+\((?P<text>(['"]).*\2),?\)\Z""", re.DOTALL
+)
+"""What pythonfmu logs: where it was called, and the repr of the exception."""
+
+
+def plain_words(message: str) -> str:
+    """Return the text of an exception without what pythonfmu wraps it in, others as they are."""
+    found = _PYTHON_EXCEPTION.search(message)
+    if found is None:
+        return message
+    try:
+        return str(ast.literal_eval(found["text"]))
+    except (SyntaxError, ValueError):
+        return message
+
 
 def _dispatch(
     environment: Any, instance_name: bytes, status: int, category: bytes, message: bytes
@@ -30,7 +48,7 @@ def _dispatch(
     if collector is None:
         printLogMessage(environment, instance_name, status, category, message)
     else:
-        collector.append(message.decode("utf-8", errors="replace").strip())
+        collector.append(plain_words(message.decode("utf-8", errors="replace").strip()))
 
 
 _logger = fmi2CallbackLoggerTYPE(_dispatch)

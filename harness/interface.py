@@ -39,6 +39,9 @@ PARAMETERS: Mapping[str, str] = {
 }
 """Parameter name to unit."""
 
+INTEGERS = frozenset({"friction_faces", "friction_law", "fidelity"})
+"""Parameters that are Integers; all others, and all inputs, are Real."""
+
 OUTPUTS: Mapping[str, str] = {
     "position": "m",
     "velocity": "m/s",

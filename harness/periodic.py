@@ -20,6 +20,8 @@ WARM_UP = 20
 """Drive periods run before shooting, so that the resonator's own transient is mostly gone."""
 SAMPLES = 8
 """Points of the last drive period of the warm-up that give the size of each state."""
+SLOW = 0.1
+"""Distance of the frequency ratio from an integer, below which the phase runs slowly: a beat."""
 
 
 @dataclass(frozen=True)
@@ -87,18 +89,22 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
 def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:
     """Return the number q of drive periods of a common period.
 
-    Where frequency_ratio is no p/q with a small q nothing repeats, and the phase runs slowly
-    through all its values: a beat.
+    Where frequency_ratio is no p/q with a small q nothing repeats: slow_beat next to an integer,
+    where the phase runs slowly through all its values, no_common_period elsewhere.
     """
     ratio = facts["frequency_ratio"]
     count = common_period(ratio, max_denominator)
     if count is not None:
         return count
-    beat = abs(ratio - round(ratio)) / facts.drive_period
+    why = f"no common period: frequency_ratio = {ratio!r} is no p/q with q <= {max_denominator}"
+    distance = abs(ratio - round(ratio))
+    if distance < SLOW:
+        beat = distance / facts.drive_period
+        return Obstacle("slow_beat", f"{why}; slow beat at {beat:.6g} Hz")
     return Obstacle(
-        "slow_beat",
-        f"no common period: frequency_ratio = {ratio!r} is no p/q with q <= {max_denominator}; "
-        f"slow beat at {beat:.6g} Hz",
+        "no_common_period",
+        f"{why}, so that drive and normal force never repeat together; --max-denominator allows "
+        "a larger q",
     )
 
 

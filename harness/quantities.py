@@ -27,7 +27,8 @@ class Quantity:
     """A quantity: number, word or signal.
 
     `measure` takes it from the FMU, `references` from what each named reference knows. A number or
-    word that is None does not exist. `deviation` is used for signals.
+    word that is None does not exist. `deviation` is used for signals. Of an `exact` quantity, a
+    count or a word, equality can be expected without naming a tolerance.
     """
 
     kind: Kind
@@ -37,6 +38,7 @@ class Quantity:
     references: Mapping[str, Callable[[ReferenceSide], Any]] = field(default_factory=dict)
     needs_run: bool = False
     deviation: Callable[[Array, Array], float] = peak_deviation
+    exact: bool = False
 
 
 def _signal(name: str, unit: str, meaning: str) -> Quantity:
@@ -52,6 +54,7 @@ def _signal(name: str, unit: str, meaning: str) -> Quantity:
         },
         needs_run=True,
         deviation=mismatch_share if name == "contact_mode" else peak_deviation,
+        exact=name == "contact_mode",
     )
 
 
@@ -72,10 +75,18 @@ QUANTITIES: Mapping[str, Quantity] = {
         },
     ),
     "steady_status": Quantity(
-        "word", "", "outcome of the search for steady motion", lambda fmu: fmu.steady.status
+        "word",
+        "",
+        "outcome of the search for steady motion",
+        lambda fmu: fmu.steady.status,
+        exact=True,
     ),
     "steady_periods": Quantity(
-        "number", "1", "drive periods simulated for it", lambda fmu: fmu.steady.periods
+        "number",
+        "1",
+        "drive periods simulated for it",
+        lambda fmu: fmu.steady.periods,
+        exact=True,
     ),
     "blocking_force": Quantity(
         "number",
@@ -88,10 +99,18 @@ QUANTITIES: Mapping[str, Quantity] = {
         },
     ),
     "blocking_status": Quantity(
-        "word", "", "outcome of the search for the blocking force", lambda fmu: fmu.blocking.status
+        "word",
+        "",
+        "outcome of the search for the blocking force",
+        lambda fmu: fmu.blocking.status,
+        exact=True,
     ),
     "blocking_periods": Quantity(
-        "number", "1", "drive periods simulated for it", lambda fmu: fmu.blocking.periods
+        "number",
+        "1",
+        "drive periods simulated for it",
+        lambda fmu: fmu.blocking.periods,
+        exact=True,
     ),
     "predicted_velocity": Quantity(
         "number",
@@ -154,6 +173,7 @@ QUANTITIES: Mapping[str, Quantity] = {
             "taylor": lambda reference: reference.trajectory("taylor").reversals,
         },
         needs_run=True,
+        exact=True,
     ),
     "last_event_time": Quantity(
         "number",

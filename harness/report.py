@@ -9,7 +9,12 @@ from rich.text import Text
 
 from harness.compare import Check, Value
 from harness.quantities import QUANTITIES
+from harness.readable import readable
 from harness.validate import Validation, worst_of_sweeps
+
+DIGITS = 8
+"""Significant digits in the table; what is asserted is the deviation, which has its own column."""
+SIGNAL = "*"
 
 
 def print_validation(console: Console, validation: Validation, *, details: bool = False) -> None:
@@ -23,6 +28,8 @@ def print_validation(console: Console, validation: Validation, *, details: bool 
         else worst_of_sweeps(validation.checks)
     )
     console.print(_table(rows, details))
+    if any(_is_signal(check) for check, _ in rows):
+        console.print(f"{SIGNAL} the peak of a signal; off by and allowed are shares of it")
     for check, _ in rows:
         if not check.passed:
             text = f"{check.scene}: {check.quantity}{_at(check, ' at ')}: {check.why}"
@@ -38,49 +45,51 @@ def print_validation(console: Console, validation: Validation, *, details: bool 
 
 
 def _table(rows: list[tuple[Check, int]], details: bool) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    table.add_column("scene", overflow="fold")
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
     table.add_column("quantity", overflow="fold")
-    if any(check.at for check, _ in rows):
-        table.add_column("at", overflow="fold")
+    swept = any(check.at for check, _ in rows)
+    if swept:
+        table.add_column("at" if details else "worst at", overflow="fold")
     for heading in ("FMU", "reference"):
         table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("is", overflow="fold")
-    for heading in ("deviation", "allowed"):
+    table.add_column("against", overflow="fold")
+    for heading in ("off by", "allowed"):
         table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("verdict", no_wrap=True)
+    table.add_column("", no_wrap=True)
     scene = ""
     for check, points in rows:
-        if scene and check.scene != scene:
+        if check.scene != scene:
             table.add_section()
-        cells = [check.scene if check.scene != scene else "", _quantity(check)]
-        if any(other.at for other, _ in rows):
-            cells.append(_at(check, "") + (f", worst of {points}" if points > 1 else ""))
-        cells += [_value(check.fmu), _value(check.reference), check.against.replace("_", " ")]
+            table.add_row(Text(check.scene + f", {points} points" * (points > 1), "bold"))
+            scene = check.scene
+        cells = [f" {_quantity(check)}", *([_at(check, "")] if swept else [])]
+        cells += [_value(check.fmu), _value(check.reference), check.against.split("_")[0]]
         cells += [_size(check.deviation), _size(check.allowed)]
         verdict = Text("pass", "green") if check.passed else Text("FAIL", "bold red")
         table.add_row(*(Text(cell) for cell in cells), verdict)
         if details:
-            table.add_row("", Text(check.why, "dim"))
-        scene = check.scene
+            table.add_row(Text(check.why, "dim"))
     return table
 
 
 def _quantity(check: Check) -> str:
-    """Return name and unit; the deviation of a signal is a share of its peak."""
-    if QUANTITIES[check.quantity].kind == "signal":
-        return f"{check.quantity} [{check.unit}], peak"
-    return f"{check.quantity} [{check.unit}]" if check.unit not in ("", "1") else check.quantity
+    """Return name and unit, with a mark for a signal."""
+    unit = f", {check.unit}" * (check.unit not in ("", "1"))
+    return f"{check.quantity}{SIGNAL * _is_signal(check)}{unit}"
+
+
+def _is_signal(check: Check) -> bool:
+    return QUANTITIES[check.quantity].kind == "signal"
 
 
 def _at(check: Check, before: str) -> str:
-    return before * bool(check.at) + ", ".join(f"{n} = {v:g}" for n, v in check.at.items())
+    return before * bool(check.at) + ", ".join(f"{n} {v:g}" for n, v in check.at.items())
 
 
 def _value(value: Value) -> str:
     if value is None:
         return "none"
-    return value if isinstance(value, str) else f"{value:.9g}"
+    return value if isinstance(value, str) else readable(value, DIGITS)
 
 
 def _size(size: float | None) -> str:

@@ -18,7 +18,7 @@ from harness.names import unknown_name
 from harness.references.device import Device
 from harness.scene_errors import explanations
 from harness.scene_model import ExpectTable, InputTable, SceneTable, SweepTable
-from harness.schedule import Schedule, Signal, constant, ramp, schedule, steps
+from harness.schedule import Schedule, Signal, constant, ramp, schedule, step_count, steps
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,8 @@ class Scene:
     """A scene that has been read and found sound.
 
     `parameters` are the device parameters that differ from their start, `signals` the inputs by
-    name. `stop_time` and `step_size` (s) are None for a scene without a run.
+    name. `stop_time` and `step_size` (s) are None for a scene without a run. `files` are all that
+    it was read from.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Scene:
     step_size: float | None
     expect: tuple[ExpectTable, ...]
     sweep: SweepTable | None
+    files: tuple[Path, ...]
 
     @property
     def device(self) -> Device:
@@ -53,13 +55,17 @@ class Scene:
     def schedule(self) -> Schedule:
         """Return inputs and communication points; SceneError for a scene without a run."""
         if self.stop_time is None or self.step_size is None:
-            raise SceneError(f"{self.source}: scene {self.name} has no [run] and cannot be run")
+            raise SceneError(
+                f"{self.source}: scene {self.name} has no [run] and cannot be run; the command "
+                "scenes shows which can"
+            )
         return schedule(self.stop_time, self.step_size, **self.signals)
 
 
 def read_scene(path: Path, overrides: Mapping[str, float] | None = None) -> Scene:
     """Read a scene file; `overrides` replace parameters, or inputs by a constant.
 
+    Values that `check_value` refuses must not be among them.
     Raises SceneError with file, key, value and what is allowed.
     """
     source = str(path)
@@ -89,9 +95,11 @@ def find_scene(name_or_file: str) -> Path:
     if name_or_file in built_in:
         return built_in[name_or_file]
     path = Path(name_or_file)
-    if path.suffix == ".toml" or path.is_file():
-        if path.is_file():
-            return path
+    if path.is_file():
+        return path
+    if path.is_dir():
+        raise SceneError(f"{path}: is a directory; allowed is a scene file or a built-in scene")
+    if path.suffix == ".toml":
         raise SceneError(f"{path}: no such scene file")
     raise SceneError(unknown_name("scene", name_or_file, built_in))
 
@@ -108,12 +116,7 @@ def sweep_points(scene: Scene, path: Path) -> Iterator[tuple[Mapping[str, float]
 
 def _scene(table: SceneTable, path: Path, overrides: Mapping[str, float]) -> Scene:
     parameters = {**table.device, **{k: v for k, v in overrides.items() if k not in INPUTS}}
-    try:
-        device = Device.from_mapping(parameters)
-    except ValueError as error:
-        raise SceneError(f"{path}: device: {error}") from error
-    if not device.drive_frequency > 0.0:
-        raise SceneError(f"{path}: device.drive_frequency = {device.drive_frequency!r} must be > 0")
+    device = Device.from_mapping(parameters)
     signals = {}
     for name in INPUTS:
         given = constant(overrides[name]) if name in overrides else None
@@ -124,6 +127,11 @@ def _scene(table: SceneTable, path: Path, overrides: Mapping[str, float]) -> Sce
     if run is not None:
         stop_time = run.stop_time or (run.drive_periods or 0.0) * period
         step_size = run.step_size or period / (run.steps_per_period or 1.0)
+        try:
+            step_count(stop_time, step_size)
+        except ValueError as error:
+            raise SceneError(f"{path}: run: {error}") from error
+    tables = [getattr(table.inputs, name) for name in INPUTS]
     return Scene(
         name=table.name,
         title=table.title,
@@ -135,6 +143,7 @@ def _scene(table: SceneTable, path: Path, overrides: Mapping[str, float]) -> Sce
         step_size=step_size,
         expect=table.expect,
         sweep=table.sweep,
+        files=(path, *(path.parent / read.csv for read in tables if read.csv is not None)),
     )
 
 

@@ -2,12 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from harness.names import unknown_name
 from harness.scene_model import SceneTable
+
+_ALLOWED: Mapping[str, str] = {
+    "dict_type": "a table of keys and values",
+    "finite_number": "a finite number",
+    "float_type": "a number",
+    "greater_than": "a number above {gt:g}",
+    "greater_than_equal": "a number not below {ge:g}",
+    "literal_error": "{expected}",
+    "model_type": "a table of keys and values",
+    "string_pattern_mismatch": "a word of letters, digits, _ and -",
+    "string_type": "a text in quotes",
+    "too_long": "a list of {max_length} numbers",
+    "tuple_type": "a list in brackets",
+}
+"""What is allowed where the schema finds a problem of this type."""
 
 
 def explanations(source: str, error: ValidationError) -> list[str]:
@@ -22,10 +38,14 @@ def explanations(source: str, error: ValidationError) -> list[str]:
         elif problem["type"] == "missing":
             lines.append(f"{source}: {key}: is missing")
         else:
-            message = problem["msg"].removeprefix("Value error, ")
             value = problem["input"]
             shown = "" if isinstance(value, dict) else f" = {value!r}"
-            lines.append(f"{source}: {key}{shown}: {message}")
+            wrong = problem["msg"].removeprefix("Value error, ")
+            if problem["type"] in _ALLOWED:
+                wrong = "allowed is " + _ALLOWED[problem["type"]].format(**problem.get("ctx", {}))
+            if location == ("expect",):
+                wrong = "allowed is a list of tables, each headed [[expect]]"
+            lines.append(f"{source}: {key}{shown}: {wrong}")
     return lines
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from harness.interface import INPUTS, PARAMETERS
 from harness.names import unknown_name
-from harness.quantities import QUANTITIES
+from harness.quantities import QUANTITIES, Quantity
+from harness.values import check_value
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
@@ -78,12 +80,12 @@ class ExpectTable(_Table):
     """One thing that must hold: a quantity of the FMU against a reference, a value or a bound.
 
     The deviation allowed is `absolute + relative * |reference|`; for a signal it is `relative`, a
-    share of the reference's peak.
+    share of the reference's peak. Whoever expects a real number says how near it must be, be it 0.
     """
 
     quantity: str
     reference: str | None = None
-    value: Number | str | None = None
+    value: float | str | None = None
     at_most: Number | None = None
     at_least: Number | None = None
     absolute: NotNegative = 0.0
@@ -96,6 +98,14 @@ class ExpectTable(_Table):
         if name not in QUANTITIES:
             raise ValueError(unknown_name("quantity", name, QUANTITIES))
         return name
+
+    @field_validator("value", mode="before")
+    @classmethod
+    def _number_or_word(cls, value: object) -> object:
+        number = isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+        if not (number or isinstance(value, str)):
+            raise ValueError("allowed is a finite number or a text in quotes")
+        return value
 
     @model_validator(mode="after")
     def _comparable(self) -> ExpectTable:
@@ -116,14 +126,24 @@ class ExpectTable(_Table):
             )
         if given in (["at_most"], ["at_least"]) and quantity.kind != "number":
             raise ValueError(f"{self.quantity} is a {quantity.kind}: it cannot have a bound")
+        if given in (["reference"], ["value"]):
+            self._check_tolerance(quantity)
         return self
+
+    def _check_tolerance(self, quantity: Quantity) -> None:
+        signal = quantity.kind == "signal"
+        if signal and "absolute" in self.model_fields_set:
+            raise ValueError(f"{self.quantity} is a signal: allowed is relative, not absolute")
+        if not quantity.exact and not self.model_fields_set & {"absolute", "relative"}:
+            needed = "relative, a share of the peak" if signal else "relative or absolute"
+            raise ValueError(f"{self.quantity} is a real number: it needs a tolerance, {needed}")
 
 
 class SweepTable(_Table):
     """One parameter or input that takes several values in turn; every expectation holds at each."""
 
     variable: str
-    values: tuple[Number, ...] = Field(min_length=1)
+    values: tuple[Number, ...]
 
     @field_validator("variable")
     @classmethod
@@ -132,6 +152,19 @@ class SweepTable(_Table):
         if name not in allowed:
             raise ValueError(unknown_name("parameter or input", name, allowed))
         return name
+
+    @field_validator("values")
+    @classmethod
+    def _some(cls, values: tuple[float, ...]) -> tuple[float, ...]:
+        if not values:
+            raise ValueError("allowed is a list of at least one number")
+        return values
+
+    @model_validator(mode="after")
+    def _possible(self) -> SweepTable:
+        for value in self.values:
+            check_value(self.variable, value)
+        return self
 
 
 class SceneTable(_Table):
@@ -149,9 +182,10 @@ class SceneTable(_Table):
     @field_validator("device")
     @classmethod
     def _known_parameters(cls, device: dict[str, float]) -> dict[str, float]:
-        for name in device:
+        for name, value in device.items():
             if name not in PARAMETERS:
                 raise ValueError(unknown_name("parameter", name, PARAMETERS))
+            check_value(name, value)
         return device
 
     @model_validator(mode="after")

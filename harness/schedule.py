@@ -15,6 +15,10 @@ from harness.references.held_inputs import HeldInputs
 GRID_TOLERANCE = 1e-9
 """A jump closer to a communication point than this fraction of the step moves that point."""
 
+MOST_STEPS = 3_000_000
+"""Communication steps that a run may have: an hour of table 1 in steps of a drive period has two
+million, and all outputs are kept in memory."""
+
 
 @dataclass(frozen=True)
 class Signal:
@@ -28,10 +32,12 @@ class Signal:
     hold: bool = True
 
     def __post_init__(self) -> None:
-        if not self.times or len(self.times) != len(self.values):
+        if not self.times:
+            raise ValueError("a signal needs at least one point")
+        if len(self.times) != len(self.values):
             raise ValueError(
-                f"a signal needs as many values as times and at least one: "
-                f"{len(self.times)} times, {len(self.values)} values"
+                f"a signal needs as many values as times: {len(self.times)} times, "
+                f"{len(self.values)} values"
             )
         if not np.all(np.isfinite([*self.times, *self.values])):
             raise ValueError("a signal needs finite times and values")
@@ -77,18 +83,37 @@ def communication_points(
     """Return the times 0, step, 2 step, ..., stop (s) together with the jumps inside, shape (n,).
 
     A grid point that all but coincides with a jump is replaced by it, so that no step starts just
-    before a jump and holds the old value throughout.
+    before a jump and holds the old value throughout. Raises ValueError as `step_count` does.
+    """
+    grid = step * np.arange(step_count(stop, step), dtype=np.float64)
+    inside = {time for time in jumps if 0.0 < time < stop}
+    return _giving_way(grid, np.array(sorted({0.0, stop} | inside)), GRID_TOLERANCE * step)
+
+
+def step_count(stop: float, step: float) -> int:
+    """Return how many steps (s) it takes to reach `stop` (s), the last of them perhaps shorter.
+
+    Raises ValueError for times that are not positive and for more than `MOST_STEPS` steps.
     """
     if not (stop > 0.0 and step > 0.0):
-        raise ValueError(f"stop = {stop!r} s and step = {step!r} s must be positive")
-    count = int(np.ceil(stop / step * (1.0 - GRID_TOLERANCE)))
-    grid = np.append(step * np.arange(count), stop)
-    inside = np.array(sorted({t for t in jumps if 0.0 < t < stop}), dtype=np.float64)
-    if inside.size == 0:
-        return grid
-    nearest = np.abs(grid[:, None] - inside[None, :]).min(axis=1)
-    kept = grid[(nearest > GRID_TOLERANCE * step) | (grid == 0.0) | (grid == stop)]
-    return np.union1d(kept, inside)
+        raise ValueError(f"a stop time of {stop!r} s in steps of {step!r} s: both must be positive")
+    ratio = stop / step * (1.0 - GRID_TOLERANCE)
+    if not ratio <= MOST_STEPS:
+        raise ValueError(
+            f"a stop time of {stop:.6g} s in steps of {step:.6g} s makes {ratio:.3g} communication "
+            f"steps; allowed are up to {MOST_STEPS}"
+        )
+    return int(np.ceil(ratio))
+
+
+def _giving_way(
+    grid: NDArray[np.float64], fixed: NDArray[np.float64], distance: float
+) -> NDArray[np.float64]:
+    """Return the sorted `fixed` points and those of the grid that are farther from all of them."""
+    after = np.searchsorted(fixed, grid).clip(max=len(fixed) - 1)
+    before = (after - 1).clip(min=0)
+    nearest = np.minimum(np.abs(grid - fixed[after]), np.abs(grid - fixed[before]))
+    return np.union1d(grid[nearest > distance], fixed)
 
 
 @dataclass(frozen=True)
@@ -109,6 +134,18 @@ class Schedule:
         """Return phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
         signals = (self.phase, self.load, self.frequency_ratio)
         return np.array([[s.at(float(t)) for s in signals] for t in self.times])
+
+    def refined(self, begin: float, step: float) -> Schedule:
+        """Return the same held inputs with more points from `begin` (s) on.
+
+        They are `step` (s) apart, give or take a hundredth of it beside a point of this
+        schedule: those all stay, to the last digit.
+        """
+        begin, stop = max(0.0, begin), float(self.times[-1])
+        fine = np.linspace(begin, stop, step_count(stop - begin, step) + 1)
+        times = _giving_way(fine, self.times, 0.01 * step)
+        points = [list(zip(self.times.tolist(), v, strict=True)) for v in self.sampled().T.tolist()]
+        return Schedule(times, *map(steps, points))
 
     def held(self) -> list[HeldInputs]:
         """Return the inputs as the FMU sees them, equal neighbours merged into one interval."""

@@ -29,8 +29,9 @@ class SteadyMotion:
     `steady_velocity` (m/s) is the mean over the common period of `common_period` drive periods,
     None where there is no steady motion; `periods` counts all simulated drive periods; `state` is
     the one at theta = psi = 0 and `predicted` the FMU's own output `steady_velocity`. `status` is
-    steady, stuck, unstable or neutral; without a velocity it is load_above_friction, slow_beat,
-    hidden_state, no_fixed_point, not_unique or not_converged.
+    steady, stuck, unstable or neutral; without a velocity it is load_above_friction, slow_beat
+    (frequency_ratio next to an integer), no_common_period, hidden_state, no_fixed_point,
+    not_unique or not_converged.
     """
 
     status: str

@@ -190,13 +190,33 @@ def test_command_line_says_what_it_wrote(
     assert [p.name for p in tmp_path.iterdir()] == ["SliderResonatorPy.fmu"], "no left-overs"
 
 
+@pytest.mark.parametrize("date", ["yesterday", "-5", "1e9", "9" * 30])
 def test_command_line_refuses_a_bad_date(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    date: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", date)
     assert main(["--out", str(tmp_path / "dist")]) == 2
-    assert "SOURCE_DATE_EPOCH = 'yesterday' refused" in capsys.readouterr().err
+    assert f"SOURCE_DATE_EPOCH = '{date}' refused" in capsys.readouterr().err
     assert not (tmp_path / "dist").exists(), "a failed build leaves nothing behind"
+
+
+@pytest.mark.parametrize("folder", ["file", "file/dist"])
+def test_command_line_refuses_a_file_as_folder(
+    folder: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("kept")
+    assert main(["--out", str(tmp_path / folder)]) == 2
+    error = capsys.readouterr().err
+    assert f"folder {tmp_path / folder} refused: {tmp_path / 'file'} is a file" in error
+    assert (tmp_path / "file").read_text() == "kept"
+
+
+def test_command_line_names_what_cannot_be_replaced(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "SliderResonatorPy.fmu").mkdir()
+    assert main(["--out", str(tmp_path)]) == 2
+    assert "Is a directory" in capsys.readouterr().err
 
 
 def test_a_component_that_does_not_run_is_not_packaged(

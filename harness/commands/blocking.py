@@ -16,6 +16,7 @@ from harness.commands.options import (
 from harness.drive import instantiate
 from harness.fmu import open_fmu
 from harness.json_output import to_json
+from harness.readable import readable
 
 
 @click.command("blocking")
@@ -27,7 +28,7 @@ from harness.json_output import to_json
 def blocking_command(
     context: click.Context,
     fmu: Path,
-    settings: tuple[tuple[str, float], ...],
+    settings: dict[str, float],
     max_denominator: int,
     as_json: bool,
 ) -> None:
@@ -43,7 +44,7 @@ def blocking_command(
       python -m harness blocking my.fmu --set phase=0.4 --set friction_faces=1 --json
     """
     with open_fmu(fmu) as opened, instantiate(opened) as instance:
-        blocking = find_blocking(instance, dict(settings), max_denominator=max_denominator)
+        blocking = find_blocking(instance, settings, max_denominator=max_denominator)
     click.echo(to_json(blocking) if as_json else _sentences(blocking))
     context.exit(0 if blocking.blocking_force is not None else 1)
 
@@ -51,9 +52,9 @@ def blocking_command(
 def _sentences(blocking: Blocking) -> str:
     force = blocking.blocking_force
     lines = [
-        f"blocking force   {'none' if force is None else f'{force:.10g} N'}",
+        f"blocking force   {'none' if force is None else f'{readable(force, 10)} N'}",
         f"status           {blocking.status}: {blocking.reason}",
-        f"averaged theory  {blocking.predicted:.10g} N (the FMU's own output)",
+        f"averaged theory  {readable(blocking.predicted, 10)} N (the FMU's own output)",
     ]
     if blocking.common_period is not None:
         lines.append(

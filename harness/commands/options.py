@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
 
-from harness.errors import FmuError
+from harness.errors import FmuError, HarnessError
 from harness.interface import INPUTS, PARAMETERS
 from harness.names import unknown_name
+from harness.targets import writable
+from harness.values import check_value
 
 BUILT_FMU = Path("dist") / "SliderResonatorPy.fmu"
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -22,7 +25,7 @@ class Setting(click.ParamType[tuple[str, float]]):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> tuple[str, float]:
-        """Split, check the name, and read the number."""
+        """Split, check the name, and read and check the number."""
         if isinstance(value, tuple):
             return value
         name, separator, number = str(value).partition("=")
@@ -33,9 +36,47 @@ class Setting(click.ParamType[tuple[str, float]]):
         if name not in allowed:
             self.fail(unknown_name("parameter or input", name, allowed), param, ctx)
         try:
-            return name, float(number)
+            read = float(number)
         except ValueError:
-            self.fail(f"{name} = {number!r}: a number is needed", param, ctx)
+            self.fail(f"{name} = {number!r}: allowed is a number", param, ctx)
+        try:
+            check_value(name, read)
+        except ValueError as error:
+            self.fail(str(error), param, ctx)
+        return name, read
+
+
+class Target(click.ParamType[Path]):
+    """A file to write, judged before anything is run; `suffixes`, if any, are those allowed."""
+
+    name = "FILE"
+
+    def __init__(self, suffixes: Sequence[str] = ()) -> None:
+        self.suffixes = suffixes
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> Path:
+        """Return the path, or say why it cannot be written."""
+        try:
+            return writable(str(value), self.suffixes)
+        except HarnessError as error:
+            self.fail(str(error), param, ctx)
+
+
+def _each_once(
+    context: click.Context, option: click.Parameter, settings: Sequence[tuple[str, float]]
+) -> dict[str, float]:
+    given: dict[str, float] = {}
+    for name, value in settings:
+        if name in given:
+            raise click.BadParameter(
+                f"{name} = {given[name]!r} and {name} = {value!r}: allowed is one value",
+                context,
+                option,
+            )
+        given[name] = value
+    return given
 
 
 fmu_argument = click.argument("fmu", type=click.Path(path_type=Path))
@@ -45,6 +86,7 @@ set_option = click.option(
     "settings",
     type=Setting(),
     multiple=True,
+    callback=_each_once,
     help="Value of a parameter or input, in SI units; may be given several times. All others keep "
     "their start value, the device of table 1.",
 )

@@ -6,18 +6,18 @@ from pathlib import Path
 
 import click
 
-from harness.commands.options import default_fmu
+from harness.commands.options import Target, default_fmu
 from harness.console import progress_bar
 from harness.picture import draw_picture
+from harness.targets import PICTURE_SUFFIXES, distinct
 
 
 @click.command("picture")
 @click.argument("fmu", type=click.Path(path_type=Path), required=False)
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
-    default=Path("docs/picture.png"),
-    show_default=True,
+    type=Target(PICTURE_SUFFIXES),
+    required=True,
     help="PNG, SVG or PDF to write.",
 )
 def picture_command(fmu: Path | None, out: Path) -> None:
@@ -25,10 +25,12 @@ def picture_command(fmu: Path | None, out: Path) -> None:
 
     \b
     Examples:
-      python -m harness picture
+      python -m harness picture --out picture.png
       python -m harness picture my.fmu --out picture.svg
     """
+    fmu = default_fmu(fmu)
+    distinct({"--out": out}, {"the FMU": fmu})
     with progress_bar() as progress:
         progress("picture", 0.0)
-        draw_picture(default_fmu(fmu), out)
+        draw_picture(fmu, out)
     click.echo(f"written  {out}")

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from math import pi
 from pathlib import Path
 
 import click
 
-from harness.commands.options import fmu_argument, json_option, set_option
+from harness.commands.options import Target, fmu_argument, json_option, set_option
 from harness.console import progress_bar
 from harness.drive import Record, instantiate, run
 from harness.fmu import open_fmu
 from harness.json_output import to_json
-from harness.plot import plot_run
+from harness.plot import plot_run, schedule_to_plot
+from harness.readable import readable
 from harness.record_csv import write_csv
 from harness.scene import Scene, find_scene, read_scene
+from harness.schedule import Schedule
+from harness.targets import PICTURE_SUFFIXES, distinct
 
 
 @dataclass(frozen=True)
@@ -42,8 +46,12 @@ class RunSummary:
 @click.command("run")
 @fmu_argument
 @click.argument("scene")
-@click.option("--out", type=click.Path(path_type=Path), help="CSV file for the run.")
-@click.option("--plot", type=click.Path(path_type=Path), help="PNG, SVG or PDF of the run.")
+@click.option("--out", type=Target(), help="CSV file for the run.")
+@click.option(
+    "--plot",
+    type=Target(PICTURE_SUFFIXES),
+    help="PNG, SVG or PDF of the run, made from a second one with finer steps at the end.",
+)
 @set_option
 @json_option
 def run_command(
@@ -51,7 +59,7 @@ def run_command(
     scene: str,
     out: Path | None,
     plot: Path | None,
-    settings: tuple[tuple[str, float], ...],
+    settings: dict[str, float],
     as_json: bool,
 ) -> None:
     """Run one scene, built in or from a file, and say what it cost.
@@ -64,19 +72,20 @@ def run_command(
       python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
       python -m harness run my.fmu scenes/mine.toml --set load=0.05 --json
     """
-    read = read_scene(find_scene(scene), dict(settings))
-    schedule = read.schedule()
+    read = read_scene(find_scene(scene), settings)
+    files = {f"the scene's file {file}": file for file in read.files}
+    distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **files})
     with progress_bar() as progress, open_fmu(fmu) as opened, instantiate(opened) as instance:
-        record = run(
-            instance,
-            read.parameters,
-            schedule,
-            progress=lambda share: progress(read.name, share),
-        )
-    if out is not None:
-        write_csv(record, out)
-    if plot is not None:
-        plot_run(record, read, plot)
+
+        def run_in(schedule: Schedule) -> Record:
+            told = partial(progress, read.name)
+            return run(instance, read.parameters, schedule, progress=told)
+
+        record = run_in(read.schedule())
+        if out is not None:
+            write_csv(record, out)
+        if plot is not None:
+            plot_run(run_in(schedule_to_plot(read)), read, plot)
     summary = _summary(fmu, read, record, out, plot)
     click.echo(to_json(summary) if as_json else _sentences(summary, read))
 
@@ -111,8 +120,8 @@ def _sentences(summary: RunSummary, scene: Scene) -> str:
         f"FMU      {summary.fmu}",
         f"run      {summary.simulated_time:.6g} s, {summary.drive_periods:.6g} drive periods in "
         f"{summary.communication_steps} communication steps",
-        f"result   position {summary.position:.9g} m, mean velocity over the last drive period "
-        f"{summary.mean_velocity:.9g} m/s",
+        f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
+        f"period {readable(summary.mean_velocity, 9)} m/s",
         f"contact  {summary.reversals} reversals, sticking {summary.stick_fraction:.1%} of the "
         f"last drive period, last event at {summary.last_event_time:.9g} s",
         f"cost     {summary.wall_time:.3g} s of wall time, "

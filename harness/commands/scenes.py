@@ -17,6 +17,8 @@ from harness.scene import built_in_scenes, read_scene
 def scenes_command(as_json: bool) -> None:
     """List the built-in scenes.
 
+    The command run takes those that have a length, in simulated seconds; validate takes all.
+
     \b
     Examples:
       python -m harness scenes
@@ -31,15 +33,18 @@ def scenes_command(as_json: bool) -> None:
                 "description": scene.description,
                 "file": scene.source,
                 "checks": len(scene.expect),
+                "stop_time": scene.stop_time,
             }
             for scene in scenes
         ]
         click.echo(to_json(rows))
         return
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in ("scene", "title", "points", "checks"):
+    for column in ("scene", "title", "run", "points", "checks"):
         table.add_column(column)
     for scene in scenes:
         points = len(scene.sweep.values) if scene.sweep else 1
-        table.add_row(scene.name, scene.title, str(points), str(points * len(scene.expect)))
+        length = "-" if scene.stop_time is None else f"{scene.stop_time:.3g} s"
+        checks = str(points * len(scene.expect))
+        table.add_row(scene.name, scene.title, length, str(points), checks)
     output().print(table)

@@ -15,6 +15,7 @@ from harness.commands.options import (
 from harness.drive import instantiate
 from harness.fmu import open_fmu
 from harness.json_output import to_json
+from harness.readable import readable
 from harness.steady import SteadyMotion, find_steady
 
 
@@ -27,7 +28,7 @@ from harness.steady import SteadyMotion, find_steady
 def steady_command(
     context: click.Context,
     fmu: Path,
-    settings: tuple[tuple[str, float], ...],
+    settings: dict[str, float],
     max_denominator: int,
     as_json: bool,
 ) -> None:
@@ -44,7 +45,7 @@ def steady_command(
       python -m harness steady my.fmu --set frequency_ratio=1.37 --max-denominator 100
     """
     with open_fmu(fmu) as opened, instantiate(opened) as instance:
-        motion = find_steady(instance, dict(settings), max_denominator=max_denominator)
+        motion = find_steady(instance, settings, max_denominator=max_denominator)
     click.echo(to_json(motion) if as_json else _sentences(motion))
     context.exit(0 if motion.steady_velocity is not None else 1)
 
@@ -52,9 +53,9 @@ def steady_command(
 def _sentences(motion: SteadyMotion) -> str:
     velocity = motion.steady_velocity
     lines = [
-        f"steady velocity  {'none' if velocity is None else f'{velocity:.10g} m/s'}",
+        f"steady velocity  {'none' if velocity is None else f'{readable(velocity, 10)} m/s'}",
         f"status           {motion.status}: {motion.reason}",
-        f"averaged theory  {motion.predicted:.10g} m/s (the FMU's own output)",
+        f"averaged theory  {readable(motion.predicted, 10)} m/s (the FMU's own output)",
     ]
     if motion.common_period is not None:
         lines.append(

@@ -1,9 +1,10 @@
 """The averaged slow motion under Coulomb friction, at any integer ratio of the two frequencies.
 
 Dimensionless as in `closed_forms`: velocities in units of ``x0 w0``, forces in units of the mean
-friction ``faces mu N0``, time in ``1 / w0``. ``strength`` is q, ``amplitude_ratio`` alpha, ``ratio``
-the frequency of the normal load over that of the drive, and ``phase`` the phase of the normal load
-when the tangential force passes through zero upward. Functions on a device are dimensional.
+friction ``faces mu N0``, time in ``1 / w0``. ``strength`` is q, ``amplitude_ratio`` alpha,
+``ratio`` the frequency of the normal load over that of the drive, and ``phase`` the phase of the
+normal load when the tangential force passes through zero upward. Functions on a device are
+dimensional.
 """
 
 from __future__ import annotations
@@ -134,6 +135,17 @@ def device_steady_velocity_at_ratio(
 def phase_to_force(force: EquivalentForce, phase: float, ratio: float) -> float:
     """Return the phase in rad relative to the equivalent force from that to the base excitation."""
     return phase + ratio * force.angle
+
+
+def slow_start(device: Device) -> float:
+    """Return the slow velocity in m/s of a device that starts from rest, resonator and all.
+
+    The drive leaves the momentum ``m A w + tangential_force / w`` between its swings; a start with
+    the resonator's steady motion, as (34) assumes, would leave another.
+    """
+    frequency = device.drive_frequency
+    push = device.resonator_mass * device.base_amplitude * frequency
+    return (push + device.tangential_force / frequency) / device.total_mass
 
 
 def _check(strength: float, amplitude_ratio: float) -> None:

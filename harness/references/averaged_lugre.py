@@ -79,9 +79,7 @@ def load_weighted_speed(velocity: float, case: LugreCase) -> float:
     q = case.strength
     turn = _turning_angle(velocity, q)
     bracket = (
-        q * math.sin(2.0 * turn)
-        - 4.0 * velocity * math.sin(turn)
-        - q * (math.pi - 2.0 * turn)
+        q * math.sin(2.0 * turn) - 4.0 * velocity * math.sin(turn) - q * (math.pi - 2.0 * turn)
     )
     return case.amplitude_ratio * math.sin(case.phase) / (2.0 * math.pi) * bracket
 

@@ -2,8 +2,8 @@
 
 To the fast velocity V - q cos(theta) belongs a periodic bristle response, explicit from the path:
 between reversals s0 z relaxes to +-mu with the distance slid. Its friction, weighted with the load
-and integrated numerically over a turn, is the mean friction. For ``stiffness_number`` -> 0 it is the
-slow manifold of the paper, (16), for large ones Coulomb friction, (4). Errors are O(1 / Omega).
+and integrated numerically over a turn, is the mean friction. For ``stiffness_number`` -> 0 it is
+the slow manifold of the paper, (16), for large ones Coulomb friction, (4). Errors are O(1 / Omega).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _GRADED_PANELS = 30
 
 
 def stiffness_number(case: LugreCase, stiffness: float, frequency: float) -> float:
-    """Return kappa = sigma_0 q / (mu Omega), paths slid in a turn over those that a bristle takes."""
+    """Return kappa = sigma_0 q / (mu Omega), the path of a turn over that of a bristle."""
     return stiffness * case.strength / (case.friction_coefficient * frequency)
 
 
@@ -76,9 +76,7 @@ def steady_velocity(
     )
 
 
-def blocking_load(
-    case: LugreCase, stiffness: float, frequency: float, *, ratio: int = 1
-) -> float:
+def blocking_load(case: LugreCase, stiffness: float, frequency: float, *, ratio: int = 1) -> float:
     """Return the load, in units of N0, under which the slow motion stops."""
     return -mean_friction(0.0, case, stiffness, frequency, ratio)
 

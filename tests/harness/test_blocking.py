@@ -43,3 +43,9 @@ def test_a_slow_beat_has_no_blocking_force(instance: Instance) -> None:
     blocking = find_blocking(instance, {"frequency_ratio": 1.001})
     assert blocking.blocking_force is None
     assert blocking.status == "slow_beat"
+
+
+def test_without_a_common_period_there_is_no_blocking_force(instance: Instance) -> None:
+    blocking = find_blocking(instance, {"frequency_ratio": 1.37})
+    assert blocking.blocking_force is None
+    assert blocking.status == "no_common_period"

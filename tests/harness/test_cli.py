@@ -72,10 +72,14 @@ def test_validate_as_json(python_fmu: Path, tmp_path: Path) -> None:
         (["run", "no.fmu", "no.toml"], "no such scene file"),
         (["steady", "no.fmu", "--set", "phse=1"], "did you mean 'phase'"),
         (["steady", "no.fmu", "--set", "phase"], "is not NAME=VALUE"),
-        (["steady", "no.fmu", "--set", "phase=x"], "a number is needed"),
+        (["steady", "no.fmu", "--set", "phase=x"], "allowed is a number"),
+        (["steady", "no.fmu", "--set", "friction_law=nan"], "allowed is an integer"),
+        (["blocking", "no.fmu", "--set", "load=1", "--set", "load=1"], "allowed is one value"),
+        (["steady", "/"], "is a directory; allowed is an FMU"),
+        (["validate", "--scene", "/"], "is a directory; allowed is a scene"),
         (["blocking", "no.fmu"], "no such file"),
         (["bench", "no.fmu"], "no such file"),
-        (["picture", "no.fmu"], "no such file"),
+        (["picture", "no.fmu", "--out", "p.png"], "no such file"),
         (["steady"], "Missing argument"),
         (["stedy"], "No such command"),
         (["scenes", "--jsn"], "No such option"),
@@ -92,6 +96,68 @@ def test_an_error_is_json_too_where_json_was_asked_for() -> None:
     result = call("steady", "no.fmu", "--json")
     assert result.exit_code == 2
     assert "no such file" in json.loads(result.stdout)["error"]
+
+
+def in_a_shell(line: str, fmu: Path) -> subprocess.CompletedProcess[str]:
+    """Run `harness ...` in bash with its exit code, whatever it is piped into, as the last line."""
+    script = (
+        f'harness() {{ {sys.executable} -m harness "$@"; echo "code $?" >&2; }}; fmu={fmu}; {line}'
+    )
+    return subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "harness validate $fmu --scene blocking_force_table_1 --json >/dev/full",
+        "harness validate $fmu --scene blocking_force_table_1 >/dev/full",
+        "harness steady $fmu >/dev/full",
+        "harness --help >/dev/full",
+    ],
+)
+def test_output_that_cannot_be_written_is_no_verdict(python_fmu: Path, line: str) -> None:
+    said = in_a_shell(line, python_fmu).stderr.splitlines()
+    assert said == ["error: standard output: No space left on device", "code 2"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "harness validate $fmu --scene blocking_force_table_1 | true",
+        "harness validate $fmu --scene blocking_force_table_1 --json | true",
+        "harness steady $fmu | true",
+        "harness --help | true",
+        "harness steady no.fmu --json 2>&1 >/dev/full | true; echo 'code 2' >&2",
+    ],
+)
+def test_a_reader_that_leaves_early_is_no_error_and_no_verdict(python_fmu: Path, line: str) -> None:
+    assert in_a_shell(line, python_fmu).stderr == "code 2\n"
+
+
+def test_what_cannot_even_be_complained_about_could_not_run(python_fmu: Path) -> None:
+    shell = in_a_shell(
+        f"{sys.executable} -m harness steady no.fmu 2>/dev/full; echo $?", python_fmu
+    )
+    assert shell.stdout == "2\n"
+
+
+def test_a_closed_output_does_not_hide_the_verdict(python_fmu: Path) -> None:
+    assert in_a_shell("harness steady $fmu >&-", python_fmu).stderr == "code 0\n"
+    line = "harness steady $fmu --set load=0.25 >&-"
+    assert in_a_shell(line, python_fmu).stderr == "code 1\n"
+
+
+def test_the_version_is_told() -> None:
+    result = call("--version")
+    assert result.exit_code == 0
+    assert "slider-resonator, version 0." in result.stdout
+
+
+def test_noise_and_minus_zero_are_not_shown(python_fmu: Path) -> None:
+    blocked = call("blocking", python_fmu, "--set", "normal_amplitude=0")
+    assert "blocking force   0 N" in blocked.stdout
+    still = call("steady", python_fmu, "--set", "normal_amplitude=0")
+    assert "steady velocity  0 m/s" in still.stdout
 
 
 def test_a_bug_is_not_taken_for_a_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -120,7 +186,11 @@ def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
 
 @pytest.mark.parametrize(
     ("settings", "status"),
-    [("load=0.25", "load_above_friction"), ("frequency_ratio=1.001", "slow_beat")],
+    [
+        ("load=0.25", "load_above_friction"),
+        ("frequency_ratio=1.001", "slow_beat"),
+        ("frequency_ratio=1.37", "no_common_period"),
+    ],
 )
 def test_no_steady_motion_ends_with_1_and_a_status(
     python_fmu: Path, settings: str, status: str

@@ -44,9 +44,10 @@ def test_a_number_may_deviate_by_the_relative_tolerance(velocity: float, passed:
     assert verdict.deviation == pytest.approx(velocity - 0.1, rel=1e-6)
 
 
-def test_without_tolerance_only_equality_passes() -> None:
-    assert judge(steady(0.0), quantity="steady_velocity", value=0.0).passed
-    assert not judge(steady(1e-300), quantity="steady_velocity", value=0.0).passed
+def test_with_a_tolerance_of_0_only_equality_passes() -> None:
+    expect = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
+    assert judge(steady(0.0), **expect).passed
+    assert not judge(steady(1e-300), **expect).passed
 
 
 @pytest.mark.parametrize("velocity", [float("nan"), float("inf"), None])
@@ -57,7 +58,8 @@ def test_what_is_no_number_fails(velocity: float | None) -> None:
 
 
 def test_a_missing_result_carries_its_reason() -> None:
-    assert judge(steady(None), quantity="steady_velocity", value=0.1).note == "because"
+    verdict = judge(steady(None), quantity="steady_velocity", value=0.1, relative=1e-6)
+    assert verdict.note == "because"
 
 
 def test_a_reference_without_a_result_fails() -> None:
@@ -115,4 +117,5 @@ def test_a_comparison_that_makes_no_sense_could_not_run() -> None:
             cast(ReferenceSide, Refusing()),
             quantity="steady_velocity",
             reference="closed_form",
+            relative=1e-6,
         )

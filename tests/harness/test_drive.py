@@ -45,8 +45,11 @@ def test_inputs_reach_the_fmu_at_their_time_and_not_before(instance: Instance) -
 def test_integers_are_set_as_integers(instance: Instance) -> None:
     instance.start({"friction_faces": 1.0})
     assert instance.value("friction_faces") == 1.0
-    with pytest.raises(FmuError, match=r"friction_faces = 1.5: an integer"):
+    with pytest.raises(FmuError, match=r"friction_faces = 1.5: allowed is an integer"):
         instance.start({"friction_faces": 1.5})
+    for bad in (float("nan"), float("inf"), 2.0**32 + 2.0):
+        with pytest.raises(FmuError, match=r"friction_law = .*: allowed is an integer"):
+            instance.start({"friction_law": bad})
 
 
 def test_a_refusal_carries_the_words_of_the_fmu(instance: Instance) -> None:
@@ -55,6 +58,9 @@ def test_a_refusal_carries_the_words_of_the_fmu(instance: Instance) -> None:
     message = str(caught.value)
     assert "slider_mass = -1.0" in message
     assert "t = 0 s" in message
+    assert message.count("slider_mass") == 1, "said once"
+    assert "Refusal" not in message, "without pythonfmu's wrapping"
+    assert "fmi2" not in message
     instance.start({})
     with pytest.raises(Refusal, match="phase"), instance.explained():
         instance.set_inputs([float("nan"), 0.0, 1.0])

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -44,6 +45,32 @@ def test_a_file_that_is_missing_or_no_fmu_is_named(tmp_path: Path) -> None:
         archive.writestr("readme.txt", "hello")
     with pytest.raises(FmuError, match="no modelDescription"), open_fmu(tmp_path / "empty.fmu"):
         pass
+
+
+def test_a_directory_is_named_as_one(tmp_path: Path) -> None:
+    (tmp_path / "dir.fmu").mkdir()
+    with pytest.raises(FmuError, match="is a directory"), open_fmu(tmp_path / "dir.fmu"):
+        pass
+
+
+@pytest.mark.parametrize("version", ["1.0", "3.0"])
+def test_another_version_of_fmi_is_named(tmp_path: Path, version: str) -> None:
+    with zipfile.ZipFile(tmp_path / "other.fmu", "w") as archive:
+        archive.writestr(XML, f'<fmiModelDescription fmiVersion="{version}" modelName="x"/>')
+    said = rf"FMI version {version}; allowed is 2\.0"
+    with pytest.raises(FmuError, match=said), open_fmu(tmp_path / "other.fmu"):
+        pass
+
+
+def test_model_exchange_alone_is_refused(python_fmu: Path, tmp_path: Path) -> None:
+    def change(text: str) -> str:
+        element = re.search(r"<CoSimulation.*?(/>|</CoSimulation>)", text, re.DOTALL)
+        assert element is not None
+        return text.replace(element[0], '<ModelExchange modelIdentifier="SliderResonatorPy"/>')
+
+    path = altered(python_fmu, tmp_path / "me.fmu", change)
+    with pytest.raises(FmuError, match="model exchange only; allowed is co-simulation"):
+        open_fmu(path).__enter__()
 
 
 def test_a_description_that_is_not_xml_is_an_error_of_the_fmu(tmp_path: Path) -> None:

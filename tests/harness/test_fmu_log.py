@@ -15,6 +15,25 @@ def test_messages_go_to_the_collector_of_their_instance() -> None:
     fmu_log.forget("two")
 
 
+@pytest.mark.parametrize("text", ["load = nan refused", "it's", "both ' and \"", "two\nlines"])
+def test_an_exception_is_told_in_its_own_words(text: str) -> None:
+    wrapped = f"Fatal py exception encountered: [setReal] PyObject_CallMethod\n{ValueError(text)!r}"
+    assert fmu_log.plain_words(wrapped) == text
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "mass refused",
+        "Fatal py exception encountered: [setReal]\nKeyError(3)",
+        "Fatal py exception encountered: [setReal]\nValueError('cut \\')",
+        "",
+    ],
+)
+def test_what_is_no_such_exception_stays_as_it_is(message: str) -> None:
+    assert fmu_log.plain_words(message) == message
+
+
 def test_messages_of_instances_of_others_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     messages, callbacks = fmu_log.collect("mine")
     callbacks.logger(None, b"theirs", 3, b"", b"not for the harness")

@@ -48,6 +48,25 @@ def test_a_beat_is_named_with_its_frequency() -> None:
     assert repeating_periods(facts(frequency_ratio=1.5), 20) == 2
 
 
+@pytest.mark.parametrize(
+    ("ratio", "status"),
+    [
+        (1.0999, "slow_beat"),
+        (2.9001, "slow_beat"),
+        (-0.9871, "slow_beat"),
+        (1.1001, "no_common_period"),
+        (1.37, "no_common_period"),
+        (-2.4567, "no_common_period"),
+    ],
+)
+def test_only_a_ratio_next_to_an_integer_beats_slowly(ratio: float, status: str) -> None:
+    found = repeating_periods(facts(frequency_ratio=ratio), 20)
+    assert isinstance(found, Obstacle)
+    assert found.status == status
+    assert f"frequency_ratio = {ratio!r} is no p/q with q <= 20" in found.reason
+    assert ("Hz" in found.reason) == (status == "slow_beat"), "a fast beat is none"
+
+
 def test_facts_are_read_back_from_the_fmu(instance: Instance) -> None:
     read = read_facts(instance, {"friction_faces": 1.0, "load": 0.05})
     assert (read["friction_faces"], read["load"], read["slider_mass"]) == (1.0, 0.05, 1.0)

@@ -11,7 +11,7 @@ from harness.picture import draw_picture
 
 @pytest.mark.slow
 def test_the_picture_fits_a_readme(python_fmu: Path, tmp_path: Path) -> None:
-    path = tmp_path / "docs" / "picture.png"
+    path = tmp_path / "picture.png"
     draw_picture(python_fmu, path)
     picture = imread(path)
     assert picture.shape[1] == 1200

@@ -7,8 +7,7 @@ import pytest
 from matplotlib.image import imread
 
 from harness.drive import Instance, run
-from harness.errors import HarnessError
-from harness.plot import plot_run
+from harness.plot import SMOOTH, ZOOM_PERIODS, plot_run, schedule_to_plot
 from harness.scene import Scene, find_scene, read_scene
 
 
@@ -35,8 +34,22 @@ def test_a_coarse_run_is_drawn_without_its_fast_motion(instance: Instance, tmp_p
     assert imread(tmp_path / "run.png").shape[0] < 700
 
 
-def test_an_unknown_suffix_is_refused(instance: Instance, scene: Scene, tmp_path: Path) -> None:
-    record = run(instance, scene.parameters, scene.schedule())
-    with pytest.raises(HarnessError, match=r"\.png, \.svg, \.pdf"):
-        plot_run(record, scene, tmp_path / "run.txt")
-    assert not list(tmp_path.iterdir())
+@pytest.mark.parametrize("name", ["table_1", "long_run", "changing_inputs"])
+def test_the_last_drive_periods_are_drawn_smoothly_under_the_same_inputs(name: str) -> None:
+    scene = read_scene(find_scene(name))
+    period = 2.0 * np.pi / scene.device.drive_frequency
+    own, shown = scene.schedule(), schedule_to_plot(scene)
+    late = shown.times[shown.times >= own.times[-1] - (ZOOM_PERIODS - 0.5) * period]
+    assert np.diff(late).max() <= 1.01 * period / SMOOTH * (1.0 + 1e-6)
+    assert len(shown.times) <= len(own.times) + ZOOM_PERIODS * SMOOTH + 1
+    assert shown.held() == own.held(), "the motion must be that of the scene"
+
+
+def test_the_lines_and_constant_inputs_are_named(instance: Instance, tmp_path: Path) -> None:
+    scene = read_scene(find_scene("table_1"), {"load": 0.05, "phase": 0.4})
+    record = run(instance, scene.parameters, schedule_to_plot(scene))
+    plot_run(record, scene, tmp_path / "run.svg")
+    text = (tmp_path / "run.svg").read_text()
+    assert "steady, averaged theory" in text
+    assert "phase 0.4 rad, load 0.05 N" in text
+    assert "frequency_ratio" not in text, "it is at its start"

@@ -1,10 +1,12 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 
 from rich.console import Console
 
 from harness.compare import Check
+from harness.console import WIDTH_OF_A_LOG
 from harness.report import print_validation
 from harness.validate import Validation
 
@@ -18,8 +20,24 @@ BAD = Check(
 )
 
 
+WIDEST = (
+    Check(
+        *("table_1_high_frequency", "steady_status", "", "load_above_friction", "value"),
+        *("load_above_friction", None, None, True, "why", "", {}),
+    ),
+    Check(
+        *("phase_sweep", "predicted_blocking_force", "N", -1.2345678e-05, "at least"),
+        *(-1.2345678e-05, 1.2e-10, 1.3e-07, True, "why", "", {"phase": 2.4083}),
+    ),
+    Check(
+        *("phase_sweep", "resonator_displacement", "m", 0.00012345678, "located_events"),
+        *(0.00012345678, 1.2e-10, 1.3e-07, True, "why", "", {"phase": 2.4083}),
+    ),
+)
+
+
 def printed(*checks: Check, details: bool = False) -> str:
-    console = Console(file=io.StringIO(), width=180)
+    console = Console(file=io.StringIO(), width=WIDTH_OF_A_LOG)
     print_validation(console, Validation("my.fmu", checks, 1.5), details=details)
     assert isinstance(console.file, io.StringIO)
     return console.file.getvalue()
@@ -27,22 +45,42 @@ def printed(*checks: Check, details: bool = False) -> str:
 
 def test_the_table_shows_units_and_the_summary() -> None:
     text = printed(GOOD)
-    assert "steady_velocity [m/s]" in text
-    assert "located events" in text
+    assert "steady_velocity, m/s" in text
+    assert "located" in text
     assert "1 of 1 checks passed" in text
     assert "FAIL" not in text
 
 
+def test_the_longest_rows_fit_a_log_unwrapped() -> None:
+    text = printed(*WIDEST)
+    assert len(text.splitlines()) == 2 + 1 + 2 + 1 + 3 + 3, text
+    assert "predicted_blocking_force, N" in text
+    assert "resonator_displacement*, m" in text
+    assert "* the peak of a signal" in text
+    assert text.count("load_above_friction") == 2
+
+
+def test_minus_zero_and_noise_are_0() -> None:
+    (row,) = [
+        line
+        for line in printed(replace(GOOD, fmu=-0.0, reference=-1.7e-14)).splitlines()
+        if "steady_velocity" in line
+    ]
+    assert row.split()[4:6] == ["0", "0"], row
+
+
 def test_of_a_sweep_the_worst_point_is_shown_with_its_reason() -> None:
     text = printed(GOOD, BAD)
-    assert "phase = 0.4, worst of 2" in text
-    assert "phase = 0," not in text
-    assert "FAIL phase_sweep: steady_velocity at phase = 0.4: both must agree" in text
+    assert "phase_sweep, 2 points" in text
+    assert "worst at" in text
+    assert text.count("phase 0.4") == 2, "in the table and as a failure"
+    assert "phase 0 " not in text
+    assert "FAIL phase_sweep: steady_velocity at phase 0.4: both must agree" in text
     assert "no steady motion" in text
     assert "1 failed" in text
 
 
 def test_details_show_every_point_and_why() -> None:
     text = printed(GOOD, BAD, details=True)
-    assert "phase = 0 " in text
+    assert "phase 0 " in text
     assert text.count("both must agree") >= 2

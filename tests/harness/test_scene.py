@@ -81,21 +81,38 @@ def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Pa
     ("text", "parts"),
     [
         ("[device]\nslider_mas = 1.0\n", ["device", "slider_mas", "'slider_mass'"]),
-        ("[device]\nslider_mass = true\n", ["device.slider_mass", "True", "valid number"]),
+        ("[device]\nslider_mass = true\n", ["device.slider_mass", "True", "allowed is a number"]),
         ("[device]\nslider_mass = nan\n", ["device.slider_mass", "nan", "finite"]),
         ("[device]\nfriction_faces = 1.5\n", ["friction_faces", "1.5", "integer"]),
         ("[devices]\nslider_mass = 1.0\n", ["devices", "did you mean 'device'?"]),
         ("[inputs]\nphse = 1.0\n", ["inputs.phse", "did you mean 'phase'?"]),
-        ('[inputs]\nphase = "1"\n', ["inputs.phase", "'1'", "valid number"]),
-        ("[inputs]\nphase = { steps = [[0, 1, 2]] }\n", ["inputs.phase.steps[0]"]),
+        ('[inputs]\nphase = "1"\n', ["inputs.phase", "'1'", "allowed is a number"]),
+        (
+            "[inputs]\nphase = { steps = [[0, 1, 2]] }\n",
+            ["inputs.phase.steps[0]", "a list of 2 numbers"],
+        ),
         ("[inputs]\nphase = { steps = [[1, 0], [0, 1]] }\n", ["inputs.phase", "increase"]),
         ("[inputs]\nphase = { step = [[0, 0]] }\n", ["inputs.phase.step", "'steps'"]),
         ("[inputs]\nphase = {}\n", ["inputs.phase", "exactly one"]),
         ('[inputs]\nload = { csv = "no.csv" }\n', ["inputs.load", "no.csv", "No such file"]),
         ("[run]\nstop_time = 1.0\n", ["run", "step_size or steps_per_period"]),
-        ("[run]\nstop_time = -1.0\nstep_size = 0.1\n", ["run.stop_time", "-1.0", "greater than 0"]),
+        ("[run]\nstop_time = -1.0\nstep_size = 0.1\n", ["run.stop_time", "-1.0", "above 0"]),
         ('[sweep]\nvariable = "lod"\nvalues = [1]\n', ["sweep.variable", "'load'"]),
-        ('[sweep]\nvariable = "load"\nvalues = []\n', ["sweep.values", "at least 1"]),
+        ('[sweep]\nvariable = "load"\nvalues = []\n', ["sweep.values", "at least one"]),
+        ('[sweep]\nvariable = "fidelity"\nvalues = [1.5]\n', ["sweep", "1.5", "an integer"]),
+        ("[device]\ndrive_frequency = 0\n", ["device", "drive_frequency = 0.0", "above 0"]),
+        ("[run]\nstop_time = 1e9\nstep_size = 1e-4\n", ["run", "1e+09", "1e+13", "3000000"]),
+        ("[run]\nstop_time = 1\nsteps_per_period = 1e308\n", ["run", "communication steps"]),
+        ("device = 3\n", ["device = 3", "a table"]),
+        ("run = 3\n", ["run = 3", "a table"]),
+        ("expect = 3\n", ["expect = 3", "headed [[expect]]"]),
+        ('[expect]\nwhy = "x"\n', ["expect", "headed [[expect]]"]),
+        ("[inputs]\nphase = { steps = 3 }\n", ["inputs.phase.steps = 3", "a list"]),
+        ("[inputs]\nphase = { csv = 3 }\n", ["inputs.phase.csv = 3", "a text in quotes"]),
+        (
+            '[inputs]\nphase = { csv = "a.csv", between = "x" }\n',
+            ["inputs.phase.between = 'x'", "'linear' or 'hold'"],
+        ),
         ("name = 3\n", ["not TOML"]),
     ],
 )
@@ -105,6 +122,13 @@ def test_a_mistake_is_named_with_its_key_its_value_and_what_is_allowed(
     message = refusal(tmp_path, HEAD + text)
     for part in parts:
         assert part in message, f"{part!r} is missing in: {message}"
+    for jargon in ("Input should", "valid", "pattern", "Tuple", "dictionary", "validation"):
+        assert jargon not in message, f"{jargon!r} is the schema's word: {message}"
+
+
+def test_a_name_that_is_no_word_is_refused_in_words(tmp_path: Path) -> None:
+    message = refusal(tmp_path, 'name = "a b"\ntitle = "x"\n')
+    assert "name = 'a b': allowed is a word of letters, digits, _ and -" in message
 
 
 @pytest.mark.parametrize(
@@ -116,9 +140,20 @@ def test_a_mistake_is_named_with_its_key_its_value_and_what_is_allowed(
         ('quantity = "steady_velocity"\nvalue = 1.0\nat_most = 2.0', ["exactly one"]),
         ('quantity = "steady_velocity"\nreference = "paper"', ["reference for steady_velocity"]),
         ('quantity = "steady_velocity"\nvalue = "fast"', ["number", "'fast'"]),
+        ('quantity = "steady_velocity"\nvalue = true', ["expect[0].value = True", "finite number"]),
+        ('quantity = "steady_velocity"\nvalue = nan', ["expect[0].value = nan", "finite number"]),
+        ('quantity = "steady_velocity"\nvalue = 0.1', ["steady_velocity", "needs a tolerance"]),
+        ('quantity = "velocity"\nreference = "taylor"', ["velocity", "a share of the peak"]),
+        (
+            'quantity = "velocity"\nreference = "taylor"\nabsolute = 1e-6',
+            ["velocity is a signal", "relative, not absolute"],
+        ),
         ('quantity = "steady_velocity"\nvalue = 1.0\nrelative = -1.0', ["expect[0].relative"]),
         ('quantity = "steady_status"\nat_most = 1.0', ["cannot have a bound"]),
-        ('quantity = "position"\nreference = "located_events"', ["[run] is missing"]),
+        (
+            'quantity = "position"\nreference = "located_events"\nrelative = 1e-8',
+            ["[run] is missing"],
+        ),
     ],
 )
 def test_an_expectation_that_cannot_be_judged_is_refused(
@@ -134,10 +169,27 @@ def test_an_expectation_without_a_reason_is_refused(tmp_path: Path) -> None:
     assert "expect[0].why: is missing" in refusal(tmp_path, HEAD + text)
 
 
+@pytest.mark.parametrize(
+    "expect",
+    [
+        'quantity = "reversals"\nvalue = 3',
+        'quantity = "steady_status"\nvalue = "stuck"',
+        'quantity = "contact_mode"\nreference = "taylor"',
+        'quantity = "steady_velocity"\nat_most = 1.0',
+        'quantity = "steady_velocity"\nvalue = 0.0\nabsolute = 0.0',
+    ],
+)
+def test_counts_words_and_bounds_need_no_tolerance_and_0_is_one(
+    tmp_path: Path, expect: str
+) -> None:
+    scene = read_scene(write(tmp_path, HEAD + RUN + f'[[expect]]\n{expect}\nwhy = "test"\n'))
+    assert len(scene.expect) == 1
+
+
 def test_steady_quantities_need_constant_inputs(tmp_path: Path) -> None:
     text = (
         "[inputs]\nphase = { steps = [[0, 0], [1, 1]] }\n"
-        '[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\nwhy = "test"\n'
+        '[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\nrelative = 1e-6\nwhy = "test"\n'
     )
     assert "constant inputs" in refusal(tmp_path, HEAD + text)
 
@@ -156,6 +208,22 @@ def test_an_unknown_scene_suggests_the_nearest() -> None:
 def test_a_missing_scene_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="no such scene file"):
         find_scene(str(tmp_path / "no.toml"))
+
+
+def test_a_directory_is_named_as_one(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="is a directory; allowed is a scene file"):
+        find_scene(str(tmp_path))
+
+
+def test_a_scene_knows_the_files_it_was_read_from(tmp_path: Path) -> None:
+    (tmp_path / "load.csv").write_text("time,load\n0,0.0\n")
+    path = write(tmp_path, HEAD + '[inputs]\nload = { csv = "load.csv" }\n')
+    assert read_scene(path).files == (path, tmp_path / "load.csv")
+
+
+def test_a_scene_without_a_run_says_where_to_find_one(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"no \[run\].*the command scenes"):
+        read_scene(write(tmp_path, HEAD)).schedule()
 
 
 def test_a_sweep_varies_parameters_and_inputs(tmp_path: Path) -> None:

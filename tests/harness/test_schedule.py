@@ -6,7 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from harness.references.held_inputs import HeldInputs, check_contiguous
-from harness.schedule import Signal, communication_points, constant, ramp, schedule, steps
+from harness.schedule import (
+    MOST_STEPS,
+    Signal,
+    communication_points,
+    constant,
+    ramp,
+    schedule,
+    step_count,
+    steps,
+)
 
 
 def test_steps_hold_their_value_until_the_next_and_jump_to_the_right() -> None:
@@ -24,7 +33,7 @@ def test_ramp_is_a_polyline_without_jumps() -> None:
 @pytest.mark.parametrize(
     ("times", "values", "said"),
     [
-        ((), (), "at least one"),
+        ((), (), "at least one point"),
         ((0.0, 1.0), (1.0,), "as many values"),
         ((0.0, 0.0), (1.0, 2.0), "increase strictly"),
         ((0.0, 1.0), (1.0, float("nan")), "finite"),
@@ -62,6 +71,35 @@ def test_communication_points_contain_every_jump_inside(
     assert np.all(np.diff(points) > 0.0)
     assert np.diff(points).max() <= step * (1.0 + 1e-6)
     assert {t for t in jumps if 0.0 < t < stop} <= set(points.tolist())
+
+
+@pytest.mark.parametrize(("stop", "step"), [(1e9, 1e-4), (1.0, 1e-300), (float("inf"), 1.0)])
+def test_more_steps_than_memory_can_hold_are_refused_before_they_are_made(
+    stop: float, step: float
+) -> None:
+    with pytest.raises(ValueError, match=f"communication steps; allowed are up to {MOST_STEPS}"):
+        communication_points(stop, step)
+
+
+@pytest.mark.parametrize(("stop", "step"), [(0.0, 1.0), (1.0, 0.0), (float("nan"), 1.0)])
+def test_times_that_are_not_positive_are_refused(stop: float, step: float) -> None:
+    with pytest.raises(ValueError, match="must be positive"):
+        step_count(stop, step)
+
+
+def test_many_jumps_on_many_points_fit_into_memory() -> None:
+    """All distances between them at once would take 24 GB."""
+    jumps = np.linspace(0.0, 1.0, 30_001)
+    points = communication_points(1.0, 1e-5, jumps.tolist())
+    assert len(points) == 120_001, "every third of the jumps is on the grid of 100 001 points"
+
+
+def test_a_refined_schedule_keeps_its_points_and_its_held_inputs() -> None:
+    made = schedule(1.0, 0.1, load=ramp([(0.0, 0.0), (1.0, 1.0)]), phase=steps([(0, 0), (0.77, 1)]))
+    fine = made.refined(0.65, 0.01)
+    assert set(made.times.tolist()) <= set(fine.times.tolist())
+    assert len(fine.times) == len(made.times) + 35 - 4, "35 points, of which 0.7 ... 0.9 were there"
+    assert fine.held() == made.held(), "more points must not make the ramp finer"
 
 
 def test_a_grid_point_just_before_a_jump_gives_way_to_it() -> None:

@@ -61,6 +61,14 @@ def test_a_slow_beat_is_named(instance: Instance) -> None:
     assert "0.557042 Hz" in motion.reason
 
 
+def test_a_ratio_far_from_integers_has_no_common_period_but_no_slow_beat(
+    instance: Instance,
+) -> None:
+    motion = find_steady(instance, {"frequency_ratio": 1.37})
+    assert motion.steady_velocity is None
+    assert motion.status == "no_common_period"
+
+
 def test_several_periods_make_a_common_one(instance: Instance) -> None:
     motion = find_steady(instance, {"frequency_ratio": 1.5, "phase": 0.3})
     assert motion.status == "steady"

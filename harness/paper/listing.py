@@ -1,0 +1,73 @@
+"""What the report says in words: the captions of the figures and the table of claims."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from harness.atomic import replacing
+from harness.json_output import to_json
+from harness.paper.figure import PaperFigure
+
+HEAD = (
+    "The FMU runs with masses, loads and reference frequency of 1, so that its SI values are the "
+    "paper's dimensionless ones; numbers in brackets are equations of the paper."
+)
+
+
+def write_figures(folder: Path, figures: Iterable[PaperFigure], fmu: str, guid: str) -> None:
+    """Write FIGURES.md with the caption of each figure; HarnessError when it cannot be written."""
+    lines = ["# Figures", "", f"FMU {fmu}, GUID {guid}. {HEAD}", ""]
+    for figure in figures:
+        lines += [f"## {figure.name}: {figure.title}", "", f"![{figure.title}]({figure.name}.png)"]
+        lines += ["", f"{figure.caption} ([SVG]({figure.name}.svg))", ""]
+    _write(folder / "FIGURES.md", "\n".join(lines))
+
+
+def write_claims(
+    folder: Path,
+    groups: Sequence[tuple[str, Sequence[Mapping[str, Any]]]],
+    fmu: str,
+    guid: str,
+) -> None:
+    """Write claims.json and claims.md from (title, claims) of every group.
+
+    Raises HarnessError when they cannot be written.
+    """
+    claims = [claim for _, group in groups for claim in group]
+    _write(folder / "claims.json", to_json({"fmu": fmu, "guid": guid, "claims": claims}) + "\n")
+    lines = ["# Statements of the paper, and what was measured", "", f"FMU {fmu}, GUID {guid}."]
+    lines += [verdicts(claims), ""]
+    for title, group in groups:
+        lines += [f"## {title}", ""]
+        lines += ["| statement | where | measured | verdict | why |", "|---|---|---|---|---|"]
+        for claim in group:
+            numbers = "<br>".join(
+                f"{name.replace('_', ' ')} {_number(value)}"
+                for name, value in claim["numbers"].items()
+            )
+            verdict = claim["verdict"] if claim["confirmed"] else "**NOT CONFIRMED**"
+            cells = (claim["statement"], claim["where"], numbers, verdict, claim["why"])
+            lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+        lines.append("")
+    _write(folder / "claims.md", "\n".join(lines))
+
+
+def verdicts(claims: Sequence[Mapping[str, Any]]) -> str:
+    """Return a sentence that counts the verdicts."""
+    counts: dict[str, int] = {}
+    for claim in claims:
+        name = claim["verdict"] if claim["confirmed"] else "not confirmed"
+        counts[name] = counts.get(name, 0) + 1
+    listed = ", ".join(f"{count} {name}" for name, count in counts.items())
+    return f"{len(claims)} statements: {listed}."
+
+
+def _number(value: float | None) -> str:
+    return "none" if value is None else f"{value:.6g}"
+
+
+def _write(path: Path, text: str) -> None:
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")

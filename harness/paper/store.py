@@ -1,0 +1,49 @@
+"""Results on disk: what was measured, under a key that changes with all that it depends on."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from types import FunctionType
+from typing import Any
+
+from harness.atomic import replacing
+from harness.json_output import to_json
+from harness.paper import mapping, measure
+from harness.targets import make_folder
+
+
+def key_of(parameters: Mapping[str, Any], fmu_guid: str, measurement: FunctionType) -> str:
+    """Return a digest of the parameters, the FMU's GUID, and the code that measures."""
+    digest = hashlib.sha256()
+    digest.update(to_json({"parameters": parameters, "guid": fmu_guid}).encode())
+    for source in (inspect.getsourcefile(measurement), mapping.__file__, measure.__file__):
+        if source is not None:
+            digest.update(Path(source).read_bytes())
+    return digest.hexdigest()
+
+
+def stored(path: Path, key: str) -> Any | None:
+    """Return the data stored at ``path`` under this key, None where there are none."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    if not isinstance(content, dict) or content.get("key") != key:
+        return None
+    return content.get("data")
+
+
+def store(path: Path, key: str, data: Any) -> Any:
+    """Write data under a key, in a folder made if need be, and return them as they will be read.
+
+    Raises HarnessError when the file cannot be written.
+    """
+    text = to_json({"key": key, "data": data})
+    make_folder(path.parent)
+    with replacing(path) as temporary:
+        temporary.write_text(text + "\n", encoding="utf-8")
+    return json.loads(text)["data"]

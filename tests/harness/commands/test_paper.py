@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from harness.cli import main
+
+
+def test_figures_are_written_and_told_of_as_json(python_fmu: Path, tmp_path: Path) -> None:
+    arguments = ["--out", str(tmp_path), "--only", "figure_7", "--fmu", str(python_fmu), "--json"]
+    result = CliRunner().invoke(main, ["paper", *arguments])
+    assert result.exit_code == 0, result.output
+    assert json.loads(result.stdout)["run"] == ["figure_7"]
+    assert (tmp_path / "figure_7.svg").is_file()
+    assert "figure_7" in (tmp_path / "FIGURES.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    "arguments", [["--only", "figure_6"], ["--fmu", "missing.fmu", "--only", "figure_3"]]
+)
+def test_what_cannot_be_run_ends_with_2(arguments: list[str], tmp_path: Path) -> None:
+    result = CliRunner().invoke(main, ["paper", "--out", str(tmp_path), *arguments])
+    assert result.exit_code == 2
+
+
+def test_a_claim_that_is_not_confirmed_ends_with_1(
+    python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from harness.paper import reproduce
+    from harness.paper.claim import AGREES, Claim, ClaimGroup
+
+    claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, AGREES, "it does not", False)
+    group = ClaimGroup("claims_x", "X", {}, lambda instance, progress: [claim])
+    monkeypatch.setattr(reproduce, "GROUPS", (group,))
+    arguments = ["--out", str(tmp_path), "--only", "claims", "--fmu", str(python_fmu)]
+    result = CliRunner().invoke(main, ["paper", *arguments])
+    assert result.exit_code == 1
+    assert "It flies" in result.output

@@ -1,0 +1,19 @@
+from __future__ import annotations
+
+import json
+
+from click.testing import CliRunner
+
+from harness.cli import main
+
+
+def test_the_list_says_which_scenes_can_be_run() -> None:
+    scenes = json.loads(CliRunner().invoke(main, ["scenes", "--json"]).stdout)
+    length = {scene["name"]: scene["stop_time"] for scene in scenes}
+    assert length["blocking_force"] is None
+    assert length["pushed_at_rest"] == 0.1
+    lines = CliRunner().invoke(main, ["scenes"]).stdout.splitlines()
+    (row,) = [line for line in lines if line.split()[:1] == ["pushed_at_rest"]]
+    assert "0.1 s" in row
+    (row,) = [line for line in lines if line.split()[:1] == ["load_speed"]]
+    assert " - " in row, "it has no run"

@@ -1,0 +1,40 @@
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+from harness.paper import figure_2
+from harness.paper.claim import AGREES, DISAGREES, Claim, near
+from harness.paper.listing import verdicts, write_claims, write_figures
+
+CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, AGREES, "it | does", True)
+
+
+def test_claims_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
+    wrong = replace(CLAIM, name="other", verdict=DISAGREES, confirmed=False)
+    write_claims(tmp_path, [("All", [CLAIM.plain(), wrong.plain()])], "a.fmu", "guid")
+    claims = json.loads((tmp_path / "claims.json").read_text(encoding="utf-8"))["claims"]
+    assert [claim["confirmed"] for claim in claims] == [True, False]
+    table = (tmp_path / "claims.md").read_text(encoding="utf-8")
+    assert "| It moves | (5) | v m per s 0.5 | agrees | it \\| does |" in table
+    assert "**NOT CONFIRMED**" in table
+
+
+def test_verdicts_are_counted() -> None:
+    wrong = replace(CLAIM, confirmed=False)
+    assert verdicts([CLAIM.plain(), CLAIM.plain(), wrong.plain()]) == (
+        "3 statements: 2 agrees, 1 not confirmed."
+    )
+
+
+def test_figures_are_listed_with_their_captions(tmp_path: Path) -> None:
+    write_figures(tmp_path, [figure_2.FIGURE], "a.fmu", "guid")
+    text = (tmp_path / "FIGURES.md").read_text(encoding="utf-8")
+    assert "(figure_2.png)" in text
+    assert figure_2.FIGURE.caption in text
+
+
+def test_near_is_relative() -> None:
+    assert near(-1.01, -1.0, 0.02)
+    assert not near(1.03, 1.0, 0.02)
