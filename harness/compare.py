@@ -65,7 +65,7 @@ def check(
             wanted = next(
                 v for v in (expect.value, expect.at_most, expect.at_least) if v is not None
             )
-    except (ValueError, ModuleNotFoundError) as error:
+    except (ValueError, RuntimeError, ModuleNotFoundError) as error:
         where = f"{fmu.scene.source}: {expect.quantity}"
         raise SceneError(f"{where} cannot be compared{_at(at)}: {error}") from error
     deviation, allowed = _distance(expect, measured, wanted)

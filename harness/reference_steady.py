@@ -55,7 +55,9 @@ def reference_blocking_force(
         return None
     state, scale, mean = shot.warm_up(0.0, guess)
     state[0] -= mean
-    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
+    # Without preload the load varies alone and friction is of the order of its amplitude.
+    normal = device.normal_preload + device.normal_amplitude
+    friction = device.friction_faces * device.friction_coefficient * normal
     found = blocking_point(
         shot.period_map,
         state,

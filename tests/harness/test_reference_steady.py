@@ -35,3 +35,10 @@ def test_a_ratio_without_a_common_period_has_none() -> None:
 
 def test_a_load_above_friction_has_none() -> None:
     assert reference_steady_velocity(TABLE_1, 0.0, 0.25, 1.0) is None
+
+
+def test_blocking_force_without_preload() -> None:
+    """The load then comes from the amplitude alone, and gives friction its scale."""
+    found = reference_blocking_force(Device(normal_preload=0.0), 0.4, 1.0)
+    assert found is not None
+    assert 0.0 < found < 0.2
