@@ -51,6 +51,7 @@ def _signal(name: str, unit: str, meaning: str) -> Quantity:
         {
             "located_events": lambda reference: reference.signal("located_events", name),
             "taylor": lambda reference: reference.signal("taylor", name),
+            "bristle_state": lambda reference: reference.signal("bristle_state", name),
         },
         needs_run=True,
         deviation=mismatch_share if name == "contact_mode" else peak_deviation,
@@ -171,6 +172,7 @@ QUANTITIES: Mapping[str, Quantity] = {
         {
             "located_events": lambda reference: reference.trajectory("located_events").reversals,
             "taylor": lambda reference: reference.trajectory("taylor").reversals,
+            "bristle_state": lambda reference: reference.trajectory("bristle_state").reversals,
         },
         needs_run=True,
         exact=True,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.reference_steady import reference_blocking_force, reference_steady_velocity
-from harness.references import closed_forms, located_events, taylor
+from harness.references import closed_forms, located_events, lugre_scipy, taylor
 from harness.references.trajectory import Trajectory
 from harness.scene import Scene
 
@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
     "located_events": located_events.simulate,
     "taylor": taylor.simulate,
+    "bristle_state": lugre_scipy.simulate_lugre,
 }
 
 
@@ -43,7 +44,7 @@ class ReferenceSide:
         return self.scene.schedule().times
 
     def trajectory(self, referee: str) -> Trajectory:
-        """Return the run of the scene by `located_events` or `taylor`.
+        """Return the run of the scene by `located_events`, `taylor` or, for LuGre, `bristle_state`.
 
         It also has the two ends of the last whole drive period.
         """
