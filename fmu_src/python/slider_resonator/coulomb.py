@@ -29,6 +29,9 @@ LONGEST_ARC = 60.0
 """Angle [rad] of the fastest oscillation after which a motion is anchored anew: keeps the rounding
 of large arguments of sine and cosine out."""
 
+SAME = 1e-6
+"""Share of the longest arc within which a release and a lift-off may be the same event."""
+
 MOST_STALLED = 1000
 """Events in a row without progress in time that are followed before a step is refused."""
 
@@ -149,7 +152,8 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
             zero = first_zero(watch, t, begin)
             if zero is not None:
                 t, ended_by = zero, index
-        if ended_by >= 0 and mode == STICK and _lifts_first(plant, chi + q * t, switch, until):
+        near_switch = switch == until and switch - t < SAME * arc
+        if ended_by >= 0 and mode == STICK and near_switch and _lifts_first(plant, chi + q * t):
             t, ended_by = switch, -1
         travelled = motion.travel(t)
         means, theta = means.advanced(t, theta, w, mode == STICK, motion.travel, travelled)
@@ -190,11 +194,10 @@ def stalling() -> Refusal:
     )
 
 
-def _lifts_first(plant: Plant, chi: float, switch: float, until: float) -> bool:
+def _lifts_first(plant: Plant, chi: float) -> bool:
     """Whether a stick ends only because the contact lifts: all friction is gone by then."""
     limit = plant.friction_preload + plant.friction_amplitude * sin(chi)
-    spare = 16.0 * EPSILON * (plant.friction_preload + plant.friction_amplitude)
-    return switch == until and limit <= spare
+    return limit <= 16.0 * EPSILON * (plant.friction_preload + plant.friction_amplitude)
 
 
 def _mode_in_contact(plant: Plant, state: State, theta: float, psi: float) -> int:

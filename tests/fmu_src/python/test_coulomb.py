@@ -175,3 +175,20 @@ def test_work_is_bounded_by_the_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     still = replace(TABLE_1, base_amplitude=0.0)
     run(still, Inputs(), begin(still), 100 * period)
     assert searches == []
+
+
+def test_without_friction_the_pair_keeps_the_momentum_of_its_drive() -> None:
+    """At rest under a lifting contact at first: it must not stick where there is no friction."""
+    device = Device(
+        resonator_mass=0.5,
+        resonator_frequency=30.0,
+        damping_ratio=0.0,
+        normal_preload=0.5,
+        base_amplitude=0.001953125,
+        drive_frequency=50.0,
+        friction_coefficient=0.0,
+    )
+    end = run(device, Inputs(), begin(device), 3.3 * math.tau / 50.0)
+    momentum = 1.5 * end.state.velocity + 0.5 * end.state.rate
+    drive = 0.5 * 0.001953125 * 50.0 * (1.0 - math.cos(3.3 * math.tau))
+    assert momentum == pytest.approx(drive, rel=1e-12)

@@ -204,7 +204,7 @@ def _between(least: float, greatest: float) -> st.SearchStrategy[float]:
 
 
 @pytest.mark.slow
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(
     parameters=st.fixed_dictionaries(
         {
@@ -214,10 +214,11 @@ def _between(least: float, greatest: float) -> st.SearchStrategy[float]:
             "damping_ratio": _between(0.0, 2.0),
             "normal_amplitude": _between(0.0, 3.0),
             "base_amplitude": _between(-9.0, -4.0).map(lambda power: 10.0**power),
-            "tangential_force": _between(-1.0, 1.0),
+            "tangential_force": st.one_of(_between(-1.0, -0.01), _between(0.01, 1.0)),
             "friction_coefficient": _between(0.05, 0.8),
             "fidelity": st.sampled_from([1, 2]),
-            "initial_velocity": _between(-0.1, 0.1),
+            # From rest a release can fall within rounding of its limit, where counts are open.
+            "initial_velocity": st.one_of(_between(-0.1, -0.01), _between(0.01, 0.1)),
         }
     ),
     inputs=st.lists(
