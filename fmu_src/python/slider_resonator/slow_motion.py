@@ -16,10 +16,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import acos, copysign, cos, inf, pi, sin, tau
 
-from .contact import is_lifted
-from .coulomb import BACKWARD, FORWARD, LIFTED, STICK, Counts, Held, Moment, hold
+from .coulomb import Counts, Held, Moment, hold
 from .device import Device, Inputs
 from .dormand_prince import integrate
+from .lugre import mode_of
 from .motion import State
 from .period import PeriodMeans
 from .plant import equivalent_force, steady_resonator
@@ -47,7 +47,7 @@ class SlowLaw:
 
     def start(self, state: State, position: float) -> Moment:
         """See Law. The initial velocities fix the momentum of the pair, not the vibration."""
-        mode = STICK if state.velocity == 0.0 else FORWARD if state.velocity > 0.0 else BACKWARD
+        mode = mode_of(self.held, state, 0.0)
         return Moment(state, position, 0.0, 0.0, mode, Counts(), inf, PeriodMeans())
 
     def advance(self, moment: Moment, duration: float) -> Moment:
@@ -76,20 +76,12 @@ class SlowLaw:
         state = State(slow - drive * cos(theta) - share * rate, displacement, rate)
         position = centre + moved - drive / w * sin(theta) - share * displacement
         means = PeriodMeans(complete=True, mean_velocity=slow)
-        mode = self._mode(state, psi)
+        mode = mode_of(self.held, state, psi)
         return Moment(state, position, theta, psi, mode, moment.counts, inf, means)
 
     def mode(self, moment: Moment) -> int:
         """See Law: by the sign of the velocity with its fast part."""
-        return self._mode(moment.state, moment.psi)
-
-    def _mode(self, state: State, psi: float) -> int:
-        plant = self.held.plant
-        if is_lifted(self.held.window, psi + plant.phase, plant.normal_frequency):
-            return LIFTED
-        if state.velocity == 0.0:
-            return STICK
-        return FORWARD if state.velocity > 0.0 else BACKWARD
+        return mode_of(self.held, moment.state, moment.psi)
 
     def friction_force(self, moment: Moment, mode: int) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
