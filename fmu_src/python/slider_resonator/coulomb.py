@@ -85,7 +85,7 @@ def hold(device: Device, inputs: Inputs) -> Held:
     """Prepare motion of `device` under `inputs`. Raises Refusal as `plant` does."""
     held = plant(device, inputs)
     fastest = max(held.drive_frequency, abs(held.normal_frequency))
-    if held.mass_fraction:
+    if held.resolves_resonator:
         fastest = max(
             [fastest] + [o.frequency for o in (held.slip, held.stick) if o.eigenvalue is not None]
         )
