@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from math import copysign, cos, pi, tau
 
 from .averaged_lugre import FastMotion, mean_friction
-from .bristle import Bristle
+from .bristle import bristle_of
 from .device import Device, Inputs
 from .plant import equivalent_force
 from .refusal import Refusal
@@ -79,7 +79,7 @@ def _coulomb(device: Device, load: VibratingLoad) -> Callable[[float], float]:
 
 
 def _lugre(device: Device, fast: FastMotion, load: VibratingLoad) -> Callable[[float], float]:
-    bristle = Bristle(device.friction_coefficient, device.bristle_stiffness, device.bristle_damping)
+    bristle = bristle_of(device)
 
     def friction(turning: float) -> float:
         return device.friction_faces * mean_friction(bristle, fast, load, turning)

@@ -7,11 +7,12 @@ soft bristles give the paper's slow manifold (17), hard ones Coulomb friction (5
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
 from itertools import pairwise
-from math import cos, exp, pi, sin, tau
+from math import cos, exp, expm1, pi, sin, tau
+from typing import NamedTuple
 
 from .bristle import Bristle
 from .vibrating_load import VibratingLoad
@@ -20,8 +21,15 @@ NODES = 12
 PANELS = (0.0, 0.05, 0.15, 0.35, 0.65, 1.0)
 """Panels of the quadrature over an arc; they crowd where sliding begins."""
 
+WIDEST = 6.0
+"""Widest panel as an angle [rad] of the normal load: there 12 nodes follow its sine to rounding."""
+
 BENT = 40.0
 """Path in units of mu / sigma_0 after which a bristle is fully bent to rounding."""
+
+MOST_WAVES = 1000
+"""Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
+add to the mean friction falls with their number, to less than 1e-3 of full friction."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +40,66 @@ class FastMotion:
     frequency: float
 
 
+class FrictionMeans(NamedTuple):
+    """Friction per unit load over a turn of tau, times 1, sin(n tau) and cos(n tau): its means."""
+
+    plain: float
+    sine: float
+    cosine: float
+
+
+class Bending(NamedTuple):
+    """Friction per unit load beyond Coulomb's, times a weight of the quadrature, at `angle`."""
+
+    angle: float
+    friction: float
+
+
 def mean_friction(bristle: Bristle, fast: FastMotion, load: VibratingLoad, turning: float) -> float:
     """Mean friction [N] of one face when sliding turns forward at tau = `turning` [rad].
 
     `turning` in [0, pi] is arccos(V / v_q) for the slow velocity V.
+    """
+    if abs(load.wave_number) > MOST_WAVES:
+        load = load.flattened()
+    coulomb = load.integral(turning, tau - turning) - load.integral(-turning, turning)
+    nodes = _bending(bristle, fast, turning, load.wave_number, load.kinks)
+    bent = sum(load.at(angle) * friction for angle, friction in nodes)
+    return (bristle.coefficient * coulomb + bent) / tau
+
+
+def friction_means(bristle: Bristle, fast: FastMotion, n: int, turning: float) -> FrictionMeans:
+    """What the mean friction is made of under a load N0 + dN sin(n tau + delta), n not 0.
+
+    Per face it is N0 plain + dN (cos(delta) sine + sin(delta) cosine).
+    """
+    mu = bristle.coefficient
+    plain, sine = mu * (tau - 4.0 * turning), 0.0
+    waves = n if abs(n) <= MOST_WAVES else 0
+    cosine = -4.0 * mu * sin(n * turning) / n if waves else 0.0
+    for angle, friction in _bending(bristle, fast, turning, float(waves), _no_kinks):
+        plain += friction
+        if waves == 0:
+            continue
+        sine += friction * sin(n * angle)
+        cosine += friction * cos(n * angle)
+    return FrictionMeans(plain / tau, sine / tau, cosine / tau)
+
+
+def _no_kinks(begin: float, end: float) -> list[float]:
+    return []
+
+
+def _bending(
+    bristle: Bristle,
+    fast: FastMotion,
+    turning: float,
+    wave_number: float,
+    kinks: Callable[[float, float], list[float]],
+) -> list[Bending]:
+    """Quadrature over both arcs of what the bristle still lacks of being fully bent.
+
+    It serves integrands that vary as cos(wave_number tau), with kinks where `kinks` says.
     """
     velocity = fast.velocity * cos(turning)
     arcs = ((1, turning, tau - turning), (-1, -turning, turning))
@@ -45,34 +109,44 @@ def mean_friction(bristle: Bristle, fast: FastMotion, load: VibratingLoad, turni
         return sign * moved / fast.frequency
 
     forward, backward = (path(*arc) for arc in arcs)
-    friction = _periodic_friction(bristle, forward, backward)
-    total = 0.0
+    start = _periodic_friction(bristle, forward, backward)
+    nodes = []
     for sign, begin, end in arcs:
-        limit = sign * bristle.coefficient
-        total += limit * load.integral(begin, end)
-        unbent = friction[sign] - limit
+        unbent = start[sign] - sign * bristle.coefficient
         last = _bent_at(bristle, partial(path, sign, begin), begin, end)
-        for low, high in pairwise(PANELS):
+        edges = [begin + (last - begin) * share for share in PANELS]
+        for low, high in _panels(edges, kinks(begin, last), wave_number):
+            half = 0.5 * (high - low)
             for node, weight in gauss_legendre(NODES):
-                share = low + (high - low) * 0.5 * (1.0 + node)
-                angle = begin + (last - begin) * share
+                angle = low + half * (1.0 + node)
                 fade = exp(-bristle.stiffness * path(sign, begin, angle) / bristle.coefficient)
                 drag = bristle.damping * (velocity - fast.velocity * cos(angle))
-                force = unbent * fade * (1.0 - sign * drag / bristle.coefficient)
-                total += weight * 0.5 * (high - low) * (last - begin) * load.at(angle) * force
-    return total / tau
+                friction = unbent * fade * (1.0 - sign * drag / bristle.coefficient)
+                nodes.append(Bending(angle, weight * half * friction))
+    return nodes
+
+
+def _panels(
+    edges: list[float], kinks: list[float], wave_number: float
+) -> Iterator[tuple[float, float]]:
+    """Panels between edges and kinks, none wider than WIDEST of the normal load."""
+    for low, high in pairwise(sorted(edges + kinks)):
+        pieces = 1 + int(abs(wave_number) * (high - low) / WIDEST)
+        width = (high - low) / pieces
+        for piece in range(pieces):
+            yield low + piece * width, low + (piece + 1) * width
 
 
 def _periodic_friction(bristle: Bristle, forward: float, backward: float) -> dict[int, float]:
     """sigma_0 z where the forward and the backward arc begin, for these paths [m]."""
     mu = bristle.coefficient
-    kept_forward = exp(-bristle.stiffness * forward / mu)
-    kept_backward = exp(-bristle.stiffness * backward / mu)
-    lost = 1.0 - kept_forward * kept_backward
-    if lost == 0.0:
+    bent_forward = -expm1(-bristle.stiffness * forward / mu)
+    bent_backward = -expm1(-bristle.stiffness * backward / mu)
+    bent = bent_forward + bent_backward - bent_forward * bent_backward
+    if bent == 0.0:
         return {1: 0.0, -1: 0.0}
-    at_forward = mu * ((1.0 - kept_forward) * kept_backward - (1.0 - kept_backward)) / lost
-    return {1: at_forward, -1: mu + (at_forward - mu) * kept_forward}
+    at_forward = mu * (bent_forward * (1.0 - bent_backward) - bent_backward) / bent
+    return {1: at_forward, -1: at_forward + (mu - at_forward) * bent_forward}
 
 
 def _bent_at(bristle: Bristle, path: Callable[[float], float], begin: float, end: float) -> float:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import expm1
 
+from .device import Device
+from .refusal import Refusal
+
 
 @dataclass(frozen=True, slots=True)
 class Bristle:
@@ -20,3 +23,13 @@ class Bristle:
         return friction - (limit - friction) * expm1(
             -self.stiffness * abs(travel) / self.coefficient
         )
+
+
+def bristle_of(device: Device) -> Bristle:
+    """The bristle of a device. Raises Refusal without friction, where (8) has no meaning."""
+    if device.friction_coefficient == 0.0:
+        raise Refusal(
+            f"friction_coefficient = {device.friction_coefficient!r} refused: with LuGre friction "
+            "allowed is a finite number above 0"
+        )
+    return Bristle(device.friction_coefficient, device.bristle_stiffness, device.bristle_damping)

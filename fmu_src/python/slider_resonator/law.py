@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from . import coulomb, lugre
-from .bristle import Bristle
+from .bristle import Bristle, bristle_of
 from .coulomb import Held, Moment, hold
 from .device import Device, Inputs
 from .motion import State
-from .refusal import Refusal
 from .slow_motion import slow_law
 
 
@@ -95,10 +94,4 @@ def law_of(device: Device, inputs: Inputs) -> Law:
     held = hold(device, inputs)
     if device.friction_law == 0:
         return CoulombLaw(held)
-    if device.friction_coefficient == 0.0:
-        raise Refusal(
-            f"friction_coefficient = {device.friction_coefficient!r} refused: with LuGre friction "
-            "allowed is a finite number above 0"
-        )
-    bristle = Bristle(device.friction_coefficient, device.bristle_stiffness, device.bristle_damping)
-    return LugreLaw(held, bristle, device.tolerance, device.initial_bristle_deflection)
+    return LugreLaw(held, bristle_of(device), device.tolerance, device.initial_bristle_deflection)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import cos, sin, tau
+from math import sin, tau
 from typing import NamedTuple
 
 from .averaged import Averaged, averaged
 from .coulomb import STICK, Moment
 from .device import Device, Inputs
+from .fast_vibration import steady_swing
 from .law import Law
 
 LEAD_DIGITS = 9
@@ -28,21 +29,12 @@ class View(NamedTuple):
     last_event_time: float
 
 
-def _resonator_displacement(view: View) -> float:
-    amplitude = view.law.held.plant.resonator_amplitude
-    if amplitude is None:
-        return view.moment.state.displacement
-    theta = view.moment.theta
-    return amplitude.real * sin(theta) + amplitude.imag * cos(theta)
-
-
-def _resonator_velocity(view: View) -> float:
-    amplitude = view.law.held.plant.resonator_amplitude
-    if amplitude is None:
-        return view.moment.state.rate
-    theta = view.moment.theta
-    turning = amplitude.real * cos(theta) - amplitude.imag * sin(theta)
-    return view.law.held.plant.drive_frequency * turning
+def _swing(view: View) -> tuple[float, float]:
+    """Displacement [m] and velocity [m/s] of the resonator."""
+    plant, state = view.law.held.plant, view.moment.state
+    if plant.resonator_amplitude is None:
+        return state.displacement, state.rate
+    return steady_swing(plant.resonator_amplitude, view.moment.theta, plant.drive_frequency)
 
 
 def _normal_force(view: View) -> float:
@@ -65,8 +57,8 @@ OUTPUTS: dict[str, Callable[[View], float]] = {
     "mean_velocity": lambda view: view.moment.means.present_mean_velocity(
         view.moment.state.velocity
     ),
-    "resonator_displacement": _resonator_displacement,
-    "resonator_velocity": _resonator_velocity,
+    "resonator_displacement": lambda view: _swing(view)[0],
+    "resonator_velocity": lambda view: _swing(view)[1],
     "normal_force": _normal_force,
     "friction_force": lambda view: view.law.friction_force(view.moment, view.mode),
     "contact_mode": lambda view: float(view.mode),

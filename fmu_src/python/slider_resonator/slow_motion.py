@@ -1,33 +1,27 @@
-"""Averaged motion, fidelity 0: the slow motion of the pair under mean Coulomb friction.
+"""Averaged motion, fidelity 0: the slow motion of the pair under mean friction.
 
 With D the amplitude of the drive force on the pair, its momentum over the total mass is
 P = X' + r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both go on smoothly
 whatever is tuned. V is the slow velocity, (M + m) V' = -mean friction - load. The fast parts of all
 outputs are the steady vibration (32)-(33), added in closed form.
 
-The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
-(ratio - n) w (Appendix A for n = 1), and with its mean elsewhere.
+A LuGre bristle is taken as slaved to the motion, so it has no state here.
 """
 
 from __future__ import annotations
 
-from cmath import phase as argument
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import acos, copysign, cos, inf, pi, sin, tau
+from math import copysign, cos, inf, sin, tau
 
+from .bristle import bristle_of
 from .coulomb import Counts, Held, Moment, hold
 from .device import Device, Inputs
 from .dormand_prince import integrate
+from .fast_vibration import FastVibration, fast_vibration, steady_swing
 from .lugre import mode_of
 from .motion import State
 from .period import PeriodMeans
-from .plant import equivalent_force, steady_resonator
-from .refusal import Refusal
-from .vibrating_load import VibratingLoad
-
-NEAR = 0.1
-"""Distance of the frequency ratio from an integer up to which the phase counts as slow."""
+from .slow_friction import slow_friction
 
 TOLERANCE = 1e-9
 """Error per step of the slow motion, relative to the fast velocity."""
@@ -43,7 +37,7 @@ class SlowLaw:
     device: Device
     inputs: Inputs
     held: Held
-    fast: _Fast
+    fast: FastVibration
 
     def start(self, state: State, position: float) -> Moment:
         """See Law. The initial velocities fix the momentum of the pair, not the vibration."""
@@ -58,7 +52,7 @@ class SlowLaw:
         theta, psi, state = moment.theta, moment.psi, moment.state
         slow = state.velocity + share * state.rate + drive * cos(theta)
         centre = moment.position + share * state.displacement + drive / w * sin(theta)
-        friction = self._mean_friction(theta, psi)
+        friction = slow_friction(device, self.inputs, fast, theta, psi)
         if fast.velocity == 0.0:
             slow, moved = _block(slow, friction(0.0, inf), load, total, duration)
         else:
@@ -72,7 +66,7 @@ class SlowLaw:
             )
         theta = (theta + w * duration) % tau
         psi = (psi + q * duration) % tau
-        displacement, rate = fast.resonator(theta, w)
+        displacement, rate = steady_swing(fast.resonator, theta, w)
         state = State(slow - drive * cos(theta) - share * rate, displacement, rate)
         position = centre + moved - drive / w * sin(theta) - share * displacement
         means = PeriodMeans(complete=True, mean_velocity=slow)
@@ -86,82 +80,18 @@ class SlowLaw:
     def friction_force(self, moment: Moment, mode: int) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
         velocity = moment.means.present_mean_velocity(moment.state.velocity)
+        friction = slow_friction(self.device, self.inputs, self.fast, moment.theta, moment.psi)
         if self.fast.velocity == 0.0 and velocity == 0.0:
-            full = self._mean_friction(moment.theta, moment.psi)(0.0, inf)
+            full = friction(0.0, inf)
             return max(-full, min(full, -self.inputs.load))
-        return self._mean_friction(moment.theta, moment.psi)(0.0, velocity)
-
-    def _mean_friction(self, theta: float, psi: float) -> Callable[[float, float], float]:
-        """Mean friction [N] at time t [s] from now and slow velocity [m/s]."""
-        device, ratio, fast = self.device, self.inputs.frequency_ratio, self.fast
-        scale = device.friction_faces * device.friction_coefficient
-        n = round(ratio)
-        near = abs(ratio - n) <= NEAR
-        drift = (ratio - n) * device.drive_frequency if near else 0.0
-        phase = self.inputs.phase + psi - n * theta + n * fast.lag
-        if near and n != 0 and device.normal_amplitude <= device.normal_preload:
-            preload = scale * device.normal_preload
-            swing = 2.0 * scale * device.normal_amplitude / (n * pi)
-
-            def without_flight(t: float, velocity: float) -> float:
-                turning = _turning(velocity, fast.velocity)
-                steady = preload * (1.0 - 2.0 / pi * turning)
-                return steady - swing * sin(n * turning) * sin(phase + drift * t)
-
-            return without_flight
-
-        def with_flight(t: float, velocity: float) -> float:
-            turning = _turning(velocity, fast.velocity)
-            load = VibratingLoad(device, float(n) if near else ratio, phase + drift * t)
-            forward = load.integral(turning, tau - turning)
-            return scale / tau * (forward - load.integral(-turning, turning))
-
-        return with_flight
-
-
-@dataclass(frozen=True, slots=True)
-class _Fast:
-    """The steady vibration: amplitudes [m/s], lag theta_1 [rad] and resonator [m] of (32)-(33)."""
-
-    velocity: float
-    pair_velocity: float
-    lag: float
-    amplitude: complex
-
-    def resonator(self, theta: float, w: float) -> tuple[float, float]:
-        """Steady displacement [m] and velocity [m/s] of the resonator."""
-        real, imag = self.amplitude.real, self.amplitude.imag
-        return (
-            real * sin(theta) + imag * cos(theta),
-            w * (real * cos(theta) - imag * sin(theta)),
-        )
-
-
-def _fast(device: Device) -> _Fast:
-    """Raises Refusal where undamped resonance leaves no steady vibration."""
-    w, total = device.drive_frequency, device.total_mass
-    force = equivalent_force(device)
-    pair = device.resonator_mass * device.base_amplitude * w * w + device.tangential_force
-    return _Fast(
-        abs(force) / (total * w), pair / (total * w), -argument(force), steady_resonator(device)
-    )
+        return friction(0.0, velocity)
 
 
 def slow_law(device: Device, inputs: Inputs) -> SlowLaw:
     """The averaged law. Raises Refusal where averages do not apply."""
-    if device.friction_law != 0:
-        raise Refusal(
-            f"fidelity = 0 refused with friction_law = {device.friction_law!r}: averaged motion "
-            "allows 0 (Coulomb)"
-        )
-    return SlowLaw(device, inputs, hold(device, inputs), _fast(device))
-
-
-def _turning(velocity: float, fast_velocity: float) -> float:
-    """Angle tau at which sliding turns forward; 0 or pi once it no longer turns."""
-    if abs(velocity) >= fast_velocity:
-        return 0.0 if velocity > 0.0 else pi
-    return acos(velocity / fast_velocity)
+    if device.friction_law == 1:
+        bristle_of(device)
+    return SlowLaw(device, inputs, hold(device, inputs), fast_vibration(device))
 
 
 def _block(

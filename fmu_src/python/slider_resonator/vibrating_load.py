@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import asin, cos, floor, pi, sin, tau
+from copy import copy
+from math import asin, ceil, cos, floor, pi, sin, tau
 
 from .device import Device
 
@@ -23,6 +24,28 @@ class VibratingLoad:
             self._constant = self._load(delta)
         elif ratio != round(ratio):
             self._constant = self._per_turn / tau
+
+    def flattened(self) -> VibratingLoad:
+        """The same load with its mean alone, for ratios other than 0."""
+        flat = copy(self)
+        flat._constant = self._per_turn / tau
+        return flat
+
+    @property
+    def wave_number(self) -> float:
+        """Waves of the load over a turn of the drive; 0 for a constant load."""
+        return 0.0 if self._constant is not None else self._ratio
+
+    def kinks(self, begin: float, end: float) -> list[float]:
+        """Drive angles in (begin, end) [rad] at which the contact lifts or touches down."""
+        if self._constant is not None or self._dip == 0.5 * pi:
+            return []
+        first, last = sorted((self._ratio * begin + self._delta, self._ratio * end + self._delta))
+        found = []
+        for kink in (-self._dip, pi + self._dip):
+            turns = range(ceil((first - kink) / tau), floor((last - kink) / tau) + 1)
+            found += [(kink + tau * turn - self._delta) / self._ratio for turn in turns]
+        return [angle for angle in found if begin < angle < end]
 
     def at(self, angle: float) -> float:
         """Normal load [N] at drive angle `angle` [rad]."""

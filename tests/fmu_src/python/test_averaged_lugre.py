@@ -9,8 +9,16 @@ import numpy as np
 import pytest
 
 from fmu_src.python.slider_resonator.averaged import averaged
-from fmu_src.python.slider_resonator.averaged_lugre import gauss_legendre
+from fmu_src.python.slider_resonator.averaged_lugre import (
+    MOST_WAVES,
+    FastMotion,
+    friction_means,
+    gauss_legendre,
+    mean_friction,
+)
+from fmu_src.python.slider_resonator.bristle import Bristle
 from fmu_src.python.slider_resonator.device import Device, Inputs
+from fmu_src.python.slider_resonator.vibrating_load import VibratingLoad
 
 UNIT = Device(
     slider_mass=1.0,
@@ -62,3 +70,39 @@ def test_quadrature_rule() -> None:
     ours = np.array(sorted(gauss_legendre(12)))
     assert ours[:, 0] == pytest.approx(nodes, abs=1e-15)
     assert ours[:, 1] == pytest.approx(weights, abs=1e-14)
+
+
+@pytest.mark.parametrize("stiffness", [50.0, 1e4, 1e7])
+@pytest.mark.parametrize("n", [1, -3, 40])
+def test_the_load_enters_by_three_means(n: int, stiffness: float) -> None:
+    bristle, fast = Bristle(0.1, stiffness, 10.0), FastMotion(0.2366, 3500.0)
+    device = Device(normal_preload=1.3, normal_amplitude=0.8)
+    plain, sine, cosine = friction_means(bristle, fast, n, 1.1)
+    for delta in (0.0, 0.7, 2.5):
+        means = 1.3 * plain + 0.8 * (math.cos(delta) * sine + math.sin(delta) * cosine)
+        load = VibratingLoad(device, float(n), delta)
+        assert mean_friction(bristle, fast, load, 1.1) == pytest.approx(means, abs=1e-13)
+
+
+@pytest.mark.parametrize("n", [1, 3, 50])
+@pytest.mark.parametrize("amplitude", [0.8, 2.0])
+def test_quadrature_follows_many_waves_and_flight(n: int, amplitude: float) -> None:
+    """A bristle this soft keeps its deflection over a turn, and the mean of the load counts."""
+    bristle, fast = Bristle(0.1, 1e-6, 0.0), FastMotion(0.2366, 3500.0)
+    load = VibratingLoad(Device(normal_amplitude=amplitude), float(n), 0.7)
+    mean = load.integral(0.0, math.tau) / math.tau
+    turning = 1.1
+    # A bristle this soft settles where it is bent forward as much as backward per turn.
+    velocity = math.cos(turning)
+    forward = velocity * (math.tau - 2.0 * turning) + 2.0 * math.sin(turning)
+    backward = 2.0 * math.sin(turning) - 2.0 * turning * velocity
+    bent = 0.1 * (forward - backward) / (forward + backward)
+    assert mean_friction(bristle, fast, load, turning) == pytest.approx(mean * bent, rel=1e-8)
+
+
+def test_beyond_a_thousand_waves_only_the_mean_counts() -> None:
+    bristle, fast = Bristle(0.1, 1e4, 10.0), FastMotion(0.2366, 3500.0)
+    exact = friction_means(bristle, fast, MOST_WAVES, 1.1)
+    assert max(abs(exact.sine), abs(exact.cosine)) < 1e-3 * bristle.coefficient
+    beyond = friction_means(bristle, fast, MOST_WAVES + 1, 1.1)
+    assert tuple(beyond) == pytest.approx((exact.plain, 0.0, 0.0), abs=1e-13)

@@ -118,6 +118,63 @@ def test_without_vibration_it_is_a_block(load: float, moves: bool) -> None:
     assert sliding.means.mean_velocity == 0.0
 
 
-def test_lugre_friction_is_refused() -> None:
-    with pytest.raises(Refusal, match="fidelity = 0 refused with friction_law = 1"):
-        law_of(replace(TABLE_1, friction_law=1), Inputs())
+@pytest.mark.parametrize(
+    ("parameters", "inputs"),
+    [
+        ({"bristle_stiffness": 50.0}, Inputs(0.4)),
+        ({"bristle_stiffness": 1e3}, Inputs(0.4, 0.03)),
+        ({"bristle_stiffness": 1e5}, Inputs()),
+        ({"bristle_stiffness": 1e5, "bristle_damping": 0.0}, Inputs(0.4, 0.05)),
+        ({"bristle_stiffness": 1e7}, Inputs(0.4, 0.0, 3.0)),
+        ({"bristle_stiffness": 1e4}, Inputs(0.3, 0.0, 1.002)),
+        ({"bristle_stiffness": 1e4}, Inputs(0.3, 0.0, 1.37)),
+        ({"bristle_stiffness": 1e5}, Inputs(0.6, 0.01, 0.0)),
+        ({"bristle_stiffness": 1e4, "normal_amplitude": 2.0}, Inputs(0.4)),
+        ({"bristle_stiffness": 1e5}, Inputs(0.4, 0.5)),
+    ],
+)
+def test_lugre_against_the_resolved_device(parameters: dict[str, float], inputs: Inputs) -> None:
+    device = replace(TABLE_1, friction_law=1, tolerance=1e-6, **parameters)
+    slow, full = pair(device, inputs, 280)
+    gap = slow.means.mean_velocity - full.means.mean_velocity
+    assert abs(gap) <= 0.004 * FAST_VELOCITY, "within 0.4 % of v_q after half a second"
+    bending = device.friction_coefficient / device.bristle_stiffness
+    assert slow.position == pytest.approx(
+        full.position, abs=0.004 * FAST_VELOCITY + 1.5 * bending
+    ), "a slaved bristle does not know the path on which it is first bent"
+
+
+def test_lugre_error_falls_with_the_drive_frequency() -> None:
+    """At equal fast velocity, slow time scale and kappa, the ratio of path and bristle length."""
+    errors = []
+    for factor in (1.0, 3.0, 9.0):
+        device = replace(
+            TABLE_1,
+            friction_law=1,
+            bristle_stiffness=3e3 * factor,
+            base_amplitude=1e-4 / factor,
+            drive_frequency=3500.0 * factor,
+            resonator_frequency=3500.0 * factor,
+            tolerance=1e-6,
+        )
+        slow, full = pair(device, Inputs(), round(140 * factor))
+        errors.append(abs(slow.means.mean_velocity - full.means.mean_velocity))
+    for one, other in itertools.pairwise(errors):
+        assert one / other == pytest.approx(3.0, rel=0.15), "averaging errs by 1 / Omega"
+
+
+def test_hard_bristles_move_as_coulomb_friction() -> None:
+    hard = replace(TABLE_1, friction_law=1, bristle_stiffness=1e12, bristle_damping=0.0)
+    lugre, coulomb = run(hard, Inputs(0.3, 0.02), 560), run(TABLE_1, Inputs(0.3, 0.02), 560)
+    assert lugre.means.mean_velocity == pytest.approx(coulomb.means.mean_velocity, rel=1e-4)
+
+
+def test_a_lugre_slider_without_vibration_is_a_block() -> None:
+    still = replace(TABLE_1, base_amplitude=0.0, friction_law=1, initial_velocity=0.05)
+    end = run(still, Inputs(), 560)
+    assert end.position == pytest.approx(0.05**2 / (2 * 0.2 / 1.1), rel=1e-9)
+
+
+def test_a_bristle_without_friction_is_refused() -> None:
+    with pytest.raises(Refusal, match=r"friction_coefficient = 0\.0 refused"):
+        law_of(replace(TABLE_1, friction_law=1, friction_coefficient=0.0), Inputs())

@@ -39,3 +39,17 @@ def test_between_integers_only_the_mean_counts(amplitude: float) -> None:
     load = VibratingLoad(Device(normal_amplitude=amplitude), 1.37, 0.4)
     assert load.at(0.1) == load.at(2.0) == pytest.approx(mean, rel=1e-8)
     assert load.integral(1.0, 3.5) == pytest.approx(2.5 * mean, rel=1e-8)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 3.0, -2.0])
+def test_kinks_are_where_the_contact_lifts_and_touches_down(ratio: float) -> None:
+    load = VibratingLoad(Device(normal_amplitude=1.7), ratio, 0.9)
+    angles = np.linspace(-1.0, 6.0, 70_001)
+    lifted = np.array([load.at(float(angle)) == 0.0 for angle in angles])
+    switches = angles[1:][lifted[1:] != lifted[:-1]]
+    assert sorted(load.kinks(-1.0, 6.0)) == pytest.approx(switches, abs=1.1e-4)
+
+
+def test_only_a_lifting_contact_has_kinks() -> None:
+    assert VibratingLoad(Device(normal_amplitude=1.0), 1.0, 0.9).kinks(-1.0, 6.0) == []
+    assert VibratingLoad(Device(normal_amplitude=1.7), 0.0, 0.9).kinks(-1.0, 6.0) == []

@@ -1,0 +1,42 @@
+"""The steady vibration on which slow motion rides, in closed form (32)-(34)."""
+
+from __future__ import annotations
+
+from cmath import phase as argument
+from dataclasses import dataclass
+from math import cos, sin
+
+from .device import Device
+from .plant import equivalent_force, steady_resonator
+
+
+@dataclass(frozen=True, slots=True)
+class FastVibration:
+    """Velocity amplitudes [m/s], lag theta_1 [rad], and the resonator's amplitude [m] of e.
+
+    `velocity` is v_q, that of the slider; `pair_velocity` that of the drive force on the pair.
+    """
+
+    velocity: float
+    pair_velocity: float
+    lag: float
+    resonator: complex
+
+
+def fast_vibration(device: Device) -> FastVibration:
+    """Raises Refusal where undamped resonance leaves no steady vibration."""
+    w, total = device.drive_frequency, device.total_mass
+    force = equivalent_force(device)
+    pair = device.resonator_mass * device.base_amplitude * w * w + device.tangential_force
+    return FastVibration(
+        abs(force) / (total * w), pair / (total * w), -argument(force), steady_resonator(device)
+    )
+
+
+def steady_swing(amplitude: complex, theta: float, frequency: float) -> tuple[float, float]:
+    """Displacement [m] and velocity [m/s] of amplitude e at drive phase `theta` [rad]."""
+    real, imag = amplitude.real, amplitude.imag
+    return (
+        real * sin(theta) + imag * cos(theta),
+        frequency * (real * cos(theta) - imag * sin(theta)),
+    )

@@ -1,0 +1,150 @@
+"""Mean friction under fast vibration, as slow motion sees it: at a slow velocity and a slow phase.
+
+The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
+(ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. LuGre friction is that of the
+periodic bristle response, uniform in the bristle stiffness.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from math import acos, cos, pi, sin, tau
+
+from .averaged_lugre import FastMotion, mean_friction
+from .bristle import Bristle, bristle_of
+from .device import Device, Inputs
+from .fast_vibration import FastVibration
+from .friction_table import MOST_WAVES_TABULATED, FrictionTable, friction_table
+from .vibrating_load import VibratingLoad
+
+NEAR = 0.1
+"""Distance of the frequency ratio from an integer up to which the phase counts as slow."""
+
+SlowFriction = Callable[[float, float], float]
+"""Time t [s] from now and slow velocity [m/s] -> mean friction [N] of all faces."""
+
+
+def slow_friction(
+    device: Device, inputs: Inputs, fast: FastVibration, theta: float, psi: float
+) -> SlowFriction:
+    """The mean friction from drive phase `theta` and normal phase `psi` [rad] on."""
+    ratio = inputs.frequency_ratio
+    n = round(ratio)
+    near = abs(ratio - n) <= NEAR
+    drift = (ratio - n) * device.drive_frequency if near else 0.0
+    phase = inputs.phase + psi - n * theta + n * fast.lag
+    waves = float(n) if near else ratio
+    lifts = device.normal_amplitude > device.normal_preload
+    # Without vibration a slaved bristle is always fully bent, and its friction Coulomb's.
+    if device.friction_law == 0 or fast.velocity == 0.0:
+        if near and n != 0 and not lifts:
+            return _coulomb(device, fast.velocity, n, phase, drift)
+        return _coulomb_over_flight(device, fast.velocity, waves, phase, drift)
+    if not near or n == 0:
+        return _lugre_under_mean_load(device, fast.velocity, waves, phase, drift)
+    if lifts or abs(n) > MOST_WAVES_TABULATED:
+        return _lugre_over_flight(device, fast.velocity, waves, phase, drift)
+    return _lugre(device, fast.velocity, n, phase, drift)
+
+
+def _coulomb(
+    device: Device, fast_velocity: float, n: int, phase: float, drift: float
+) -> SlowFriction:
+    scale = device.friction_faces * device.friction_coefficient
+    preload = scale * device.normal_preload
+    swing = 2.0 * scale * device.normal_amplitude / (n * pi)
+
+    def friction(t: float, velocity: float) -> float:
+        turning = _turning(velocity, fast_velocity)
+        steady = preload * (1.0 - 2.0 / pi * turning)
+        return steady - swing * sin(n * turning) * sin(phase + drift * t)
+
+    return friction
+
+
+def _coulomb_over_flight(
+    device: Device, fast_velocity: float, waves: float, phase: float, drift: float
+) -> SlowFriction:
+    scale = device.friction_faces * device.friction_coefficient / tau
+
+    def friction(t: float, velocity: float) -> float:
+        turning = _turning(velocity, fast_velocity)
+        load = VibratingLoad(device, waves, phase + drift * t)
+        forward = load.integral(turning, tau - turning)
+        return scale * (forward - load.integral(-turning, turning))
+
+    return friction
+
+
+def _lugre(
+    device: Device, fast_velocity: float, n: int, phase: float, drift: float
+) -> SlowFriction:
+    means_at = _table(device, fast_velocity, n).at
+    preload = device.friction_faces * device.normal_preload
+    swing = device.friction_faces * device.normal_amplitude
+
+    def friction(t: float, velocity: float) -> float:
+        plain, sine, cosine = means_at(_turning(velocity, fast_velocity))
+        delta = phase + drift * t
+        return preload * plain + swing * (cos(delta) * sine + sin(delta) * cosine)
+
+    return friction
+
+
+def _lugre_under_mean_load(
+    device: Device, fast_velocity: float, waves: float, phase: float, drift: float
+) -> SlowFriction:
+    means_at = _table(device, fast_velocity, 1).at
+    scale = device.friction_faces / tau
+
+    def friction(t: float, velocity: float) -> float:
+        load = VibratingLoad(device, waves, phase + drift * t).integral(0.0, tau)
+        return scale * load * means_at(_turning(velocity, fast_velocity))[0]
+
+    return friction
+
+
+def _lugre_over_flight(
+    device: Device, fast_velocity: float, waves: float, phase: float, drift: float
+) -> SlowFriction:
+    bristle = bristle_of(device)
+    fast = FastMotion(fast_velocity, device.drive_frequency)
+
+    def friction(t: float, velocity: float) -> float:
+        load = VibratingLoad(device, waves, phase + drift * t)
+        turning = _turning(velocity, fast_velocity)
+        return device.friction_faces * mean_friction(bristle, fast, load, turning)
+
+    return friction
+
+
+def _table(device: Device, fast_velocity: float, n: int) -> FrictionTable:
+    return _tabulated(
+        device.friction_coefficient,
+        device.bristle_stiffness,
+        device.bristle_damping,
+        fast_velocity,
+        device.drive_frequency,
+        n,
+    )
+
+
+@lru_cache(maxsize=4)
+def _tabulated(
+    coefficient: float,
+    stiffness: float,
+    damping: float,
+    fast_velocity: float,
+    frequency: float,
+    n: int,
+) -> FrictionTable:
+    bristle = Bristle(coefficient, stiffness, damping)
+    return friction_table(bristle, FastMotion(fast_velocity, frequency), n)
+
+
+def _turning(velocity: float, fast_velocity: float) -> float:
+    """Angle tau at which sliding turns forward; 0 or pi once it no longer turns."""
+    if abs(velocity) >= fast_velocity:
+        return 0.0 if velocity > 0.0 else pi
+    return acos(velocity / fast_velocity)
