@@ -2,8 +2,9 @@
 
 Friction opposes motion, so the slow state, entry 0, gains over a period when it is far below and
 loses when it is far above: between the two it repeats. The other entries are the resonator's,
-which answers almost linearly, so that for every value of entry 0 a fixed Jacobian makes them
-repeat. What is left is one equation in one unknown, with a sign change.
+which answers almost linearly, and the bristle's, which forgets. For every value of entry 0 a
+Jacobian that is seldom renewed makes them repeat. What is left is one equation in one unknown, with
+a sign change.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from harness.shooting import PeriodMap
 DOUBLINGS = 6
 """How often the bounds, first at the scale of the slow state, are doubled."""
 INNER_ITERATIONS = 50
+SLOW = 0.5
+"""A change of the fast states that shrinks no more than to this share asks for a new Jacobian."""
 INNER_TOLERANCE = 1e-13
 """Remaining change of the fast states over a period, in units of their scale."""
 
@@ -43,19 +46,7 @@ class _Elimination:
         self.period_map = period_map
         self.scale = scale
         self.state = guess.copy()
-
-        def fast_change(fast: Vector) -> Vector:
-            end, _ = period_map(np.append(guess[0], fast))
-            return end[1:] - fast
-
-        self.inverse: Matrix = np.empty((0, 0))
-        if len(guess) == 1:
-            return
-        jacobian = central_jacobian(fast_change, guess[1:], 1e-4 * scale[1:])
-        try:
-            self.inverse = np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
-        except np.linalg.LinAlgError as error:
-            raise _NoBracket from error
+        self.inverse = self._inverse()
 
     def root(self) -> Vector:
         bound = float(self.scale[0])
@@ -72,10 +63,31 @@ class _Elimination:
     def slow_change(self, slow: float) -> float:
         """Return the change of entry 0; leaves in `state` the state that it belongs to."""
         self.state[0] = slow
+        before = np.inf
         for _ in range(INNER_ITERATIONS):
             end, _ = self.period_map(self.state)
             change = end - self.state
-            if float(np.abs(change[1:] / self.scale[1:]).max(initial=0.0)) <= INNER_TOLERANCE:
+            size = float(np.abs(change[1:] / self.scale[1:]).max(initial=0.0))
+            if size <= INNER_TOLERANCE:
                 return float(change[0])
+            if size > SLOW * before:
+                self.inverse = self._inverse()
+            before = size
             self.state[1:] -= self.inverse @ change[1:]
         raise _NoBracket
+
+    def _inverse(self) -> Matrix:
+        """Return the inverse of the Jacobian of the fast states' change, at the present state."""
+        slow, fast = self.state[0], self.state[1:]
+        if not fast.size:
+            return np.empty((0, 0))
+
+        def fast_change(fast: Vector) -> Vector:
+            end, _ = self.period_map(np.append(slow, fast))
+            return end[1:] - fast
+
+        jacobian = central_jacobian(fast_change, fast, 1e-4 * self.scale[1:])
+        try:
+            return np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
+        except np.linalg.LinAlgError as error:
+            raise _NoBracket from error

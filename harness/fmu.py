@@ -34,6 +34,11 @@ class Fmu:
         """The model identifier, which is also the name of the binary."""
         return str(self.description.coSimulation.modelIdentifier)
 
+    @property
+    def runs_without_python(self) -> bool:
+        """Whether a host without Python can load it: it carries no Python sources to run."""
+        return not any((self.folder / "resources").glob("*.py"))
+
     def settable(self, name: str) -> ModelVariable:
         """Return the parameter or input called `name`; FmuError names the nearest if none is."""
         allowed = [*PARAMETERS, *INPUTS]

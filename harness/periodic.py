@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import asin, ceil, isfinite, pi, sin, sqrt
+from math import asin, ceil, pi, sin, sqrt
 
 import numpy as np
 
+from harness.bristle_reading import Array, bristle_reading
 from harness.common_period import common_period
 from harness.drive import Instance
 from harness.errors import FmuError
 from harness.newton import Vector
+from harness.search import WARM_UP, WarmedUp
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity")
-"""The state at theta = psi = 0; the position does not matter, for nothing depends on it."""
-INITIAL = tuple(f"initial_{name}" for name in STATE)
-WARM_UP = 20
-"""Drive periods run before shooting, so that the resonator's own transient is mostly gone."""
+"""The outputs that are states; the position does not matter, for nothing depends on it."""
 SAMPLES = 8
 """Points of the last drive period of the warm-up that give the size of each state."""
 SLOW = 0.1
@@ -78,7 +77,8 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
     names = (
         *("phase", "load", "frequency_ratio", "drive_frequency", "normal_preload"),
         *("normal_amplitude", "friction_faces", "friction_coefficient", "friction_law"),
-        *("slider_mass", "resonator_mass", "damping_ratio"),
+        *("bristle_stiffness", "bristle_damping", "fidelity"),
+        *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio"),
     )
     with instance.explained():
         read = {name: instance.value(name) for name in names}
@@ -108,22 +108,12 @@ def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:
     )
 
 
-def hidden_state(facts: Facts) -> Obstacle | None:
-    """Return the obstacle of a friction law with a state that the interface does not show."""
-    if facts["friction_law"] == 0:
-        return None
-    return Obstacle(
-        "hidden_state",
-        f"friction_law = {facts['friction_law']:.0f} has a bristle deflection that no output "
-        "shows, so that the state over a period cannot be closed; allowed is 0 (Coulomb)",
-    )
-
-
 class FmuPeriodMap:
     """State and load (N) at theta = psi = 0 -> state and displacement (m) after q drive periods.
 
-    `periods` counts every drive period that has been simulated, `stick_fraction` is that of the
-    last one.
+    The state has the entries `names`: those of `STATE` and, where there is a LuGre bristle that
+    matters, its deflection. `periods` counts every drive period that has been simulated,
+    `stick_fraction` is that of the last one.
     """
 
     def __init__(
@@ -135,7 +125,12 @@ class FmuPeriodMap:
         self.drive_periods = drive_periods
         self.periods = 0
         self.stick_fraction = 0.0
-        self._read = instance.block(["position", *STATE, "stick_fraction"])
+        self.bristle = bristle_reading(facts.values)
+        self.names = STATE if self.bristle is None else (*STATE, "bristle_deflection")
+        self._leads = (0.0,) if self.bristle is None else self.bristle.leads
+        self._read = instance.block(
+            ["position", *STATE, "friction_force", "normal_force", "stick_fraction"]
+        )
 
     @property
     def period(self) -> float:
@@ -145,40 +140,62 @@ class FmuPeriodMap:
     def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
         """Run one common period."""
         before = self._start(state, load)
-        after = self._advance(self.period, self.drive_periods)
-        return np.array(after[1:4]), after[0] - before
+        times = self._times_before(self.period)
+        readings = self._readings(times)
+        self.periods += self.drive_periods
+        return self._state(times, readings), float(readings[-1, 0]) - before
 
-    def warm_up(self, velocity: float, load: float) -> tuple[Vector, Vector, float]:
-        """Run some periods with the resonator at rest and the slider at `velocity` (m/s).
-
-        Returns the state at the end, the typical size of each state, and the mean velocity over
-        the last drive period.
-        """
+    def warm_up(self, velocity: float, load: float) -> WarmedUp:
+        """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
         count = ceil(WARM_UP / self.drive_periods) * self.drive_periods
         period = self.facts.drive_period
-        self._start(np.array([velocity, 0.0, 0.0]), load)
-        position = self._advance((count - 1) * period, count - 1)[0]
-        samples = []
-        for index in range(1, SAMPLES + 1):
-            samples.append(self._advance((count - 1 + index / SAMPLES) * period, 0))
-        self.periods += 1
-        sizes = np.abs(np.array(samples)[:, 1:4]).max(axis=0)
+        start = np.zeros(len(self.names))
+        start[0] = velocity
+        self._start(start, load)
+        samples = (count - 1 + np.arange(SAMPLES + 1) / SAMPLES) * period
+        before_end = self._times_before(count * period)
+        times = np.union1d(samples, before_end)
+        readings = self._readings(times)
+        self.periods += count
+        last = readings[np.searchsorted(times, samples)]
         floor = self.facts.velocity_floor
+        sizes = np.abs(last[1:, 1:4]).max(axis=0)
         scale = np.maximum(sizes, [floor, floor * period / (2.0 * pi), floor])
-        end = samples[-1]
-        return np.array(end[1:4]), scale, (end[0] - position) / period
+        if self.bristle is not None:
+            scale = np.append(scale, self.bristle.scale)
+        state = self._state(before_end, readings[np.searchsorted(times, before_end)])
+        return WarmedUp(state, scale, float(last[-1, 0] - last[0, 0]) / period)
 
     def _start(self, state: Vector, load: float) -> float:
-        initial = dict(zip(INITIAL, map(float, state), strict=True))
+        initial = {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
         self.instance.start({**self.values, **initial, "load": load})
         return self._read.read()[0]
 
-    def _advance(self, time: float, periods: int) -> list[float]:
+    def _times_before(self, stop: float) -> Array:
+        """Return the times (s) of the readings that give the state at `stop`."""
+        return np.maximum(0.0, stop - np.array(self._leads))
+
+    def _readings(self, times: Array) -> Array:
+        """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""
+        rows = []
         with self.instance.explained():
-            self.instance.step_to(time)
-            read = self._read.read()
-        self.periods += periods
-        self.stick_fraction = read[4]
-        if not all(isfinite(value) for value in read):
-            raise FmuError(f"{self.instance.fmu.path.name} at t = {time:.9g} s: output is {read}")
-        return read
+            for time in times.tolist():
+                if time > self.instance.time:
+                    self.instance.step_to(time)
+                rows.append(self._read.read())
+        readings = np.array(rows)
+        if not np.isfinite(readings).all():
+            raise FmuError(
+                f"{self.instance.fmu.path.name} at t = {times[-1]:.9g} s: output is {rows[-1]}"
+            )
+        self.stick_fraction = float(readings[-1, 6])
+        return readings
+
+    def _state(self, times: Array, readings: Array) -> Vector:
+        """Return the state at the end of readings."""
+        state = readings[-1, 1:4]
+        if self.bristle is None:
+            return state
+        position, velocity, friction, normal = readings[:, (0, 1, 4, 5)].T
+        bent = self.bristle.deflection(times, position, velocity, friction, normal)
+        return np.append(state, bent)

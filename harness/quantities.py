@@ -41,18 +41,21 @@ class Quantity:
     exact: bool = False
 
 
-def _signal(name: str, unit: str, meaning: str) -> Quantity:
-    """Return an output that is compared point by point."""
+def _signal(name: str, unit: str, meaning: str, *, averaged: bool = False) -> Quantity:
+    """Return an output that is compared point by point, also with averaged motion if it has it."""
+    references: dict[str, Callable[[ReferenceSide], Any]] = {
+        "located_events": lambda reference: reference.signal("located_events", name),
+        "taylor": lambda reference: reference.signal("taylor", name),
+        "bristle_state": lambda reference: reference.signal("bristle_state", name),
+    }
+    if averaged:
+        references["averaged"] = lambda reference: getattr(reference.averaged_motion, name)
     return Quantity(
         "signal",
         unit,
         meaning,
         lambda fmu: fmu.record[name],
-        {
-            "located_events": lambda reference: reference.signal("located_events", name),
-            "taylor": lambda reference: reference.signal("taylor", name),
-            "bristle_state": lambda reference: reference.signal("bristle_state", name),
-        },
+        references,
         needs_run=True,
         deviation=mismatch_share if name == "contact_mode" else peak_deviation,
         exact=name == "contact_mode",
@@ -73,6 +76,7 @@ QUANTITIES: Mapping[str, Quantity] = {
         {
             "located_events": lambda reference: reference.steady_velocity,
             "closed_form": lambda reference: reference.averaged_velocity,
+            "averaged": lambda reference: reference.predicted_velocity,
         },
     ),
     "steady_status": Quantity(
@@ -97,6 +101,7 @@ QUANTITIES: Mapping[str, Quantity] = {
         {
             "located_events": lambda reference: reference.blocking_force,
             "closed_form": lambda reference: reference.averaged_blocking_force,
+            "averaged": lambda reference: reference.predicted_blocking_force,
         },
     ),
     "blocking_status": Quantity(
@@ -118,17 +123,23 @@ QUANTITIES: Mapping[str, Quantity] = {
         "m/s",
         "the FMU's output steady_velocity",
         lambda fmu: fmu.steady.predicted,
-        {"closed_form": lambda reference: reference.averaged_velocity},
+        {
+            "closed_form": lambda reference: reference.averaged_velocity,
+            "averaged": lambda reference: reference.predicted_velocity,
+        },
     ),
     "predicted_blocking_force": Quantity(
         "number",
         "N",
         "the FMU's output blocking_force",
         lambda fmu: fmu.blocking.predicted,
-        {"closed_form": lambda reference: reference.averaged_blocking_force},
+        {
+            "closed_form": lambda reference: reference.averaged_blocking_force,
+            "averaged": lambda reference: reference.predicted_blocking_force,
+        },
     ),
-    "position": _signal("position", "m", "slider position"),
-    "velocity": _signal("velocity", "m/s", "slider velocity"),
+    "position": _signal("position", "m", "slider position", averaged=True),
+    "velocity": _signal("velocity", "m/s", "slider velocity", averaged=True),
     "resonator_displacement": _signal("resonator_displacement", "m", "relative displacement"),
     "resonator_velocity": _signal("resonator_velocity", "m/s", "relative velocity"),
     "normal_force": _signal("normal_force", "N", "normal force of a face"),
@@ -144,7 +155,10 @@ QUANTITIES: Mapping[str, Quantity] = {
                 reference.times,
                 reference.signal("located_events", "position"),
                 reference.drive_period,
-            )
+            ),
+            "averaged": lambda reference: slow_displacement(
+                reference.times, reference.averaged_motion.position, reference.drive_period
+            ),
         },
         needs_run=True,
     ),
@@ -153,7 +167,10 @@ QUANTITIES: Mapping[str, Quantity] = {
         "m/s",
         "mean velocity over the last whole drive period of the run",
         lambda fmu: fmu.record.final("mean_velocity"),
-        {"located_events": lambda reference: reference.mean_velocity},
+        {
+            "located_events": lambda reference: reference.mean_velocity,
+            "averaged": lambda reference: float(reference.averaged_motion.mean_velocity[-1]),
+        },
         needs_run=True,
     ),
     "stick_fraction": Quantity(

@@ -11,7 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.reference_steady import reference_blocking_force, reference_steady_velocity
-from harness.references import closed_forms, located_events, lugre_scipy, taylor
+from harness.references import (
+    averaged_coulomb,
+    closed_forms,
+    located_events,
+    lugre_scipy,
+    taylor,
+    uniform_average,
+)
+from harness.references.averaged_motion import AveragedMotion, simulate_averaged
 from harness.references.trajectory import Trajectory
 from harness.scene import Scene
 
@@ -62,6 +70,11 @@ class ReferenceSide:
         return values[np.searchsorted(run.time, self.times)]
 
     @cached_property
+    def averaged_motion(self) -> AveragedMotion:
+        """The averaged motion of the scene, whatever its fidelity, at the communication points."""
+        return simulate_averaged(self.device, self.scene.schedule().held(), self.times)
+
+    @cached_property
     def mean_velocity(self) -> float:
         """Mean velocity (m/s) over the last whole drive period of the run."""
         run = self.trajectory("located_events")
@@ -84,7 +97,7 @@ class ReferenceSide:
     def steady_velocity(self) -> float | None:
         """Mean velocity (m/s) of the steady motion, by shooting with located events."""
         try:
-            guess = self.averaged_velocity
+            guess = self.predicted_velocity
         except ValueError:
             guess = 0.0
         inputs = (self.inputs["phase"], self.inputs["load"], self.inputs["frequency_ratio"])
@@ -95,6 +108,23 @@ class ReferenceSide:
         """Load (N) that makes the mean velocity zero, by shooting with located events."""
         phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
         return reference_blocking_force(self.device, phase, ratio)
+
+    @property
+    def predicted_velocity(self) -> float:
+        """Steady velocity (m/s) by averages: any ratio, both friction laws, a contact may lift."""
+        phase, load = self.inputs["phase"], self.inputs["load"]
+        ratio = self.inputs["frequency_ratio"]
+        if self.device.friction_law == 1:
+            return uniform_average.device_steady_velocity(self.device, phase, load, ratio)
+        return averaged_coulomb.device_steady_velocity_at_ratio(self.device, phase, ratio, load)
+
+    @property
+    def predicted_blocking_force(self) -> float:
+        """Blocking force (N) by the same averages."""
+        phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
+        if self.device.friction_law == 1:
+            return uniform_average.device_blocking_force(self.device, phase, ratio)
+        return averaged_coulomb.device_blocking_force_at_ratio(self.device, phase, ratio)
 
     @property
     def averaged_velocity(self) -> float:
@@ -116,8 +146,12 @@ class ReferenceSide:
 
     @property
     def difference_frequency(self) -> float:
-        """Difference (Hz) of the frequencies of normal force and drive: appendix A's beat."""
-        return abs(self.inputs["frequency_ratio"] - 1.0) / self.drive_period
+        """Distance (Hz) of the normal force's frequency from a multiple of the drive's: the beat.
+
+        For a ratio near 1 it is that of appendix A.
+        """
+        ratio = self.inputs["frequency_ratio"]
+        return abs(ratio - round(ratio)) / self.drive_period
 
     @cached_property
     def _last_period(self) -> Array:

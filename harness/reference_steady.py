@@ -1,21 +1,28 @@
-"""Steady velocity and blocking force of the located-events reference, by the same shooting."""
+"""Steady velocity and blocking force of the references, by the same shooting.
+
+With Coulomb friction it is the reference with located events that is run, with LuGre friction the
+one that integrates the bristle as a state.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import ceil, pi
+from typing import Any
 
 import numpy as np
 
-from harness.bracketing import bracketed_state
 from harness.common_period import common_period
 from harness.newton import Vector
+from harness.references import located_events, lugre_scipy
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
-from harness.references.located_events import advance, simulate
-from harness.shooting import FixedPoint, NoFixedPoint, blocking_point, fixed_point
+from harness.references.trajectory import Trajectory
+from harness.search import WARM_UP, WarmedUp, blocked_point, steady_point
+from harness.shooting import FixedPoint
 
-WARM_UP = 20
+STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
 SAMPLES = 16
 TOLERANCE = 1e-9
 """Wanted accuracy in units of the scale: the integrator's own 1e-12 per period, amplified by the
@@ -29,87 +36,83 @@ def reference_steady_velocity(
 
     `phase` in rad, `load` in N; `guess` (m/s) is where the search begins.
     """
-    shot = _Shot(device, phase, ratio)
-    if shot.count is None:
+    count = common_period(ratio)
+    if count is None:
         return None
-    state, scale, mean = shot.warm_up(guess, load)
-    state[0] += guess - mean
-
-    def loaded(start: Vector) -> tuple[Vector, float]:
-        return shot.period_map(start, load)
-
-    found = fixed_point(loaded, state, scale, load=load, tolerance=TOLERANCE)
-    if isinstance(found, NoFixedPoint):
-        between = bracketed_state(loaded, state, scale)
-        if between is not None:
-            found = fixed_point(loaded, between, scale, load=load, tolerance=TOLERANCE)
-    return found.displacement / shot.period if isinstance(found, FixedPoint) else None
+    period_map = _ReferencePeriodMap(device, phase, ratio, count)
+    found = steady_point(period_map, guess, load, tolerance=TOLERANCE)
+    return found.displacement / period_map.period if isinstance(found, FixedPoint) else None
 
 
 def reference_blocking_force(
     device: Device, phase: float, ratio: float, guess: float = 0.0
 ) -> float | None:
     """Return the load (N) that makes the mean velocity zero, None where none is found."""
-    shot = _Shot(device, phase, ratio)
-    if shot.count is None:
+    count = common_period(ratio)
+    if count is None:
         return None
-    state, scale, mean = shot.warm_up(0.0, guess)
-    state[0] -= mean
+    period_map = _ReferencePeriodMap(device, phase, ratio, count)
     # Without preload the load varies alone and friction is of the order of its amplitude.
     normal = device.normal_preload + device.normal_amplitude
     friction = device.friction_faces * device.friction_coefficient * normal
-    found = blocking_point(
-        shot.period_map,
-        state,
-        guess,
-        scale,
-        load_scale=friction,
-        displacement_scale=float(scale[0]) * shot.period,
-        tolerance=TOLERANCE,
-    )
+    warm = period_map.warm_up(0.0, guess)
+    found = blocked_point(period_map, warm, guess, friction, tolerance=TOLERANCE)
     return found.load if isinstance(found, FixedPoint) else None
 
 
-class _Shot:
-    """The period map of the reference; `count` drive periods are one common period.
+class _ReferencePeriodMap:
+    """The period map of a reference; `count` drive periods are one common period.
 
-    The state is (velocity, resonator displacement, resonator velocity); at fidelity 1, where the
-    resonator's force is given, only the velocity.
+    The state has the entries of `STATE` that there are: no resonator at fidelity 1, where its
+    force is given, and no bristle with Coulomb friction.
     """
 
-    def __init__(self, device: Device, phase: float, ratio: float) -> None:
+    def __init__(self, device: Device, phase: float, ratio: float, count: int) -> None:
         self.device = device
         self.phase = phase
         self.ratio = ratio
+        self.count = count
         self.drive_period = 2.0 * pi / device.drive_frequency
-        self.count = common_period(ratio)
-        self.period = (self.count or 0) * self.drive_period
+        self.period = count * self.drive_period
+        resonator = STATE[1:3] if device.fidelity == 2 else ()
+        bristle = STATE[3:] if device.friction_law == 1 else ()
+        self.names = (STATE[0], *resonator, *bristle)
 
-    def period_map(self, state: Vector, load: float) -> tuple[Vector, float]:
-        inputs = HeldInputs(0.0, self.period, self.phase, load, self.ratio)
-        full = np.zeros(3)
-        full[: len(state)] = state
-        end, displacement = advance(self.device, inputs, (full[0], full[1], full[2]))
-        return np.array(end[: len(state)]), displacement
+    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
+        """Run one common period."""
+        states, position = self._run(state, load, np.array([self.period]))
+        return states[0], float(position[0])
 
-    def warm_up(self, velocity: float, load: float) -> tuple[Vector, Vector, float]:
-        """Return state, typical sizes, and mean velocity at the end of some periods from rest."""
-        count = ceil(WARM_UP / (self.count or 1)) * (self.count or 1)
+    def warm_up(self, velocity: float, load: float) -> WarmedUp:
+        """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
+        count = ceil(WARM_UP / self.count) * self.count
         stop = count * self.drive_period
-        device = replace(
-            self.device,
-            initial_position=0.0,
-            initial_velocity=velocity,
-            initial_resonator_displacement=0.0,
-            initial_resonator_velocity=0.0,
-        )
         times = np.linspace((count - 1) * self.drive_period, stop, SAMPLES + 1)
-        inputs = HeldInputs(0.0, stop, self.phase, load, self.ratio)
-        run = simulate(device, [inputs], times)
-        states = np.column_stack([run.velocity, run.resonator_displacement, run.resonator_velocity])
-        sizes = np.abs(states).max(axis=0)
-        floor = 1e-6 * max(float(sizes[2]), float(sizes[0]), 1e-3)
-        scale = np.maximum(sizes, [floor, floor * self.drive_period, floor])
-        mean = (run.position[-1] - run.position[0]) / self.drive_period
-        size = 1 if self.device.fidelity == 1 else 3
-        return states[-1, :size], scale[:size], float(mean)
+        start = np.zeros(len(self.names))
+        start[0] = velocity
+        states, position = self._run(start, load, times)
+        mean = float(position[-1] - position[0]) / self.drive_period
+        return WarmedUp(states[-1], self._scale(np.abs(states).max(axis=0)), mean)
+
+    def _scale(self, sizes: Vector) -> Vector:
+        """Return the scale of each state from the largest sizes that were seen, all (n,)."""
+        seen = dict(zip(self.names, sizes.tolist(), strict=True))
+        floor = 1e-6 * max(seen["velocity"], seen.get("resonator_velocity", 0.0), 1e-3)
+        scale = {name: max(size, floor) for name, size in seen.items()}
+        if "resonator_displacement" in seen:
+            scale[STATE[1]] = max(seen[STATE[1]], floor * self.drive_period)
+        if "bristle_deflection" in seen:
+            scale[STATE[3]] = self.device.friction_coefficient / self.device.bristle_stiffness
+        return np.array(list(scale.values()))
+
+    def _run(self, state: Vector, load: float, times: Vector) -> tuple[Vector, Vector]:
+        """Return states (m, n) and positions (m,) at times (m,), from a state at time 0."""
+        initial: dict[str, Any] = {f"initial_{name}": 0.0 for name in ("position", *STATE)}
+        initial |= {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
+        device = replace(self.device, **initial)
+        held = [HeldInputs(0.0, float(times[-1]), self.phase, load, self.ratio)]
+        simulate: Callable[..., Trajectory] = (
+            lugre_scipy.simulate_lugre if device.friction_law == 1 else located_events.simulate
+        )
+        run = simulate(device, held, times)
+        return np.column_stack([getattr(run, name) for name in self.names]), run.position

@@ -6,44 +6,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
 
-from harness.bracketing import bracketed_state
 from harness.common_period import MAX_DENOMINATOR
 from harness.drive import Instance
-from harness.newton import Vector
-from harness.periodic import (
-    STATE,
-    Facts,
-    FmuPeriodMap,
-    Obstacle,
-    hidden_state,
-    read_facts,
-    repeating_periods,
-)
-from harness.shooting import FixedPoint, NoFixedPoint, fixed_point
+from harness.outcome import Outcome, cost, why_not, with_undamped_hint
+from harness.periodic import Facts, FmuPeriodMap, Obstacle, read_facts, repeating_periods
+from harness.search import steady_point
+from harness.shooting import FixedPoint, NoFixedPoint
 
 
 @dataclass(frozen=True)
-class SteadyMotion:
+class SteadyMotion(Outcome):
     """The outcome of a search for steady motion.
 
-    `steady_velocity` (m/s) is the mean over the common period of `common_period` drive periods,
-    None where there is no steady motion; `periods` counts all simulated drive periods; `state` is
-    the one at theta = psi = 0 and `predicted` the FMU's own output `steady_velocity`. `status` is
-    steady, stuck, unstable or neutral; without a velocity it is load_above_friction, slow_beat
-    (frequency_ratio next to an integer), no_common_period, hidden_state, no_fixed_point,
-    not_unique or not_converged.
+    `steady_velocity` (m/s) is the mean over the common period, None where there is no steady
+    motion; `state` is the one at theta = psi = 0. `status` is steady, stuck, unstable or neutral;
+    without a velocity it is load_above_friction, slow_beat (frequency_ratio next to an integer),
+    no_common_period, no_fixed_point, not_unique or not_converged.
     """
 
-    status: str
-    reason: str
-    predicted: float
     steady_velocity: float | None = None
-    common_period: int | None = None
-    periods: int = 0
-    iterations: int = 0
-    residual: float | None = None
-    multipliers: tuple[complex, ...] = ()
-    stable: bool | None = None
     state: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -60,60 +41,29 @@ def find_steady(
     """
     facts = read_facts(instance, values)
     predicted = facts.steady_velocity
-    count = hidden_state(facts) or _runaway(facts) or repeating_periods(facts, max_denominator)
+    runaway = _runaway(facts)
+    # Damped bristles can give more friction than full sliding: there only the search can tell.
+    certain = runaway if facts["friction_law"] == 0 else None
+    count = certain or repeating_periods(facts, max_denominator)
     if isinstance(count, Obstacle):
         return SteadyMotion(count.status, count.reason, predicted)
     period_map = FmuPeriodMap(instance, values, facts, count)
-    found = _search(period_map, values)
+    wanted = values.get("initial_velocity", predicted)
+    found = steady_point(period_map, wanted if isfinite(wanted) else 0.0, facts["load"])
     if isinstance(found, NoFixedPoint):
-        return SteadyMotion(
-            found.status,
-            with_undamped_hint(found.reason, facts),
-            predicted,
-            common_period=count,
-            periods=period_map.periods,
-            iterations=found.iterations,
-            residual=found.residual,
-        )
+        status, reason = why_not(found, facts)
+        if runaway is not None:
+            status, reason = runaway.status, runaway.reason
+        return SteadyMotion(status, reason, predicted, **cost(period_map, found))
     status, reason = _judge(found, period_map.stick_fraction)
     return SteadyMotion(
         status,
         with_undamped_hint(reason, facts) if status == "neutral" else reason,
         predicted,
+        **cost(period_map, found),
         steady_velocity=found.displacement / period_map.period,
-        common_period=count,
-        periods=period_map.periods,
-        iterations=found.iterations,
-        residual=found.residual,
-        multipliers=tuple(found.multipliers.tolist()),
-        stable=found.stability == "stable",
-        state=dict(zip(STATE, found.state.tolist(), strict=True)),
+        state=dict(zip(period_map.names, found.state.tolist(), strict=True)),
     )
-
-
-def with_undamped_hint(reason: str, facts: Facts) -> str:
-    """Add, where it applies, that the resonator has no damping and so forgets nothing."""
-    if facts["damping_ratio"] > 0.0:
-        return reason
-    return f"{reason} (damping_ratio = 0: the resonator never forgets its start)"
-
-
-def _search(period_map: FmuPeriodMap, values: Mapping[str, float]) -> FixedPoint | NoFixedPoint:
-    """Shoot from the velocity that is wanted or predicted, or else from one between bounds."""
-    load = period_map.facts["load"]
-
-    def loaded(state: Vector) -> tuple[Vector, float]:
-        return period_map(state, load)
-
-    wanted = values.get("initial_velocity", period_map.facts.steady_velocity)
-    velocity = wanted if isfinite(wanted) else 0.0
-    state, scale, mean = period_map.warm_up(velocity, load)
-    state[0] += velocity - mean  # from the mean velocity of the last period to the wanted one
-    found = fixed_point(loaded, state, scale, load=load)
-    if isinstance(found, FixedPoint):
-        return found
-    between = bracketed_state(loaded, state, scale)
-    return found if between is None else fixed_point(loaded, between, scale, load=load)
 
 
 def _runaway(facts: Facts) -> Obstacle | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,8 +14,10 @@ from harness.names import unknown_name
 from harness.targets import writable
 from harness.values import check_value
 
-BUILT_FMU = Path("dist") / "SliderResonatorPy.fmu"
+BUILT_FMUS = (Path("dist") / "SliderResonator.fmu", Path("dist") / "SliderResonatorPy.fmu")
 REPOSITORY = Path(__file__).resolve().parents[2]
+SET = "--set"
+_SETTING = re.compile(r"[A-Za-z_]\w*=")
 
 
 class Setting(click.ParamType[tuple[str, float]]):
@@ -44,6 +47,26 @@ class Setting(click.ParamType[tuple[str, float]]):
         except ValueError as error:
             self.fail(str(error), param, ctx)
         return name, read
+
+
+class SettingsCommand(click.Command):
+    """A command with `--set`, after which several NAME=VALUE may follow."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Give each NAME=VALUE that follows another one after `--set` a `--set` of its own."""
+        return super().parse_args(ctx, _each_with_its_option(args))
+
+
+def _each_with_its_option(arguments: Sequence[str]) -> list[str]:
+    spread: list[str] = []
+    inside = False
+    for before, argument in zip(["", *arguments], arguments, strict=False):
+        bare = inside and before != SET and _SETTING.match(argument) is not None
+        if bare:
+            spread.append(SET)
+        spread.append(argument)
+        inside = bare or before == SET or argument == SET or argument.startswith(f"{SET}=")
+    return spread
 
 
 class Target(click.ParamType[Path]):
@@ -82,13 +105,13 @@ def _each_once(
 fmu_argument = click.argument("fmu", type=click.Path(path_type=Path))
 
 set_option = click.option(
-    "--set",
+    SET,
     "settings",
     type=Setting(),
     multiple=True,
     callback=_each_once,
-    help="Value of a parameter or input, in SI units; may be given several times. All others keep "
-    "their start value, the device of table 1.",
+    help="Value of a parameter or input, in SI units; more NAME=VALUE may follow, and the option "
+    "may be given several times. All others keep their start value, the device of table 1.",
 )
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
@@ -103,13 +126,17 @@ max_denominator_option = click.option(
 
 
 def default_fmu(given: Path | None) -> Path:
-    """Return the FMU that was asked for, or the one that was built here or in the repository.
+    """Return the FMU that was asked for, or the first of `default_fmus`, which raises FmuError."""
+    return given if given is not None else default_fmus()[0]
 
-    Raises FmuError, with the command that builds it, where there is none.
+
+def default_fmus() -> tuple[Path, ...]:
+    """Return the FMUs that were built here or else in the repository, the native one first.
+
+    Raises FmuError, with the command that builds them, where there is none.
     """
-    if given is not None:
-        return given
     for folder in (Path(), REPOSITORY):
-        if (folder / BUILT_FMU).is_file():
-            return folder / BUILT_FMU
-    raise FmuError(f"{BUILT_FMU}: no such file; build it with: python build_fmu.py")
+        found = tuple(folder / fmu for fmu in BUILT_FMUS if (folder / fmu).is_file())
+        if found:
+            return found
+    raise FmuError(f"{BUILT_FMUS[0]}: no such file; build it with: python build_fmu.py")

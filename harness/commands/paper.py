@@ -1,4 +1,4 @@
-"""`paper`: every figure and statement of the paper beside what the FMU gives."""
+"""`paper`: every figure and statement of the paper beside what the FMU gives, and tables."""
 
 from __future__ import annotations
 
@@ -34,9 +34,10 @@ def paper_command(
 ) -> None:
     """Reproduce the paper: its figures, three more, and a verdict on each of its statements.
 
-    Writes figures as PNG and SVG with captions in FIGURES.md, and claims.md and claims.json. Runs
-    only what is missing or has changed. Leaves with 0, with 1 when a statement is not found as it
-    is known to be, 2 when the FMU could not be run.
+    Writes figures as PNG and SVG with captions in FIGURES.md, tables of LuGre friction as JSON and
+    in TABLES.md, and claims.md and claims.json. Runs only what is missing or has changed. Leaves
+    with 0, with 1 when a statement is not found as it is known to be or a table deviates, 2 when
+    the FMU could not be run.
 
     \b
     Examples:
@@ -54,6 +55,11 @@ def _sentences(outcome: Outcome) -> str:
     lines.append(f"run      {', '.join(outcome.run) or 'nothing'}")
     if outcome.kept:
         lines.append(f"kept     {', '.join(outcome.kept)}")
+    for table in outcome.tables:
+        for name, size in table.largest.items():
+            verdict = "table   " if size <= table.allowed[name] else "FAIL    "
+            allowed = f"allowed {table.allowed[name]:g}"
+            lines.append(f"{verdict} {table.name}: {name} up to {size:.2g}, {allowed}")
     if outcome.claims:
         lines.append(f"claims   {verdicts(outcome.claims)}")
     for claim in outcome.claims:

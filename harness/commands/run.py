@@ -9,7 +9,13 @@ from pathlib import Path
 
 import click
 
-from harness.commands.options import Target, fmu_argument, json_option, set_option
+from harness.commands.options import (
+    SettingsCommand,
+    Target,
+    fmu_argument,
+    json_option,
+    set_option,
+)
 from harness.console import progress_bar
 from harness.drive import Record, instantiate, run
 from harness.fmu import open_fmu
@@ -43,7 +49,7 @@ class RunSummary:
     plot: str | None
 
 
-@click.command("run")
+@click.command("run", cls=SettingsCommand)
 @fmu_argument
 @click.argument("scene")
 @click.option("--out", type=Target(), help="CSV file for the run.")
@@ -70,7 +76,7 @@ def run_command(
     \b
     Examples:
       python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
-      python -m harness run my.fmu scenes/mine.toml --set load=0.05 --json
+      python -m harness run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
     read = read_scene(find_scene(scene), settings)
     files = {f"the scene's file {file}": file for file in read.files}

@@ -7,8 +7,7 @@ from matplotlib.figure import Figure as Drawing
 
 from harness.drive import Instance
 from harness.paper.figure import SHADES, Array, Data, PaperFigure, Progress, panels, part, sweep
-from harness.paper.figure_5 import lugre_velocity
-from harness.paper.mapping import coulomb_case
+from harness.paper.mapping import coulomb_case, lugre_case
 from harness.paper.measure import steady_velocity
 from harness.references import closed_forms, uniform_average
 from harness.references.averaged_lugre import LugreCase
@@ -37,8 +36,8 @@ def _measure(instance: Instance, progress: Progress) -> Data:
     for index, kappa in enumerate(KAPPAS):
         data[f"LuGre {kappa:g}"] = sweep(
             LUGRE_FREQUENCIES,
-            lambda frequency, kappa=kappa: lugre_velocity(  # type: ignore[misc]
-                instance, CASE, _stiffness(kappa, frequency), frequency
+            lambda frequency, kappa=kappa: steady_velocity(  # type: ignore[misc]
+                instance, lugre_case(CASE, frequency, _stiffness(kappa, frequency))
             ),
             part(progress, index + 1, 4),
         )
@@ -89,7 +88,7 @@ FIGURE = PaperFigure(
     "average_error",
     "Error of the averages over the drive frequency",
     "q = 1, alpha = 0.8, phi = 1; LuGre sigma_1 = 1, mu = 0.4 and kappa = sigma_0 q / (mu Omega) "
-    "held. FMU (Coulomb by shooting, LuGre settled runs) against (5) and the uniform average.",
+    "held. FMU by shooting against (5) and the uniform average.",
     {
         "phase": PHASE,
         "amplitude_ratio": AMPLITUDE_RATIO,

@@ -9,9 +9,8 @@ import numpy as np
 from harness.drive import Instance
 from harness.paper.claim import AGREES, DISAGREES, PARTLY, Claim, ClaimGroup, near
 from harness.paper.figure import Progress
-from harness.paper.figure_5 import lugre_velocity
 from harness.paper.mapping import lugre_case
-from harness.paper.measure import blocking_load
+from harness.paper.measure import blocking_force, steady_velocity
 from harness.references import averaged_lugre, uniform_average
 from harness.references.averaged_lugre import LugreCase
 
@@ -26,16 +25,12 @@ OWN = 100.0
 
 
 def _velocity(instance: Instance, stiffness: float = OWN, **changes: float) -> float:
-    return lugre_velocity(instance, LugreCase(**changes), stiffness, FREQUENCY)
+    return steady_velocity(instance, lugre_case(LugreCase(**changes), FREQUENCY, stiffness))
 
 
 def _blocking(instance: Instance, stiffness: float, strength: float, friction: float) -> float:
     case = LugreCase(strength=strength, friction_coefficient=friction)
-    return blocking_load(
-        instance,
-        lugre_case(strength, FREQUENCY, stiffness, friction_coefficient=friction),
-        uniform_average.blocking_load(case, stiffness, FREQUENCY),
-    )
+    return blocking_force(instance, lugre_case(case, FREQUENCY, stiffness))
 
 
 def _shapes(instance: Instance) -> list[Claim]:
@@ -92,8 +87,8 @@ def _shapes(instance: Instance) -> list[Claim]:
 
 def _manifold(instance: Instance) -> list[Claim]:
     paper = averaged_lugre.steady_velocity(LugreCase())
-    high = lugre_velocity(instance, LugreCase(), OWN, 1000.0)
-    low = lugre_velocity(instance, LugreCase(), OWN, 10.0)
+    high = steady_velocity(instance, lugre_case(LugreCase(), 1000.0, OWN))
+    low = steady_velocity(instance, lugre_case(LugreCase(), 10.0, OWN))
     return [
         Claim(
             "slow_manifold_high_frequency",
@@ -126,8 +121,8 @@ def _blocking_claims(instance: Instance) -> list[Claim]:
     soft = {q: _blocking(instance, SOFT, q, 0.4) for q in (0.5, 1.0)}
     stiff = {q: _blocking(instance, STIFF, q, 0.4) for q in (0.5, 1.0)}
     soft_mu, stiff_mu = _blocking(instance, SOFT, 1.0, 0.8), _blocking(instance, STIFF, 1.0, 0.8)
-    heavy = {**lugre_case(1.0, FREQUENCY, SOFT), "slider_mass": 2.0}
-    soft_heavy = blocking_load(instance, heavy, 0.25)
+    heavy = {**lugre_case(LugreCase(), FREQUENCY, SOFT), "slider_mass": 2.0}
+    soft_heavy = blocking_force(instance, heavy)
     over_kappa: dict[str, float] = {}
     worst = 0.0
     for kappa in KAPPAS:
@@ -200,7 +195,7 @@ GROUP = ClaimGroup(
         "frequency": FREQUENCY,
         "stiffness": [SOFT, OWN, STIFF],
         "kappas": KAPPAS,
-        "case": lugre_case(1.0, 1.0, 1.0),
+        "case": lugre_case(LugreCase(), 1.0, 1.0),
     },
     _measure,
 )

@@ -27,7 +27,7 @@ LAWS = ("Coulomb", "LuGre")
 def _values(law: str, frequency: float) -> Values:
     if law == "Coulomb":
         return coulomb_case(STRENGTH, frequency)
-    return lugre_case(STRENGTH, frequency, STIFFNESS)
+    return lugre_case(LugreCase(strength=STRENGTH), frequency, STIFFNESS)
 
 
 def _measure(instance: Instance, progress: Progress) -> Data:

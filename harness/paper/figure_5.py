@@ -11,7 +11,7 @@ from matplotlib.figure import Figure as Drawing
 from harness.drive import Instance
 from harness.paper.figure import SHADES, Data, PaperFigure, Progress, markers, panels, part, sweep
 from harness.paper.mapping import lugre_case
-from harness.paper.measure import settled_velocity
+from harness.paper.measure import steady_velocity
 from harness.references import averaged_lugre, uniform_average
 from harness.references.averaged_lugre import LugreCase
 
@@ -41,30 +41,12 @@ PANELS = (
 )
 
 
-def lugre_velocity(
-    instance: Instance, case: LugreCase, stiffness: float, frequency: float
-) -> float:
-    """Return the velocity that the FMU settles to, started where the uniform average is."""
-    values = lugre_case(
-        case.strength,
-        frequency,
-        stiffness,
-        amplitude_ratio=case.amplitude_ratio,
-        phase=case.phase,
-        friction_coefficient=case.friction_coefficient,
-        damping=case.damping,
-    )
-    return settled_velocity(
-        instance, values, uniform_average.steady_velocity(case, stiffness, frequency)
-    )
-
-
 def _measure(instance: Instance, progress: Progress) -> Data:
     return {
         panel.swept: sweep(
             panel.points,
-            lambda value, panel=panel: lugre_velocity(  # type: ignore[misc]
-                instance, panel.case(value), STIFFNESS, FREQUENCY
+            lambda value, panel=panel: steady_velocity(  # type: ignore[misc]
+                instance, lugre_case(panel.case(value), FREQUENCY, STIFFNESS)
             ),
             part(progress, index, len(PANELS)),
         )
@@ -91,12 +73,12 @@ FIGURE = PaperFigure(
     "figure_5",
     "Steady velocity with LuGre friction",
     "sigma_1 = 1 and, where not swept, mu = 0.4, alpha = 1, q = 1, phi = 1.57. Markers: FMU, "
-    "sigma_0 = 100, Omega = 1000, settled runs. Lines: (17), dotted the uniform average.",
+    "sigma_0 = 100, Omega = 1000, by shooting. Lines: (17), dotted the uniform average.",
     {
         "frequency": FREQUENCY,
         "stiffness": STIFFNESS,
         "panels": [[p.swept, p.points] for p in PANELS],
-        "base": lugre_case(1.0, FREQUENCY, STIFFNESS, phase=1.57),
+        "base": lugre_case(LugreCase(phase=1.57), FREQUENCY, STIFFNESS),
     },
     _measure,
     _draw,

@@ -1,4 +1,4 @@
-"""What the report says in words: the captions of the figures and the table of claims."""
+"""What the report says in words: the captions of the figures, the tables, and the claims."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Any
 
 from harness.atomic import replacing
 from harness.json_output import to_json
-from harness.paper.figure import PaperFigure
+from harness.paper.figure import Data, PaperFigure
+from harness.paper.table import PaperTable
 
 HEAD = (
     "The FMU runs with masses, loads and reference frequency of 1, so that its SI values are the "
@@ -23,6 +24,40 @@ def write_figures(folder: Path, figures: Iterable[PaperFigure], fmu: str, guid: 
         lines += [f"## {figure.name}: {figure.title}", "", f"![{figure.title}]({figure.name}.png)"]
         lines += ["", f"{figure.caption} ([SVG]({figure.name}.svg))", ""]
     _write(folder / "FIGURES.md", "\n".join(lines))
+
+
+def write_tables(
+    folder: Path, tables: Sequence[tuple[PaperTable, Data]], fmu: str, guid: str
+) -> None:
+    """Write TABLES.md with all tables and a JSON file for each.
+
+    Raises HarnessError when they cannot be written.
+    """
+    lines = ["# Tables", "", f"FMU {fmu}, GUID {guid}.", ""]
+    for table, data in tables:
+        content = {
+            "fmu": fmu,
+            "guid": guid,
+            "title": table.title,
+            "caption": table.caption,
+            "columns": table.columns,
+            "largest": table.largest(data),
+            "allowed": table.bounds,
+            "rows": data["rows"],
+        }
+        _write(folder / f"{table.name}.json", to_json(content) + "\n")
+        lines += [f"## {table.name}: {table.title}", "", table.caption, ""]
+        lines.append("| " + " | ".join(table.columns.values()) + " |")
+        lines.append("|---" * len(table.columns) + "|")
+        for row in data["rows"]:
+            lines.append("| " + " | ".join(_number(row[name]) for name in table.columns) + " |")
+        lines.append("")
+        for name, size in table.largest(data).items():
+            verdict = "" if size <= table.bounds[name] else ", **NOT CONFIRMED**"
+            meaning = table.columns[name]
+            lines.append(f"Largest {meaning}: {size:.2g}, allowed {table.bounds[name]:g}{verdict}.")
+        lines.append("")
+    _write(folder / "TABLES.md", "\n".join(lines))
 
 
 def write_claims(

@@ -3,8 +3,8 @@
 The FMU is given masses and loads of 1 so that x0 = 1 m and w0 = 1 rad/s: its metres, seconds and
 newtons are then the paper's dimensionless units, and results need no conversion.
 
-- (2), Coulomb: one face, m = 1, mu = 1, N0 = 1, hence x0 = mu N0 / (m w0^2) = 1; the resonator has
-  no mass and is not driven, F_T acts directly.
+- (2), Coulomb: one face, m = 1, mu = 1, N0 = 1, hence x0 = mu N0 / (m w0^2) = 1; one degree of
+  freedom, on which F_T acts directly.
 - (9), LuGre: one face, m = 1, N0 = 1, hence x0 = N0 / (m w0^2) = 1, sigma_0 and sigma_1 as given;
   mu is the paper's own.
 - (28)-(29), device with resonator: two faces, M + m = 1, mu = 1/2, N0 = 1, hence
@@ -15,6 +15,8 @@ from __future__ import annotations
 
 from math import pi
 
+from harness.references.averaged_lugre import LugreCase
+
 Values = dict[str, float]
 """Parameters and inputs of the FMU by name."""
 
@@ -24,6 +26,7 @@ def coulomb_case(
 ) -> Values:
     """Return the FMU values of (2) for q = F_T / Omega, Omega, alpha and phi in rad."""
     return {
+        "fidelity": 1,
         "friction_faces": 1,
         "slider_mass": 1.0,
         "resonator_mass": 0.0,
@@ -37,23 +40,14 @@ def coulomb_case(
     }
 
 
-def lugre_case(
-    strength: float,
-    frequency: float,
-    stiffness: float,
-    *,
-    amplitude_ratio: float = 1.0,
-    phase: float = pi / 2.0,
-    friction_coefficient: float = 0.4,
-    damping: float = 1.0,
-) -> Values:
-    """Return the FMU values of (9): as `coulomb_case`, with sigma_0, sigma_1 and mu."""
+def lugre_case(case: LugreCase, frequency: float, stiffness: float) -> Values:
+    """Return the FMU values of (9) for an averaged case at Omega and sigma_0."""
     return {
-        **coulomb_case(strength, frequency, amplitude_ratio, phase),
-        "friction_coefficient": friction_coefficient,
+        **coulomb_case(case.strength, frequency, case.amplitude_ratio, case.phase),
+        "friction_coefficient": case.friction_coefficient,
         "friction_law": 1,
         "bristle_stiffness": stiffness,
-        "bristle_damping": damping,
+        "bristle_damping": case.damping,
     }
 
 

@@ -1,4 +1,4 @@
-"""The whole paper: every figure and claim, of which only what is new or changed is run."""
+"""The whole paper: every figure, table and claim, of which only what is new or changed is run."""
 
 from __future__ import annotations
 
@@ -26,13 +26,16 @@ from harness.paper import (
     figure_5,
     figure_7,
     figure_8,
+    lugre_blocking,
+    lugre_device,
     stiffness_validity,
     velocity_map,
 )
 from harness.paper.claim import ClaimGroup
 from harness.paper.figure import PaperFigure
-from harness.paper.listing import write_claims, write_figures
+from harness.paper.listing import write_claims, write_figures, write_tables
 from harness.paper.store import key_of, store, stored
+from harness.paper.table import PaperTable
 from harness.plot_style import save, style
 from harness.targets import make_folder
 
@@ -50,6 +53,9 @@ FIGURES: Mapping[str, PaperFigure] = {
         average_error,
     )
 }
+TABLES: Mapping[str, PaperTable] = {
+    module.TABLE.name: module.TABLE for module in (lugre_blocking, lugre_device)
+}
 GROUPS: tuple[ClaimGroup, ...] = (
     claims_device.GROUP,
     claims_coulomb.GROUP,
@@ -57,36 +63,49 @@ GROUPS: tuple[ClaimGroup, ...] = (
     claims_resonator.GROUP,
 )
 CLAIMS = "claims"
-NAMES = (*FIGURES, CLAIMS)
+NAMES = (*FIGURES, *TABLES, CLAIMS)
 SUFFIXES = (".png", ".svg")
 RESULTS = "results"
 """Folder of measured data within the report."""
 
 Progress = Callable[[str, float], None]
+Job = PaperFigure | PaperTable | ClaimGroup
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A table's largest deviations, those that are allowed, and whether all are within."""
+
+    name: str
+    largest: Mapping[str, float]
+    allowed: Mapping[str, float]
+    confirmed: bool
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What was done: names that were run and that were kept, the claims, and seconds taken."""
+    """What was done: names run and kept, tables and claims as judged, and seconds taken."""
 
     out: str
     fmu: str
     guid: str
     run: Sequence[str]
     kept: Sequence[str]
+    tables: Sequence[Judged]
     claims: Sequence[Mapping[str, Any]]
     wall_time: float
 
     @property
     def confirmed(self) -> bool:
-        """Whether every claim was found as it is known to be."""
-        return all(claim["confirmed"] for claim in self.claims)
+        """Whether every table and claim was found as it is known to be."""
+        tables = all(table.confirmed for table in self.tables)
+        return tables and all(claim["confirmed"] for claim in self.claims)
 
 
 def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress) -> Outcome:
-    """Write figures and claims to the folder ``out``; ``only`` names some of `NAMES`, () is all.
+    """Write the report to the folder ``out``; ``only`` names some of `NAMES`, () is all.
 
-    A figure or group of claims whose key is that of the results beside it is not run again.
+    A figure, table or group of claims whose key is that of the results beside it is not run again.
     Raises HarnessError for an unknown name, a file or folder that cannot be written, and as
     `open_fmu` does.
     """
@@ -98,12 +117,19 @@ def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress
     chosen = only or NAMES
     done: list[str] = []
     kept: list[str] = []
+    tables: list[Judged] = []
     claims: list[tuple[str, Any]] = []
     with open_fmu(fmu_path) as fmu, instantiate(fmu) as instance:
         guid = str(fmu.description.guid)
         for name in FIGURES:
             if name in chosen:
                 fresh = _figure(instance, FIGURES[name], out, guid, progress)
+                (done if fresh else kept).append(name)
+        for name, table in TABLES.items():
+            if name in chosen:
+                data, fresh = _measured(instance, table, out, guid, progress)
+                largest, confirmed = table.largest(data), table.confirmed(data)
+                tables.append(Judged(name, largest, table.bounds, confirmed))
                 (done if fresh else kept).append(name)
         for group in GROUPS:
             if CLAIMS in chosen:
@@ -116,10 +142,13 @@ def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress
         if _drawn(out, name) and stored(_results(out, name), _key(figure, guid)) is not None
     ]
     write_figures(out, present, fmu_path.name, guid)
+    stored_tables = [(t, stored(_results(out, t.name), _key(t, guid))) for t in TABLES.values()]
+    write_tables(out, [(t, d) for t, d in stored_tables if d is not None], fmu_path.name, guid)
     if claims:
         write_claims(out, claims, fmu_path.name, guid)
     flat = [claim for _, group in claims for claim in group]
-    return Outcome(str(out), str(fmu_path), guid, done, kept, flat, perf_counter() - began)
+    took = perf_counter() - began
+    return Outcome(str(out), str(fmu_path), guid, done, kept, tables, flat, took)
 
 
 def _figure(
@@ -144,9 +173,9 @@ def _figure(
 
 
 def _measured(
-    instance: Instance, job: PaperFigure | ClaimGroup, out: Path, guid: str, progress: Progress
+    instance: Instance, job: Job, out: Path, guid: str, progress: Progress
 ) -> tuple[Any, bool]:
-    """Return the data of a figure or group, and whether they are new."""
+    """Return the data of a figure, table or group, and whether they are new."""
     path, key = _results(out, job.name), _key(job, guid)
     data = stored(path, key)
     if data is not None:
@@ -161,7 +190,7 @@ def _results(out: Path, name: str) -> Path:
     return out / RESULTS / f"{name}.json"
 
 
-def _key(job: PaperFigure | ClaimGroup, guid: str) -> str:
+def _key(job: Job, guid: str) -> str:
     return key_of(job.parameters, guid, cast(FunctionType, job.measure))
 
 

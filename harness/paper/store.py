@@ -10,17 +10,34 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
+from harness import (
+    blocking,
+    bracketing,
+    bristle_reading,
+    newton,
+    periodic,
+    references,
+    search,
+    shooting,
+    steady,
+)
 from harness.atomic import replacing
 from harness.json_output import to_json
 from harness.paper import mapping, measure
 from harness.targets import make_folder
 
+_SHOOTING = (blocking, bracketing, bristle_reading, newton, periodic, search, shooting, steady)
+
 
 def key_of(parameters: Mapping[str, Any], fmu_guid: str, measurement: FunctionType) -> str:
-    """Return a digest of the parameters, the FMU's GUID, and the code that measures."""
+    """Return a digest of the parameters, the FMU's GUID, and the code that results come from.
+
+    That is the code that measures, and all references, which theory lines and deviations are from.
+    """
     digest = hashlib.sha256()
     digest.update(to_json({"parameters": parameters, "guid": fmu_guid}).encode())
-    for source in (inspect.getsourcefile(measurement), mapping.__file__, measure.__file__):
+    sources = [inspect.getsourcefile(code) for code in (measurement, mapping, measure, *_SHOOTING)]
+    for source in (*sources, *sorted(Path(references.__path__[0]).glob("*.py"))):
         if source is not None:
             digest.update(Path(source).read_bytes())
     return digest.hexdigest()

@@ -4,7 +4,7 @@ Dimensionless as in `closed_forms`: velocities in units of ``x0 w0``, forces in 
 friction ``faces mu N0``, time in ``1 / w0``. ``strength`` is q, ``amplitude_ratio`` alpha,
 ``ratio`` the frequency of the normal load over that of the drive, and ``phase`` the phase of the
 normal load when the tangential force passes through zero upward. Functions on a device are
-dimensional.
+dimensional. The contact may lift (``amplitude_ratio`` > 1), except where a function says otherwise.
 """
 
 from __future__ import annotations
@@ -15,6 +15,12 @@ from scipy.optimize import brentq
 
 from harness.references.closed_forms import REFERENCE_FREQUENCY, EquivalentForce, equivalent_force
 from harness.references.device import Device
+from harness.references.vibrating_contact import (
+    check_amplitude_ratio,
+    check_never_lifts,
+    closed_spans,
+    mean_load,
+)
 
 
 def mean_friction(
@@ -24,17 +30,21 @@ def mean_friction(
 
     The fast velocity is ``velocity - strength cos(theta)``; at and beyond ``strength`` friction no
     longer changes sign. An integer ratio n gives
-    ``1 - 2 theta / pi - 2 alpha / (n pi) sin(n theta) sin(phase)``, at other ratios only the mean
-    load counts. Raises ValueError as `steady_velocity_at_ratio` does for strength and
-    amplitude_ratio.
+    ``1 - 2 theta / pi - 2 alpha / (n pi) sin(n theta) sin(phase)`` for a contact that never lifts;
+    at other ratios only the mean load counts. Raises ValueError as `steady_velocity_at_ratio` does
+    for strength and amplitude_ratio.
     """
     _check(strength, amplitude_ratio)
     angle = math.acos(max(-1.0, min(1.0, velocity / strength)))
     slide = 1.0 - 2.0 * angle / math.pi
     if ratio == 0.0:
-        return slide * (1.0 + amplitude_ratio * math.sin(phase))
+        return slide * max(0.0, 1.0 + amplitude_ratio * math.sin(phase))
     if ratio != round(ratio):
-        return slide
+        return slide * mean_load(amplitude_ratio)
+    if amplitude_ratio > 1.0:
+        forward = _load_integral(angle, 2.0 * math.pi - angle, amplitude_ratio, phase, ratio)
+        backward = _load_integral(-angle, angle, amplitude_ratio, phase, ratio)
+        return (forward - backward) / (2.0 * math.pi)
     share = 2.0 * amplitude_ratio / (ratio * math.pi)
     return slide - share * math.sin(ratio * angle) * math.sin(phase)
 
@@ -60,8 +70,9 @@ def linear_slow_acceleration(
 ) -> float:
     """Return the acceleration of the slow motion for velocities small against q, (6).
 
-    With `drifting_phase` as the phase it is (A.3).
+    With `drifting_phase` as the phase it is (A.3). Raises ValueError for a contact that lifts.
     """
+    check_never_lifts(amplitude_ratio)
     return 2.0 / math.pi * (amplitude_ratio * math.sin(phase) - velocity / strength)
 
 
@@ -71,14 +82,18 @@ def drifting_phase(time: float, detuning: float, phase: float) -> float:
 
 
 def linear_beat_velocity(strength: float, amplitude_ratio: float, detuning: float) -> float:
-    """Return the amplitude of the slow velocity that (A.3) settles to at a detuning."""
+    """Return the amplitude of the slow velocity that (A.3) settles to at a detuning.
+
+    Raises ValueError for a contact that lifts.
+    """
+    check_never_lifts(amplitude_ratio)
     return 2.0 * amplitude_ratio / math.pi / math.hypot(detuning, 2.0 / (math.pi * strength))
 
 
 def linear_beat_displacement(strength: float, amplitude_ratio: float, detuning: float) -> float:
     """Return the amplitude of the slow displacement that (A.3) settles to at a detuning.
 
-    Raises ValueError for no detuning: the slider then slides on.
+    Raises ValueError for no detuning, as the slider then slides on, and for a contact that lifts.
     """
     if detuning == 0.0:
         raise ValueError("detuning = 0: the slider does not oscillate, it slides on")
@@ -90,11 +105,11 @@ def steady_velocity_at_ratio(
 ) -> float:
     """Return the steady slow velocity at any ratio under a load, (20) for ratio 1.
 
-    Raises ValueError unless ``strength`` > 0, 0 <= ``amplitude_ratio`` <= 1, and the load is less
-    than the mean friction of full sliding (1, at ratio 0 that of the load as it stands).
+    Raises ValueError unless ``strength`` > 0, ``amplitude_ratio`` is finite and at least 0, and the
+    load is less than the mean friction of full sliding (1, more for a contact that lifts, at
+    ratio 0 that of the load as it stands).
     """
-    _check(strength, amplitude_ratio)
-    limit = 1.0 + amplitude_ratio * math.sin(phase) if ratio == 0.0 else 1.0
+    limit = mean_friction(strength, strength, amplitude_ratio, phase, ratio)
     if not -limit < load < limit:
         raise ValueError(
             f"load = {load!r} must lie between -{limit!r} and {limit!r}, the mean friction of full "
@@ -105,9 +120,28 @@ def steady_velocity_at_ratio(
         velocity = strength * math.cos(angle)
         return mean_friction(velocity, strength, amplitude_ratio, phase, ratio) + load
 
-    # For |alpha sin(phase)| <= 1 the imbalance never rises over this interval.
+    # The later sliding turns forward, the less of the load, never negative, counts as friction.
     root: float = brentq(imbalance, 0.0, math.pi, xtol=1e-15, rtol=1e-14)
     return strength * math.cos(root)
+
+
+def blocking_load_at_ratio(amplitude_ratio: float, phase: float, ratio: float) -> float:
+    """Return the load that stops the motion at any ratio, (21) for ratio 1.
+
+    Raises ValueError for an amplitude_ratio that is negative or not finite.
+    """
+    return -mean_friction(0.0, 1.0, amplitude_ratio, phase, ratio)
+
+
+def device_blocking_force_at_ratio(device: Device, phase: float, ratio: float) -> float:
+    """Return the load in N that stops a device at any ratio, (22) for ratio 1; phase in rad.
+
+    Raises ValueError as `equivalent_force` does.
+    """
+    lag = phase_to_force(equivalent_force(device), phase, ratio)
+    amplitude_ratio = device.normal_amplitude / device.normal_preload
+    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
+    return friction * blocking_load_at_ratio(amplitude_ratio, lag, ratio)
 
 
 def device_steady_velocity_at_ratio(
@@ -148,11 +182,20 @@ def slow_start(device: Device) -> float:
     return (push + device.tangential_force / frequency) / device.total_mass
 
 
+def _load_integral(
+    start: float, end: float, amplitude_ratio: float, phase: float, ratio: float
+) -> float:
+    """Return the integral of the load over theta; the contact may lift, the ratio is not 0."""
+    return sum(
+        (last - first)
+        - amplitude_ratio
+        / ratio
+        * (math.cos(ratio * last + phase) - math.cos(ratio * first + phase))
+        for first, last in closed_spans(start, end, amplitude_ratio, phase, ratio)
+    )
+
+
 def _check(strength: float, amplitude_ratio: float) -> None:
     if not strength > 0.0:
         raise ValueError(f"strength = {strength!r} must be greater than 0")
-    if not 0.0 <= amplitude_ratio <= 1.0:
-        raise ValueError(
-            f"amplitude_ratio = {amplitude_ratio!r} must lie between 0 and 1: above 1 the contact "
-            "lifts and these averages do not hold"
-        )
+    check_amplitude_ratio(amplitude_ratio)

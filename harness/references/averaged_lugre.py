@@ -2,7 +2,9 @@
 
 Dimensionless as below (9): lengths in ``x0 = N0 / (m w0^2)``, time in ``1 / w0``, forces in ``N0``.
 ``velocity`` is that of the slow motion, ``strength`` q = F_T / Omega. All of it assumes
-``stiffness * strength / (friction_coefficient * Omega) << 1``; `uniform_average` does not.
+``stiffness * strength / (friction_coefficient * Omega) << 1``; `uniform_average` does not. The
+contact of the paper never lifts; where it does here (``amplitude_ratio`` > 1), the averages are
+those over the load as it is, never negative.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.references.slow_equilibria import stable_velocity
+from harness.references.vibrating_contact import check_never_lifts, closed_spans, mean_load
 
 Array = NDArray[np.float64]
 
@@ -43,8 +46,8 @@ class LugreCase:
 
     @property
     def pull(self) -> float:
-        """The driving term sigma_1 q alpha sin(phi) / 2 of (12)-(18)."""
-        return 0.5 * self.damping * self.strength * self.amplitude_ratio * math.sin(self.phase)
+        """The driving term of (12)-(18), sigma_1 q alpha sin(phi) / 2 in a closed contact."""
+        return -self.damping * _mean_of_load_times_velocity(0.0, self, -math.pi, math.pi)
 
 
 def full_rates(
@@ -58,7 +61,7 @@ def full_rates(
     _, velocity, bristle = state
     bristle_rate = velocity - stiffness * abs(velocity) * bristle / case.friction_coefficient
     friction = stiffness * bristle + case.damping * bristle_rate
-    normal = 1.0 + case.amplitude_ratio * math.sin(angle + case.phase)
+    normal = max(0.0, 1.0 + case.amplitude_ratio * math.sin(angle + case.phase))
     drive = case.strength * frequency * math.sin(angle)
     return np.array([velocity, drive - normal * friction, bristle_rate])
 
@@ -75,13 +78,14 @@ def mean_speed(velocity: float, strength: float) -> float:
 
 
 def load_weighted_speed(velocity: float, case: LugreCase) -> float:
-    """Return the mean of alpha sin(theta + phi) |velocity - q cos(theta)|, f2 of (12)."""
-    q = case.strength
-    turn = _turning_angle(velocity, q)
-    bracket = (
-        q * math.sin(2.0 * turn) - 4.0 * velocity * math.sin(turn) - q * (math.pi - 2.0 * turn)
-    )
-    return case.amplitude_ratio * math.sin(case.phase) / (2.0 * math.pi) * bracket
+    """Return the mean of (N - 1) |velocity - q cos(theta)| over theta, f2 of (12).
+
+    N - 1 is alpha sin(theta + phi) in a contact that never lifts.
+    """
+    turn = _turning_angle(velocity, case.strength)
+    forward = _mean_of_load_times_velocity(velocity, case, turn, 2.0 * math.pi - turn)
+    backward = _mean_of_load_times_velocity(velocity, case, -turn, turn)
+    return forward - backward - mean_speed(velocity, case.strength)
 
 
 def slow_rates(
@@ -90,9 +94,8 @@ def slow_rates(
     """Return the rates of the slow velocity and of the slow bristle deflection, (11) and (12)."""
     slow, fast = mean_speed(velocity, case.strength), load_weighted_speed(velocity, case)
     weight = case.damping * stiffness / case.friction_coefficient * bristle
-    acceleration = (
-        case.pull - stiffness * bristle - case.damping * velocity + weight * (slow + fast)
-    )
+    held = mean_load(case.amplitude_ratio) * (stiffness * bristle + case.damping * velocity)
+    acceleration = case.pull - held + weight * (slow + fast)
     return acceleration, velocity - stiffness / case.friction_coefficient * bristle * slow
 
 
@@ -117,8 +120,9 @@ def boundary_layer_rate(velocity: float, case: LugreCase) -> float:
 def mean_friction(velocity: float, case: LugreCase) -> float:
     """Return the averaged friction on the slow manifold, minus the acceleration of (16)."""
     slow, fast = mean_speed(velocity, case.strength), load_weighted_speed(velocity, case)
-    resistance = (case.friction_coefficient - case.damping * fast) / slow
-    return velocity * resistance - case.pull
+    load = mean_load(case.amplitude_ratio)
+    resistance = (load * case.friction_coefficient - case.damping * fast) / slow
+    return velocity * (resistance + case.damping * (load - 1.0)) - case.pull
 
 
 def steady_velocity(case: LugreCase, load: float = 0.0) -> float:
@@ -134,12 +138,20 @@ def steady_velocity(case: LugreCase, load: float = 0.0) -> float:
 
 
 def linear_slow_acceleration(velocity: float, case: LugreCase) -> float:
-    """Return the acceleration of the slow motion for velocities small against q, (18)."""
+    """Return the acceleration of the slow motion for velocities small against q, (18).
+
+    Raises ValueError for a contact that lifts.
+    """
+    check_never_lifts(case.amplitude_ratio)
     return case.pull - math.pi * case.friction_coefficient / (2.0 * case.strength) * velocity
 
 
 def linear_velocity(case: LugreCase) -> float:
-    """Return the steady velocity for velocities small against q, (19)."""
+    """Return the steady velocity for velocities small against q, (19).
+
+    Raises ValueError for a contact that lifts.
+    """
+    check_never_lifts(case.amplitude_ratio)
     return 2.0 * case.strength * case.pull / (math.pi * case.friction_coefficient)
 
 
@@ -151,7 +163,7 @@ def blocking_load(case: LugreCase) -> float:
 def blocking_force(
     damping: float, velocity_amplitude: float, normal_amplitude: float, phase: float
 ) -> float:
-    """Return the load in N that stops the motion of one face, (25).
+    """Return the load in N that stops the motion of one face that never lifts, (25).
 
     ``damping`` is sigma_1 in s/m, ``velocity_amplitude`` F_T* / (m w) in m/s, ``normal_amplitude``
     in N.
@@ -162,3 +174,20 @@ def blocking_force(
 def _turning_angle(velocity: float, strength: float) -> float:
     """Return theta_1 = acos(velocity / q), at its bounds where the motion no longer reverses."""
     return math.acos(max(-1.0, min(1.0, velocity / strength)))
+
+
+def _mean_of_load_times_velocity(
+    velocity: float, case: LugreCase, start: float, end: float
+) -> float:
+    """Return what an arc of theta contributes to the mean of N (velocity - q cos(theta))."""
+    q, alpha, phi = case.strength, case.amplitude_ratio, case.phase
+
+    def integral(angle: float) -> float:
+        steady = velocity * angle - q * math.sin(angle)
+        swinging = -velocity * math.cos(angle + phi) - 0.5 * q * (
+            angle * math.sin(phi) - 0.5 * math.cos(2.0 * angle + phi)
+        )
+        return steady + alpha * swinging
+
+    spans = closed_spans(start, end, alpha, phi, 1.0)
+    return sum(integral(last) - integral(first) for first, last in spans) / (2.0 * math.pi)

@@ -4,11 +4,13 @@ To the fast velocity V - q cos(theta) belongs a periodic bristle response, expli
 between reversals s0 z relaxes to +-mu with the distance slid. Its friction, weighted with the load
 and integrated numerically over a turn, is the mean friction. For ``stiffness_number`` -> 0 it is
 the slow manifold of the paper, (16), for large ones Coulomb friction, (4). Errors are O(1 / Omega).
+The contact may lift (``amplitude_ratio`` > 1).
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +19,16 @@ from harness.references.averaged_lugre import LugreCase
 from harness.references.closed_forms import equivalent_force
 from harness.references.device import Device
 from harness.references.slow_equilibria import stable_velocity
+from harness.references.vibrating_contact import closed_spans, mean_load
 
 Array = NDArray[np.float64]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 _GRADED_PANELS = 30
 """Panels halve toward the reversal, where a stiff bristle turns over within a small angle."""
+
+_WIDEST_PANEL = 2.0
+"""Width in rad of the angle of the normal load: 24 nodes then integrate its sine to rounding."""
 
 
 def stiffness_number(case: LugreCase, stiffness: float, frequency: float) -> float:
@@ -31,22 +37,29 @@ def stiffness_number(case: LugreCase, stiffness: float, frequency: float) -> flo
 
 
 def mean_friction(
-    velocity: float, case: LugreCase, stiffness: float, frequency: float, ratio: int = 1
+    velocity: float, case: LugreCase, stiffness: float, frequency: float, ratio: float = 1
 ) -> float:
     """Return the friction averaged over a turn, in units of N0, at a slow velocity.
 
     ``stiffness`` is sigma_0 > 0, ``frequency`` Omega. Scale free: SI values of velocities, sigma_0,
-    sigma_1 and the drive frequency give the same as dimensionless ones. ``ratio`` is the integer
-    ratio of the frequency of the normal load to that of the drive; the phase is the case's.
+    sigma_1 and the drive frequency give the same as dimensionless ones. ``ratio`` is that of the
+    frequency of the normal load to that of the drive; the phase is the case's. At other ratios than
+    integers only the mean load counts.
     Raises ValueError for a stiffness or frequency that is not greater than 0.
     """
     for name, value in (("stiffness", stiffness), ("frequency", frequency)):
         if not value > 0.0:
             raise ValueError(f"{name} = {value!r} must be greater than 0")
     q, mu = case.strength, case.friction_coefficient
+    if ratio != round(ratio):
+        constant = replace(case, amplitude_ratio=0.0)
+        mean = mean_load(case.amplitude_ratio)
+        return mean * mean_friction(velocity, constant, stiffness, frequency)
     if abs(velocity) >= q:
-        constant = 1.0 + case.amplitude_ratio * math.sin(case.phase) * (ratio == 0)
-        return math.copysign(mu, velocity) * constant
+        load = mean_load(case.amplitude_ratio)
+        if ratio == 0:
+            load = max(0.0, 1.0 + case.amplitude_ratio * math.sin(case.phase))
+        return math.copysign(mu, velocity) * load
     turn = math.acos(velocity / q)
     rate = stiffness / (mu * frequency)
     backward = 2.0 * rate * (q * math.sin(turn) - velocity * turn)
@@ -63,7 +76,7 @@ def mean_friction(
 
 
 def steady_velocity(
-    case: LugreCase, stiffness: float, frequency: float, *, ratio: int = 1, load: float = 0.0
+    case: LugreCase, stiffness: float, frequency: float, *, ratio: float = 1, load: float = 0.0
 ) -> float:
     """Return the steady slow velocity under a load in units of N0.
 
@@ -76,12 +89,14 @@ def steady_velocity(
     )
 
 
-def blocking_load(case: LugreCase, stiffness: float, frequency: float, *, ratio: int = 1) -> float:
+def blocking_load(
+    case: LugreCase, stiffness: float, frequency: float, *, ratio: float = 1
+) -> float:
     """Return the load, in units of N0, under which the slow motion stops."""
     return -mean_friction(0.0, case, stiffness, frequency, ratio)
 
 
-def device_case(device: Device, phase: float, ratio: int = 1) -> LugreCase:
+def device_case(device: Device, phase: float, ratio: float = 1) -> LugreCase:
     """Return the averaged case of a device, in SI units: strength is the fast velocity in m/s.
 
     ``phase`` in rad relative to the base excitation. Raises ValueError as `equivalent_force` does.
@@ -97,7 +112,7 @@ def device_case(device: Device, phase: float, ratio: int = 1) -> LugreCase:
 
 
 def device_steady_velocity(
-    device: Device, phase: float, load: float = 0.0, ratio: int = 1
+    device: Device, phase: float, load: float = 0.0, ratio: float = 1
 ) -> float:
     """Return the steady velocity of a device with LuGre friction in m/s, load in N.
 
@@ -112,7 +127,7 @@ def device_steady_velocity(
     )
 
 
-def device_blocking_force(device: Device, phase: float, ratio: int = 1) -> float:
+def device_blocking_force(device: Device, phase: float, ratio: float = 1) -> float:
     """Return the load in N that stops a device with LuGre friction.
 
     Raises ValueError as `device_case` does.
@@ -144,14 +159,14 @@ def _arc(
     share: float,
     stiffness: float,
     frequency: float,
-    ratio: int,
+    ratio: float,
 ) -> float:
     """Return the integral of load times friction over mu on an arc of sliding in one direction.
 
     ``share`` is s0 z / mu where the arc begins.
     """
-    start, end = arc
-    past, weights = _graded(end - start)
+    start, _ = arc
+    past, weights = _nodes(arc, case, ratio)
     q, mu = case.strength, case.friction_coefficient
     # The difference of sines as a product keeps its digits next to the reversal.
     slid = velocity * past - 2.0 * q * np.cos(start + 0.5 * past) * np.sin(0.5 * past)
@@ -162,9 +177,21 @@ def _arc(
     return float(np.sum(weights * normal * friction))
 
 
-def _graded(width: float) -> tuple[Array, Array]:
-    """Return nodes in (0, width) and weights of panels that halve toward 0, flat arrays."""
-    edges = width * np.concatenate([[0.0], 0.5 ** np.arange(_GRADED_PANELS, -1, -1.0)])
-    half = 0.5 * np.diff(edges)[:, None]
-    nodes = edges[:-1, None] + half * (1.0 + _NODES)
-    return nodes.ravel(), (half * _WEIGHTS).ravel()
+def _nodes(arc: tuple[float, float], case: LugreCase, ratio: float) -> tuple[Array, Array]:
+    """Return nodes in (0, width of the arc), where the contact is closed, and weights, flat arrays.
+
+    Panels halve toward 0 and end where the contact opens or closes.
+    """
+    start, end = arc
+    width = end - start
+    graded = width * 0.5 ** np.arange(_GRADED_PANELS, -1, -1.0)
+    even = np.linspace(0.0, width, 1 + math.ceil(abs(ratio) * width / _WIDEST_PANEL))
+    edges = np.union1d(graded, even)
+    nodes, weights = [np.empty(0)], [np.empty(0)]
+    for first, last in closed_spans(start, end, case.amplitude_ratio, case.phase, ratio):
+        inner = edges[(edges > first - start) & (edges < last - start)]
+        panels = np.concatenate([[first - start], inner, [last - start]])
+        half = 0.5 * np.diff(panels)[:, None]
+        nodes.append((panels[:-1, None] + half * (1.0 + _NODES)).ravel())
+        weights.append((half * _WEIGHTS).ravel())
+    return np.concatenate(nodes), np.concatenate(weights)

@@ -24,6 +24,7 @@ def describe(**changes: object) -> bytes:
         "guid": "a-guid",
         "generation_tool": "a tool",
         "generated": "1980-01-01T00:00:00Z",
+        "host_manages_memory": False,
     }
     return model_description(**(arguments | changes))
 
@@ -142,19 +143,29 @@ def test_initial_unknowns_depend_on_known_start_values_only(root: ET.Element) ->
         assert len(kinds) == len(dependencies(unknown)), f"{name}: one kind per dependency"
 
 
-def test_capabilities(root: ET.Element) -> None:
-    assert found(root, "CoSimulation").attrib == {
+@pytest.mark.parametrize("host_manages_memory", [True, False])
+def test_capabilities(host_manages_memory: bool) -> None:
+    described = ET.fromstring(describe(host_manages_memory=host_manages_memory))
+    assert found(described, "CoSimulation").attrib == {
         "modelIdentifier": "SliderResonatorPy",
         "needsExecutionTool": "false",
         "canHandleVariableCommunicationStepSize": "true",
         "canInterpolateInputs": "false",
         "canRunAsynchronuously": "false",
         "canBeInstantiatedOnlyOncePerProcess": "false",
-        "canNotUseMemoryManagementFunctions": "true",
+        "canNotUseMemoryManagementFunctions": "false" if host_manages_memory else "true",
         "canGetAndSetFMUstate": "true",
         "canSerializeFMUstate": "true",
         "providesDirectionalDerivative": "false",
+        "maxOutputDerivativeOrder": "0",
     }
+
+
+def test_source_files_are_listed_where_there_are_some(root: ET.Element) -> None:
+    assert root.find("CoSimulation/SourceFiles") is None
+    described = ET.fromstring(describe(source_files=["a.c", "b.c"]))
+    names = [e.attrib["name"] for e in described.iterfind("CoSimulation/SourceFiles/File")]
+    assert names == ["a.c", "b.c"]
 
 
 def test_default_experiment(root: ET.Element) -> None:

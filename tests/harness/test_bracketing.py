@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from harness.bracketing import bracketed_state
 from harness.newton import Vector
@@ -33,6 +34,19 @@ def test_a_lone_slow_state_needs_no_elimination() -> None:
 
 def test_drift_in_one_direction_has_no_bracket() -> None:
     assert bracketed_state(lambda s: (s - 1e-3, 0.0), np.zeros(1), np.ones(1)) is None
+
+
+def test_a_state_that_forgets_slowly_where_the_slow_one_is_small() -> None:
+    """As a soft bristle does: one Jacobian does not serve for all velocities."""
+
+    def period_map(state: Vector) -> tuple[Vector, float]:
+        v, bend = state
+        held = np.exp(-abs(v))
+        return np.array([v + 1e-3 * (0.3 - np.tanh(v)), bend * held + (1.0 - held) * v]), v
+
+    state = bracketed_state(period_map, np.array([-0.05, 1.0]), np.array([3.0, 1.0]))
+    assert state is not None
+    assert state == pytest.approx(np.arctanh([0.3, 0.3]), abs=1e-9)
 
 
 def test_a_fast_state_that_grows_is_given_up() -> None:

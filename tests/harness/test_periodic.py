@@ -20,8 +20,12 @@ def facts(**values: float) -> Facts:
         "friction_faces": 2.0,
         "friction_coefficient": 0.1,
         "friction_law": 0.0,
+        "bristle_stiffness": 1e5,
+        "bristle_damping": 10.0,
+        "fidelity": 2.0,
         "slider_mass": 1.0,
         "resonator_mass": 0.1,
+        "resonator_frequency": 3500.0,
         "damping_ratio": 0.05,
     }
     return Facts({**table_1, **values}, 0.0, 0.0)
@@ -88,16 +92,38 @@ def test_the_map_is_a_run_of_the_fmu_and_counts_its_periods(instance: Instance) 
 
 def test_the_warm_up_gives_state_size_and_mean(instance: Instance) -> None:
     period_map = FmuPeriodMap(instance, {}, read_facts(instance, {}), 1)
-    state, scale, mean = period_map.warm_up(0.1, 0.0)
+    warm = period_map.warm_up(0.1, 0.0)
     assert period_map.periods == 20
-    assert np.all(scale >= np.abs(state))
-    assert 0.0 < mean < 0.3
+    assert np.all(warm.scale >= np.abs(warm.state))
+    assert 0.0 < warm.mean_velocity < 0.3
 
 
 def test_a_device_at_rest_still_has_a_scale(instance: Instance) -> None:
     values = {"base_amplitude": 0.0}
     period_map = FmuPeriodMap(instance, values, read_facts(instance, values), 1)
-    state, scale, _ = period_map.warm_up(0.0, 0.0)
-    assert np.all(state == 0.0)
-    assert np.all(scale > 0.0)
+    warm = period_map.warm_up(0.0, 0.0)
+    assert np.all(warm.state == 0.0)
+    assert np.all(warm.scale > 0.0)
     assert period_map.stick_fraction == 1.0
+
+
+@pytest.mark.parametrize("stiffness", [50.0, 1e5])
+def test_maps_with_a_bristle_can_be_chained(instance: Instance, stiffness: float) -> None:
+    """What is read at the end of a period must start the next one as if there were no end."""
+    values = {"friction_law": 1.0, "bristle_stiffness": stiffness, "tolerance": 1e-12}
+    read = read_facts(instance, values)
+    period_map = FmuPeriodMap(instance, values, read, 1)
+    assert period_map.names[-1] == "bristle_deflection"
+    first, moved = period_map(np.array([0.1, 1e-4, -0.2, 0.3 / stiffness * 0.1]), 0.01)
+    second, further = period_map(first, 0.01)
+    end, displacement = FmuPeriodMap(instance, values, read, 2)(
+        np.array([0.1, 1e-4, -0.2, 0.3 / stiffness * 0.1]), 0.01
+    )
+    assert end == pytest.approx(second, rel=1e-9)
+    assert displacement == pytest.approx(moved + further, rel=1e-9)
+
+
+def test_averaged_motion_and_coulomb_friction_have_no_bristle(instance: Instance) -> None:
+    values: dict[str, float]
+    for values in ({}, {"fidelity": 0.0}):
+        assert len(FmuPeriodMap(instance, values, read_facts(instance, values), 1).names) == 3

@@ -67,3 +67,32 @@ def test_a_run_shorter_than_a_period_has_no_mean_velocity(tmp_path: Path) -> Non
     reference = side(tmp_path, RUN.replace("12.3", "0.7"))
     with pytest.raises(ValueError, match="shorter than one drive period"):
         _ = reference.mean_velocity
+
+
+def test_the_difference_frequency_counts_from_the_nearest_multiple(tmp_path: Path) -> None:
+    reference = side(tmp_path, "[inputs]\nfrequency_ratio = 2.98\n" + RUN)
+    assert reference.difference_frequency == pytest.approx(11.1408460, rel=1e-7)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_predictions_for_table_1_are_the_averages(tmp_path: Path, law: int) -> None:
+    reference = side(tmp_path, f"[device]\nfriction_law = {law}\nbristle_stiffness = 1e10\n" + RUN)
+    assert reference.predicted_velocity == pytest.approx(0.126731, rel=2e-3), (
+        "LuGre friction on hard bristles is Coulomb friction"
+    )
+    assert reference.predicted_blocking_force == pytest.approx(0.085222, rel=2e-3)
+
+
+def test_predictions_hold_for_other_ratios_and_lifting_contacts(tmp_path: Path) -> None:
+    ratio_3 = side(tmp_path, "[inputs]\nfrequency_ratio = 3.0\nphase = 0.4\n" + RUN)
+    assert ratio_3.predicted_velocity == pytest.approx(-0.0362968, abs=2e-4)
+    lifting = side(tmp_path, "[device]\nnormal_amplitude = 2.0\n[inputs]\nphase = 0.4\n" + RUN)
+    assert lifting.steady_velocity == pytest.approx(lifting.predicted_velocity, abs=1e-3)
+
+
+def test_averaged_motion_is_at_the_communication_points(tmp_path: Path) -> None:
+    reference = side(tmp_path, RUN)
+    averaged = reference.averaged_motion
+    assert (averaged.time == reference.times).all()
+    resolved = reference.signal("located_events", "position")
+    assert averaged.position == pytest.approx(resolved, abs=0.1 * np.abs(resolved).max())

@@ -42,3 +42,28 @@ def test_blocking_force_without_preload() -> None:
     found = reference_blocking_force(Device(normal_preload=0.0), 0.4, 1.0)
     assert found is not None
     assert 0.0 < found < 0.2
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "fidelity", "velocity"),
+    [
+        (50.0, 2, 0.1969505012),
+        (1e4, 2, -0.0488497920),
+        (1e6, 2, 0.1282110732),
+        (1e8, 2, 0.1271163723),
+        (1e4, 1, -0.0491765734),
+    ],
+)
+def test_lugre_figures_of_taylor_integration_are_met(
+    stiffness: float, fidelity: int, velocity: float
+) -> None:
+    device = Device(friction_law=1, bristle_stiffness=stiffness, fidelity=fidelity)
+    found = reference_steady_velocity(device, 0.0, 0.0, 1.0, velocity + 0.01)
+    assert found == pytest.approx(velocity, abs=5e-8)
+
+
+def test_the_blocking_force_of_bristles_stops_them() -> None:
+    device = Device(friction_law=1, bristle_stiffness=1e4)
+    force = reference_blocking_force(device, 0.4, 1.0)
+    assert force is not None
+    assert reference_steady_velocity(device, 0.4, force, 1.0) == pytest.approx(0.0, abs=1e-7)

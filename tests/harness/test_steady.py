@@ -117,15 +117,3 @@ def test_a_contact_that_is_lifted_at_every_reversal_does_not_choose_a_velocity(
 def test_the_search_can_begin_elsewhere(instance: Instance) -> None:
     motion = find_steady(instance, {"initial_velocity": -0.1})
     assert motion.steady_velocity == pytest.approx(0.126667, rel=1e-6)
-
-
-def test_a_law_with_a_hidden_state_is_not_guessed_at(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    value = instance.value
-    monkeypatch.setattr(
-        instance, "value", lambda name: 1.0 if name == "friction_law" else value(name)
-    )
-    motion = find_steady(instance, {})
-    assert motion.status == "hidden_state"
-    assert motion.steady_velocity is None

@@ -12,6 +12,7 @@ from .law import Law, law_of
 from .lifecycle import Lifecycle, require
 from .motion import State
 from .outputs import OUTPUTS, View
+from .plant import Plant
 from .refusal import Refusal
 from .snapshot import FORMAT, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, checked, number
@@ -227,9 +228,22 @@ def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
     inputs = Inputs(phase, values["load"], values["frequency_ratio"])
     device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
     try:
-        return device, inputs, law_of(device, inputs)
-    except ArithmeticError as error:
+        law = law_of(device, inputs)
+        finite = all(map(isfinite, _coefficients(law.held.plant)))
+    except ArithmeticError:
+        finite = False
+    if not finite:
         raise Refusal(
             "the parameters are refused: masses, frequencies and amplitudes together leave the "
-            f"range of floating point numbers ({error})"
-        ) from error
+            "range of floating point numbers; allowed are smaller ones"
+        )
+    return device, inputs, law
+
+
+def _coefficients(plant: Plant) -> tuple[float, ...]:
+    return (
+        *(plant.total_mass, plant.mass_fraction, plant.normal_frequency),
+        *(plant.slip.decay, plant.slip.stiffness, plant.stick.decay, plant.stick.stiffness),
+        *(plant.drive.real, plant.drive.imag, plant.relative_drive, plant.base_acceleration),
+        *(plant.holding_drive.real, plant.holding_drive.imag, plant.spring, plant.damper),
+    )

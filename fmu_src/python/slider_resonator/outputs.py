@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import sin, tau
+from math import remainder, sin, tau
 from typing import NamedTuple
 
 from .averaged import Averaged, averaged
@@ -45,7 +45,8 @@ def _normal_force(view: View) -> float:
 
 def _theory(view: View) -> Averaged:
     ratio = view.inputs.frequency_ratio
-    lead = (view.moment.psi - ratio * view.moment.theta) % tau if ratio == round(ratio) else 0.0
+    integer = ratio == round(ratio)
+    lead = remainder(view.moment.psi - ratio * view.moment.theta, tau) if integer else 0.0
     return _averaged(view.device, view.inputs, round(lead, LEAD_DIGITS))
 
 

@@ -2,22 +2,74 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import click
 import pytest
+from click.testing import CliRunner
 
 from harness.commands import options
 from harness.errors import FmuError
 
 
-def test_the_fmu_built_here_is_preferred(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_fmus_built_here_are_preferred(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(options, "REPOSITORY", tmp_path / "repository")
     assert options.default_fmu(Path("given.fmu")) == Path("given.fmu")
     with pytest.raises(FmuError, match=r"python build_fmu\.py"):
         options.default_fmu(None)
-    in_repository = tmp_path / "repository" / options.BUILT_FMU
+    native, python = options.BUILT_FMUS
+    in_repository = tmp_path / "repository" / python
     in_repository.parent.mkdir(parents=True)
     in_repository.touch()
-    assert options.default_fmu(None) == in_repository
-    options.BUILT_FMU.parent.mkdir()
-    options.BUILT_FMU.touch()
-    assert options.default_fmu(None) == options.BUILT_FMU
+    assert options.default_fmus() == (in_repository,)
+    python.parent.mkdir()
+    python.touch()
+    assert options.default_fmu(None) == python
+    native.touch()
+    assert options.default_fmus() == (native, python)
+    assert options.default_fmu(None) == native, "the native FMU comes first"
+
+
+@click.command("told", cls=options.SettingsCommand)
+@click.argument("names", nargs=-1)
+@options.set_option
+@options.json_option
+def told(names: tuple[str, ...], settings: dict[str, float], as_json: bool) -> None:
+    """Tell what was given."""
+    click.echo((names, settings, as_json))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["a.fmu", "--set", "phase=0.4", "load=0.05", "tolerance=1e-9", "--json"],
+        ["a.fmu", "--set=phase=0.4", "load=0.05", "--json", "--set", "tolerance=1e-9"],
+        ["--json", "--set", "phase=0.4", "--set", "load=0.05", "tolerance=1e-9", "a.fmu"],
+    ],
+)
+def test_several_settings_may_follow_one_option(arguments: list[str]) -> None:
+    result = CliRunner().invoke(told, arguments)
+    assert result.exit_code == 0, result.output
+    settings = {"phase": 0.4, "load": 0.05, "tolerance": 1e-9}
+    assert result.output == f"{(('a.fmu',), settings, True)}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--set", "phase=1", "phse=1"], "did you mean 'phase'"),
+        (["--set", "phase=1", "load=x"], "allowed is a number"),
+        (["--set", "phase=1", "phase=2"], "allowed is one value"),
+        (["--set", "--json"], "is not NAME=VALUE"),
+        (["--set"], "requires an argument"),
+    ],
+)
+def test_every_setting_is_judged(arguments: list[str], said: str) -> None:
+    result = CliRunner().invoke(told, arguments)
+    assert result.exit_code == 2
+    assert said in result.output
+
+
+@pytest.mark.parametrize("arguments", [["phase=1"], ["--", "phase=1"], ["--json", "phase=1"]])
+def test_only_what_follows_the_option_is_a_setting(arguments: list[str]) -> None:
+    result = CliRunner().invoke(told, arguments)
+    assert result.output.startswith("(('phase=1',), {},"), "it may be the name of a file"

@@ -39,3 +39,21 @@ def test_a_claim_that_is_not_confirmed_ends_with_1(
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 1
     assert "It flies" in result.output
+
+
+def test_a_table_that_deviates_ends_with_1(
+    python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from harness.paper import reproduce
+    from harness.paper.table import PaperTable
+
+    def measure(instance: object, progress: object) -> dict[str, object]:
+        return {"rows": [{"error": 0.3}]}
+
+    name = "lugre_device"
+    table = PaperTable(name, "Forces", "", {"error": "error"}, {"error": 0.1}, {}, measure)
+    monkeypatch.setattr(reproduce, "TABLES", {name: table})
+    arguments = ["--out", str(tmp_path), "--only", name, "--fmu", str(python_fmu)]
+    result = CliRunner().invoke(main, ["paper", *arguments])
+    assert result.exit_code == 1
+    assert "FAIL     lugre_device: error up to 0.3, allowed 0.1" in result.output

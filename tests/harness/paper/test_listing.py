@@ -6,7 +6,8 @@ from pathlib import Path
 
 from harness.paper import figure_2
 from harness.paper.claim import AGREES, DISAGREES, Claim, near
-from harness.paper.listing import verdicts, write_claims, write_figures
+from harness.paper.listing import verdicts, write_claims, write_figures, write_tables
+from harness.paper.table import PaperTable
 
 CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, AGREES, "it | does", True)
 
@@ -38,3 +39,20 @@ def test_figures_are_listed_with_their_captions(tmp_path: Path) -> None:
 def test_near_is_relative() -> None:
     assert near(-1.01, -1.0, 0.02)
     assert not near(1.03, 1.0, 0.02)
+
+
+def test_tables_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
+    columns = {"kappa": "kappa", "error": "theory / FMU - 1"}
+    table = PaperTable("forces", "Forces", "In N.", columns, {"error": 0.1}, {}, lambda i, p: {})
+    right = {"rows": [{"kappa": 1.0, "error": -0.05}, {"kappa": 10.0, "error": 0.02}]}
+    write_tables(tmp_path, [(table, right)], "a.fmu", "guid")
+    text = (tmp_path / "TABLES.md").read_text(encoding="utf-8")
+    assert "## forces: Forces" in text
+    assert "| kappa | theory / FMU - 1 |\n|---|---|\n| 1 | -0.05 |\n| 10 | 0.02 |" in text
+    assert "Largest theory / FMU - 1: 0.05, allowed 0.1." in text
+    content = json.loads((tmp_path / "forces.json").read_text(encoding="utf-8"))
+    assert content["rows"] == right["rows"]
+    assert (content["largest"], content["allowed"]) == ({"error": 0.05}, {"error": 0.1})
+    wrong = {"rows": [{"kappa": 1.0, "error": -0.5}]}
+    write_tables(tmp_path, [(table, wrong)], "a.fmu", "guid")
+    assert "**NOT CONFIRMED**" in (tmp_path / "TABLES.md").read_text(encoding="utf-8")

@@ -7,6 +7,7 @@ import pytest
 from harness.drive import Instance
 from harness.paper import mapping
 from harness.paper.measure import course
+from harness.references.averaged_lugre import LugreCase
 from harness.references.closed_forms import equivalent_force
 from harness.references.device import Device
 
@@ -24,7 +25,8 @@ def test_coulomb_case_is_in_the_paper_s_units(frequency: float) -> None:
 
 
 def test_lugre_case_keeps_mu_and_the_drive() -> None:
-    device = _device(mapping.lugre_case(2.0, 50.0, 100.0, friction_coefficient=0.3, damping=0.7))
+    case = LugreCase(strength=2.0, friction_coefficient=0.3, damping=0.7)
+    device = _device(mapping.lugre_case(case, 50.0, 100.0))
     assert (device.friction_law, device.bristle_stiffness, device.bristle_damping) == (1, 100, 0.7)
     assert device.normal_preload / device.total_mass == 1.0, "x0 = N0 / (m w0^2) = 1 m"
     assert equivalent_force(device).velocity_amplitude == pytest.approx(2.0, rel=1e-12)

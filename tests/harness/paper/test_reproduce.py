@@ -9,7 +9,7 @@ import pytest
 from harness.errors import HarnessError
 from harness.paper.average_error import errors, slope
 from harness.paper.figure_8 import PHASES
-from harness.paper.reproduce import FIGURES, NAMES, reproduce
+from harness.paper.reproduce import FIGURES, NAMES, TABLES, reproduce
 from harness.paper.stiffness_validity import CASE, stiffness_of
 from harness.references import uniform_average
 from harness.references.averaged_coulomb import device_steady_velocity_at_ratio
@@ -50,6 +50,20 @@ def test_an_unknown_name_is_refused(python_fmu: Path, tmp_path: Path) -> None:
         reproduce(python_fmu, tmp_path, ("figure_6",), _quiet)
 
 
+def test_tables_are_kept_too_and_judged(python_fmu: Path, tmp_path: Path) -> None:
+    first = reproduce(python_fmu, tmp_path, ("lugre_blocking",), _quiet)
+    assert (first.run, first.kept) == (["lugre_blocking"], [])
+    again = reproduce(python_fmu, tmp_path, ("lugre_blocking",), _quiet)
+    assert (again.run, again.kept) == ([], ["lugre_blocking"])
+    (table,) = again.tables
+    assert table.confirmed
+    assert table.largest["uniform_deviation"] <= 2e-3
+    assert again.confirmed
+    assert "lugre_blocking" in (tmp_path / "TABLES.md").read_text(encoding="utf-8")
+    reproduce(python_fmu, tmp_path, ("figure_3",), _quiet)
+    assert "lugre_blocking" in (tmp_path / "TABLES.md").read_text(encoding="utf-8"), "still holds"
+
+
 @pytest.mark.slow
 def test_the_whole_paper_is_confirmed(python_fmu: Path, tmp_path: Path) -> None:
     outcome = reproduce(python_fmu, tmp_path, (), _quiet)
@@ -59,6 +73,7 @@ def test_the_whole_paper_is_confirmed(python_fmu: Path, tmp_path: Path) -> None:
         assert (tmp_path / f"{name}.png").stat().st_size > 10_000
         assert (tmp_path / f"{name}.svg").stat().st_size > 10_000
     assert outcome.wall_time < 600.0, "the whole paper takes less than ten minutes"
+    assert [table.name for table in outcome.tables if table.confirmed] == list(TABLES)
 
     data = json.loads((tmp_path / "results" / "average_error.json").read_text(encoding="utf-8"))
     for name, (frequencies, error) in errors(data["data"]).items():
@@ -81,4 +96,4 @@ def test_the_whole_paper_is_confirmed(python_fmu: Path, tmp_path: Path) -> None:
 
     data = json.loads((tmp_path / "results" / "figure_3.json").read_text(encoding="utf-8"))
     assert np.argmax(data["data"]["phase"]["v"]) == 6, "quadrature is best"
-    assert set(NAMES) == {*FIGURES, "claims"}
+    assert set(NAMES) == {*FIGURES, *TABLES, "claims"}

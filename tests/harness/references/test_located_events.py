@@ -271,9 +271,11 @@ def test_the_referee_agrees(name: str) -> None:
     from harness.references import taylor
 
     problem = PROBLEMS[name]
-    times = np.linspace(0.0, problem.held[-1].stop, 1001)
-    run = simulate(problem.device, problem.held, times)
-    exact = taylor.simulate(problem.device, problem.held, times)
+    changes = len(problem.held) > 1
+    held = problem.held if changes else [replace(problem.held[0], stop=0.06)]
+    times = np.linspace(0.0, held[-1].stop, 501)
+    run = simulate(problem.device, held, times)
+    exact = taylor.simulate(problem.device, held, times)
     for signal in (*SIGNALS, "normal_force", "friction_force"):
         expected = getattr(exact, signal)
         peak = abs(expected).max()

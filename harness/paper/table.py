@@ -1,0 +1,35 @@
+"""What a table of the report is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from harness.drive import Instance
+from harness.paper.figure import Data, Progress
+
+
+@dataclass(frozen=True)
+class PaperTable:
+    """A table: its columns by name, each with its meaning and unit, and how its rows are measured.
+
+    ``measure`` returns ``rows``, a list of mappings from column to number. ``bounds`` has the
+    largest size that each deviation, a column too, may have.
+    """
+
+    name: str
+    title: str
+    caption: str
+    columns: Mapping[str, str]
+    bounds: Mapping[str, float]
+    parameters: Mapping[str, Any]
+    measure: Callable[[Instance, Progress], Data]
+
+    def largest(self, data: Data) -> dict[str, float]:
+        """Return the largest size of each deviation that has a bound."""
+        return {name: max(abs(row[name]) for row in data["rows"]) for name in self.bounds}
+
+    def confirmed(self, data: Data) -> bool:
+        """Return whether all deviations are within their bounds."""
+        return all(size <= self.bounds[name] for name, size in self.largest(data).items())

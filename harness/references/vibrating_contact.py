@@ -1,0 +1,61 @@
+"""The normal load over a turn of the drive, which is never less than 0: a contact cannot pull.
+
+The load is ``max(0, 1 + amplitude_ratio sin(ratio theta + phase))`` in units of the preload, theta
+the angle of the drive. Angles are in rad.
+"""
+
+from __future__ import annotations
+
+import math
+
+
+def mean_load(amplitude_ratio: float) -> float:
+    """Return the load averaged over all its angles, 1 for a contact that never lifts."""
+    if amplitude_ratio <= 1.0:
+        return 1.0
+    before = math.asin(1.0 / amplitude_ratio)
+    closed = math.pi + 2.0 * before
+    return (closed + 2.0 * amplitude_ratio * math.cos(before)) / (2.0 * math.pi)
+
+
+def closed_spans(
+    start: float, end: float, amplitude_ratio: float, phase: float, ratio: float
+) -> list[tuple[float, float]]:
+    """Return the spans (from, to) of theta within ``[start, end]`` in which the contact is closed.
+
+    They ascend. Raises ValueError as `check_amplitude_ratio` does.
+    """
+    check_amplitude_ratio(amplitude_ratio)
+    if amplitude_ratio <= 1.0:
+        return [(start, end)]
+    if ratio == 0.0:
+        return [(start, end)] if 1.0 + amplitude_ratio * math.sin(phase) > 0.0 else []
+    before = math.asin(1.0 / amplitude_ratio)
+    # By the angle of the load the contact is closed from -before to pi + before, and turns later.
+    first, last = sorted((ratio * start + phase, ratio * end + phase))
+    turn = math.floor((first + before) / (2.0 * math.pi))
+    spans = []
+    while (touchdown := 2.0 * math.pi * turn - before) < last:
+        lift_off = touchdown + math.pi + 2.0 * before
+        edges = ((max(first, touchdown) - phase) / ratio, (min(last, lift_off) - phase) / ratio)
+        if edges[0] != edges[1] and lift_off > first:
+            spans.append((min(edges), max(edges)))
+        turn += 1
+    return sorted(spans)
+
+
+def check_amplitude_ratio(amplitude_ratio: float) -> None:
+    """Raise ValueError unless an amplitude ratio is a finite number of at least 0."""
+    if not 0.0 <= amplitude_ratio < math.inf:
+        raise ValueError(
+            f"amplitude_ratio = {amplitude_ratio!r}: allowed is a finite number of at least 0"
+        )
+
+
+def check_never_lifts(amplitude_ratio: float) -> None:
+    """Raise ValueError unless an amplitude ratio keeps the contact closed."""
+    if not 0.0 <= amplitude_ratio <= 1.0:
+        raise ValueError(
+            f"amplitude_ratio = {amplitude_ratio!r} must lie between 0 and 1: above 1 the contact "
+            "lifts, which this closed form does not cover"
+        )

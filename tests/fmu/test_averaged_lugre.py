@@ -1,0 +1,105 @@
+"""The averages of LuGre friction in the built FMU against resolved motion, soft to hard bristles.
+
+The device is model 2 of the paper with q = 1, mu = 0.4, sigma_1 = 1 in its own units, so that fast
+velocity and preload are 1; kappa = sigma_0 q / (mu Omega).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from harness.references import lugre_steady
+from harness.references.device import Device
+from tests.fmu.host import Instance
+
+Instantiate = Callable[[], Instance]
+
+KAPPAS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+SLOW = pytest.mark.slow
+PHASE = 1.0
+FRICTION = 0.4
+
+
+def parameters(kappa: float, frequency: float, amplitude_ratio: float = 0.8) -> dict[str, float]:
+    return {
+        "slider_mass": 1.0,
+        "resonator_mass": 0.0,
+        "base_amplitude": 0.0,
+        "tangential_force": frequency,
+        "drive_frequency": frequency,
+        "normal_amplitude": amplitude_ratio,
+        "friction_coefficient": FRICTION,
+        "friction_faces": 1,
+        "friction_law": 1,
+        "bristle_stiffness": kappa * FRICTION * frequency,
+        "bristle_damping": 1.0,
+    }
+
+
+@pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6], ids=["closed", "lifting"])
+@pytest.mark.parametrize("kappa", [1.0, *(pytest.param(k, marks=SLOW) for k in KAPPAS if k != 1.0)])
+def test_predictions_err_by_the_inverse_frequency(
+    instantiate: Instantiate, kappa: float, amplitude_ratio: float
+) -> None:
+    """Against the motion that repeats each period, found by shooting with the referee."""
+    errors = []
+    for frequency in (1000.0, 4000.0):
+        values = parameters(kappa, frequency, amplitude_ratio)
+        instance = instantiate().initialize(**values, phase=PHASE)
+        velocity, force = instance.get("steady_velocity", "blocking_force")
+        device = Device.from_mapping({**values, "fidelity": 1})
+        errors.append(
+            (
+                velocity - lugre_steady.steady_velocity(device, PHASE, guess=velocity),
+                force - lugre_steady.blocking_force(device, PHASE, guess=force),
+            )
+        )
+    for quantity, coarse, fine in zip(("velocity", "blocking"), *errors, strict=True):
+        assert abs(coarse) <= 2e-3, f"{quantity} at Omega = 1000, in units of v_q and N0"
+        assert coarse / fine == pytest.approx(4.0, rel=0.05), f"{quantity}: slope 1 in 1 / Omega"
+
+
+@pytest.mark.parametrize("kappa", KAPPAS)
+def test_averaged_motion_settles_at_the_prediction(instantiate: Instantiate, kappa: float) -> None:
+    values = parameters(kappa, 1000.0)
+    instance = instantiate().initialize(**values, phase=PHASE, fidelity=0)
+    instance.step(200.0)
+    mean, steady = instance.get("mean_velocity", "steady_velocity")
+    assert mean == pytest.approx(steady, abs=1e-6), "averaged motion and averaged theory are one"
+    device = Device.from_mapping({**values, "fidelity": 1})
+    direct = lugre_steady.steady_velocity(device, PHASE, guess=steady)
+    assert mean == pytest.approx(direct, abs=2e-3), "within 2e-3 of v_q of the resolved motion"
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "changes", "inputs"),
+    [
+        (50.0, {"bristle_damping": 1.0}, {"phase": 0.4}),
+        (2e4, {}, {"phase": 0.4, "load": 0.05}),
+        (1e5, {}, {"phase": 0.4, "frequency_ratio": 3.0}),
+        (1e5, {"normal_amplitude": 2.0}, {"phase": 0.4}),
+        (1e5, {}, {"frequency_ratio": 1.004}),
+        (1e8, {}, {"phase": 0.4}),
+    ],
+    ids=["soft", "loaded", "ratio 3", "lifting", "beating", "hard"],
+)
+def test_table_1_starts_as_the_resolved_device(
+    instantiate: Instantiate,
+    stiffness: float,
+    changes: dict[str, float],
+    inputs: dict[str, float],
+) -> None:
+    """From rest over half a second, 280 drive periods."""
+    fast = 0.2366097
+    ends = []
+    for fidelity in (0, 2):
+        instance = instantiate().initialize(
+            **changes, **inputs, friction_law=1, bristle_stiffness=stiffness, fidelity=fidelity
+        )
+        instance.step(0.5)
+        ends.append(instance.get("mean_velocity", "position"))
+    (slow, slow_way), (full, full_way) = ends
+    assert slow == pytest.approx(full, abs=0.01 * fast), "1 % of v_q"
+    assert slow_way == pytest.approx(full_way, abs=0.01 * fast * 0.5), "1 % of v_q times time"

@@ -1,0 +1,139 @@
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+from fmpy import simulate_fmu
+
+from fmu_src.building.build_error import BuildError
+from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
+from fmu_src.building.native_fmu import build_native
+from fmu_src.building.platforms import HOST, host_platform
+from fmu_src.c_header import C_SOURCES
+
+# Those of this machine, each once; the build's own is always there.
+_FOUND = {os.path.realpath(p): n for n in ("clang", "gcc", "cc") if (p := shutil.which(n))}
+COMPILERS = sorted(_FOUND.values())
+BINARY = host_platform().binary("SliderResonator")
+
+
+def contents(fmu: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(fmu) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def guid(fmu: Path) -> str:
+    return ET.fromstring(contents(fmu)["modelDescription.xml"]).attrib["guid"]
+
+
+def source_files(fmu: Path) -> list[str]:
+    root = ET.fromstring(contents(fmu)["modelDescription.xml"])
+    return [e.attrib["name"] for e in root.iterfind("CoSimulation/SourceFiles/File")]
+
+
+@pytest.fixture
+def edited_sources(tmp_path: Path) -> Path:
+    """A copy of the C sources in which one comment differs."""
+    copy = tmp_path / "c"
+    shutil.copytree(C_SOURCES, copy)
+    with (copy / "values.c").open("a") as file:
+        file.write("/* one comment more */\n")
+    return copy
+
+
+def test_another_content_gets_another_guid(
+    native_fmu: Path, tmp_path: Path, edited_sources: Path
+) -> None:
+    said: list[str] = []
+    other = build_native(
+        tmp_path / "dist", platforms=[HOST], sources=edited_sources, progress=said.append
+    )
+    assert guid(other) != guid(native_fmu), "hosts and states must tell builds apart"
+    assert f"compiling for {host_platform().name} with ziglang" in said[0]
+
+
+def test_the_guid_is_in_the_sources_and_in_the_binary(native_fmu: Path) -> None:
+    inside = contents(native_fmu)
+    for name in ("sources/model_guid.h", BINARY):
+        assert inside[name].count(guid(native_fmu).encode()) == 1, name
+
+
+def test_every_source_is_inside_and_listed(native_fmu: Path) -> None:
+    written = {p.relative_to(C_SOURCES).as_posix() for p in C_SOURCES.rglob("*.[ch]")}
+    inside = {n.removeprefix("sources/") for n in contents(native_fmu) if n.startswith("sources/")}
+    assert inside == written
+    assert source_files(native_fmu) == sorted(n for n in written if n.endswith(".c"))
+
+
+def test_nothing_of_python_is_inside(native_fmu: Path) -> None:
+    assert {name.split("/")[0] for name in contents(native_fmu)} == {
+        "binaries",
+        "documentation",
+        "model.png",
+        "modelDescription.xml",
+        "sources",
+    }
+
+
+@pytest.mark.parametrize(
+    "compiler",
+    [*(Compiler((c,), c, crosses=False) for c in COMPILERS), default_compiler()],
+    ids=lambda c: c.description,
+)
+def test_sources_compile_alone_without_a_warning(
+    native_fmu: Path, tmp_path: Path, compiler: Compiler
+) -> None:
+    with zipfile.ZipFile(native_fmu) as archive:
+        archive.extractall(tmp_path)
+    target = ["-target", host_platform().targets[0]] if compiler.crosses else []
+    warnings = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
+    command = [*compiler.command, *target, *FLAGS, *warnings]
+    done = subprocess.run(
+        [*command, "-o", "alone.so", *source_files(native_fmu), "-lm"],
+        cwd=tmp_path / "sources",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_a_compiler_of_the_user_gives_the_same_motion(
+    native_fmu: Path, tmp_path: Path, compiler: str
+) -> None:
+    own = build_native(tmp_path, compiler=compiler)
+    assert [n for n in contents(own) if n.startswith("binaries/")] == [BINARY]
+    theirs, ours = (simulate_fmu(str(f), stop_time=0.05)["position"] for f in (own, native_fmu))
+    assert theirs == pytest.approx(ours, rel=1e-11, abs=1e-11 * max(abs(ours)))
+
+
+def test_a_compiler_for_another_platform_is_refused(tmp_path: Path) -> None:
+    other = "win64" if host_platform().name != "win64" else "linux64"
+    with pytest.raises(BuildError, match=f"refused for {other}: allowed is {host_platform().name}"):
+        build_native(tmp_path / "dist", platforms=[other], compiler=sys.executable)
+    assert not (tmp_path / "dist").exists()
+
+
+def test_what_the_compiler_says_is_passed_on(tmp_path: Path, edited_sources: Path) -> None:
+    (edited_sources / "values.c").write_text("#error broken on purpose\n")
+    with pytest.raises(BuildError, match="broken on purpose"):
+        build_native(tmp_path / "dist", platforms=[HOST], sources=edited_sources)
+    assert not (tmp_path / "dist").exists()
+
+
+def test_a_function_that_is_missing_is_noticed(tmp_path: Path, edited_sources: Path) -> None:
+    (edited_sources / "law.c").write_text("int nothing;\n")
+    with pytest.raises(BuildError, match="law_advance"):
+        build_native(tmp_path / "dist", platforms=[HOST], sources=edited_sources)
+
+
+def test_a_folder_without_the_sources_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match=r"model_guid\.h is missing"):
+        build_native(tmp_path / "dist", platforms=[HOST], sources=tmp_path)

@@ -1,0 +1,53 @@
+from __future__ import annotations
+
+import platform
+import sys
+
+import pytest
+
+from fmu_src.building.build_error import BuildError
+from fmu_src.building.platforms import HOST, PLATFORMS, host_platform, platforms_named
+
+
+def test_no_names_stand_for_all() -> None:
+    assert platforms_named([]) == list(PLATFORMS.values())
+
+
+def test_each_platform_comes_once_and_in_the_order_of_the_table() -> None:
+    names = [p.name for p in platforms_named(["win64", "linux64", "win64"])]
+    assert names == ["linux64", "win64"]
+
+
+def test_an_unknown_platform_is_refused_by_name() -> None:
+    with pytest.raises(BuildError, match=r"platform 'amiga' refused: allowed are linux64, win64,"):
+        platforms_named(["linux64", "amiga"])
+
+
+@pytest.mark.parametrize(
+    ("system", "machine", "name"),
+    [
+        ("linux", "x86_64", "linux64"),
+        ("win32", "AMD64", "win64"),
+        ("darwin", "arm64", "darwin64"),
+        ("darwin", "x86_64", "darwin64"),
+    ],
+)
+def test_the_host_is_recognised(
+    monkeypatch: pytest.MonkeyPatch, system: str, machine: str, name: str
+) -> None:
+    monkeypatch.setattr(sys, "platform", system)
+    monkeypatch.setattr(platform, "machine", lambda: machine)
+    assert host_platform() is PLATFORMS[name]
+    assert platforms_named([HOST]) == [PLATFORMS[name]]
+
+
+@pytest.mark.parametrize(
+    ("system", "machine"), [("linux", "aarch64"), ("sunos5", "sun4u"), ("win32", "x86")]
+)
+def test_a_host_without_a_name_in_fmi_is_refused(
+    monkeypatch: pytest.MonkeyPatch, system: str, machine: str
+) -> None:
+    monkeypatch.setattr(sys, "platform", system)
+    monkeypatch.setattr(platform, "machine", lambda: machine)
+    with pytest.raises(BuildError, match=f"no name for {system} on {machine}"):
+        host_platform()

@@ -1,0 +1,104 @@
+from __future__ import annotations
+
+import ast
+import re
+import shutil
+import sys
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from fmu_src.building.build_error import BuildError
+from fmu_src.building.python_fmu import PACKAGE, build_python
+
+
+def guid(fmu: Path) -> str:
+    with zipfile.ZipFile(fmu) as archive:
+        return ET.fromstring(archive.read("modelDescription.xml")).attrib["guid"]
+
+
+def package_name(fmu: Path) -> str:
+    with zipfile.ZipFile(fmu) as archive:
+        (name,) = {
+            n.split("/")[1] for n in archive.namelist() if re.search("slider_resonator_.*/", n)
+        }
+    return name
+
+
+@pytest.fixture
+def edited_package(tmp_path: Path) -> Path:
+    """A copy of the component in which one comment differs."""
+    copy = tmp_path / "slider_resonator"
+    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    with (copy / "variables.py").open("a") as file:
+        file.write("# one comment more\n")
+    return copy
+
+
+def test_another_content_gets_another_name_and_guid(
+    python_fmu: Path, tmp_path: Path, edited_package: Path
+) -> None:
+    other = build_python(tmp_path / "dist", edited_package)
+    assert package_name(other) != package_name(python_fmu), "one process must tell builds apart"
+    assert guid(other) != guid(python_fmu)
+
+
+def test_names_are_made_of_the_content(python_fmu: Path) -> None:
+    assert re.fullmatch("slider_resonator_[0-9a-f]{12}", package_name(python_fmu))
+    with zipfile.ZipFile(python_fmu) as archive:
+        module = archive.read("resources/slavemodule.txt").decode()
+        assert re.fullmatch("slider_resonator_py_[0-9a-f]{12}", module)
+        assert f"resources/{module}.py" in archive.namelist()
+
+
+def test_what_a_target_needs_is_inside(python_fmu: Path) -> None:
+    with zipfile.ZipFile(python_fmu) as archive:
+        assert set(archive.namelist()) >= {
+            "binaries/linux64/SliderResonatorPy.so",
+            "binaries/win64/SliderResonatorPy.dll",
+            "documentation/index.html",
+            "documentation/licenses/license.txt",
+            "documentation/licenses/pythonfmu.txt",
+            "model.png",
+            "resources/pythonfmu/fmi2slave.py",
+        }
+
+
+def test_component_imports_the_standard_library_only(python_fmu: Path) -> None:
+    allowed = sys.stdlib_module_names | {"pythonfmu"}
+    with zipfile.ZipFile(python_fmu) as archive:
+        sources = [n for n in archive.namelist() if f"/{package_name(python_fmu)}/" in n]
+        for name in sources:
+            for node in ast.walk(ast.parse(archive.read(name))):
+                match node:
+                    case ast.Import(names=aliases):
+                        modules = [alias.name for alias in aliases]
+                    case ast.ImportFrom(level=0, module=str(module)):
+                        modules = [module]
+                    case _:
+                        continue
+                for imported in modules:
+                    assert imported.split(".")[0] in allowed, f"{name} imports {imported}"
+
+
+def test_a_component_that_does_not_run_is_not_packaged(
+    tmp_path: Path, edited_package: Path
+) -> None:
+    (edited_package / "slave.py").write_text("raise RuntimeError('broken on purpose')\n")
+    with pytest.raises(BuildError, match="broken on purpose"):
+        build_python(tmp_path / "dist", edited_package)
+    assert not (tmp_path / "dist").exists()
+
+
+def test_a_folder_that_is_no_package_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match=r"is not a Python package: it has no __init__\.py"):
+        build_python(tmp_path / "dist", tmp_path)
+
+
+def test_the_caller_keeps_its_modules_and_search_path(tmp_path: Path) -> None:
+    path, modules = list(sys.path), {n for n in sys.modules if "slider_resonator_" in n}
+    build_python(tmp_path)
+    assert sys.path == path
+    assert {n for n in sys.modules if "slider_resonator_" in n} == modules
