@@ -20,6 +20,7 @@ from harness.references.vibrating_contact import (
     check_never_lifts,
     closed_spans,
     mean_load,
+    turns_until_repeat,
 )
 
 
@@ -31,20 +32,25 @@ def mean_friction(
     The fast velocity is ``velocity - strength cos(theta)``; at and beyond ``strength`` friction no
     longer changes sign. An integer ratio n gives
     ``1 - 2 theta / pi - 2 alpha / (n pi) sin(n theta) sin(phase)`` for a contact that never lifts;
-    at other ratios only the mean load counts. Raises ValueError as `steady_velocity_at_ratio` does
-    for strength and amplitude_ratio.
+    where the load never repeats (see `turns_until_repeat`) only its mean counts. Raises ValueError
+    as `steady_velocity_at_ratio` does for strength and amplitude_ratio.
     """
     _check(strength, amplitude_ratio)
     angle = math.acos(max(-1.0, min(1.0, velocity / strength)))
     slide = 1.0 - 2.0 * angle / math.pi
     if ratio == 0.0:
         return slide * max(0.0, 1.0 + amplitude_ratio * math.sin(phase))
-    if ratio != round(ratio):
+    turns = turns_until_repeat(amplitude_ratio, ratio)
+    if turns == 0:
         return slide * mean_load(amplitude_ratio)
     if amplitude_ratio > 1.0:
-        forward = _load_integral(angle, 2.0 * math.pi - angle, amplitude_ratio, phase, ratio)
-        backward = _load_integral(-angle, angle, amplitude_ratio, phase, ratio)
-        return (forward - backward) / (2.0 * math.pi)
+        total = 0.0
+        for turn in range(turns):
+            begin = 2.0 * math.pi * turn
+            there, back, again = begin - angle, begin + angle, begin + 2.0 * math.pi - angle
+            total += _load_integral(back, again, amplitude_ratio, phase, ratio)
+            total -= _load_integral(there, back, amplitude_ratio, phase, ratio)
+        return total / (2.0 * math.pi * turns)
     share = 2.0 * amplitude_ratio / (ratio * math.pi)
     return slide - share * math.sin(ratio * angle) * math.sin(phase)
 

@@ -3,7 +3,8 @@
 The slow velocity V obeys ``total_mass V' = -friction - load``, friction being the mean over the
 fast motion of the slider with velocity ``V - v_q cos(theta - theta1)``. Near an integer n the
 frequency ratio lets the phase of the normal load drift slowly, by (ratio - n) w, which is appendix
-A of the paper for every n; elsewhere the mean load counts. The fast motion is that of (32)-(34).
+A of the paper for every n; a clipped load does so near fractions too; elsewhere the mean counts.
+The fast motion is that of (32)-(34).
 """
 
 from __future__ import annotations
@@ -22,11 +23,13 @@ from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs, check_contiguous, check_times
 from harness.references.phase import advanced
 from harness.references.slow_course import slow_course
+from harness.references.vibrating_contact import turns_until_repeat
 
 Array = NDArray[np.float64]
 
 NEAR_AN_INTEGER = 0.1
-"""Greatest distance of the frequency ratio from an integer at which the phase counts as slow."""
+"""Greatest distance of the frequency ratio from an integer at which the phase counts as slow; for a
+load that repeats after several turns, of that many times the ratio, times the turns."""
 
 
 @dataclass(frozen=True)
@@ -110,12 +113,13 @@ def _slow_acceleration(
     Time is that since the inputs were set, where base excitation and normal load have the angles
     ``theta`` and ``psi``.
     """
-    nearest = round(inputs.frequency_ratio)
-    detuning = inputs.frequency_ratio - nearest
-    slow_phase = abs(detuning) <= NEAR_AN_INTEGER
-    ratio = float(nearest) if slow_phase else inputs.frequency_ratio
-    lead = inputs.phase + psi - nearest * theta
-    drift = detuning * device.drive_frequency
+    amplitude_ratio = device.normal_amplitude / device.normal_preload
+    turns = turns_until_repeat(amplitude_ratio, inputs.frequency_ratio, NEAR_AN_INTEGER)
+    ratio = inputs.frequency_ratio
+    if turns:
+        ratio = round(turns * ratio) / turns
+    lead = inputs.phase + psi - ratio * theta
+    drift = (inputs.frequency_ratio - ratio) * device.drive_frequency
     momentum = device.total_mass * force.velocity_amplitude
 
     def acceleration(time: float, velocity: float) -> float:

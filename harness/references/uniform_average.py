@@ -19,7 +19,7 @@ from harness.references.averaged_lugre import LugreCase
 from harness.references.closed_forms import equivalent_force
 from harness.references.device import Device
 from harness.references.slow_equilibria import stable_velocity
-from harness.references.vibrating_contact import closed_spans, mean_load
+from harness.references.vibrating_contact import closed_spans, mean_load, turns_until_repeat
 
 Array = NDArray[np.float64]
 
@@ -43,15 +43,16 @@ def mean_friction(
 
     ``stiffness`` is sigma_0 > 0, ``frequency`` Omega. Scale free: SI values of velocities, sigma_0,
     sigma_1 and the drive frequency give the same as dimensionless ones. ``ratio`` is that of the
-    frequency of the normal load to that of the drive; the phase is the case's. At other ratios than
-    integers only the mean load counts.
+    frequency of the normal load to that of the drive; the phase is the case's. Where the load
+    never repeats (see `turns_until_repeat`) only its mean counts.
     Raises ValueError for a stiffness or frequency that is not greater than 0.
     """
     for name, value in (("stiffness", stiffness), ("frequency", frequency)):
         if not value > 0.0:
             raise ValueError(f"{name} = {value!r} must be greater than 0")
     q, mu = case.strength, case.friction_coefficient
-    if ratio != round(ratio):
+    turns = turns_until_repeat(case.amplitude_ratio, ratio)
+    if turns == 0:
         constant = replace(case, amplitude_ratio=0.0)
         mean = mean_load(case.amplitude_ratio)
         return mean * mean_friction(velocity, constant, stiffness, frequency)
@@ -71,8 +72,10 @@ def mean_friction(
         (-turn, turn, -1.0, turned_backward),
         (turn, 2.0 * math.pi - turn, 1.0, turned_forward),
     ):
-        total += _arc(velocity, case, rate, (start, end), sign, share, stiffness, frequency, ratio)
-    return mu * total / (2.0 * math.pi)
+        for turn in range(turns):
+            later = replace(case, phase=case.phase + 2.0 * math.pi * turn * ratio)
+            total += _arc(velocity, later, rate, (start, end), sign, share, ratio)
+    return mu * total / (2.0 * math.pi * turns)
 
 
 def steady_velocity(
@@ -157,8 +160,6 @@ def _arc(
     arc: tuple[float, float],
     sign: float,
     share: float,
-    stiffness: float,
-    frequency: float,
     ratio: float,
 ) -> float:
     """Return the integral of load times friction over mu on an arc of sliding in one direction.

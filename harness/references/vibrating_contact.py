@@ -18,6 +18,21 @@ def mean_load(amplitude_ratio: float) -> float:
     return (closed + 2.0 * amplitude_ratio * math.cos(before)) / (2.0 * math.pi)
 
 
+def turns_until_repeat(amplitude_ratio: float, ratio: float, share: float = 1e-12) -> int:
+    """Return after how many turns of the drive a load repeats, as far as averages notice; else 0.
+
+    A load that never lifts is a sine, which averages out over several turns: 1 for ratios next to
+    an integer, else 0. The clipped load has harmonics, and that of as many waves as turns keeps
+    step with the drive; those of up to 4 turns count. ``share`` is how far the ratio times the
+    turns may be from an integer, times the turns.
+    """
+    for turns in range(1, 5 if amplitude_ratio > 1.0 else 2):
+        waves = turns * ratio
+        if abs(waves - round(waves)) * turns <= share:
+            return turns
+    return 0
+
+
 def closed_spans(
     start: float, end: float, amplitude_ratio: float, phase: float, ratio: float
 ) -> list[tuple[float, float]]:

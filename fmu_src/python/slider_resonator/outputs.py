@@ -12,6 +12,7 @@ from .coulomb import STICK, Moment
 from .device import Device, Inputs
 from .fast_vibration import steady_swing
 from .law import Law
+from .vibrating_load import EXACT, turns_to_repeat
 
 LEAD_DIGITS = 9
 """Decimals to which psi - n theta [rad] is rounded for the averaged outputs: the rounding errors of
@@ -45,8 +46,8 @@ def _normal_force(view: View) -> float:
 
 def _theory(view: View) -> Averaged:
     ratio = view.inputs.frequency_ratio
-    integer = ratio == round(ratio)
-    lead = remainder(view.moment.psi - ratio * view.moment.theta, tau) if integer else 0.0
+    repeats = turns_to_repeat(view.device, ratio, EXACT) is not None
+    lead = remainder(view.moment.psi - ratio * view.moment.theta, tau) if repeats else 0.0
     return _averaged(view.device, view.inputs, round(lead, LEAD_DIGITS))
 
 

@@ -1,7 +1,8 @@
 """Mean friction under fast vibration, as slow motion sees it: at a slow velocity and a slow phase.
 
 The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
-(ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. LuGre friction is that of the
+(ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact has
+harmonics, and counts with its phase near fractions too. LuGre friction is that of the
 periodic bristle response, uniform in the bristle stiffness.
 """
 
@@ -16,10 +17,11 @@ from .bristle import Bristle, bristle_of
 from .device import Device, Inputs
 from .fast_vibration import FastVibration
 from .friction_table import MOST_WAVES_TABULATED, FrictionTable, friction_table
-from .vibrating_load import VibratingLoad
+from .vibrating_load import VibratingLoad, turns_to_repeat
 
 NEAR = 0.1
-"""Distance of the frequency ratio from an integer up to which the phase counts as slow."""
+"""Distance of the frequency ratio from an integer up to which the phase counts as slow; under a
+lifting contact that of q times the ratio, times q, for q of a few turns."""
 
 SlowFriction = Callable[[float, float], float]
 """Time t [s] from now and slow velocity [m/s] -> mean friction [N] of all faces."""
@@ -30,18 +32,19 @@ def slow_friction(
 ) -> SlowFriction:
     """The mean friction from drive phase `theta` and normal phase `psi` [rad] on."""
     ratio = inputs.frequency_ratio
-    n = round(ratio)
-    near = abs(ratio - n) <= NEAR
-    drift = (ratio - n) * device.drive_frequency if near else 0.0
-    phase = inputs.phase + psi - n * theta + n * fast.lag
-    waves = float(n) if near else ratio
+    turns = turns_to_repeat(device, ratio, NEAR)
+    waves = round(turns * ratio) / turns if turns else ratio
+    drift = (ratio - waves) * device.drive_frequency
+    phase = inputs.phase + psi - waves * theta + waves * fast.lag
     lifts = device.normal_amplitude > device.normal_preload
+    # The waves of a sine in a turn of the drive; 0 where it averages out, or stands still.
+    n = int(waves) if turns == 1 else 0
     # Without vibration a slaved bristle is always fully bent, and its friction Coulomb's.
     if device.friction_law == 0 or fast.velocity == 0.0:
-        if near and n != 0 and not lifts:
+        if n != 0 and not lifts:
             return _coulomb(device, fast.velocity, n, phase, drift)
         return _coulomb_over_flight(device, fast.velocity, waves, phase, drift)
-    if not near or n == 0:
+    if turns is None or waves == 0.0:
         return _lugre_under_mean_load(device, fast.velocity, waves, phase, drift)
     if lifts or abs(n) > MOST_WAVES_TABULATED:
         return _lugre_over_flight(device, fast.velocity, waves, phase, drift)

@@ -7,11 +7,44 @@ from math import asin, ceil, cos, floor, pi, sin, tau
 
 from .device import Device
 
+MOST_TURNS = 4
+"""Turns of the drive over which a clipped load may repeat and still be followed. The harmonics of
+the clipping that meet the drive get weaker with them; beyond, only the mean counts."""
+
+EXACT = 1e-12
+"""Distance of a ratio from a fraction that is due to rounding."""
+
+
+def turns_to_repeat(device: Device, ratio: float, tolerance: float) -> int | None:
+    """Turns q of the drive after which the load repeats, ratio n / q; None for none that counts.
+
+    `tolerance` is how far q ratio may be from an integer, times q. Without flight the load is a
+    sine and only integers count: over several turns it would average out.
+    """
+    lifts = device.normal_amplitude > device.normal_preload
+    for turns in range(1, MOST_TURNS + 1 if lifts else 2):
+        if abs(turns * ratio - round(turns * ratio)) <= tolerance / turns:
+            return turns
+    return None
+
 
 class VibratingLoad:
-    """N(n tau + delta) with lift-off, in N; at a ratio n that is no integer its mean instead."""
+    """N(n tau + delta) with lift-off, in N, as a function of the drive angle within a turn.
 
-    __slots__ = ("_amplitude", "_constant", "_delta", "_dip", "_per_turn", "_preload", "_ratio")
+    Over how many turns it repeats is for `turns_to_repeat` to say, and the mean over that many is
+    what counts; without any, n being irrational so to speak, it is the mean over all angles.
+    """
+
+    __slots__ = (
+        "_amplitude",
+        "_constant",
+        "_delta",
+        "_dip",
+        "_per_turn",
+        "_preload",
+        "_ratio",
+        "_turns",
+    )
 
     def __init__(self, device: Device, ratio: float, delta: float) -> None:
         self._preload, self._amplitude = device.normal_preload, device.normal_amplitude
@@ -22,7 +55,9 @@ class VibratingLoad:
         self._constant: float | None = None
         if ratio == 0.0:
             self._constant = self._load(delta)
-        elif ratio != round(ratio):
+        turns = turns_to_repeat(device, ratio, EXACT)
+        self._turns = turns or 1
+        if turns is None:
             self._constant = self._per_turn / tau
 
     def flattened(self) -> VibratingLoad:
@@ -40,25 +75,32 @@ class VibratingLoad:
         """Drive angles in (begin, end) [rad] at which the contact lifts or touches down."""
         if self._constant is not None or self._dip == 0.5 * pi:
             return []
-        first, last = sorted((self._ratio * begin + self._delta, self._ratio * end + self._delta))
         found = []
-        for kink in (-self._dip, pi + self._dip):
-            turns = range(ceil((first - kink) / tau), floor((last - kink) / tau) + 1)
-            found += [(kink + tau * turn - self._delta) / self._ratio for turn in turns]
+        for shift in self._shifts():
+            first, last = sorted((self._ratio * begin + shift, self._ratio * end + shift))
+            for kink in (-self._dip, pi + self._dip):
+                turns = range(ceil((first - kink) / tau), floor((last - kink) / tau) + 1)
+                found += [(kink + tau * turn - shift) / self._ratio for turn in turns]
         return [angle for angle in found if begin < angle < end]
 
     def at(self, angle: float) -> float:
         """Normal load [N] at drive angle `angle` [rad]."""
         if self._constant is not None:
             return self._constant
-        return self._load(self._ratio * angle + self._delta)
+        loads = (self._load(self._ratio * angle + shift) for shift in self._shifts())
+        return sum(loads) / self._turns
 
     def integral(self, begin: float, end: float) -> float:
         """Integral over the drive angle from `begin` to `end` [N rad]."""
         if self._constant is not None:
             return self._constant * (end - begin)
-        n, delta = self._ratio, self._delta
-        return (self._up_to(n * end + delta) - self._up_to(n * begin + delta)) / n
+        n = self._ratio
+        parts = (self._up_to(n * end + s) - self._up_to(n * begin + s) for s in self._shifts())
+        return sum(parts) / (n * self._turns)
+
+    def _shifts(self) -> list[float]:
+        """The phase of the load in each of its turns [rad]."""
+        return [self._delta + self._ratio * tau * turn for turn in range(self._turns)]
 
     def _load(self, chi: float) -> float:
         return max(0.0, self._preload + self._amplitude * sin(chi))

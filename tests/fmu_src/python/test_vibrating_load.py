@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fmu_src.python.slider_resonator.device import Device
-from fmu_src.python.slider_resonator.vibrating_load import VibratingLoad
+from fmu_src.python.slider_resonator.vibrating_load import VibratingLoad, turns_to_repeat
 
 
 @given(
@@ -53,3 +53,22 @@ def test_kinks_are_where_the_contact_lifts_and_touches_down(ratio: float) -> Non
 def test_only_a_lifting_contact_has_kinks() -> None:
     assert VibratingLoad(Device(normal_amplitude=1.0), 1.0, 0.9).kinks(-1.0, 6.0) == []
     assert VibratingLoad(Device(normal_amplitude=1.7), 0.0, 0.9).kinks(-1.0, 6.0) == []
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "ratio", "turns"),
+    [(1.0, 3.0, 1), (1.0, 0.5, None), (2.0, 0.5, 2), (2.0, -1.25, 4), (2.0, 0.2, None)],
+)
+def test_turns_to_repeat(amplitude: float, ratio: float, turns: int | None) -> None:
+    assert turns_to_repeat(Device(normal_amplitude=amplitude), ratio, 1e-9) == turns
+
+
+def test_a_clipped_load_is_averaged_over_the_turns_that_it_repeats_after() -> None:
+    load = VibratingLoad(Device(normal_amplitude=2.0), 2 / 3, 0.4)
+    turns = np.array([0.0, 1.0, 2.0]) * math.tau
+    for angle in (0.1, 2.0, 5.0):
+        normal = np.maximum(0.0, 1.0 + 2.0 * np.sin(2 / 3 * (angle + turns) + 0.4))
+        assert load.at(angle) == pytest.approx(float(normal.mean()), abs=1e-14)
+    angles = 0.3 + 2.1 * (np.arange(20_000) + 0.5) / 20_000
+    middle = float(np.mean([load.at(float(angle)) for angle in angles]))
+    assert load.integral(0.3, 2.4) == pytest.approx(2.1 * middle, rel=1e-7)

@@ -42,7 +42,7 @@ def test_mean_friction_is_the_integral_over_a_turn(
 
 @pytest.mark.parametrize("alpha", [1.0, 1.8])
 def test_away_from_integers_only_the_mean_load_counts(alpha: float) -> None:
-    tuned = [coulomb.mean_friction(0.3, 1.0, alpha, phase, 1.5) for phase in (0.0, 1.0)]
+    tuned = [coulomb.mean_friction(0.3, 1.0, alpha, phase, 1.37) for phase in (0.0, 1.0)]
     still = coulomb.mean_friction(0.3, 1.0, 0.0, 0.0)
     assert tuned[0] == tuned[1] == mean_load(alpha) * still
 

@@ -46,3 +46,13 @@ def test_lifting_contacts_are_refused_where_only_closed_ones_are_covered() -> No
     contact.check_never_lifts(1.0)
     with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
         contact.check_never_lifts(1.5)
+
+
+@pytest.mark.parametrize(
+    ("amplitude_ratio", "ratio", "turns"),
+    [(1.0, 2.0, 1), (1.0, 1.5, 0), (1.1, 1.5, 2), (3.0, -2 / 3, 3), (3.0, 0.25, 4), (3.0, 0.2, 0)],
+)
+def test_after_how_many_turns_a_load_repeats(
+    amplitude_ratio: float, ratio: float, turns: int
+) -> None:
+    assert contact.turns_until_repeat(amplitude_ratio, ratio) == turns
