@@ -22,10 +22,10 @@ $(READY): pyproject.toml
 	$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	@touch $@
 
-build: $(READY) ## build dist/SliderResonatorPy.fmu
+build: $(READY) ## build both FMUs into dist
 	$(PY) build_fmu.py
 
-validate: build ## build the FMU, run every built-in scene and compare it with the references
+validate: build ## build both FMUs, run every built-in scene and compare them with the references
 	$(PY) -m harness validate
 
 test: lint ## lint, check types, run the tests that take seconds

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 from string import Template
+from typing import Literal
 
 from fmu_src.model_description import DESCRIPTION
 from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
@@ -24,11 +25,16 @@ def documentation_page(
     *,
     model: str,
     generation_tool: str,
+    host: Literal["native", "python"],
     variables: Sequence[Variable] = VARIABLES,
 ) -> bytes:
-    """A self-contained HTML page as UTF-8 bytes; equal arguments give equal bytes."""
+    """A self-contained HTML page as UTF-8 bytes; equal arguments give equal bytes.
+
+    `host` tells which part on statuses, messages and needs of the target goes in.
+    """
     template = Template((ASSETS / "page.html").read_text(encoding="utf-8"))
     page = template.substitute(
+        host=(ASSETS / f"{host}_host.html").read_text(encoding="utf-8").rstrip("\n"),
         model=escape(model),
         description=escape(DESCRIPTION),
         generation_tool=escape(generation_tool),

@@ -15,8 +15,8 @@ DESCRIPTION = (
     "with it"
 )
 
-# Those that pythonfmu knows. It reports a refusal without any category, so a host that asks for
-# some categories only does not receive refusals.
+# FMI's names for messages by status, as far as pythonfmu knows them. It reports a refusal without
+# any category: a host that asks for some only does not receive refusals of the Python FMU.
 LOG_CATEGORIES: dict[str, str] = {
     "logStatusWarning": "Messages with status fmi2Warning",
     "logStatusDiscard": "Messages with status fmi2Discard",
@@ -31,7 +31,6 @@ _CAPABILITIES: dict[str, bool] = {
     "canInterpolateInputs": False,
     "canRunAsynchronuously": False,
     "canBeInstantiatedOnlyOncePerProcess": False,
-    "canNotUseMemoryManagementFunctions": True,
     "canGetAndSetFMUstate": True,
     "canSerializeFMUstate": True,
     "providesDirectionalDerivative": False,
@@ -44,13 +43,17 @@ def model_description(
     guid: str,
     generation_tool: str,
     generated: str,
+    host_manages_memory: bool,
+    source_files: Sequence[str] = (),
     variables: Sequence[Variable] = VARIABLES,
     initial_dependencies: Mapping[str, Iterable[str]] = INITIAL_DEPENDENCIES,
 ) -> bytes:
     """The model description as UTF-8 bytes; equal arguments give equal bytes.
 
     `model` is both the model's name and the name of its binaries, `generated` the date and time of
-    the build (ISO 8601, UTC). The value reference of a variable is its position in `variables`.
+    the build (ISO 8601, UTC). `host_manages_memory` tells whether the FMU takes its memory from the
+    host, `source_files` are the files to compile in its folder `sources`. The value reference of a
+    variable is its position in `variables`.
 
     Raises ValueError when a variable has a unit that `fmu_src.units` lacks, or depends on
     something that FMI 2.0 section 2.2.8 does not count as known.
@@ -70,11 +73,7 @@ def model_description(
             "variableNamingConvention": "flat",
         },
     )
-    ET.SubElement(
-        root,
-        "CoSimulation",
-        {"modelIdentifier": model} | {k: str(v).lower() for k, v in _CAPABILITIES.items()},
-    )
+    _add_co_simulation(root, model, host_manages_memory, source_files)
     _add_units(root, variables)
     categories = ET.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
@@ -89,6 +88,21 @@ def model_description(
     ET.indent(root)
     text = ET.tostring(root, encoding="unicode")
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
+
+
+def _add_co_simulation(
+    root: ET.Element, model: str, host_manages_memory: bool, source_files: Sequence[str]
+) -> None:
+    capabilities = {
+        "canNotUseMemoryManagementFunctions": not host_manages_memory,
+        **_CAPABILITIES,
+    }
+    attributes = {"modelIdentifier": model} | {k: str(v).lower() for k, v in capabilities.items()}
+    element = ET.SubElement(root, "CoSimulation", attributes | {"maxOutputDerivativeOrder": "0"})
+    if source_files:
+        files = ET.SubElement(element, "SourceFiles")
+        for name in source_files:
+            ET.SubElement(files, "File", {"name": name})
 
 
 def _add_units(root: ET.Element, variables: Sequence[Variable]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -31,16 +32,16 @@ class Validation:
 
 
 def validate(
-    fmu_path: Path,
+    fmu_paths: Sequence[Path],
     scene_files: Sequence[Path],
     progress: Callable[[str, float], None] = lambda scene, share: None,
-) -> Validation:
-    """Run every scene and judge every expectation in it.
+) -> tuple[Validation, ...]:
+    """Run every scene on every FMU and judge every expectation in it.
 
-    `progress` is told the scene at work and the share of all the work that is done. Raises
-    HarnessError when something cannot be run, before any scene is run if a file is at fault.
+    The references are computed once for all FMUs; their time counts for the first. `progress` is
+    told the scene at work and the share of all the work that is done. Raises HarnessError when
+    something cannot be run, before any scene is run if a file is at fault.
     """
-    began = perf_counter()
     scenes = [(path, read_scene(path)) for path in scene_files]
     for path, scene in scenes:
         if not scene.expect:
@@ -48,14 +49,23 @@ def validate(
     points = [
         (scene.name, at, point) for path, scene in scenes for at, point in sweep_points(scene, path)
     ]
-    checks: list[Check] = []
-    with open_fmu(fmu_path) as fmu, instantiate(fmu) as instance:
-        for index, (name, at, point) in enumerate(points):
-            progress(name, index / len(points))
-            fmu_side, reference_side = FmuSide(instance, point), ReferenceSide(point)
-            checks += [check(e, fmu_side, reference_side, at) for e in point.expect]
+    references = [ReferenceSide(point) for _, _, point in points]
+    validations = []
+    with ExitStack() as stack:
+        fmus = [stack.enter_context(open_fmu(path)) for path in fmu_paths]
+        for turn, (path, fmu) in enumerate(zip(fmu_paths, fmus, strict=True)):
+            began = perf_counter()
+            checks: list[Check] = []
+            with instantiate(fmu) as instance:
+                for index, ((name, at, point), side) in enumerate(
+                    zip(points, references, strict=True)
+                ):
+                    progress(name, (turn + index / len(points)) / len(fmus))
+                    fmu_side = FmuSide(instance, point)
+                    checks += [check(e, fmu_side, side, at) for e in point.expect]
+            validations.append(Validation(str(path), tuple(checks), perf_counter() - began))
     progress("", 1.0)
-    return Validation(str(fmu_path), tuple(checks), perf_counter() - began)
+    return tuple(validations)
 
 
 def worst_of_sweeps(checks: Sequence[Check]) -> list[tuple[Check, int]]:

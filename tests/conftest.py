@@ -5,7 +5,9 @@ from pathlib import Path
 import pytest
 from hypothesis import Phase, settings
 
-from build_fmu import build_python
+from fmu_src.building.native_fmu import build_native
+from fmu_src.building.platforms import HOST
+from fmu_src.building.python_fmu import build_python
 
 # The same examples in each run; `--hypothesis-profile=explore` looks for new ones.
 settings.register_profile("same", derandomize=True, deadline=None)
@@ -19,3 +21,16 @@ settings.load_profile("same")
 def python_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The Python FMU, built once for the whole run."""
     return build_python(tmp_path_factory.mktemp("fmu"))
+
+
+@pytest.fixture(scope="session")
+def native_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The native FMU for the platform of this machine, built once for the whole run."""
+    return build_native(tmp_path_factory.mktemp("native_fmu"), platforms=[HOST])
+
+
+@pytest.fixture(scope="session")
+def fmu(request: pytest.FixtureRequest) -> Path:
+    """The Python FMU; in tests marked with `fmus.both_fmus` the native one as well."""
+    built: Path = request.getfixturevalue(f"{getattr(request, 'param', 'python')}_fmu")
+    return built

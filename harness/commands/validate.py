@@ -6,16 +6,16 @@ from pathlib import Path
 
 import click
 
-from harness.commands.options import default_fmu, json_option
+from harness.commands.options import default_fmus, json_option
 from harness.console import output, progress_bar
 from harness.json_output import to_json
 from harness.report import print_validation
 from harness.scene import built_in_scenes, find_scene
-from harness.validate import validate
+from harness.validate import Validation, validate
 
 
 @click.command("validate")
-@click.argument("fmu", type=click.Path(path_type=Path), required=False)
+@click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
 @click.option(
     "--scene",
     "scenes",
@@ -28,15 +28,15 @@ from harness.validate import validate
 @click.pass_context
 def validate_command(
     context: click.Context,
-    fmu: Path | None,
+    fmus: tuple[Path, ...],
     scenes: tuple[str, ...],
     details: bool,
     as_json: bool,
 ) -> None:
-    """Compare an FMU with the references, scene by scene.
+    """Compare FMUs with the references, scene by scene.
 
-    Without FMU: dist/SliderResonatorPy.fmu as built by build_fmu.py. Leaves with 0 when every
-    check passes, 1 when one fails, 2 when something could not be run.
+    Without FMUS: those that build_fmu.py has built in dist, the native one first. Leaves with 0
+    when every check passes, 1 when one fails, 2 when something could not be run.
 
     \b
     Examples:
@@ -46,18 +46,21 @@ def validate_command(
     """
     files = [find_scene(scene) for scene in scenes or built_in_scenes()]
     with progress_bar() as progress:
-        validation = validate(default_fmu(fmu), files, progress)
+        validations = validate(fmus or default_fmus(), files, progress)
+    passed = all(validation.passed for validation in validations)
     if as_json:
-        click.echo(
-            to_json(
-                {
-                    "fmu": validation.fmu,
-                    "passed": validation.passed,
-                    "wall_time": validation.wall_time,
-                    "checks": validation.checks,
-                }
-            )
-        )
+        plain = [_plain(validation) for validation in validations]
+        click.echo(to_json(plain[0] if len(plain) == 1 else {"passed": passed, "fmus": plain}))
     else:
-        print_validation(output(), validation, details=details)
-    context.exit(0 if validation.passed else 1)
+        for validation in validations:
+            print_validation(output(), validation, details=details)
+    context.exit(0 if passed else 1)
+
+
+def _plain(validation: Validation) -> dict[str, object]:
+    return {
+        "fmu": validation.fmu,
+        "passed": validation.passed,
+        "wall_time": validation.wall_time,
+        "checks": validation.checks,
+    }

@@ -9,8 +9,8 @@ from tests.fmu.host import Instance, Unpacked, unpack
 
 
 @pytest.fixture(scope="session")
-def unpacked(python_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Unpacked:
-    return unpack(python_fmu, tmp_path_factory.mktemp("unpacked"))
+def unpacked(fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Unpacked:
+    return unpack(fmu, tmp_path_factory.mktemp("unpacked"))
 
 
 @pytest.fixture

@@ -2,36 +2,63 @@
 
 from __future__ import annotations
 
-import gc
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from fmpy import simulate_fmu
 
-from build_fmu import PACKAGE, build_python
+from fmu_src.building import native_fmu
+from fmu_src.building.native_fmu import build_native
+from fmu_src.building.platforms import HOST
+from fmu_src.building.python_fmu import PACKAGE, build_python
+from fmu_src.c_header import C_SOURCES
 from tests.fmu.host import OUTPUTS, Instance, Unpacked, unpack
+from tests.fmus import both_fmus
+
+pytestmark = both_fmus
 
 STEP = 1.3e-3
 
 
-@pytest.fixture(scope="module")
-def other_build(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """An FMU whose code has another coefficient of friction built in."""
-    folder = tmp_path_factory.mktemp("other")
+def _python_build(folder: Path) -> Path:
     package = folder / "slider_resonator"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
-    for module, old, new in [
-        ("device.py", "friction_coefficient: float = 0.1", "friction_coefficient: float = 0.2"),
-        ("variables.py", 'of each face",\n        start=0.1', 'of each face",\n        start=0.2'),
-    ]:
-        text = (package / module).read_text()
-        assert text.count(old) == 1, f"{module} no longer says {old!r}"
-        (package / module).write_text(text.replace(old, new))
+    _edit(
+        package / "device.py",
+        "friction_coefficient: float = 0.1",
+        "friction_coefficient: float = 0.2",
+    )
+    _edit(
+        package / "variables.py",
+        'of each face",\n        start=0.1',
+        'of each face",\n        start=0.2',
+    )
     return build_python(folder / "dist", package)
+
+
+def _native_build(folder: Path) -> Path:
+    shutil.copytree(C_SOURCES, folder / "c")
+    _edit(
+        folder / "c" / "variables.c",
+        '{"friction_coefficient", false, false, 0.1',
+        '{"friction_coefficient", false, false, 0.2',
+    )
+    return build_native(folder / "dist", platforms=[HOST], sources=folder / "c")
+
+
+def _edit(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert text.count(old) == 1, f"{file.name} no longer says {old!r}"
+    file.write_text(text.replace(old, new))
+
+
+@pytest.fixture(scope="session")
+def other_build(unpacked: Unpacked, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An FMU whose code has another coefficient of friction built in."""
+    native = unpacked.description.modelName == native_fmu.MODEL
+    return (_native_build if native else _python_build)(tmp_path_factory.mktemp("other"))
 
 
 def test_two_builds_in_one_process_give_their_own_numbers(
@@ -103,74 +130,16 @@ def test_a_run_that_starts_later_is_the_same_motion(
     ], "phases start at zero at the start time, whatever it is"
 
 
-def test_the_folder_of_an_earlier_instance_may_be_gone(python_fmu: Path, tmp_path: Path) -> None:
+def test_the_folder_of_an_earlier_instance_may_be_gone(fmu: Path, tmp_path: Path) -> None:
     rows = []
     for folder in (tmp_path / "first", tmp_path / "second"):
-        instance = Instance(unpack(python_fmu, folder)).initialize()
+        instance = Instance(unpack(fmu, folder)).initialize()
         rows.append(instance.run(3, STEP))
         instance.free()
         shutil.rmtree(folder)
     assert rows[0] == rows[1]
 
 
-LET_GO = """
-import atexit, sys
-from pathlib import Path
-from tests.fmu.host import Instance, unpack
-asked, register = [], atexit.register
-def note(function, *args, **kwargs):
-    asked.append(getattr(function, "__name__", ""))
-    return register(function, *args, **kwargs)
-atexit.register = note
-for folder in ("first", "second"):
-    unpacked = unpack(Path(sys.argv[1]), Path(sys.argv[2], folder))
-    for _ in range(3):
-        Instance(unpacked).initialize().free()
-print(asked.count("_let_go"))
-"""
-
-
-def test_each_binary_is_asked_once_to_let_go_before_the_process_ends(
-    python_fmu: Path, tmp_path: Path
-) -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", LET_GO, python_fmu, tmp_path],
-        cwd=Path(__file__).resolve().parents[2],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    expected = 2 if sys.platform == "linux" else 0
-    assert int(done.stdout) == expected, (
-        "unasked, the binary on Linux frees memory twice at the end"
-    )
-
-
-def test_simulate_fmu_twice(python_fmu: Path) -> None:
-    first, second = (simulate_fmu(str(python_fmu), stop_time=0.05) for _ in range(2))
+def test_simulate_fmu_twice(fmu: Path) -> None:
+    first, second = (simulate_fmu(str(fmu), stop_time=0.05) for _ in range(2))
     assert first.tolist() == second.tolist()
-
-
-def test_many_instances_leave_the_search_path_as_it_was(unpacked: Unpacked) -> None:
-    Instance(unpacked).initialize().free()
-    before = list(sys.path)
-    for _ in range(200):
-        instance = Instance(unpacked).initialize()
-        instance.step(STEP)
-        instance.free()
-    assert sys.path == before
-
-
-def test_freed_instances_are_gone(unpacked: Unpacked) -> None:
-    def alive() -> int:
-        gc.collect()
-        return sum(type(o).__name__ == "SliderResonatorPy" for o in gc.get_objects())
-
-    before = alive()
-    for _ in range(5):
-        instance = Instance(unpacked).initialize()
-        with instance.refuses("load"):
-            instance.set(load=float("nan"))
-        instance.free()
-    assert alive() == before, "references that refusals keep must not keep instances"

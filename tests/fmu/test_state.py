@@ -11,6 +11,9 @@ from pathlib import Path
 import pytest
 
 from tests.fmu.host import Instance
+from tests.fmus import both_fmus
+
+pytestmark = both_fmus
 
 ROOT = Path(__file__).resolve().parents[2]
 STEP = 3.1e-4
@@ -87,10 +90,10 @@ print(json.dumps([[x.hex() for x in row] for row in instance.run(30, step)]))
 """
 
 
-def test_replay_in_a_new_process(python_fmu: Path, on_its_way: Instance, tmp_path: Path) -> None:
+def test_replay_in_a_new_process(fmu: Path, on_its_way: Instance, tmp_path: Path) -> None:
     (tmp_path / "state").write_bytes(on_its_way.state())
     done = subprocess.run(
-        [sys.executable, "-c", REPLAY, python_fmu, tmp_path, str(STEP), on_its_way.time.hex()],
+        [sys.executable, "-c", REPLAY, fmu, tmp_path, str(STEP), on_its_way.time.hex()],
         cwd=ROOT,
         capture_output=True,
         text=True,

@@ -7,6 +7,9 @@ from collections.abc import Callable
 import pytest
 
 from tests.fmu.host import OUTPUTS, Instance, Unpacked
+from tests.fmus import both_fmus
+
+pytestmark = both_fmus
 
 SITUATIONS: dict[str, dict[str, float]] = {
     "at rest": {},

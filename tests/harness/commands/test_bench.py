@@ -1,22 +1,25 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from click.testing import CliRunner
 
-from harness.bench import PAPER_TOLERANCES, Benchmark, Cost, Ratio
+from harness.benchmark.cost import Cost, Ratio
+from harness.benchmark.coulomb import PAPER_TOLERANCES, CoulombBenchmark
 from harness.cli import main
 
 
 def test_no_absolute_tolerance_of_the_paper_s_method_stands_for_it(
-    monkeypatch: pytest.MonkeyPatch,
+    monkeypatch: pytest.MonkeyPatch, python_fmu: Path
 ) -> None:
     names = [f"DOP853 on sgn, rtol 1e-6, atol {atol:.0e}" for atol in PAPER_TOLERANCES]
     times = (497831.4, 497830.0, 512345.0)
     costs = tuple(Cost(name, 5, *times, 1e-3, 1e-3, 6727, 17105, 313004) for name in names)
-    ratios = tuple(Ratio(name, 250.0, 1000.0) for name in names)
-    benchmark = Benchmark(1, costs, ratios)
-    monkeypatch.setattr("harness.commands.bench.bench", lambda *_: benchmark)
-    text = CliRunner().invoke(main, ["bench", "my.fmu"]).stdout
+    ratios = tuple(Ratio(name, "my.fmu", 250.0, 1000.0) for name in names)
+    benchmark = CoulombBenchmark(1, costs, ratios)
+    monkeypatch.setattr("harness.commands.bench.measure_coulomb", lambda *_: benchmark)
+    text = CliRunner().invoke(main, ["bench", str(python_fmu), "--part", "coulomb"]).stdout
     assert PAPER_TOLERANCES == (1e-6, 1e-8, 1e-10)
     for name in names:
         assert text.count(name) == 2, f"a row and a ratio of its own for {name}"

@@ -1,0 +1,44 @@
+"""FMU files: zip archives whose bytes follow from names and contents only."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from collections.abc import Mapping
+from io import BytesIO
+from pathlib import Path
+
+from fmu_src.building.build_error import BuildError
+from fmu_src.building.dates import EPOCH
+
+
+def check_folder(dest: Path) -> None:
+    """Refuse a folder that cannot be created because a file is in its place or in its way."""
+    there = next(path for path in (dest, *dest.parents) if path.exists())
+    if not there.is_dir():
+        raise BuildError(f"folder {dest} refused: {there} is a file; allowed is a folder")
+
+
+def write_fmu(dest: Path, model: str, files: Mapping[str, bytes]) -> Path:
+    """Write `dest`/`model`.fmu and return its path; it appears at once or not at all."""
+    dest.mkdir(parents=True, exist_ok=True)
+    target = dest / f"{model}.fmu"
+    partial = target.with_suffix(f".{os.getpid()}.partial")
+    try:
+        partial.write_bytes(_archive(files))
+        partial.replace(target)
+    finally:
+        partial.unlink(missing_ok=True)
+    return target
+
+
+def _archive(files: Mapping[str, bytes]) -> bytes:
+    buffer = BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in sorted(files.items()):
+            entry = zipfile.ZipInfo(name, EPOCH.timetuple()[:6])
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.create_system = 3  # Unix, wherever it is built: the permissions below are its
+            entry.external_attr = 0o100644 << 16
+            archive.writestr(entry, data)
+    return buffer.getvalue()

@@ -1,0 +1,29 @@
+"""One macOS library for several processors: a header in front of a library for each."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+
+_MAGIC = 0xCAFEBABE
+_THIN_MAGIC = 0xFEEDFACF
+_ALIGNMENT = 14  # as a power of two: pages of 16 kB
+
+
+def universal_binary(libraries: Sequence[bytes]) -> bytes:
+    """The libraries (64-bit Mach-O, one per processor) as one file.
+
+    Raises ValueError when one is something else.
+    """
+    page = 1 << _ALIGNMENT
+    header = struct.pack(">II", _MAGIC, len(libraries))
+    body = b""
+    for library in libraries:
+        magic, processor, variant = struct.unpack_from("<III", library)
+        if magic != _THIN_MAGIC:
+            raise ValueError(f"a library that begins with {magic:#x}: allowed is {_THIN_MAGIC:#x}")
+        body += b"\0" * (-len(body) % page)
+        offset = page + len(body)
+        header += struct.pack(">IIIII", processor, variant, offset, len(library), _ALIGNMENT)
+        body += library
+    return header.ljust(page, b"\0") + body

@@ -1,0 +1,18 @@
+/* Angles within a turn. */
+#ifndef SLIDER_ANGLE_H
+#define SLIDER_ANGLE_H
+
+#include <math.h>
+
+#include "state.h"
+
+/* `angle` [rad] modulo 2 pi, from 0 up to 2 pi; exact for angles from 0 up. */
+static inline double within_turn(double angle) {
+    if (angle >= 0.0 && angle < 2.0 * TAU) {
+        return angle < TAU ? angle : angle - TAU;
+    }
+    double rest = fmod(angle, TAU);
+    return rest < 0.0 ? rest + TAU : rest;
+}
+
+#endif

@@ -1,0 +1,210 @@
+#include "averaged.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "averaged_lugre.h"
+#include "complex_number.h"
+#include "fast_vibration.h"
+#include "plant.h"
+#include "refusal.h"
+#include "state.h"
+
+/* Halvings of [0, pi] in which the angle of balance is found, and those that settle which of several
+ * it is. */
+enum { BISECTIONS = 52, SORTING = 8, MOST_EVALUATIONS = 100 };
+
+/* Width [rad] to which the angle of balance is closed in upon first. */
+#define CLOSE 2e-15
+
+/* Width [rad] below which it does not matter where in the bracket the angle of balance is. */
+#define STEEP 1e-13
+
+/* Friction and load over the angle Theta at which sliding turns forward, and the `noise` of their
+ * sum by rounding [N]. Where Coulomb friction has the `closed` form (20), that has `preload` and
+ * `swing` [N]. Where friction `rises` with the angle, there may be several balances. */
+typedef struct {
+    const Device *device;
+    double opposing, scale, noise;
+    bool bends, closed, rises;
+    double preload, swing;
+    Bristle bristle;
+    FastMotion fast;
+    VibratingLoad load;
+} Balance;
+
+/* The sum of friction and load [N] at an angle Theta [rad]. */
+typedef struct {
+    double turning, excess;
+} Point;
+
+/* Below `positive` friction and load together are above 0 beyond rounding, from `negative` on they
+ * are below; in between they are 0, most likely at `root` [rad]. */
+typedef struct {
+    double positive, negative, root;
+} Bracket;
+
+static Balance balance_of(const Device *device, const Inputs *inputs, Complex force,
+                          double normal_lead) {
+    Balance balance = {0};
+    double ratio = inputs->frequency_ratio;
+    double delta = inputs->phase + normal_lead + ratio * force_lag(force);
+    double faces_mu = device->friction_faces * device->friction_coefficient;
+    balance.device = device;
+    balance.opposing = inputs->load;
+    balance.scale = faces_mu / TAU;
+    balance.bends = device->friction_law != 0;
+    balance.bristle = bristle_of(device);
+    balance.fast.velocity = fast_velocity(device, force);
+    balance.fast.frequency = device->drive_frequency;
+    balance.load = vibrating_load_of(device, ratio, delta);
+    balance.closed = !balance.bends && !balance.load.is_constant &&
+                    device->normal_amplitude <= device->normal_preload;
+    double largest = device->friction_coefficient;
+    if (balance.bends) {
+        double damping = device->bristle_damping * balance.fast.velocity;
+        balance.rises = damping > largest;
+        largest += damping;
+    }
+    balance.noise = (balance.closed ? 4.0 : 16.0) * EPSILON * device->friction_faces * largest *
+                    (device->normal_preload + device->normal_amplitude);
+    balance.preload = faces_mu * device->normal_preload;
+    balance.swing = 2.0 * faces_mu * device->normal_amplitude / (ratio * PI) * sin(delta);
+    return balance;
+}
+
+/* Mean friction [N] when sliding turns forward at tau = `turning` [rad]; only that of strongly damped
+ * bristles may rise. */
+static double friction_at(const Balance *balance, double turning) {
+    if (balance->bends) {
+        return balance->device->friction_faces *
+               mean_friction(&balance->bristle, &balance->fast, &balance->load, turning);
+    }
+    return balance->scale * vibrating_load_difference(&balance->load, turning);
+}
+
+static Point point_at(const Balance *balance, double turning) {
+    Point point = {turning, friction_at(balance, turning) + balance->opposing};
+    return point;
+}
+
+/* The same, by a form that takes less time where there is one. */
+static Point point_near(const Balance *balance, double turning) {
+    if (!balance->closed) {
+        return point_at(balance, turning);
+    }
+    Point point = {turning, balance->preload * (1.0 - 2.0 / PI * turning) -
+                                balance->swing * sin(balance->load.ratio * turning) +
+                                balance->opposing};
+    return point;
+}
+
+/* Takes in a point; returns whether its sign is certain. */
+static bool bracket_narrows(Bracket *bracket, const Balance *balance, Point point) {
+    if (!(fabs(point.excess) > balance->noise)) {
+        return false;
+    }
+    if (point.excess > 0.0) {
+        bracket->positive = fmax(bracket->positive, point.turning);
+    } else {
+        bracket->negative = fmin(bracket->negative, point.turning);
+    }
+    return true;
+}
+
+/* Whether inverse quadratic interpolation from the newest point `a` on the way to `b` may be trusted,
+ * `c` being the point before; gives the `share` of the way. */
+static bool interpolates(Point a, Point b, Point c, double *share) {
+    double xi = (a.turning - b.turning) / (c.turning - b.turning);
+    double phi = (a.excess - b.excess) / (c.excess - b.excess);
+    *share = a.excess / (b.excess - a.excess) * c.excess / (b.excess - c.excess) +
+             (c.turning - a.turning) / (b.turning - a.turning) * a.excess / (c.excess - a.excess) *
+                 b.excess / (c.excess - b.excess);
+    return phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
+}
+
+/* Closes in on the balance by Chandrupatla's method: inverse quadratic interpolation where three
+ * points allow it, and bisection otherwise. The excess is above 0 at `low` and not at `high`; `next`
+ * is between. */
+static Bracket close_in(const Balance *balance, Point low, Point next, Point high) {
+    Point newest = high, other = low;
+    Bracket bracket = {low.turning, high.turning, 0.0};
+    for (int i = 0; i < MOST_EVALUATIONS; i++) {
+        Point before = newest;
+        if ((next.excess > 0.0) != (newest.excess > 0.0)) {
+            before = other;
+            other = newest;
+        }
+        newest = next;
+        double width = other.turning - newest.turning, least = CLOSE / fabs(width), share;
+        if (!bracket_narrows(&bracket, balance, newest) || !(least < 0.5)) {
+            break;
+        }
+        share = interpolates(newest, other, before, &share) ? share : 0.5;
+        share = fmin(fmax(share, least), 1.0 - least);
+        next = point_near(balance, newest.turning + share * width);
+    }
+    bracket.root = fabs(newest.excess) < fabs(other.excess) ? newest.turning : other.turning;
+    double flatness = fabs((other.turning - newest.turning) / (other.excess - newest.excess));
+    double aside = CLOSE + 1.5 * balance->noise * flatness;
+    if (bracket.positive < bracket.root - aside) {
+        bracket_narrows(&bracket, balance, point_near(balance, bracket.root - aside));
+    }
+    if (bracket.negative > bracket.root + aside) {
+        bracket_narrows(&bracket, balance, point_near(balance, bracket.root + aside));
+    }
+    return bracket;
+}
+
+/* Angle at which friction and load balance [rad]: that of plain bisection, less the evaluations
+ * whose outcome is known. Where friction is flat the angle is as uncertain as rounding makes it. */
+static double balanced_turning(const Balance *balance, Point low, Point halfway, Point high) {
+    if (!(low.excess > 0.0 && high.excess <= 0.0)) {
+        return low.excess > 0.0 ? high.turning : low.turning;
+    }
+    int done = 0;
+    for (; done < (balance->rises ? SORTING : 0); done++) {
+        *(halfway.excess > 0.0 ? &low : &high) = halfway;
+        halfway = point_at(balance, 0.5 * (low.turning + high.turning));
+    }
+    Bracket bracket = close_in(balance, low, halfway, high);
+    if (bracket.positive > bracket.negative) {
+        bracket.positive = low.turning;
+        bracket.negative = high.turning;
+    }
+    if (bracket.negative - bracket.positive < STEEP) {
+        return bracket.root;
+    }
+    for (; done < BISECTIONS; done++) {
+        double turning = 0.5 * (low.turning + high.turning);
+        bool above = turning <= bracket.positive;
+        if (!above && turning < bracket.negative) {
+            above = point_at(balance, turning).excess > 0.0;
+        }
+        *(above ? &low.turning : &high.turning) = turning;
+    }
+    return 0.5 * (low.turning + high.turning);
+}
+
+Averaged averaged(const Device *device, const Inputs *inputs, double normal_lead) {
+    Averaged theory = {0.0, 0.0};
+    Complex force;
+    Refusal refusal;
+    if (!equivalent_force(device, &force, &refusal) || (force.re == 0.0 && force.im == 0.0)) {
+        return theory;
+    }
+    Balance balance = balance_of(device, inputs, force, normal_lead);
+    double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
+    if (first == last) {
+        /* Nothing holds the slider back: every velocity is steady, or with a load none. */
+        theory.steady_velocity =
+            inputs->load != 0.0 ? -copysign(balance.fast.velocity, inputs->load) : 0.0;
+        return theory;
+    }
+    double middle = friction_at(&balance, 0.5 * PI), load = inputs->load;
+    Point low = {0.0, first + load}, halfway = {0.5 * PI, middle + load}, high = {PI, last + load};
+    theory.steady_velocity =
+        balance.fast.velocity * cos(balanced_turning(&balance, low, halfway, high));
+    theory.blocking_force = -middle;
+    return theory;
+}

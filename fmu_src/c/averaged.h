@@ -1,0 +1,25 @@
+/* Averaged motion under fast vibration, for any frequency ratio and for lifting contact.
+ *
+ * The fast velocity of the slider is V - v_q cos(tau) with tau = theta - theta_1, so that it slides
+ * forward while tau is in (Theta, 2 pi - Theta), cos(Theta) = V / v_q. With n = frequency_ratio an
+ * integer, the normal load is N(n tau + delta) and the mean friction is an elementary integral over
+ * those two arcs (eq. 4 for n = 1 without flight). At any other ratio all phases are met and the
+ * mean load counts. Friction averaged so is accurate to the order of 1 / Omega. */
+#ifndef SLIDER_AVERAGED_H
+#define SLIDER_AVERAGED_H
+
+#include "device.h"
+
+/* Steady velocity [m/s] and blocking force [N] by averaged theory. */
+typedef struct {
+    double steady_velocity, blocking_force;
+} Averaged;
+
+/* Averaged theory at the present inputs (eqs 20-22 with both faces; LuGre for any bristle).
+ *
+ * `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where the
+ * load exceeds full friction the velocity is the limit v_q of the theory, with its sign; both are 0
+ * without vibration, and where undamped resonance leaves no steady vibration. */
+Averaged averaged(const Device *device, const Inputs *inputs, double normal_lead);
+
+#endif

@@ -1,0 +1,27 @@
+/* The bristle of LuGre friction as a function of the path (eq. 8). */
+#ifndef SLIDER_BRISTLE_H
+#define SLIDER_BRISTLE_H
+
+#include <math.h>
+
+#include "device.h"
+
+/* Coefficient mu > 0 [1], stiffness sigma_0 [1/m] and damping sigma_1 [s/m]. */
+typedef struct {
+    double coefficient, stiffness, damping;
+} Bristle;
+
+static inline Bristle bristle_of(const Device *device) {
+    Bristle bristle = {device->friction_coefficient, device->bristle_stiffness,
+                       device->bristle_damping};
+    return bristle;
+}
+
+/* sigma_0 z after `travel` [m] in one direction (its sign), from `friction` on. */
+static inline double bristle_after(const Bristle *bristle, double friction, double travel) {
+    double limit = travel >= 0.0 ? bristle->coefficient : -bristle->coefficient;
+    double bent = expm1(-bristle->stiffness * fabs(travel) / bristle->coefficient);
+    return friction - (limit - friction) * bent;
+}
+
+#endif

@@ -1,0 +1,62 @@
+/* Complex numbers as a plain struct: C99's own are missing from some compilers, and slow in others
+ * for the sake of infinities that do not occur here. */
+#ifndef SLIDER_COMPLEX_NUMBER_H
+#define SLIDER_COMPLEX_NUMBER_H
+
+#include <math.h>
+
+typedef struct {
+    double re, im;
+} Complex;
+
+static inline Complex complex_of(double re, double im) {
+    Complex z = {re, im};
+    return z;
+}
+
+/* length * exp(i angle) */
+static inline Complex complex_rect(double length, double angle) {
+    return complex_of(length * cos(angle), length * sin(angle));
+}
+
+static inline Complex complex_add(Complex a, Complex b) {
+    return complex_of(a.re + b.re, a.im + b.im);
+}
+
+static inline Complex complex_sub(Complex a, Complex b) {
+    return complex_of(a.re - b.re, a.im - b.im);
+}
+
+static inline Complex complex_mul(Complex a, Complex b) {
+    return complex_of(a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re);
+}
+
+static inline Complex complex_scale(double factor, Complex a) {
+    return complex_of(factor * a.re, factor * a.im);
+}
+
+static inline Complex complex_conj(Complex a) {
+    return complex_of(a.re, -a.im);
+}
+
+/* By hypot only where squares may leave the range of floating point. */
+static inline double complex_abs(Complex a) {
+    double square = a.re * a.re + a.im * a.im;
+    return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(a.re, a.im);
+}
+
+/* Smith's division: no overflow where the quotient has none. */
+static inline Complex complex_div(Complex a, Complex b) {
+    if (fabs(b.re) >= fabs(b.im)) {
+        double ratio = b.im / b.re, denominator = b.re + b.im * ratio;
+        return complex_of((a.re + a.im * ratio) / denominator, (a.im - a.re * ratio) / denominator);
+    }
+    double ratio = b.re / b.im, denominator = b.re * ratio + b.im;
+    return complex_of((a.re * ratio + a.im) / denominator, (a.im * ratio - a.re) / denominator);
+}
+
+static inline Complex complex_exp(Complex a) {
+    return complex_rect(exp(a.re), a.im);
+}
+
+#endif

@@ -1,0 +1,284 @@
+#include "component.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "state.h"
+#include "values.h"
+
+/* Turns of the fastest oscillation in one step up to which its work is accepted. */
+#define MOST_TURNS 1e8
+
+/* Share of a step by which hosts may round their own time. */
+#define TIME_SLACK 1e-6
+
+static bool all_finite(const double *numbers, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(numbers[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool law_is_finite(const Law *law) {
+    const Plant *plant = &law->held.plant;
+    const double coefficients[] = {
+        plant->total_mass,      plant->mass_fraction,     plant->normal_frequency,
+        plant->slip.decay,      plant->slip.stiffness,    plant->stick.decay,
+        plant->stick.stiffness, plant->drive.re,          plant->drive.im,
+        plant->relative_drive,  plant->base_acceleration, plant->holding_drive.re,
+        plant->spring,          plant->damper,            plant->holding_drive.im,
+    };
+    return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
+}
+
+/* Prepares the law of `values` beside the present one, and makes it the present one if it can. */
+static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
+    int next = 1 - component->present;
+    Device device = device_of(values);
+    Inputs inputs = inputs_of(values);
+    inputs.phase = remainder(inputs.phase, TAU);
+    if (!law_prepare(&component->laws[next], &device, &inputs, &component->table, refusal)) {
+        return false;
+    }
+    if (!law_is_finite(&component->laws[next])) {
+        return refuse(refusal, "the parameters are refused: masses, frequencies and amplitudes "
+                      "together leave the range of floating point numbers; allowed are smaller "
+                      "ones");
+    }
+    component->present = next;
+    component->prepared = true;
+    component->theory.known = false;
+    return true;
+}
+
+static bool prepare_present(Component *component, Refusal *refusal) {
+    return component->prepared || prepare(component, component->now.values, refusal);
+}
+
+static const Law *present_law(const Component *component) {
+    return &component->laws[component->present];
+}
+
+void component_reset(Component *component) {
+    memset(&component->now, 0, sizeof component->now);
+    component->now.lifecycle = INSTANTIATED;
+    component->now.stop_time = INFINITY;
+    component->prepared = false;
+    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
+        component->now.values[i] = VARIABLES[i].start;
+    }
+}
+
+bool component_setup_experiment(Component *component, const Experiment *experiment,
+                                Refusal *refusal) {
+    char text[NUMBER_SIZE], start[NUMBER_SIZE];
+    double stop_time = experiment->stop_time_defined ? experiment->stop_time : INFINITY;
+    if (!require("setupExperiment", component->now.lifecycle, INSTANTIATED, refusal)) {
+        return false;
+    }
+    if (!isfinite(experiment->start_time)) {
+        return refuse(refusal, "startTime = %s refused: allowed is a finite number",
+                      number_text(experiment->start_time, text));
+    }
+    if (!(stop_time >= experiment->start_time)) {
+        return refuse(refusal, "stopTime = %s refused: allowed is a number from startTime = %s on",
+                      number_text(stop_time, text), number_text(experiment->start_time, start));
+    }
+    if (experiment->tolerance_defined
+        && !(isfinite(experiment->tolerance) && experiment->tolerance > 0.0)) {
+        return refuse(refusal, "tolerance = %s refused: allowed is a finite number above 0",
+                      number_text(experiment->tolerance, text));
+    }
+    component->now.time = component->now.last_event_time = experiment->start_time;
+    component->now.stop_time = stop_time;
+    return true;
+}
+
+bool component_enter_initialization(Component *component, Refusal *refusal) {
+    if (!require("enterInitializationMode", component->now.lifecycle, INSTANTIATED, refusal)) {
+        return false;
+    }
+    component->now.lifecycle = INITIALIZATION;
+    return true;
+}
+
+bool component_exit_initialization(Component *component, Refusal *refusal) {
+    if (!require("exitInitializationMode", component->now.lifecycle, INITIALIZATION, refusal)
+        || !prepare_present(component, refusal)) {
+        return false;
+    }
+    component->now.moment = law_start(present_law(component));
+    component->now.moving = true;
+    component->now.lifecycle = STEP_COMPLETE;
+    return true;
+}
+
+bool component_terminate(Component *component, Refusal *refusal) {
+    if (!require("terminate", component->now.lifecycle, STEP_COMPLETE, refusal)) {
+        return false;
+    }
+    component->now.lifecycle = TERMINATED;
+    return true;
+}
+
+/* Refuses outputs, fixed parameters while running, and values out of bounds. */
+static bool setting_check(const Component *component, unsigned reference, double value,
+                          Refusal *refusal) {
+    const Variable *variable = &VARIABLES[reference];
+    char text[NUMBER_SIZE];
+    if (reference >= SETTABLE_COUNT) {
+        return refuse(refusal, "%s = %s refused: it is an output and cannot be set",
+                      variable->name, value_text(variable, value, text));
+    }
+    if (variable->fixed && component->now.lifecycle == STEP_COMPLETE) {
+        return refuse(refusal, "%s = %s refused: it is fixed and can be set only before "
+                      "initialization ends", variable->name, value_text(variable, value, text));
+    }
+    return value_check(variable, value, refusal);
+}
+
+static bool same_values(const double *a, const double *b) {
+    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
+        if (a[i] != b[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool component_set(Component *component, const unsigned *references, const double *values,
+                   size_t count, Refusal *refusal) {
+    double changed[SETTABLE_COUNT];
+    memcpy(changed, component->now.values, sizeof changed);
+    for (size_t i = 0; i < count; i++) {
+        const char *name = VARIABLES[references[i]].name;
+        if (component->now.lifecycle == TERMINATED) {
+            return refuse(refusal, "setting %s refused in state '%s': allowed in '%s'", name,
+                          lifecycle_name(TERMINATED), lifecycle_name(STEP_COMPLETE));
+        }
+        if (!setting_check(component, references[i], values[i], refusal)) {
+            return false;
+        }
+        changed[references[i]] = values[i];
+    }
+    if (same_values(changed, component->now.values)) {
+        return true;
+    }
+    bool running = component->now.lifecycle == STEP_COMPLETE;
+    if (running && !prepare(component, changed, refusal)) {
+        return false;
+    }
+    component->prepared = running;
+    memcpy(component->now.values, changed, sizeof changed);
+    return true;
+}
+
+/* The moment that outputs are read from: before the end of initialization the one to come. */
+static bool moment_to_read(Component *component, unsigned reference, Moment *moment,
+                           Refusal *refusal) {
+    if (component->now.lifecycle == INSTANTIATED) {
+        return refuse(refusal, "reading %s refused in state '%s': allowed in '%s'",
+                      VARIABLES[reference].name, lifecycle_name(INSTANTIATED),
+                      lifecycle_name(INITIALIZATION));
+    }
+    if (!prepare_present(component, refusal)) {
+        return false;
+    }
+    *moment = component->now.moving ? component->now.moment : law_start(present_law(component));
+    return true;
+}
+
+bool component_get(Component *component, const unsigned *references, double *values, size_t count,
+                   Refusal *refusal) {
+    double found[VARIABLE_COUNT];
+    Moment moment;
+    bool read = false;
+    for (size_t i = 0; i < count; i++) {
+        if (references[i] < SETTABLE_COUNT) {
+            found[i] = component->now.values[references[i]];
+            continue;
+        }
+        read = read || moment_to_read(component, references[i], &moment, refusal);
+        if (!read) {
+            return false;
+        }
+        found[i] = output_value(references[i], present_law(component), &moment,
+                                component->now.last_event_time, &component->theory);
+    }
+    for (size_t i = 0; i < count; i++) {
+        values[i] = found[i];
+    }
+    return true;
+}
+
+static bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
+    double frequency = LONGEST_ARC / law->held.arc;
+    if (law->device.fidelity == 0 || !(step_size * frequency > TAU * MOST_TURNS)) {
+        return true;
+    }
+    char size[NUMBER_SIZE], fastest[NUMBER_SIZE];
+    return refuse(refusal, "doStep: communicationStepSize = %s refused: the fastest oscillation "
+                  "has %s rad/s; allowed is a step of at most %g turns of it",
+                  number_text(step_size, size), number_text(frequency, fastest), MOST_TURNS);
+}
+
+/* Refuses a step that is none, does not continue from the present time, or goes beyond the end. */
+static bool step_check(const Snapshot *now, double time, double step_size, Refusal *refusal) {
+    char given[NUMBER_SIZE], allowed[NUMBER_SIZE];
+    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)) {
+        return false;
+    }
+    if (!(isfinite(step_size) && step_size > 0.0)) {
+        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a finite "
+                      "number above 0", number_text(step_size, given));
+    }
+    double spacing = nextafter(fabs(now->time), INFINITY) - fabs(now->time);
+    double slack = TIME_SLACK * step_size + 4.0 * spacing;
+    if (!(fabs(time - now->time) <= slack)) {
+        return refuse(refusal, "doStep: currentCommunicationPoint = %s refused: allowed is the "
+                      "present time %s", number_text(time, given), number_text(now->time, allowed));
+    }
+    if (time + step_size > now->stop_time + slack + 1e-9 * fabs(now->stop_time)) {
+        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a step up "
+                      "to stopTime = %s", number_text(step_size, given),
+                      number_text(now->stop_time, allowed));
+    }
+    return true;
+}
+
+bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
+    Snapshot *now = &component->now;
+    const Law *law = present_law(component);
+    Moment after;
+    if (!step_check(now, time, step_size, refusal) || !bounded_work_check(law, step_size, refusal)
+        || !law_advance(law, &now->moment, step_size, &after, refusal)) {
+        return false;
+    }
+    double end = time + step_size;
+    const double reached[] = {after.position,   after.state.velocity, after.state.displacement,
+                              after.state.rate, after.theta,          after.psi,
+                              end};
+    if (!all_finite(reached, sizeof reached / sizeof reached[0])) {
+        char text[NUMBER_SIZE];
+        return refuse(refusal, "doStep: communicationStepSize = %s refused: the motion leaves the "
+                      "range of floating point numbers; allowed are smaller forces, frequencies or "
+                      "steps", number_text(step_size, text));
+    }
+    if (after.event_age <= step_size) {
+        now->last_event_time = time + (step_size - after.event_age);
+    }
+    now->moment = after;
+    now->time = end;
+    return true;
+}
+
+bool component_restore(Component *component, const Snapshot *snapshot, Refusal *refusal) {
+    if (snapshot->moving && !prepare(component, snapshot->values, refusal)) {
+        return false;
+    }
+    component->prepared = snapshot->moving;
+    component->now = *snapshot;
+    return true;
+}

@@ -1,0 +1,57 @@
+#include "contact.h"
+
+#include <math.h>
+
+#include "angle.h"
+#include "state.h"
+
+/* Angle [rad] before a boundary, or past it by rounding, at which it counts as just reached. The
+ * shortest flight that floating point numbers can ask for is 3e-8 rad long. */
+#define REACHED 1e-12
+
+FlightWindow flight_window(const Plant *plant) {
+    FlightWindow window = {false, 0.0, 0.0};
+    if (plant->preload_share >= 1.0) {
+        return window;
+    }
+    window.exists = true;
+    if (plant->preload_share < 0.0) {
+        window.last = TAU;
+        return window;
+    }
+    double dip = asin(plant->preload_share);
+    window.first = PI + dip;
+    window.last = TAU - dip;
+    return window;
+}
+
+bool is_lifted(const FlightWindow *window, double chi, double frequency) {
+    if (!window->exists) {
+        return false;
+    }
+    double width = window->last - window->first;
+    if (width >= TAU) {
+        return true;
+    }
+    double inside = within_turn(chi - window->first);
+    if (TAU - inside < REACHED) {
+        inside -= TAU;
+    }
+    if (frequency > 0.0) {
+        return -REACHED < inside && inside < width - REACHED;
+    }
+    if (frequency < 0.0) {
+        return REACHED < inside && inside < width + REACHED;
+    }
+    return -REACHED < inside && inside < width + REACHED;
+}
+
+double time_to_switch(const FlightWindow *window, double chi, double frequency, bool lifted) {
+    if (!window->exists || frequency == 0.0 || window->last - window->first >= TAU) {
+        return INFINITY;
+    }
+    bool to_last = lifted == (frequency > 0.0);
+    double ahead = (to_last ? window->last : window->first) - chi;
+    ahead = within_turn(frequency > 0.0 ? ahead : -ahead);
+    return TAU - ahead < REACHED ? 0.0 : ahead / fabs(frequency);
+}

@@ -1,0 +1,28 @@
+/* When the contact lifts and touches down: N = max(0, N0 + dN sin(chi)) with dN > N0. */
+#ifndef SLIDER_CONTACT_H
+#define SLIDER_CONTACT_H
+
+#include <stdbool.h>
+
+#include "plant.h"
+
+/* Range of chi [rad] in which the contact is lifted, where it ever is (`exists`): a whole turn from 0
+ * on if there is no normal load at all. */
+typedef struct {
+    bool exists;
+    double first, last;
+} FlightWindow;
+
+FlightWindow flight_window(const Plant *plant);
+
+/* Whether the contact is lifted at normal phase `chi` [rad].
+ *
+ * On a boundary that depends on where the phase goes: `frequency` [rad/s] is its rate. At rate 0 the
+ * contact is lifted where the normal load is 0. */
+bool is_lifted(const FlightWindow *window, double chi, double frequency);
+
+/* Time [s] until the contact lifts, or touches down when `lifted`; infinite if never. `frequency`
+ * [rad/s] is that of the normal load and may be negative. */
+double time_to_switch(const FlightWindow *window, double chi, double frequency, bool lifted);
+
+#endif

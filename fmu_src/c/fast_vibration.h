@@ -1,0 +1,40 @@
+/* The steady vibration on which slow motion rides, in closed form (32)-(34). */
+#ifndef SLIDER_FAST_VIBRATION_H
+#define SLIDER_FAST_VIBRATION_H
+
+#include <stdbool.h>
+
+#include "complex_number.h"
+#include "device.h"
+#include "oscillator.h"
+#include "refusal.h"
+
+/* Velocity amplitudes [m/s], lag theta_1 [rad], and the resonator's amplitude [m] of e. `velocity`
+ * is v_q, that of the slider; `pair_velocity` that of the drive force on the pair. */
+typedef struct {
+    double velocity, pair_velocity, lag;
+    Complex resonator;
+} FastVibration;
+
+/* Lag theta_1 [rad] of the equivalent `force`; 0 and -0 are the same imaginary part. */
+static inline double force_lag(Complex force) {
+    return -atan2(force.im + 0.0, force.re);
+}
+
+/* Velocity amplitude v_q [m/s] that the equivalent `force` [N] gives to the pair. */
+static inline double fast_velocity(const Device *device, Complex force) {
+    return hypot(force.re, force.im) / (device_total_mass(device) * device->drive_frequency);
+}
+
+/* Refuses where undamped resonance leaves no steady vibration. */
+bool fast_vibration_prepare(FastVibration *fast, const Device *device, Refusal *refusal);
+
+/* Displacement [m] and velocity [m/s] of `amplitude` e at drive phase `theta` [rad]. */
+static inline Response steady_swing(Complex amplitude, double theta, double frequency) {
+    double sine = sin(theta), cosine = cos(theta);
+    Response swing = {amplitude.re * sine + amplitude.im * cosine,
+                      frequency * (amplitude.re * cosine - amplitude.im * sine)};
+    return swing;
+}
+
+#endif

@@ -1,0 +1,124 @@
+#include "first_zero.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* Evaluations after which the shortest step doubles: bounds the work on signals that stay within
+ * rounding of zero. */
+enum { FLOOR_DOUBLING = 1000 };
+
+enum { MOST_NEWTON_STEPS = 60, MOST_EXPECTING_STEPS = 4 };
+
+/* Share of what two parabolas cover that must do: keeps rounding out of the argument. */
+#define SURE 0.99
+
+/* Time [s] to which two zeros or two steps of Newton's method are told apart. */
+static double resolution(const Watch *watch) {
+    return 1e-16 / watch->fastest;
+}
+
+/* Whether a step of Newton's method from here misses the zero by less than `resolution` [s]. */
+static bool is_last(Signal at, double step, double resolved) {
+    return at.bound * step * step <= -at.slope * resolved;
+}
+
+/* Newton's method from a point that satisfies Kantorovich's condition. */
+static double newton(const Watch *watch, double t, Signal at) {
+    double resolved = resolution(watch);
+    for (int i = 0; i < MOST_NEWTON_STEPS; i++) {
+        double step = -at.value / at.slope;
+        t += step;
+        if (fabs(step) <= resolved || is_last(at, step, resolved)) {
+            break;
+        }
+        at = watch->signal(watch->motion, t);
+        if (at.slope >= 0.0) {
+            break;
+        }
+    }
+    return t;
+}
+
+/* How far ahead [s] of a point with this `value` and slope the signal is sure to be positive. */
+static double sure_ahead(double value, Signal at) {
+    double root_term = sqrt(at.slope * at.slope + 2.0 * at.bound * value);
+    if (at.slope < 0.0) {
+        return 2.0 * value / (root_term - at.slope);
+    }
+    return at.bound > 0.0 ? (at.slope + root_term) / at.bound : INFINITY;
+}
+
+/* A zero, the first one or not, and how steeply the signal falls there; NO_ZERO if there is none. */
+typedef struct {
+    double time, slope;
+} Candidate;
+
+/* The downward zero near `expected` if Newton's method finds one soon. */
+static Candidate zero_near(const Watch *watch, double start, double expected) {
+    Candidate candidate = {NO_ZERO, 0.0};
+    double resolved = resolution(watch);
+    for (int i = 0; i < MOST_EXPECTING_STEPS && expected > start; i++) {
+        Signal at = watch->signal(watch->motion, expected);
+        if (!(at.slope < 0.0)) {
+            break;
+        }
+        double step = -at.value / at.slope;
+        expected += step;
+        if (is_last(at, step, resolved)) {
+            candidate.time = expected;
+            candidate.slope = at.slope;
+            break;
+        }
+    }
+    return candidate;
+}
+
+/* Whether the candidate is the first zero after `t`, where the signal is `at` and sure to be positive for
+ * `ahead` [s]: it must be so from there to the candidate too, and not by rounding only. */
+static bool is_first(Candidate candidate, const Watch *watch, double t, Signal at, double ahead) {
+    double distance = candidate.time - t, back = -2.0 * candidate.slope / at.bound;
+    return distance > 0.0 && distance < SURE * (ahead + back) && distance < watch->horizon &&
+           candidate.slope * candidate.slope > 16.0 * watch->noise * at.bound;
+}
+
+double first_zero_near(const Watch *watch, double limit, double start, double expected) {
+    double noise = watch->noise, horizon = watch->horizon;
+    double t = start, shortest = 1e-7 / watch->fastest;
+    Candidate candidate = {NO_ZERO, 0.0};
+    int evaluations = 0;
+    if (expected > start && expected < limit) {
+        candidate = zero_near(watch, start, expected);
+    }
+    while (t < limit) {
+        Signal at = watch->signal(watch->motion, t);
+        double square = at.slope * at.slope, value = at.value;
+        evaluations++;
+        if (at.slope < 0.0) {
+            if (value <= noise) {
+                if (value < -noise || square > 16.0 * noise * at.bound) {
+                    return t;
+                }
+                value = noise;
+            } else if (square > 2.2 * at.bound * (value + noise)) {
+                double root = newton(watch, t, at);
+                return root < limit ? root : NO_ZERO;
+            }
+        } else if (value < noise) {
+            value = noise;
+        }
+        double step = sure_ahead(value, at);
+        if (is_first(candidate, watch, t, at, step)) {
+            return candidate.time < limit ? candidate.time : NO_ZERO;
+        }
+        if (evaluations % FLOOR_DOUBLING == 0) {
+            shortest *= 2.0;
+        }
+        step = step < shortest ? shortest : step;
+        t += step > horizon ? horizon : step; /* not a number stays so, and ends the search */
+    }
+    return NO_ZERO;
+}
+
+double first_zero(const Watch *watch, double limit, double start) {
+    return first_zero_near(watch, limit, start, NO_ZERO);
+}

@@ -1,0 +1,72 @@
+/* A damped oscillator under a constant and sinusoidal forcing, from any state, regular everywhere.
+ *
+ * The steady responses are split off where they are of moderate size. What is left is a free motion
+ * plus responses from rest: to the constant, to forcing that resonates, and to slow forcing of a slow
+ * oscillator. */
+#ifndef SLIDER_FORCED_OSCILLATOR_H
+#define SLIDER_FORCED_OSCILLATOR_H
+
+#include "oscillator.h"
+
+/* Drive and normal load. */
+enum { FORCINGS = 2 };
+
+/* Re(amplitude exp(i frequency t)), in rad/s and m/s^2. */
+typedef struct {
+    double frequency;
+    Complex amplitude;
+} Forcing;
+
+/* How the response to a forcing is followed: as part of the constant, steady, or from rest. */
+typedef enum { AS_CONSTANT, STEADY, RESONANT_FROM_REST, SLOW_FROM_REST } Following;
+
+/* y'' + 2 decay y' + stiffness y = constant + sum of the forcings. `steady` are the complex amplitudes
+ * of steady responses [m], `size` their absolute values; the free motion starts at displacement
+ * `free_displacement` [m] and `free_rate` [m/s]. */
+typedef struct {
+    const Oscillator *oscillator;
+    double constant;
+    int forcings;
+    Forcing forcing[FORCINGS];
+    Following following[FORCINGS];
+    Complex steady[FORCINGS];
+    double size[FORCINGS];
+    double free_displacement, free_rate;
+    bool from_rest;
+    double horizon;
+} ForcedOscillator;
+
+/* Displacement y [m] and derivatives, with bounds on |y'|, |y''| and |y'''| over the horizon. `turn` are
+ * exp(i frequency t) of the forcings. */
+typedef struct {
+    Complex turn[FORCINGS];
+    double displacement, rate, acceleration;
+    double rate_bound, acceleration_bound, jerk_bound;
+} Sample;
+
+/* exp(i frequency t) for each of `count` <= FORCINGS forcings. */
+static inline void turns_of(const Forcing *forcing, int count, double t, Complex *turn) {
+    for (int i = 0; i < count; i++) {
+        bool known = i > 0 && forcing[i].frequency == forcing[0].frequency;
+        turn[i] = known ? turn[0] : complex_rect(1.0, forcing[i].frequency * t);
+    }
+}
+
+/* The motion from displacement `y0` [m] and rate `u0` [m/s] on under `forcings` <= FORCINGS forcings.
+ *
+ * Slow forcing of a slow oscillator, both by the measure of `fastest` [rad/s], is followed from rest
+ * too; samples are then good for times up to 60 / fastest. `oscillator` must outlive the motion. */
+void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscillator, double constant,
+                             const Forcing *forcing, int forcings, double y0, double u0,
+                             double fastest);
+
+/* Displacement and rate at `t` >= 0 [s]; `turn` as in a Sample. */
+Response forced_oscillator_response(const ForcedOscillator *motion, double t, const Complex *turn);
+
+/* Motion at `t` >= 0 [s]. The free part loses energy, so its present energy bounds it. */
+Sample forced_oscillator_sample(const ForcedOscillator *motion, double t);
+
+/* Bounds on |displacement| and |rate| for all time; infinite without a steady response. */
+Response forced_oscillator_reach(const ForcedOscillator *motion);
+
+#endif

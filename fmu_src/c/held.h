@@ -1,0 +1,34 @@
+/* What stays the same while inputs and parameters do. */
+#ifndef SLIDER_HELD_H
+#define SLIDER_HELD_H
+
+#include <stdbool.h>
+
+#include "contact.h"
+#include "plant.h"
+#include "split_slide.h"
+
+/* `splits` tells whether `split` serves sliding and flight, `arc` [s] is the time after which a motion
+ * is anchored anew. */
+typedef struct {
+    Plant plant;
+    bool splits;
+    Split split;
+    FlightWindow window;
+    double arc;
+} Held;
+
+/* Angle [rad] of the fastest oscillation after which a motion is anchored anew: keeps the rounding
+ * of large arguments of sine and cosine out. */
+#define LONGEST_ARC 60.0
+
+/* Events in a row without progress in time that are followed before a step is refused. */
+enum { MOST_STALLED = 1000 };
+
+/* Prepares motion of `device` under `inputs`. Refuses as plant_prepare does. */
+bool held_prepare(Held *held, const Device *device, const Inputs *inputs, Refusal *refusal);
+
+/* The refusal of a step in which time does not get on; returns false. */
+bool refuse_stalling(Refusal *refusal);
+
+#endif

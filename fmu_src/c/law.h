@@ -1,0 +1,46 @@
+/* The friction laws and fidelities by one face: start, advance, contact mode and friction force. */
+#ifndef SLIDER_LAW_H
+#define SLIDER_LAW_H
+
+#include <stdbool.h>
+
+#include "bristle.h"
+#include "device.h"
+#include "fast_vibration.h"
+#include "friction_table.h"
+#include "held.h"
+#include "moment.h"
+#include "refusal.h"
+
+/* A device under held inputs. `table` is a cache that outlives the law and may be shared by those
+ * of one instance; it is filled when averaged LuGre motion first needs it. */
+typedef struct {
+    Device device;
+    Inputs inputs;
+    Held held;
+    Bristle bristle;
+    FastVibration fast;
+    FrictionTable *table;
+} Law;
+
+/* Prepares the law of `device` under `inputs`. Refuses where device and law do not fit; `law` is
+ * then undefined. */
+bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionTable *table,
+                 Refusal *refusal);
+
+/* The first moment, at drive and normal phase 0, from the initial values of the device. */
+Moment law_start(const Law *law);
+
+/* The moment `duration` > 0 [s] later, inputs held. Refuses, with `after` undefined, where time
+ * does not get on or averaged motion needs too many steps. Numbers that leave the range of floating
+ * point show as non-finite entries of `after`, never as an endless loop. */
+bool law_advance(const Law *law, const Moment *moment, double duration, Moment *after,
+                 Refusal *refusal);
+
+/* Contact mode under the held inputs. */
+int law_mode(const Law *law, const Moment *moment);
+
+/* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
+double law_friction_force(const Law *law, const Moment *moment, int mode);
+
+#endif

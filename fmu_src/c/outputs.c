@@ -1,0 +1,82 @@
+#include "outputs.h"
+
+#include <math.h>
+
+#include "fast_vibration.h"
+#include "state.h"
+#include "variables.h"
+#include "vibrating_load.h"
+
+/* Parts of a radian to which psi - n theta is rounded for the averaged outputs: the rounding errors
+ * of the phases then do not make them flicker. */
+#define LEAD_PARTS 1e9
+
+/* Displacement [m] and velocity [m/s] of the resonator. */
+static Response resonator_swing(const Plant *plant, const Moment *moment) {
+    if (plant->resolves_resonator) {
+        Response own = {moment->state.displacement, moment->state.rate};
+        return own;
+    }
+    return steady_swing(plant->resonator_amplitude, moment->theta, plant->drive_frequency);
+}
+
+static double normal_force(const Law *law, const Moment *moment) {
+    double chi = moment->psi + law->inputs.phase;
+    double force = law->device.normal_preload + law->device.normal_amplitude * sin(chi);
+    return force > 0.0 ? force : 0.0;
+}
+
+static double stick_fraction(const Law *law, const Moment *moment) {
+    return period_stick_fraction(&moment->means, law_mode(law, moment) == STICK);
+}
+
+/* psi - n theta in [-pi, pi] [rad]; 0 where the load never repeats and it says nothing. */
+static double normal_lead(const Law *law, const Moment *moment) {
+    double ratio = law->inputs.frequency_ratio;
+    if (turns_to_repeat(&law->device, ratio, EXACT) == 0) {
+        return 0.0;
+    }
+    return nearbyint(remainder(moment->psi - ratio * moment->theta, TAU) * LEAD_PARTS) / LEAD_PARTS;
+}
+
+static const Averaged *theory_of(const Law *law, const Moment *moment, Theory *theory) {
+    double lead = normal_lead(law, moment);
+    if (!theory->known || theory->normal_lead != lead) {
+        theory->averaged = averaged(&law->device, &law->inputs, lead);
+        theory->normal_lead = lead;
+        theory->known = true;
+    }
+    return &theory->averaged;
+}
+
+double output_value(unsigned reference, const Law *law, const Moment *moment,
+                    double last_event_time, Theory *theory) {
+    switch (reference) {
+    case VR_POSITION:
+        return moment->position;
+    case VR_VELOCITY:
+        return moment->state.velocity;
+    case VR_MEAN_VELOCITY:
+        return period_mean_velocity(&moment->means, moment->state.velocity);
+    case VR_RESONATOR_DISPLACEMENT:
+        return resonator_swing(&law->held.plant, moment).displacement;
+    case VR_RESONATOR_VELOCITY:
+        return resonator_swing(&law->held.plant, moment).rate;
+    case VR_NORMAL_FORCE:
+        return normal_force(law, moment);
+    case VR_FRICTION_FORCE:
+        return law_friction_force(law, moment, law_mode(law, moment));
+    case VR_CONTACT_MODE:
+        return law_mode(law, moment);
+    case VR_REVERSALS:
+        return moment->counts.reversals;
+    case VR_STICK_FRACTION:
+        return stick_fraction(law, moment);
+    case VR_LAST_EVENT_TIME:
+        return last_event_time;
+    case VR_STEADY_VELOCITY:
+        return theory_of(law, moment, theory)->steady_velocity;
+    default: /* VR_BLOCKING_FORCE, the last one */
+        return theory_of(law, moment, theory)->blocking_force;
+    }
+}

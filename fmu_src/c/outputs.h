@@ -1,0 +1,22 @@
+/* The outputs of the interface, each from the present moment and the present inputs. */
+#ifndef SLIDER_OUTPUTS_H
+#define SLIDER_OUTPUTS_H
+
+#include <stdbool.h>
+
+#include "averaged.h"
+#include "law.h"
+#include "moment.h"
+
+/* Averaged theory of a law, kept while `normal_lead` [rad] stays. To be forgotten with the law. */
+typedef struct {
+    bool known;
+    double normal_lead;
+    Averaged averaged;
+} Theory;
+
+/* The output `reference` of the law at this moment; `last_event_time` [s]. */
+double output_value(unsigned reference, const Law *law, const Moment *moment,
+                    double last_event_time, Theory *theory);
+
+#endif

@@ -1,0 +1,55 @@
+#include "period.h"
+
+#include <math.h>
+
+#include "state.h"
+
+/* Angle [rad] by which a period may end after the present moment and still count as ended: steps of
+ * whole periods, rounded, then end on the period that they complete. */
+#define MARK_TOLERANCE 1e-7
+
+double period_advance(PeriodMeans *means, double duration, double theta, double frequency,
+                      bool sticks, TravelFunction travel_at, const void *motion, double travelled) {
+    double end = theta + frequency * duration;
+    double ended = floor((end + MARK_TOLERANCE) / TAU);
+    if (!(ended > 0.0)) {
+        means->travel += travelled;
+        means->elapsed += duration;
+        means->sticking += sticks ? duration : 0.0;
+        return end;
+    }
+    double last = (TAU * ended - theta) / frequency;
+    double travel_last = travel_at(motion, last), fraction;
+    if (ended == 1.0) {
+        double length = means->elapsed + last;
+        means->mean_velocity = (means->travel + travel_last) / length;
+        fraction = (means->sticking + (sticks ? last : 0.0)) / length;
+    } else {
+        double length = TAU / frequency;
+        means->mean_velocity = (travel_last - travel_at(motion, last - length)) / length;
+        fraction = sticks ? 1.0 : 0.0;
+    }
+    means->complete = true;
+    means->stick_fraction = fmin(fmax(fraction, 0.0), 1.0);
+    means->travel = travelled - travel_last;
+    means->elapsed = duration - last;
+    means->sticking = sticks ? means->elapsed : 0.0;
+    return end - TAU * ended;
+}
+
+double period_mean_velocity(const PeriodMeans *means, double velocity) {
+    if (means->complete) {
+        return means->mean_velocity;
+    }
+    return means->elapsed > 0.0 ? means->travel / means->elapsed : velocity;
+}
+
+double period_stick_fraction(const PeriodMeans *means, bool sticks) {
+    if (means->complete) {
+        return means->stick_fraction;
+    }
+    if (means->elapsed > 0.0) {
+        return fmin(means->sticking / means->elapsed, 1.0);
+    }
+    return sticks ? 1.0 : 0.0;
+}

@@ -1,0 +1,31 @@
+/* Means over whole drive periods, which end where the drive phase theta passes 2 pi. */
+#ifndef SLIDER_PERIOD_H
+#define SLIDER_PERIOD_H
+
+#include <stdbool.h>
+
+/* What was gathered since the last period ended, and the means of the last whole period.
+ *
+ * `travel` [m], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);
+ * `mean_velocity` [m/s] and `stick_fraction` of the last whole period once `complete`. */
+typedef struct {
+    double travel, elapsed, sticking;
+    bool complete;
+    double mean_velocity, stick_fraction;
+} PeriodMeans;
+
+/* Displacement [m] of a motion after `t` [s]. */
+typedef double (*TravelFunction)(const void *motion, double t);
+
+/* Takes in a motion of `duration` [s] that began at drive phase `theta` [rad]; `travel_at(motion, t)` is
+ * its displacement, `travelled` that at its end. Returns the drive phase at the end, modulo 2 pi. */
+double period_advance(PeriodMeans *means, double duration, double theta, double frequency,
+                      bool sticks, TravelFunction travel_at, const void *motion, double travelled);
+
+/* Mean of the last whole period, or since the start, or at the start `velocity` [m/s]. */
+double period_mean_velocity(const PeriodMeans *means, double velocity);
+
+/* Fraction sticking of the last whole period, or since the start, or at the start. */
+double period_stick_fraction(const PeriodMeans *means, bool sticks);
+
+#endif

@@ -1,0 +1,79 @@
+#include "plant.h"
+
+#include <math.h>
+
+/* The resonator against a free slider (eq. 31 divided by 1 - r_m). */
+static Oscillator slip_oscillator(const Device *device) {
+    double free_share = device->slider_mass / device_total_mass(device);
+    double wn = device->resonator_frequency;
+    return oscillator_of(device->damping_ratio * wn / free_share, wn * wn / free_share);
+}
+
+bool steady_resonator(const Device *device, Complex *amplitude, Refusal *refusal) {
+    double w = device->drive_frequency;
+    Oscillator oscillator = slip_oscillator(device);
+    if (device->damping_ratio == 0.0 && oscillator.stiffness == w * w) {
+        char damping[NUMBER_SIZE], frequency[NUMBER_SIZE];
+        return refuse(refusal,
+                      "damping_ratio = %s refused: without damping the steady force of the resonator "
+                      "is unbounded at drive_frequency = %s; allowed there is a number above 0",
+                      number_text(device->damping_ratio, damping), number_text(w, frequency));
+    }
+    double push = device->base_amplitude * w * w - device->tangential_force / device->slider_mass;
+    *amplitude = complex_scale(push, transfer(&oscillator, w));
+    return true;
+}
+
+bool equivalent_force(const Device *device, Complex *force, Refusal *refusal) {
+    Complex swing;
+    if (!steady_resonator(device, &swing, refusal)) {
+        return false;
+    }
+    double w = device->drive_frequency;
+    swing.re += device->base_amplitude;
+    *force = complex_scale(device->resonator_mass * (w * w), swing);
+    force->re += device->tangential_force;
+    return true;
+}
+
+static double preload_share(const Device *device) {
+    if (device->normal_amplitude > 0.0) {
+        return device->normal_preload / device->normal_amplitude;
+    }
+    return device->normal_preload > 0.0 ? INFINITY : -1.0;
+}
+
+bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Refusal *refusal) {
+    double w = device->drive_frequency, wn = device->resonator_frequency;
+    double m = device->resonator_mass, total = device_total_mass(device);
+    double faces_mu = device->friction_faces * device->friction_coefficient;
+    bool full = device->fidelity == 2;
+    double base_acceleration = device->base_amplitude * w * w;
+    Complex force = complex_of(m * base_acceleration + device->tangential_force, 0.0);
+    Complex resonator_amplitude = complex_of(0.0, 0.0);
+    if (!full && !(steady_resonator(device, &resonator_amplitude, refusal) &&
+                   equivalent_force(device, &force, refusal))) {
+        return false;
+    }
+    plant->slider_mass = full ? device->slider_mass : total;
+    plant->total_mass = total;
+    plant->mass_fraction = full ? device_mass_fraction(device) : 0.0;
+    plant->drive_frequency = w;
+    plant->normal_frequency = inputs->frequency_ratio * w;
+    plant->phase = inputs->phase;
+    plant->load = inputs->load;
+    plant->friction_preload = faces_mu * device->normal_preload;
+    plant->friction_amplitude = faces_mu * device->normal_amplitude;
+    plant->preload_share = preload_share(device);
+    plant->slip = slip_oscillator(device);
+    plant->stick = oscillator_of(device->damping_ratio * wn, wn * wn);
+    plant->drive = complex_of(force.re / total, force.im / total);
+    plant->relative_drive = base_acceleration - device->tangential_force / device->slider_mass;
+    plant->base_acceleration = base_acceleration;
+    plant->holding_drive = full ? complex_of(device->tangential_force, 0.0) : force;
+    plant->spring = full ? m * wn * wn : 0.0;
+    plant->damper = full ? 2.0 * device->damping_ratio * m * wn : 0.0;
+    plant->resolves_resonator = full;
+    plant->resonator_amplitude = resonator_amplitude;
+    return true;
+}

@@ -1,0 +1,53 @@
+/* The equations of motion (26)-(27) under held inputs, as coefficients of their closed forms.
+ *
+ * With theta the phase of the drive, chi = psi + phase that of the normal load, s the direction of
+ * sliding (0 in flight) and Y the resonator relative to the slider:
+ *
+ *   slip:   Y'' + 2 decay Y' + stiffness Y = relative_drive sin(theta) + (F + load) / M
+ *           (M + m) X'' = (M + m) Re(drive e) - F - load - m Y'',      F = s (F0 + F1 sin(chi))
+ *   stick:  Y'' + 2 xi wn Y' + wn^2 Y = A w^2 sin(theta),              X' = 0
+ *
+ * where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady force (34) alone. */
+#ifndef SLIDER_PLANT_H
+#define SLIDER_PLANT_H
+
+#include <stdbool.h>
+
+#include "complex_number.h"
+#include "device.h"
+#include "oscillator.h"
+#include "refusal.h"
+
+/* Coefficients under held inputs (SI units; complex numbers are amplitudes of e).
+ *
+ * At fidelity 1 (and 0) `slider_mass` is the total and `mass_fraction`, `spring` and `damper` are 0,
+ * for the resonator then acts by its steady force only; `resonator_amplitude` holds its steady
+ * displacement [m], and `resolves_resonator` is false. `preload_share` is N0 / dN: below 1 the contact
+ * lifts, and -1 stands for no normal load at all. `holding_drive` is the part of the force on a held
+ * slider that follows the drive directly [N], `drive` that on the pair per total mass [m/s^2]. */
+typedef struct {
+    double slider_mass, total_mass, mass_fraction;
+    double drive_frequency, normal_frequency;
+    double phase, load;
+    double friction_preload, friction_amplitude, preload_share;
+    Oscillator slip, stick;
+    Complex drive;
+    double relative_drive, base_acceleration;
+    Complex holding_drive;
+    double spring, damper;
+    bool resolves_resonator;
+    Complex resonator_amplitude;
+} Plant;
+
+/* Steady displacement of the resonator, complex amplitude of e [m] (eqs 31-32), a direct drive
+ * included. Refuses where it is unbounded. */
+bool steady_resonator(const Device *device, Complex *amplitude, Refusal *refusal);
+
+/* F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added [N]. Refuses as above. */
+bool equivalent_force(const Device *device, Complex *force, Refusal *refusal);
+
+/* Coefficients of the motion of `device` while `inputs` are held. Refuses at fidelity 0 and 1 where
+ * the steady force of the resonator is unbounded. */
+bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Refusal *refusal);
+
+#endif

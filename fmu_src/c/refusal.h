@@ -1,0 +1,20 @@
+/* Why a call is refused: a text that names the thing, its value and what is allowed. */
+#ifndef SLIDER_REFUSAL_H
+#define SLIDER_REFUSAL_H
+
+#include <stdbool.h>
+
+enum { REFUSAL_SIZE = 512, NUMBER_SIZE = 40 };
+
+typedef struct {
+    char text[REFUSAL_SIZE];
+} Refusal;
+
+/* Writes the text as snprintf does; returns false, so that a function can `return refuse(...)`. */
+bool refuse(Refusal *refusal, const char *format, ...);
+
+/* The shortest text that reads back as `value`, with a decimal point in every locale; as Python's
+ * repr: "0.1", "1e-05", "3500.0", "nan", "inf". Returns `text`. */
+const char *number_text(double value, char text[NUMBER_SIZE]);
+
+#endif

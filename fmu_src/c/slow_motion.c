@@ -1,0 +1,110 @@
+#include "slow_motion.h"
+
+#include <math.h>
+
+#include "angle.h"
+#include "dormand_prince.h"
+#include "lugre.h"
+#include "slow_friction.h"
+
+/* Error per step of the slow motion, relative to the fast velocity. */
+#define TOLERANCE 1e-9
+
+/* Step tried first, as a share of the time in which friction changes the fast velocity. */
+#define FIRST_STEP 0.1
+
+/* Slow velocity [m/s] and displacement of the centre [m]. */
+typedef struct {
+    double velocity, moved;
+} Passage;
+
+/* A block without vibration, under constant forces, from `velocity` on. */
+static Passage block_after(double velocity, double friction, double load, double mass,
+                           double duration) {
+    Passage passage = {0.0, 0.0};
+    if (velocity != 0.0) {
+        double deceleration = (copysign(friction, velocity) + load) / mass;
+        double stop = deceleration * velocity > 0.0 ? velocity / deceleration : INFINITY;
+        double time = fmin(stop, duration);
+        passage.moved = velocity * time - 0.5 * deceleration * time * time;
+        if (stop >= duration) {
+            passage.velocity = velocity - deceleration * duration;
+            return passage;
+        }
+        duration -= stop;
+    }
+    double spare = fabs(load) - friction;
+    if (spare > 0.0) {
+        double acceleration = -copysign(spare, load) / mass;
+        passage.velocity = acceleration * duration;
+        passage.moved += 0.5 * acceleration * duration * duration;
+    }
+    return passage;
+}
+
+static double slow_acceleration(const void *motion, double t, double velocity) {
+    const SlowFriction *friction = motion;
+    const Plant *plant = &friction->law->held.plant;
+    return -(slow_friction_at(friction, t, velocity) + plant->load) / plant->total_mass;
+}
+
+/* Carries the slow velocity in `passage` on over `duration` [s]. */
+static bool pass(const SlowFriction *friction, double duration, Passage *passage,
+                 Refusal *refusal) {
+    const Plant *plant = &friction->law->held.plant;
+    double fast = friction->law->fast.velocity, load = plant->load, total = plant->total_mass;
+    double full = slow_friction_at(friction, 0.0, INFINITY);
+    if (fast == 0.0) {
+        *passage = block_after(passage->velocity, full, load, total, duration);
+        return true;
+    }
+    double most = full + fabs(load);
+    double step = most > 0.0 ? FIRST_STEP * fast * total / most : duration;
+    return integrate(slow_acceleration, friction, duration, step, TOLERANCE * fast,
+                     &passage->velocity, &passage->moved, refusal);
+}
+
+Moment slow_start(const Law *law, State state, double position) {
+    Moment moment = {.state = state, .position = position, .event_age = INFINITY};
+    moment.mode = lugre_mode_of(&law->held, &state, 0.0);
+    return moment;
+}
+
+bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,
+                  Refusal *refusal) {
+    const Plant *plant = &law->held.plant;
+    double w = plant->drive_frequency, drive = law->fast.pair_velocity;
+    double share = device_mass_fraction(&law->device);
+    double theta = moment->theta, psi = moment->psi;
+    State state = moment->state;
+    Passage passage = {state.velocity + share * state.rate + drive * cos(theta), 0.0};
+    double centre = moment->position + share * state.displacement + drive / w * sin(theta);
+    SlowFriction friction = slow_friction_of(law, theta, psi);
+    if (!pass(&friction, duration, &passage, refusal)) {
+        return false;
+    }
+    theta = within_turn(theta + w * duration);
+    psi = within_turn(psi + plant->normal_frequency * duration);
+    Response swing = steady_swing(law->fast.resonator, theta, w);
+    state.velocity = passage.velocity - drive * cos(theta) - share * swing.rate;
+    state.displacement = swing.displacement;
+    state.rate = swing.rate;
+    Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
+    next.position = centre + passage.moved - drive / w * sin(theta) - share * swing.displacement;
+    next.mode = lugre_mode_of(&law->held, &state, psi);
+    next.event_age = INFINITY;
+    next.means.complete = true;
+    next.means.mean_velocity = passage.velocity;
+    *after = next;
+    return true;
+}
+
+double slow_friction_force(const Law *law, const Moment *moment) {
+    double velocity = period_mean_velocity(&moment->means, moment->state.velocity);
+    SlowFriction friction = slow_friction_of(law, moment->theta, moment->psi);
+    if (law->fast.velocity == 0.0 && velocity == 0.0) {
+        double full = slow_friction_at(&friction, 0.0, INFINITY);
+        return fmax(-full, fmin(full, -law->inputs.load));
+    }
+    return slow_friction_at(&friction, 0.0, velocity);
+}

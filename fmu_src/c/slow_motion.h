@@ -1,0 +1,27 @@
+/* Averaged motion, fidelity 0: the slow motion of the pair under mean friction.
+ *
+ * With D the amplitude of the drive force on the pair, its momentum over the total mass is P = X' +
+ * r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both go on smoothly
+ * whatever is tuned. V is the slow velocity, (M + m) V' = -mean friction - load. The fast parts of
+ * all outputs are the steady vibration (32)-(33), added in closed form.
+ *
+ * A LuGre bristle is taken as slaved to the motion, so it has no state here. */
+#ifndef SLIDER_SLOW_MOTION_H
+#define SLIDER_SLOW_MOTION_H
+
+#include <stdbool.h>
+
+#include "law.h"
+
+/* The first moment. The initial velocities fix the momentum of the pair, not the vibration. */
+Moment slow_start(const Law *law, State state, double position);
+
+/* The moment `duration` > 0 [s] later, inputs held. Refuses, with `after` undefined, where that
+ * takes too many steps; `after` may be `moment`. */
+bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,
+                  Refusal *refusal);
+
+/* Mean friction force [N] over a drive period, positive against +X. */
+double slow_friction_force(const Law *law, const Moment *moment);
+
+#endif

@@ -1,0 +1,59 @@
+/* Sliding or flight as a sum of exponentials: the fast form, for most devices.
+ *
+ * Velocity is v(t) = k0 + k1 t + Re(ve exp(i w t) + vq exp(i q t) + vh exp(lambda t)): the particular
+ * solutions at drive and normal frequency are split off from the free oscillation. That loses digits
+ * near resonance and for slow normal loads; `split_prepare` answers false there and RegularSlide
+ * serves. */
+#ifndef SLIDER_SPLIT_SLIDE_H
+#define SLIDER_SPLIT_SLIDE_H
+
+#include <stdbool.h>
+
+#include "first_zero.h"
+#include "plant.h"
+#include "state.h"
+
+/* Complex amplitudes per unit exp(i theta_0) and, for s = 1, per unit exp(i chi_0): displacement of the
+ * resonator (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal load
+ * swing at one frequency, or the normal load is constant: one term of v(t) then stands for both. */
+typedef struct {
+    bool merges;
+    double fastest;
+    Complex resonator_drive, velocity_drive, resonator_normal, velocity_normal;
+} Split;
+
+/* The amplitudes; false where splitting would lose digits. */
+bool split_prepare(Split *split, const Plant *plant);
+
+/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight. `travel_free` is the integral
+ * of the free part of the velocity, vh / lambda [m]; `bound` and `free_bound` [m/s^3] bound the second
+ * derivative of the velocity: of its forced part, and of its free part at first. `noise` [m/s] is the
+ * rounding error of the velocity. */
+typedef struct {
+    const Split *split;
+    const Plant *plant;
+    int direction;
+    double constant, k0, k1;
+    Complex resonator_drive, resonator_normal, resonator_free;
+    Complex velocity_drive, velocity_normal, velocity_free;
+    Complex travel_free;
+    double bound, free_bound, noise;
+} SplitSlide;
+
+/* The velocity is watched in `direction`, unless that is 0. */
+void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, int sign,
+                       const State *state, double theta, double chi, int direction);
+
+/* The velocity in the direction to watch. */
+Watch split_slide_watch(const SplitSlide *slide);
+
+/* Displacement of the slider after `t` [s], in m. */
+double split_slide_travel(const SplitSlide *slide, double t);
+
+/* State after `t` [s]. */
+State split_slide_state(const SplitSlide *slide, double t);
+
+/* Both at once, which costs less: the state, and the displacement in `travel`. */
+State split_slide_end(const SplitSlide *slide, double t, double *travel);
+
+#endif

@@ -1,0 +1,30 @@
+/* Sticking: the slider rests, the resonator swings against it, and the force needed to hold the slider
+ * is compared with what friction can supply. */
+#ifndef SLIDER_STICK_H
+#define SLIDER_STICK_H
+
+#include "first_zero.h"
+#include "forced_oscillator.h"
+#include "plant.h"
+#include "state.h"
+
+/* Motion while |needed force| stays within the limit F0 + F1 sin(chi). `direct` is the part of the needed
+ * force that follows the drive, `normal` the changing part of the limit, both complex amplitudes [N]. */
+typedef struct {
+    const Plant *plant;
+    Complex direct, normal;
+    double fixed_bound;
+    ForcedOscillator resonator;
+} Stick;
+
+/* `plant` must outlive the stick. */
+void stick_begin(Stick *stick, const Plant *plant, const State *state, double theta, double chi);
+
+/* Forward margin (limit - needed force), then backward margin (limit + needed force); returns how
+ * many: none when no force is needed, or never one that reaches the least limit. */
+int stick_watches(const Stick *stick, Watch watches[2]);
+
+/* State after `t` [s]. */
+State stick_state(const Stick *stick, double t);
+
+#endif

@@ -1,0 +1,156 @@
+#include "taylor_slide.h"
+
+#include <math.h>
+
+/* 1 / k: divisions would take a good part of the time. */
+static const double INVERSE[TAYLOR_TERMS + 1] = {
+    0.0,      1.0,      1.0 / 2,  1.0 / 3,  1.0 / 4,  1.0 / 5,  1.0 / 6,  1.0 / 7,
+    1.0 / 8,  1.0 / 9,  1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13, 1.0 / 14, 1.0 / 15,
+    1.0 / 16, 1.0 / 17, 1.0 / 18, 1.0 / 19, 1.0 / 20, 1.0 / 21, 1.0 / 22, 1.0 / 23,
+};
+
+/* i angle z: the next coefficient of a turning amplitude. */
+static Complex turned(Complex z, double angle) {
+    return complex_of(-z.im * angle, z.re * angle);
+}
+
+/* Adds to later terms of the product a b what coefficient k gives to them, first coefficients left
+ * out. Sums that are built up side by side do not wait for each other. */
+static void push_product(double *product, const double *a, const double *b, int k) {
+    int end = k < TAYLOR_ORDER - k ? k : TAYLOR_ORDER - k;
+    for (int i = 1; i < end; i++) {
+        product[k + i] += a[k] * b[i] + b[k] * a[i];
+    }
+    if (2 * k < TAYLOR_ORDER) {
+        product[2 * k] += a[k] * b[k];
+    }
+}
+
+static double value(const double *coefficients, double t) {
+    double total = 0.0;
+    for (int k = TAYLOR_ORDER; k >= 0; k--) {
+        total = total * t + coefficients[k];
+    }
+    return total;
+}
+
+/* How far a series holds [s]: where its last two terms are `tolerance`. */
+static double series_reach(const double *coefficients, double tolerance) {
+    double reach = INFINITY;
+    for (int k = TAYLOR_ORDER - 1; k <= TAYLOR_ORDER; k++) {
+        double size = fabs(coefficients[k]);
+        if (size > 0.0) {
+            reach = fmin(reach, pow(tolerance / size, INVERSE[k]));
+        }
+    }
+    return reach;
+}
+
+void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
+                        int direction, const State *state, double friction, double theta,
+                        double chi, double tolerance) {
+    double w = plant->drive_frequency, q = plant->normal_frequency, mu = bristle->coefficient;
+    double bend = (mu - direction * friction) / mu, share = friction / mu;
+    double drag = bristle->damping / mu, rate_factor = -direction * bristle->stiffness / mu;
+    double per_mass = 1.0 / plant->slider_mass, spring = plant->spring, damper = plant->damper;
+    double stiffness = plant->stick.stiffness, damping = 2.0 * plant->stick.decay;
+    Complex drive = complex_of(sin(theta), -cos(theta)), hold = plant->holding_drive;
+    Complex normal = complex_of(plant->friction_amplitude * sin(chi),
+                                -plant->friction_amplitude * cos(chi));
+    double *v = slide->velocity, *y = slide->displacement, *u = slide->rate;
+    double limit[TAYLOR_ORDER], decay[TAYLOR_TERMS];
+    double passed[TAYLOR_TERMS] = {0.0}, resisting[TAYLOR_TERMS] = {0.0};
+    double load = plant->load, lost = 0.0;
+    for (int k = 0; k < TAYLOR_ORDER; k++) {
+        limit[k] = normal.re;
+        normal = turned(normal, q * INVERSE[k + 1]);
+    }
+    limit[0] += plant->friction_preload;
+    slide->direction = direction;
+    slide->resonates = plant->mass_fraction != 0.0;
+    v[0] = state->velocity;
+    y[0] = state->displacement;
+    u[0] = state->rate;
+    decay[0] = 1.0;
+    for (int k = 0; k < TAYLOR_ORDER; k++) {
+        double step = INVERSE[k + 1];
+        double product = k == 0 ? v[0] : passed[k] + v[0] * decay[k] + v[k];
+        double bent = drag * product + direction * lost;
+        double force = share * limit[k] + bend * (resisting[k] + limit[0] * bent);
+        double held = hold.re * drive.re - hold.im * drive.im - load - force;
+        if (slide->resonates) {
+            double acceleration = (held + damper * u[k] + spring * y[k]) * per_mass;
+            double swing = plant->base_acceleration * drive.re - damping * u[k] - stiffness * y[k];
+            v[k + 1] = acceleration * step;
+            u[k + 1] = (swing - acceleration) * step;
+            y[k + 1] = u[k] * step;
+        } else {
+            v[k + 1] = held * per_mass * step;
+        }
+        decay[k + 1] = rate_factor * product * step;
+        for (int i = 1; i < TAYLOR_ORDER - k; i++) {
+            resisting[k + i] += bent * limit[i];
+        }
+        push_product(passed, v, decay, k + 1);
+        lost = -decay[k + 1];
+        load = 0.0;
+        drive = turned(drive, w * step);
+    }
+    slide->bound = 0.0;
+    slide->reach = series_reach(v, tolerance);
+    if (slide->resonates) {
+        slide->reach = fmin(slide->reach, series_reach(u, tolerance / plant->mass_fraction));
+    }
+}
+
+bool taylor_slide_departs(const TaylorSlide *slide) {
+    for (int k = 0; k < TAYLOR_TERMS; k++) {
+        if (slide->velocity[k] != 0.0) {
+            return slide->direction * slide->velocity[k] >= 0.0;
+        }
+    }
+    return true;
+}
+
+static Signal velocity_ahead(const void *motion, double t) {
+    const TaylorSlide *slide = motion;
+    double total = 0.0, slope = 0.0;
+    for (int k = TAYLOR_ORDER; k >= 0; k--) {
+        slope = slope * t + total;
+        total = total * t + slide->velocity[k];
+    }
+    Signal signal = {slide->direction * total, slide->direction * slope, slide->bound};
+    return signal;
+}
+
+Watch taylor_slide_watch(TaylorSlide *slide, double horizon) {
+    double curvature = 0.0, scale = 0.0;
+    for (int k = TAYLOR_ORDER; k >= 0; k--) {
+        double size = fabs(slide->velocity[k]);
+        scale = scale * horizon + size;
+        if (k >= 2) {
+            curvature = curvature * horizon + k * (k - 1) * size;
+        }
+    }
+    slide->bound = curvature;
+    Watch watch = {velocity_ahead, slide, 4.0 * EPSILON * scale, 1.0 / horizon, INFINITY};
+    return watch;
+}
+
+double taylor_slide_travel(const void *slide, double t) {
+    const double *velocity = ((const TaylorSlide *)slide)->velocity;
+    double total = 0.0;
+    for (int k = TAYLOR_ORDER; k >= 0; k--) {
+        total = total * t + velocity[k] * INVERSE[k + 1];
+    }
+    return total * t;
+}
+
+State taylor_slide_state(const TaylorSlide *slide, double t) {
+    State state = {value(slide->velocity, t), slide->displacement[0], slide->rate[0]};
+    if (slide->resonates) {
+        state.displacement = value(slide->displacement, t);
+        state.rate = value(slide->rate, t);
+    }
+    return state;
+}

@@ -1,0 +1,53 @@
+/* Sliding against a bristle that is still being bent: LuGre friction as a Taylor series in time.
+ *
+ * With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value
+ * where this series starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):
+ *
+ *   g = s mu + (g_r - s mu) E,    E = exp(-sigma_0 d / mu),    E' = -(sigma_0 / mu) |v| E
+ *   F = faces N (g_r + (mu - s g_r) (s (1 - E) + E sigma_1 v / mu))
+ *
+ * so no stiff state is left, and deep presliding, where g_r and 1 - E are small, keeps its digits.
+ * All factors have Taylor coefficients by recurrence. */
+#ifndef SLIDER_TAYLOR_SLIDE_H
+#define SLIDER_TAYLOR_SLIDE_H
+
+#include <stdbool.h>
+
+#include "bristle.h"
+#include "first_zero.h"
+#include "plant.h"
+#include "state.h"
+
+/* Terms of the series: near the order at which a digit costs least, whatever the tolerance. */
+enum { TAYLOR_ORDER = 22, TAYLOR_TERMS = TAYLOR_ORDER + 1 };
+
+/* Coefficients of the velocities and the displacement of the resonator, and how far they hold [s].
+ * `bound` is that of the watched curvature. */
+typedef struct {
+    int direction;
+    bool resonates;
+    double velocity[TAYLOR_TERMS], displacement[TAYLOR_TERMS], rate[TAYLOR_TERMS];
+    double reach, bound;
+} TaylorSlide;
+
+/* Motion in contact from `state` on, in `direction`, until the series no longer holds.
+ *
+ * `friction` is sigma_0 z at the start. The series is cut off at `reach`, where its last terms are
+ * `tolerance` [m/s]. */
+void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
+                        int direction, const State *state, double friction, double theta,
+                        double chi, double tolerance);
+
+/* Whether the motion begins in its direction, or stays at rest. */
+bool taylor_slide_departs(const TaylorSlide *slide);
+
+/* The velocity in the direction of sliding, up to `horizon` [s]. */
+Watch taylor_slide_watch(TaylorSlide *slide, double horizon);
+
+/* Displacement of the slider after `t` [s], in m; a TravelFunction of a TaylorSlide. */
+double taylor_slide_travel(const void *slide, double t);
+
+/* State after `t` [s]. */
+State taylor_slide_state(const TaylorSlide *slide, double t);
+
+#endif

@@ -1,0 +1,54 @@
+/* The normal load as a function of the drive angle, for averages over a turn of it. */
+#ifndef SLIDER_VIBRATING_LOAD_H
+#define SLIDER_VIBRATING_LOAD_H
+
+#include <stdbool.h>
+
+#include "device.h"
+
+/* Turns of the drive over which a clipped load may repeat and still be followed. The harmonics of
+ * the clipping that meet the drive get weaker with them; beyond, only the mean counts. */
+enum { MOST_TURNS_TO_REPEAT = 4 };
+
+/* Distance of a ratio from a fraction that is due to rounding. */
+#define EXACT 1e-12
+
+/* Turns q of the drive after which the load repeats, ratio n / q; 0 for none that counts.
+ *
+ * `tolerance` is how far q ratio may be from an integer, times q. Without flight the load is a sine
+ * and only integers count: over several turns it would average out. */
+int turns_to_repeat(const Device *device, double ratio, double tolerance);
+
+/* N(n tau + delta) with lift-off, in N, averaged over the `turns` of the drive after which it
+ * repeats; where it never does its mean instead (`is_constant`). The contact is in touch from
+ * -`dip` to pi + `dip` of the phase of N, and `per_turn` is the integral of N over that. */
+typedef struct {
+    double preload, amplitude, ratio, delta;
+    double dip, cos_dip, per_turn;
+    int turns;
+    bool is_constant;
+    double constant;
+} VibratingLoad;
+
+VibratingLoad vibrating_load_of(const Device *device, double ratio, double delta);
+
+/* The same load with its mean alone, for ratios other than 0. */
+VibratingLoad vibrating_load_flattened(const VibratingLoad *load);
+
+/* Waves of the load over a turn of the drive; 0 for a constant load. */
+static inline double vibrating_load_waves(const VibratingLoad *load) {
+    return load->is_constant ? 0.0 : load->ratio;
+}
+
+/* First drive angle above `angle` [rad] at which the contact lifts or touches down; infinite if it
+ * never does. */
+double vibrating_load_next_kink(const VibratingLoad *load, double angle);
+
+/* Normal load [N] at drive angle `angle` [rad]. */
+double vibrating_load_at(const VibratingLoad *load, double angle);
+
+/* The integral over [turning, 2 pi - turning], where sliding goes forward, less that over
+ * [-turning, turning] [N rad]. */
+double vibrating_load_difference(const VibratingLoad *load, double turning);
+
+#endif

@@ -1,0 +1,1 @@
+"""What accuracy costs: FMUs and their peers side by side in one run."""

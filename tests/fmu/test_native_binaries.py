@@ -1,0 +1,117 @@
+"""The binaries inside the native FMU: what they show, what they need, how large they are."""
+
+from __future__ import annotations
+
+import os
+import re
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from fmu_src.building.native_fmu import build_native
+from fmu_src.building.platforms import PLATFORMS
+from fmu_src.c_header import C_SOURCES
+from tests.fmu.binary_files import elf_exports, elf_needed_versions, mach_libraries, pe_exports
+
+MEGABYTE = 1_000_000
+X86_64, ARM64 = 0x01000007, 0x0100000C
+# zig's linker puts these addresses of the library itself into every library for macOS.
+MARKS_OF_THE_LINKER = {"__dso_handle", "_mh_dylib_header"}
+LINUX, WINDOWS, MACOS = (PLATFORMS[n] for n in ("linux64", "win64", "darwin64"))
+MODEL = "SliderResonator"
+
+
+def fmi_functions() -> set[str]:
+    """All functions of the standard, those of model exchange too, by its header."""
+    header = (C_SOURCES / "fmi2" / "fmi2Functions.h").read_text()
+    return set(re.findall(r"FMI2_Export +(?:fmi2\w+TYPE) +(fmi2\w+);", header))
+
+
+@pytest.fixture(scope="session")
+def complete_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The native FMU for every platform."""
+    return build_native(tmp_path_factory.mktemp("complete"))
+
+
+@pytest.fixture(scope="session")
+def linux_binary(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """That for Linux, which any machine builds quickly."""
+    fmu = build_native(tmp_path_factory.mktemp("linux"), platforms=[LINUX.name])
+    with zipfile.ZipFile(fmu) as archive:
+        return archive.read(LINUX.binary(MODEL))
+
+
+@pytest.fixture(scope="session")
+def binaries(complete_fmu: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(complete_fmu) as archive:
+        names = [n for n in archive.namelist() if n.startswith("binaries/")]
+        return {n: archive.read(n) for n in names}
+
+
+def test_the_standard_has_44_functions() -> None:
+    assert len(fmi_functions()) == 44
+
+
+@pytest.mark.slow
+def test_platforms(binaries: dict[str, bytes]) -> None:
+    assert sorted(binaries) == [
+        "binaries/darwin64/SliderResonator.dylib",
+        "binaries/linux64/SliderResonator.so",
+        "binaries/win64/SliderResonator.dll",
+    ]
+
+
+def test_linux_exports(linux_binary: bytes) -> None:
+    assert elf_exports(linux_binary) == fmi_functions(), "nothing but FMI is shown"
+
+
+def test_linux_needs(linux_binary: bytes) -> None:
+    versions = elf_needed_versions(linux_binary)
+    newest = max(tuple(map(int, re.findall(r"\d+", v))) for v in versions)
+    assert {v.split("_")[0] for v in versions} == {"GLIBC"}
+    assert newest <= (2, 17), f"needs {newest}: Linux distributions since 2014 are to load it"
+
+
+@pytest.mark.slow
+def test_windows_exports(binaries: dict[str, bytes]) -> None:
+    assert pe_exports(binaries[WINDOWS.binary(MODEL)]) == fmi_functions()
+
+
+@pytest.mark.slow
+def test_macos_libraries(binaries: dict[str, bytes]) -> None:
+    libraries = list(mach_libraries(binaries[MACOS.binary(MODEL)]))
+    assert [x.processor for x in libraries] == [X86_64, ARM64]
+    for library in libraries:
+        assert library.exports - MARKS_OF_THE_LINKER == fmi_functions()
+        assert library.own_name == "SliderResonator.dylib", "no path of the build"
+        assert library.first_system <= (11, 0)
+
+
+@pytest.mark.slow
+def test_size(complete_fmu: Path) -> None:
+    assert complete_fmu.stat().st_size < MEGABYTE
+
+
+@pytest.mark.slow
+def test_no_path_of_the_build_is_inside(binaries: dict[str, bytes]) -> None:
+    for name, data in binaries.items():
+        found = [t for t in (b"/tmp/", os.fsencode(Path.home()), b".pdb") if t in data]
+        assert found == [], name
+
+
+@pytest.mark.slow
+def test_equal_bytes_but_for_macos(complete_fmu: Path, tmp_path: Path) -> None:
+    """zig's linker leaves chance bytes in the padding of libraries for arm64 on macOS."""
+    with zipfile.ZipFile(complete_fmu) as one, zipfile.ZipFile(build_native(tmp_path)) as other:
+        assert one.namelist() == other.namelist()
+        for name in set(one.namelist()) - {MACOS.binary(MODEL)}:
+            assert one.read(name) == other.read(name), name
+
+
+@pytest.mark.slow
+def test_a_quick_build_is_the_same_build(complete_fmu: Path, native_fmu: Path) -> None:
+    """A state that one wrote is one that the other reads."""
+    with zipfile.ZipFile(complete_fmu) as complete, zipfile.ZipFile(native_fmu) as quick:
+        for name in quick.namelist():
+            assert quick.read(name) == complete.read(name), name

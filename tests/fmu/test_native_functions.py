@@ -1,0 +1,248 @@
+"""FMI functions of the native FMU called as no careful host does."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import pytest
+from fmpy import calloc, free
+from fmpy.fmi2 import (
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+)
+
+from fmu_src.python.slider_resonator.variables import VALUE_REFERENCE, VARIABLES
+from tests.fmu.host import Instance, Unpacked
+from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
+from tests.fmu.test_native_binaries import fmi_functions
+
+pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
+
+NULL = ctypes.c_void_p()
+MODEL_EXCHANGE = (
+    "EnterEventMode",
+    "NewDiscreteStates",
+    "EnterContinuousTimeMode",
+    "CompletedIntegratorStep",
+    "SetTime",
+    "SetContinuousStates",
+    "GetDerivatives",
+    "GetEventIndicators",
+    "GetContinuousStates",
+    "GetNominalsOfContinuousStates",
+)
+NOT_OFFERED = (
+    "CancelStep",
+    "SetRealInputDerivatives",
+    "GetRealOutputDerivatives",
+    "GetDirectionalDerivative",
+)
+
+
+@dataclass
+class Host:
+    """Callbacks that note what they are asked for; those of `missing` are null."""
+
+    missing: tuple[str, ...] = ()
+    memory: bool = True
+    log: list[tuple[bytes, int, bytes, bytes]] = field(default_factory=list)
+    taken: list[int] = field(default_factory=list)
+    given_back: list[int] = field(default_factory=list)
+    kept: list[fmi2CallbackFunctions] = field(default_factory=list)
+
+    def callbacks(self) -> fmi2CallbackFunctions:
+        functions = {
+            "logger": fmi2CallbackLoggerTYPE(lambda _, *said: self.log.append(said)),
+            "allocateMemory": fmi2CallbackAllocateMemoryTYPE(self._allocate),
+            "freeMemory": fmi2CallbackFreeMemoryTYPE(self._free),
+        }
+        present = {k: f for k, f in functions.items() if k not in self.missing}
+        self.kept.append(fmi2CallbackFunctions(**present))
+        return self.kept[-1]
+
+    def _allocate(self, count: int, size: int) -> int | None:
+        if not self.memory:
+            return None
+        self.taken.append(calloc(count, size))
+        return self.taken[-1]
+
+    def _free(self, memory: int) -> None:
+        self.given_back.append(memory)
+        free(memory)
+
+
+def instantiate_as(
+    instance: Instance, guid: str, host: Host, name: bytes | None = b"slider", kind: int = 1
+) -> int | None:
+    """The component that fmi2Instantiate makes."""
+    function = instance.slave.dll.fmi2Instantiate
+    function.restype = ctypes.c_void_p
+    callbacks = host.callbacks()
+    component: int | None = function(
+        name, ctypes.c_int(kind), guid.encode(), None, ctypes.byref(callbacks), 0, 0
+    )
+    return component
+
+
+def give_back(instance: Instance, component: int | None) -> None:
+    instance.slave.dll.fmi2FreeInstance(ctypes.c_void_p(component))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "text"),
+    [
+        ({"guid": "{not-this-build}"}, "fmuGUID = '{not-this-build}' refused: allowed is '"),
+        ({"kind": 0}, "fmuType = 0 refused: allowed is 1, fmi2CoSimulation"),
+        ({"name": b""}, "instanceName refused: it is empty"),
+        ({"name": None}, "instanceName refused: it is a null pointer"),
+    ],
+    ids=["guid", "type", "empty name", "no name"],
+)
+def test_a_refused_instantiation_says_why(
+    instance: Instance, unpacked: Unpacked, wrong: dict[str, object], text: str
+) -> None:
+    host = Host()
+    wish = {"guid": unpacked.description.guid} | wrong
+    assert instantiate_as(instance, host=host, **wish) is None  # type: ignore[arg-type]
+    ((_, status, category, said),) = host.log
+    assert (status, category) == (ERROR, b"logStatusError"), "also when no logging is asked for"
+    assert text in said.decode()
+    assert host.taken == host.given_back
+
+
+def test_memory_is_the_hosts_and_all_of_it_comes_back(
+    instance: Instance, unpacked: Unpacked
+) -> None:
+    host = Host()
+    component = instantiate_as(instance, unpacked.description.guid, host)
+    assert host.taken == [component], "one piece for an instance"
+    give_back(instance, component)
+    assert host.given_back == host.taken
+
+
+@pytest.mark.parametrize(
+    "missing", [("allocateMemory",), ("freeMemory",), ("allocateMemory", "freeMemory", "logger")]
+)
+def test_a_host_without_memory_callbacks_is_served(
+    instance: Instance, unpacked: Unpacked, missing: tuple[str, ...]
+) -> None:
+    host = Host(missing=missing)
+    component = instantiate_as(instance, unpacked.description.guid, host)
+    assert component is not None
+    give_back(instance, component)
+    assert host.taken == host.given_back == [], "memory from one is never given to another"
+
+
+def test_a_host_without_memory_is_told(instance: Instance, unpacked: Unpacked) -> None:
+    host = Host(memory=False)
+    assert instantiate_as(instance, unpacked.description.guid, host) is None
+    assert b"no memory for an instance" in host.log[0][-1]
+
+
+def test_no_callbacks_no_instance(instance: Instance, unpacked: Unpacked) -> None:
+    function = instance.slave.dll.fmi2Instantiate
+    function.restype = ctypes.c_void_p
+    assert function(b"x", 1, unpacked.description.guid.encode(), None, None, 0, 0) is None
+
+
+@pytest.mark.parametrize("function", sorted(fmi_functions() - {"fmi2Instantiate"}))
+def test_no_instance_is_an_error_and_no_crash(instance: Instance, function: str) -> None:
+    foreign = instance.slave.dll[function]
+    if function in ("fmi2GetVersion", "fmi2GetTypesPlatform"):
+        foreign.restype = ctypes.c_char_p
+        assert foreign() in (b"2.0", b"default")
+        return
+    foreign.restype = ctypes.c_int
+    status = foreign(*[ctypes.c_void_p()] * 8)
+    if function != "fmi2FreeInstance":
+        assert status == ERROR
+
+
+@pytest.mark.parametrize("function", [*MODEL_EXCHANGE, *NOT_OFFERED])
+def test_what_is_not_offered_is_refused_by_name(instance: Instance, function: str) -> None:
+    before = instance.state()
+    assert call(instance, f"fmi2{function}", *[NULL] * 6) == ERROR
+    assert f"fmi2{function} refused" in instance.log[-1]
+    assert instance.state() == before
+
+
+@pytest.mark.parametrize("kind", ["Real", "Integer", "Boolean", "String"])
+@pytest.mark.parametrize("verb", ["Get", "Set"])
+def test_null_pointers_and_huge_counts_are_refused(
+    instance: Instance, verb: str, kind: str
+) -> None:
+    function, vr, values = f"fmi2{verb}{kind}", references([0] * 37), reals([0.0] * 37)
+    for arguments in ((NULL, 1, values), (vr, 1, NULL), (NULL, 37, NULL)):
+        assert call(instance, function, *arguments) == ERROR
+        assert f"{function}: a null pointer refused" in instance.log[-1]
+    for count in (len(VARIABLES) + 1, 2**31, 2**64 - 1):
+        assert call(instance, function, vr, count, values) == ERROR
+        assert f"{function}: nvr = " in instance.log[-1]
+        assert "allowed is up to 37" in instance.log[-1]
+    assert call(instance, function, NULL, 0, NULL) == OK, "nothing asked, nothing refused"
+
+
+def test_a_refused_get_writes_nothing(instance: Instance) -> None:
+    values = reals([7.0, 7.0])
+    known = VALUE_REFERENCE["load"]
+    assert call(instance, "fmi2GetReal", references([known, 999]), 2, values) == ERROR
+    assert list(values) == [7.0, 7.0]
+
+
+def test_status_of_the_last_step(instance: Instance) -> None:
+    value, time = ctypes.c_int(-1), ctypes.c_double(-1.0)
+    instance.step(0.01)
+    assert call(instance, "fmi2GetStatus", ctypes.c_int(0), ctypes.byref(value)) == OK
+    assert value.value == OK
+    refused = call(instance, "fmi2DoStep", ctypes.c_double(0.5), ctypes.c_double(0.01))
+    assert refused == ERROR
+    assert call(instance, "fmi2GetStatus", ctypes.c_int(0), ctypes.byref(value)) == OK
+    assert value.value == ERROR
+    assert call(instance, "fmi2GetRealStatus", ctypes.c_int(2), ctypes.byref(time)) == OK
+    assert time.value == instance.time, "the refused step did not count"
+    instance.slave.reset()
+    assert call(instance, "fmi2GetStatus", ctypes.c_int(0), ctypes.byref(value)) == OK
+    assert value.value == OK
+
+
+@pytest.mark.parametrize(
+    ("function", "known"),
+    [("Status", 0), ("RealStatus", 2), ("BooleanStatus", 3), ("IntegerStatus", None),
+     ("StringStatus", None)],
+)  # fmt: skip
+def test_a_status_that_is_not_known_is_discarded(
+    instance: Instance, function: str, known: int | None
+) -> None:
+    place = ctypes.create_string_buffer(b"\x07" * 8, 8)
+    for kind in (-1, 0, 1, 2, 3, 99):
+        expected = OK if kind == known else DISCARD
+        status = call(instance, f"fmi2Get{function}", ctypes.c_int(kind), place)
+        assert status == expected, kind
+        assert call(instance, f"fmi2Get{function}", ctypes.c_int(kind), NULL) == ERROR
+    if known is None:
+        assert place.raw == b"\x07" * 8, "nothing was written"
+
+
+def test_a_time_that_leaves_the_range_of_numbers_is_refused(
+    instantiate: Callable[[], Instance],
+) -> None:
+    instance = instantiate().initialize(start_time=1.7e308, fidelity=0, friction_coefficient=0.0)
+    with instance.refuses("leaves the range of floating point numbers"):
+        instance.slave.doStep(instance.time, 1e308)
+
+
+def test_masses_beyond_the_range_of_numbers_are_refused(
+    instantiate: Callable[[], Instance],
+) -> None:
+    instance = instantiate()
+    instance.slave.enterInitializationMode()
+    instance.set(slider_mass=1e-12, resonator_mass=math.nextafter(math.inf, 0.0))
+    with instance.refuses("masses, frequencies and amplitudes together leave the range"):
+        instance.slave.exitInitializationMode()
+    instance.set(slider_mass=1.0, resonator_mass=0.1)
+    instance.slave.exitInitializationMode()

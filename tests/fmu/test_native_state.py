@@ -1,0 +1,197 @@
+"""The serialised state of the native FMU: the same layout everywhere, and nothing else is taken."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import struct
+from collections.abc import Callable
+
+import pytest
+
+from fmu_src.python.slider_resonator.variables import VARIABLES
+from tests.fmu.host import Instance, Unpacked, unpack
+from tests.fmu.native_calls import ERROR, OK, call
+
+pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
+
+STEP = 3.1e-4
+SETTABLE = [v for v in VARIABLES if v.causality != "output"]
+# What the layout in snapshot.c says, read by other code.
+FIELDS = (
+    *("lifecycle", "time", "stop_time", "last_event_time", "moving"),
+    *("velocity", "displacement", "rate", "position", "theta", "psi", "mode"),
+    *("sliding", "reversals", "sticks", "event_age"),
+    *("travel", "elapsed", "sticking", "complete", "mean_velocity", "stick_fraction", "bristle"),
+)
+HEAD = 8 + 40
+LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")
+
+
+def checksum(data: bytes) -> int:
+    """FNV-1a."""
+    total = 14695981039346656037
+    for byte in data:
+        total = (total ^ byte) * 1099511628211 % 2**64
+    return total
+
+
+def numbers(data: bytes) -> dict[str, float]:
+    found = LAYOUT.unpack(data)[2:-1]
+    return dict(zip([*FIELDS, *(v.name for v in SETTABLE)], found, strict=True))
+
+
+def forged(data: bytes, **changes: float) -> bytes:
+    """A state with other numbers and the checksum that belongs to them."""
+    changed = numbers(data) | changes
+    body = data[:HEAD] + struct.pack(f"<{len(changed)}d", *changed.values())
+    return body + struct.pack("<Q", checksum(body))
+
+
+def test_the_layout_is_that_of_any_platform(instance: Instance, unpacked: Unpacked) -> None:
+    instance.set(phase=0.4)
+    instance.run(7, STEP)
+    data = instance.state()
+    magic, guid, *_, found = LAYOUT.unpack(data)
+    assert magic == b"SLIDRES\x01", "the version of the layout is part of it"
+    assert guid.rstrip(b"\0").decode() == unpacked.description.guid
+    assert found == checksum(data[:-8])
+    state = numbers(data)
+    assert state["time"] == instance.time
+    assert state["stop_time"] == math.inf
+    assert state["event_age"] >= 0.0
+    for name in ("position", "velocity", "reversals", "last_event_time"):
+        assert (state[name],) == instance.get(name), name
+    for variable in SETTABLE:
+        expected = 0.4 if variable.name == "phase" else variable.start
+        assert state[variable.name] == expected, variable.name
+
+
+def test_a_state_made_elsewhere_is_taken(
+    instance: Instance, instantiate: Callable[[], Instance]
+) -> None:
+    instance.run(7, STEP)
+    foreign = forged(instance.state(), position=0.25, load=0.03)
+    other = instantiate()
+    other.restore(foreign)
+    assert other.get("position", "load") == (0.25, 0.03)
+    other.time = instance.time
+    other.run(3, STEP)
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({"time": math.nan}, "time = nan; allowed is a finite number"),
+        ({"stop_time": math.nan}, "stop_time = nan; allowed is a finite number"),
+        ({"event_age": -math.inf}, "event_age = -inf; allowed is a finite number"),
+        ({"velocity": math.inf}, "velocity = inf; allowed is a finite number"),
+        ({"mode": 3.0}, "mode = 3.0; allowed is -1 to 2"),
+        ({"mode": 0.5}, "mode = 0.5; allowed is -1 to 2"),
+        ({"sliding": math.nan}, "sliding = nan; allowed is -1 to 1"),
+        ({"lifecycle": 4.0}, "lifecycle = 4.0; allowed is 0 to 3"),
+        ({"complete": -1.0}, "complete = -1.0; allowed is 0 to 1"),
+        ({"moving": 0.0}, "it holds no motion"),
+        ({"load": math.nan}, "load = nan refused: allowed is a finite number"),
+        ({"slider_mass": 0.0}, "slider_mass = 0.0 refused: allowed is a finite number of at least"),
+        ({"friction_faces": 1.5}, "friction_faces = 1.5 refused: allowed is an integer"),
+        (
+            {"friction_law": 1.0, "friction_coefficient": 0.0},
+            "friction_coefficient = 0.0 refused: with LuGre friction",
+        ),
+    ],
+    ids=str,
+)
+def test_numbers_that_no_instance_has_are_refused(
+    instance: Instance, changes: dict[str, float], text: str
+) -> None:
+    instance.run(3, STEP)
+    with instance.refuses(text):
+        instance.restore(forged(instance.state(), **changes))
+
+
+def test_a_state_of_another_build_is_refused_by_name(instance: Instance) -> None:
+    data = instance.state()
+    body = data[:8] + data[8:48].replace(data[8:12], b"0bad") + data[48:-8]
+    with instance.refuses("FMU state refused: it is of another build; allowed is one of the build"):
+        instance.restore(body + struct.pack("<Q", checksum(body)))
+
+
+@pytest.mark.usefixtures("unpacked")
+def test_a_state_of_the_python_fmu_is_refused(
+    instance: Instance, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    python = unpack(request.getfixturevalue("python_fmu"), tmp_path_factory.mktemp("python"))
+    other = Instance(python).initialize()
+    foreign = other.state()
+    other.free()
+    with instance.refuses("FMU state refused", "without the head of a state"):
+        instance.restore(foreign)
+
+
+def _instantiated(_: Instance) -> None:
+    pass
+
+
+def _initializing(instance: Instance) -> None:
+    instance.slave.setupExperiment(startTime=0.0, stopTime=1.0)
+    instance.slave.enterInitializationMode()
+
+
+def _stepping(instance: Instance) -> None:
+    instance.initialize().step(STEP)
+
+
+def _terminated(instance: Instance) -> None:
+    instance.initialize().slave.terminate()
+
+
+@pytest.mark.parametrize("reach", [_instantiated, _initializing, _stepping, _terminated])
+def test_every_state_of_life_comes_back(
+    instantiate: Callable[[], Instance], reach: Callable[[Instance], None]
+) -> None:
+    instance, other = instantiate(), instantiate().initialize(load=0.2)
+    reach(instance)
+    other.restore(instance.state())
+    assert other.state() == instance.state()
+
+
+def test_memory_of_another_size_is_refused(instance: Instance) -> None:
+    state = instance.slave.getFMUstate()
+    size = ctypes.c_size_t()
+    assert call(instance, "fmi2SerializedFMUstateSize", state, ctypes.byref(size)) == OK
+    memory = ctypes.create_string_buffer(size.value + 1)
+    for wrong in (0, size.value - 1, size.value + 1):
+        assert call(instance, "fmi2SerializeFMUstate", state, memory, wrong) == ERROR
+        assert f"size = {wrong} refused: allowed is {size.value}" in instance.log[-1]
+        assert memory.raw == bytes(size.value + 1), "nothing was written"
+    instance.slave.freeFMUstate(state)
+
+
+def test_a_state_is_written_over_when_it_is_handed_back(instance: Instance) -> None:
+    state = instance.slave.getFMUstate()
+    kept = state.value
+    instance.run(3, STEP)
+    assert call(instance, "fmi2GetFMUstate", ctypes.byref(state)) == OK
+    assert state.value == kept, "its memory is used again"
+    assert instance.slave.serializeFMUstate(state) == instance.state()
+    assert call(instance, "fmi2FreeFMUstate", ctypes.byref(state)) == OK
+    assert state.value is None
+    assert call(instance, "fmi2FreeFMUstate", ctypes.byref(state)) == OK, "nothing to free is fine"
+
+
+def test_null_pointers_are_refused(instance: Instance) -> None:
+    null, bytes_ = ctypes.c_void_p(), ctypes.create_string_buffer(500)
+    state = ctypes.c_void_p()
+    for function, arguments in {
+        "fmi2GetFMUstate": (null,),
+        "fmi2SetFMUstate": (null,),
+        "fmi2SerializedFMUstateSize": (null, bytes_),
+        "fmi2SerializeFMUstate": (null, bytes_, 500),
+        "fmi2DeSerializeFMUstate": (null, 500, ctypes.byref(state)),
+    }.items():
+        assert call(instance, function, *arguments) == ERROR, function
+        assert f"{function}: " in instance.log[-1]
+        assert "null pointer" in instance.log[-1]
+    assert call(instance, "fmi2DeSerializeFMUstate", bytes_, 500, null) == ERROR
+    assert state.value is None

@@ -1,0 +1,84 @@
+"""What the Python FMU owes a process that goes on without it: its streams, modules and memory."""
+
+from __future__ import annotations
+
+import gc
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from fmpy.fmi1 import FMICallException
+
+from tests.fmu.host import Instance, Unpacked
+
+STEP = 1.3e-3
+
+
+def test_text_reaches_standard_error_without_a_logger(
+    unpacked: Unpacked, capsys: pytest.CaptureFixture[str]
+) -> None:
+    instance = Instance(unpacked, logging_on=False).initialize()
+    with pytest.raises(FMICallException):
+        instance.set(load=float("nan"))
+    instance.free()
+    assert instance.log == [], "the host asked for no log"
+    assert "load = nan refused: allowed is a finite number" in capsys.readouterr().err
+
+
+LET_GO = """
+import atexit, sys
+from pathlib import Path
+from tests.fmu.host import Instance, unpack
+asked, register = [], atexit.register
+def note(function, *args, **kwargs):
+    asked.append(getattr(function, "__name__", ""))
+    return register(function, *args, **kwargs)
+atexit.register = note
+for folder in ("first", "second"):
+    unpacked = unpack(Path(sys.argv[1]), Path(sys.argv[2], folder))
+    for _ in range(3):
+        Instance(unpacked).initialize().free()
+print(asked.count("_let_go"))
+"""
+
+
+def test_each_binary_is_asked_once_to_let_go_before_the_process_ends(
+    python_fmu: Path, tmp_path: Path
+) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", LET_GO, python_fmu, tmp_path],
+        cwd=Path(__file__).resolve().parents[2],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    expected = 2 if sys.platform == "linux" else 0
+    assert int(done.stdout) == expected, (
+        "unasked, the binary on Linux frees memory twice at the end"
+    )
+
+
+def test_many_instances_leave_the_search_path_as_it_was(unpacked: Unpacked) -> None:
+    Instance(unpacked).initialize().free()
+    before = list(sys.path)
+    for _ in range(200):
+        instance = Instance(unpacked).initialize()
+        instance.step(STEP)
+        instance.free()
+    assert sys.path == before
+
+
+def test_freed_instances_are_gone(unpacked: Unpacked) -> None:
+    def alive() -> int:
+        gc.collect()
+        return sum(type(o).__name__ == "SliderResonatorPy" for o in gc.get_objects())
+
+    before = alive()
+    for _ in range(5):
+        instance = Instance(unpacked).initialize()
+        with instance.refuses("load"):
+            instance.set(load=float("nan"))
+        instance.free()
+    assert alive() == before, "references that refusals keep must not keep instances"

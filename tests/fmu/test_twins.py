@@ -1,0 +1,191 @@
+"""The native FMU against the Python one: the same motion to rounding, the same events."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from harness.drive import Instance, Record, instantiate, run
+from harness.errors import Refusal
+from harness.fmu import open_fmu
+from harness.interface import OUTPUTS
+from harness.scene import built_in_scenes, read_scene
+from harness.schedule import Schedule, schedule, steps
+
+COUNTS = ("reversals", "contact_mode")
+ROUNDING = 1e-11
+"""Difference of Coulomb signals, as a share of their peak."""
+
+Twins = tuple[Instance, Instance]
+
+
+@pytest.fixture(scope="module")
+def twins(native_fmu: Path, python_fmu: Path) -> Iterator[Twins]:
+    with ExitStack() as stack:
+        native, python = (
+            stack.enter_context(instantiate(stack.enter_context(open_fmu(fmu))))
+            for fmu in (native_fmu, python_fmu)
+        )
+        yield native, python
+
+
+def assert_equal(native: Record, python: Record, allowed: float) -> None:
+    """Equal counts; every other signal within `allowed` of its peak."""
+    for name in OUTPUTS:
+        ours, other = native[name], python[name]
+        if name in COUNTS:
+            np.testing.assert_array_equal(ours, other, f"{name}: the twins see other events")
+        elif allowed <= ROUNDING or name != "last_event_time":
+            gap = np.abs(ours - other).max()
+            assert gap <= allowed * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
+
+
+def scale(name: str, record: Record) -> float:
+    """The peak of a signal; rounding of a small one comes from larger ones beside it."""
+    peak = float(np.abs(record[name]).max())
+    beside = {
+        "velocity": "resonator_velocity",
+        "mean_velocity": "resonator_velocity",
+        "steady_velocity": "velocity",
+        "position": "resonator_displacement",
+        "friction_force": "normal_force",
+        "blocking_force": "normal_force",
+    }.get(name)
+    if beside:
+        peak = max(peak, float(np.abs(record[beside]).max()))
+    return max(peak, 1e-300)
+
+
+def both(twins: Twins, values: Mapping[str, float], course: Schedule) -> tuple[Record, Record]:
+    native, python = (run(instance, values, course) for instance in twins)
+    return native, python
+
+
+@pytest.mark.parametrize(
+    "name",
+    [name for name, path in sorted(built_in_scenes().items()) if read_scene(path).stop_time],
+)
+def test_scenes(twins: Twins, name: str) -> None:
+    scene = read_scene(built_in_scenes()[name])
+    course = scene.schedule()
+    shortened = Schedule(course.times[:2000], course.phase, course.load, course.frequency_ratio)
+    native, python = both(twins, scene.parameters, shortened)
+    lugre = scene.device.friction_law == 1
+    assert_equal(native, python, scene.device.tolerance if lugre else ROUNDING)
+
+
+ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5, 1.01]), st.floats(-3.0, 3.0))
+parameters = st.fixed_dictionaries(
+    {
+        "slider_mass": st.floats(0.02, 3.0),
+        "resonator_mass": st.one_of(st.just(0.0), st.floats(0.01, 0.5)),
+        "resonator_frequency": st.floats(30.0, 300.0),
+        "damping_ratio": st.one_of(st.sampled_from([0.05, 1.0]), st.floats(0.0, 3.0)),
+        "normal_preload": st.floats(0.1, 2.0),
+        "normal_amplitude": st.floats(0.0, 3.0),
+        "base_amplitude": st.floats(1e-5, 2e-3),
+        "drive_frequency": st.floats(50.0, 200.0),
+        "tangential_force": st.one_of(st.just(0.0), st.floats(-2.0, 2.0)),
+        "friction_coefficient": st.floats(0.01, 0.8),
+        "friction_faces": st.sampled_from([1, 2]),
+        "fidelity": st.sampled_from([0, 1, 2]),
+        "initial_velocity": st.one_of(st.just(0.0), st.floats(-0.1, 0.1)),
+        "initial_resonator_displacement": st.one_of(st.just(0.0), st.floats(-1e-3, 1e-3)),
+    }
+)
+courses = st.lists(
+    st.tuples(st.floats(-math.pi, math.pi), st.floats(-1.0, 1.0), ratios), min_size=1, max_size=3
+)
+
+
+def course_of(values: Mapping[str, float], inputs: list[tuple[float, float, float]]) -> Schedule:
+    """Each triple of inputs for two drive periods, in steps that are no round part of them."""
+    period = math.tau / values["drive_frequency"]
+    phases, loads, ratios = (
+        steps([(2.0 * period * k, column[k]) for k in range(len(inputs))])
+        for column in zip(*inputs, strict=True)
+    )
+    stop = 2.0 * period * len(inputs)
+    return schedule(stop, 0.37 * period, phase=phases, load=loads, frequency_ratio=ratios)
+
+
+quick = settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+
+
+@quick
+@given(parameters, courses)
+def test_coulomb_devices(
+    twins: Twins, values: dict[str, float], inputs: list[tuple[float, float, float]]
+) -> None:
+    try:
+        native, python = both(twins, values, course_of(values, inputs))
+    except Refusal:
+        assume(False)  # `test_refusals` compares those
+    assert_equal(native, python, ROUNDING)
+
+
+@quick
+@given(parameters, courses, st.sampled_from([50.0, 1e3, 1e5, 1e8]), st.sampled_from([0.0, 10.0]))
+def test_lugre_devices(
+    twins: Twins,
+    values: dict[str, float],
+    inputs: list[tuple[float, float, float]],
+    stiffness: float,
+    damping: float,
+) -> None:
+    lugre = {"friction_law": 1, "bristle_stiffness": stiffness, "bristle_damping": damping}
+    tolerance = 1e-8
+    try:
+        native, python = both(
+            twins, values | lugre | {"tolerance": tolerance}, course_of(values, inputs)
+        )
+    except Refusal:
+        assume(False)  # `test_refusals` compares those
+    assert_equal(native, python, tolerance)
+
+
+def refused(instance: Instance, values: Mapping[str, float]) -> str:
+    with pytest.raises(Refusal) as refusal:
+        run(instance, values, schedule(0.01, 0.001))
+    return str(refusal.value).partition(": ")[2]
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        # Undamped, and driven at the slip resonance: wn^2 = (1 - r_m) w^2.
+        {
+            "damping_ratio": 0.0,
+            "fidelity": 1,
+            "resonator_mass": 3.0,
+            "resonator_frequency": 1.0,
+            "drive_frequency": 2.0,
+        },
+        {"friction_law": 1, "friction_coefficient": 0.0},
+        {"slider_mass": 0.0},
+        {"base_amplitude": math.nan},
+        {"drive_frequency": 1e300, "base_amplitude": 1e300},
+        {"friction_faces": 3},
+        {"tolerance": 0.5},
+    ],
+)
+def test_refusals(twins: Twins, values: dict[str, float]) -> None:
+    native, python = (refused(instance, values) for instance in twins)
+    assert native == python
+    assert "allowed" in native
+
+
+def test_outputs_agree_on_every_signal(twins: Twins) -> None:
+    """No output is left out of the comparison above by a name of its own."""
+    native, python = both(twins, {}, schedule(0.05, 0.001))
+    signals: dict[str, NDArray[np.float64]] = {name: native[name] for name in OUTPUTS}
+    assert all(np.isfinite(signal).all() for signal in signals.values())
+    assert_equal(native, python, ROUNDING)
