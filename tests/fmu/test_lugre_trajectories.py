@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -10,8 +11,12 @@ import pytest
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
 from harness.references.lugre_taylor import simulate_lugre
+from harness.references.lugre_trajectory import LugreTrajectory
 from tests.fmu.host import Instance
+from tests.fmus import both_fmus
 from tests.problems import DURATION
+
+pytestmark = both_fmus
 
 SIGNALS = (
     "position",
@@ -31,6 +36,18 @@ CASES: dict[str, tuple[dict[str, float], dict[str, float]]] = {
 }
 
 
+@cache
+def referee_of(
+    parameters: tuple[tuple[str, float], ...],
+    inputs: tuple[tuple[str, float], ...],
+    duration: float,
+) -> LugreTrajectory:
+    """The referee at a hundred moments, for both FMUs."""
+    device = Device.from_mapping(dict(parameters))
+    held = HeldInputs(0.0, duration, **dict(inputs))
+    return simulate_lugre(device, [held], np.linspace(0.0, duration, 101)[1:])
+
+
 def deviations(
     instantiate: Callable[[], Instance],
     parameters: dict[str, float],
@@ -39,9 +56,7 @@ def deviations(
 ) -> dict[str, float]:
     """Largest deviation of each signal as a fraction of its peak; reversals as they differ."""
     times = np.linspace(0.0, duration, 101)[1:]
-    referee = simulate_lugre(
-        Device.from_mapping(parameters), [HeldInputs(0.0, duration, **inputs)], times
-    )
+    referee = referee_of(tuple(parameters.items()), tuple(inputs.items()), duration)
     instance = instantiate().initialize(**parameters, **inputs)
     rows = []
     for time in times:

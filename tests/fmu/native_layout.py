@@ -1,0 +1,30 @@
+"""The layout of the native FMU's serialised state, as snapshot.c says, read by other code."""
+
+from __future__ import annotations
+
+import struct
+
+from fmu_src.python.slider_resonator.variables import VARIABLES
+
+SETTABLE = [v for v in VARIABLES if v.causality != "output"]
+FIELDS = (
+    *("lifecycle", "time", "stop_time", "last_event_time", "moving"),
+    *("velocity", "displacement", "rate", "position", "theta", "psi", "mode"),
+    *("sliding", "reversals", "sticks", "event_age"),
+    *("travel", "elapsed", "sticking", "complete", "mean_velocity", "stick_fraction", "bristle"),
+)
+HEAD = 8 + 40
+LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")
+
+
+def checksum(data: bytes) -> int:
+    """FNV-1a."""
+    total = 14695981039346656037
+    for byte in data:
+        total = (total ^ byte) * 1099511628211 % 2**64
+    return total
+
+
+def numbers(data: bytes) -> dict[str, float]:
+    found = LAYOUT.unpack(data)[2:-1]
+    return dict(zip([*FIELDS, *(v.name for v in SETTABLE)], found, strict=True))
