@@ -13,6 +13,7 @@ import click
 from fmu_src import __version__
 from harness.commands.bench import bench_command
 from harness.commands.blocking import blocking_command
+from harness.commands.hosts import hosts_command
 from harness.commands.paper import paper_command
 from harness.commands.picture import picture_command
 from harness.commands.run import run_command
@@ -100,5 +101,6 @@ for command in (
     bench_command,
     picture_command,
     paper_command,
+    hosts_command,
 ):
     main.add_command(command)

@@ -10,15 +10,18 @@
 #include "refusal.h"
 #include "state.h"
 
-/* Halvings of [0, pi] in which the angle of balance is found, and those that settle which of several
- * it is. */
-enum { BISECTIONS = 52, SORTING = 8, MOST_EVALUATIONS = 100 };
+/* Halvings of [0, pi] in which the angle of balance is found, and those that settle which of
+ * several it is. */
+enum { BISECTIONS = 52, SORTING = 4, MOST_EVALUATIONS = 100 };
 
 /* Width [rad] to which the angle of balance is closed in upon first. */
 #define CLOSE 2e-15
 
 /* Width [rad] below which it does not matter where in the bracket the angle of balance is. */
-#define STEEP 1e-13
+#define STEEP 1e-12
+
+/* Rounding error of a mean friction, in units of the last place of the largest friction. */
+#define ROUNDING 8.0
 
 /* Friction and load over the angle Theta at which sliding turns forward, and the `noise` of their
  * sum by rounding [N]. Where Coulomb friction has the `closed` form (20), that has `preload` and
@@ -66,15 +69,15 @@ static Balance balance_of(const Device *device, const Inputs *inputs, Complex fo
         balance.rises = damping > largest;
         largest += damping;
     }
-    balance.noise = (balance.closed ? 4.0 : 16.0) * EPSILON * device->friction_faces * largest *
+    balance.noise = ROUNDING * EPSILON * device->friction_faces * largest *
                     (device->normal_preload + device->normal_amplitude);
     balance.preload = faces_mu * device->normal_preload;
     balance.swing = 2.0 * faces_mu * device->normal_amplitude / (ratio * PI) * sin(delta);
     return balance;
 }
 
-/* Mean friction [N] when sliding turns forward at tau = `turning` [rad]; only that of strongly damped
- * bristles may rise. */
+/* Mean friction [N] when sliding turns forward at tau = `turning` [rad]; only that of strongly
+ * damped bristles may rise. */
 static double friction_at(const Balance *balance, double turning) {
     if (balance->bends) {
         return balance->device->friction_faces *
@@ -112,8 +115,8 @@ static bool bracket_narrows(Bracket *bracket, const Balance *balance, Point poin
     return true;
 }
 
-/* Whether inverse quadratic interpolation from the newest point `a` on the way to `b` may be trusted,
- * `c` being the point before; gives the `share` of the way. */
+/* Whether inverse quadratic interpolation from the newest point `a` on the way to `b` may be
+ * trusted, `c` being the point before; gives the `share` of the way. */
 static bool interpolates(Point a, Point b, Point c, double *share) {
     double xi = (a.turning - b.turning) / (c.turning - b.turning);
     double phi = (a.excess - b.excess) / (c.excess - b.excess);
@@ -124,8 +127,8 @@ static bool interpolates(Point a, Point b, Point c, double *share) {
 }
 
 /* Closes in on the balance by Chandrupatla's method: inverse quadratic interpolation where three
- * points allow it, and bisection otherwise. The excess is above 0 at `low` and not at `high`; `next`
- * is between. */
+ * points allow it, and bisection otherwise. The excess is above 0 at `low` and not at `high`;
+ * `next` is between. */
 static Bracket close_in(const Balance *balance, Point low, Point next, Point high) {
     Point newest = high, other = low;
     Bracket bracket = {low.turning, high.turning, 0.0};
@@ -159,15 +162,17 @@ static Bracket close_in(const Balance *balance, Point low, Point next, Point hig
 /* Angle at which friction and load balance [rad]: that of plain bisection, less the evaluations
  * whose outcome is known. Where friction is flat the angle is as uncertain as rounding makes it. */
 static double balanced_turning(const Balance *balance, Point low, Point halfway, Point high) {
-    if (!(low.excess > 0.0 && high.excess <= 0.0)) {
-        return low.excess > 0.0 ? high.turning : low.turning;
-    }
     int done = 0;
     for (; done < (balance->rises ? SORTING : 0); done++) {
         *(halfway.excess > 0.0 ? &low : &high) = halfway;
         halfway = point_at(balance, 0.5 * (low.turning + high.turning));
     }
-    Bracket bracket = close_in(balance, low, halfway, high);
+    Bracket bracket = {low.turning, high.turning, 0.0};
+    if (low.excess > 0.0 && high.excess <= 0.0) {
+        bracket = close_in(balance, low, halfway, high);
+    } else if (!balance->rises) {
+        return low.excess > 0.0 ? high.turning : low.turning;
+    }
     if (bracket.positive > bracket.negative) {
         bracket.positive = low.turning;
         bracket.negative = high.turning;

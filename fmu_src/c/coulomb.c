@@ -12,8 +12,10 @@
 /* Share of the longest arc within which a release and a lift-off may be the same event. */
 #define SAME 1e-6
 
-/* Part of the longest arc below which a motion counts as no progress in time. */
-#define STALLED 1e-12
+/* Part of the longest arc below which a motion counts as no progress in time: more than the
+ * shortest step of the search for zeros, which forces within rounding of zero may end again and
+ * again. */
+#define STALLED 1e-6
 
 /* Motion within one contact mode, and how it ends: after `t` [s], at the zero of a watched signal
  * (`zero_of` >= 0) or not. */
@@ -87,8 +89,8 @@ static bool lifts_first(const Plant *plant, double chi) {
     return limit <= 16.0 * EPSILON * (plant->friction_preload + plant->friction_amplitude);
 }
 
-/* What a run carries along: the moment, whether the slider is at rest there and about to move, and where
- * it is expected to stop. */
+/* What a run carries along: the moment, whether the slider is at rest there and about to move, and
+ * where it is expected to stop. */
 typedef struct {
     Moment now;
     bool leaving;
@@ -99,8 +101,10 @@ static Stop *stop_of(Run *run, int mode) {
     return mode == FORWARD ? &run->stops.forward : &run->stops.backward;
 }
 
-/* Ends a stick at the release that comes first; it is not searched far past where the other one is. */
-static void stick_follow(Leg *leg, const Held *held, const Run *run, double longest, double switch_time) {
+/* Ends a stick at the release that comes first. One release is searched for over a turn at most, as
+ * the other may come soon. */
+static void stick_follow(Leg *leg, const Held *held, const Run *run, double longest,
+                         double switch_time) {
     const Plant *plant = &held->plant;
     double chi = run->now.psi + plant->phase;
     Watch watches[2];
@@ -144,8 +148,8 @@ static void slide_follow(Leg *leg, const Held *held, Run *run, double longest) {
     }
 }
 
-/* The motion from now on for up to `longest` [s], until it ends; the contact switches after `switch_time`
- * [s]. */
+/* The motion from now on for up to `longest` [s], until it ends; the contact switches after
+ * `switch_time` [s]. */
 static void leg_follow(Leg *leg, const Held *held, Run *run, double longest, double switch_time) {
     leg->mode = run->now.mode;
     leg->zero_of = -1;

@@ -1,7 +1,7 @@
 /* The event loop of Coulomb friction: closed-form motion from one event to the next.
  *
- * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise), a
- * release, and the lift-off and touchdown of the contact. There is no step size and no tolerance. */
+ * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise),
+ * a release, and the lift-off and touchdown of the contact. There is no step size, no tolerance. */
 #ifndef SLIDER_COULOMB_H
 #define SLIDER_COULOMB_H
 
@@ -14,9 +14,9 @@
 /* The first moment, at drive and normal phase 0. */
 Moment coulomb_start(const Held *held, State state, double position);
 
-/* The moment `duration` > 0 [s] later, inputs held. Refuses, with `after` undefined, where time does
- * not get on; `after` may be `moment`. Where numbers leave the range of floating point, entries of
- * `after` are not finite. */
+/* The moment `duration` > 0 [s] later, inputs held. Refuses, with `after` undefined, where time
+ * does not get on; `after` may be `moment`. Where numbers leave the range of floating point,
+ * entries of `after` are not finite. */
 bool coulomb_advance(const Held *held, const Moment *moment, double duration, Moment *after,
                      Refusal *refusal);
 

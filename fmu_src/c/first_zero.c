@@ -48,7 +48,7 @@ static double sure_ahead(double value, Signal at) {
     return at.bound > 0.0 ? (at.slope + root_term) / at.bound : INFINITY;
 }
 
-/* A zero, the first one or not, and how steeply the signal falls there; NO_ZERO if there is none. */
+/* A zero, the first one or not, and how steeply the signal falls there; or NO_ZERO. */
 typedef struct {
     double time, slope;
 } Candidate;
@@ -73,8 +73,9 @@ static Candidate zero_near(const Watch *watch, double start, double expected) {
     return candidate;
 }
 
-/* Whether the candidate is the first zero after `t`, where the signal is `at` and sure to be positive for
- * `ahead` [s]: it must be so from there to the candidate too, and not by rounding only. */
+/* Whether the candidate is the first zero after `t`, where the signal is `at` and sure to be
+ * positive for `ahead` [s]: it must be so from there to the candidate too, and not by rounding
+ * only. */
 static bool is_first(Candidate candidate, const Watch *watch, double t, Signal at, double ahead) {
     double distance = candidate.time - t, back = -2.0 * candidate.slope / at.bound;
     return distance > 0.0 && distance < SURE * (ahead + back) && distance < watch->horizon &&

@@ -1,12 +1,13 @@
 /* The first zero of a smooth signal, found so that none can be passed over.
  *
- * From a point where the signal f is positive, f(t + d) >= f + f' d - B d^2 / 2 while B bounds |f''|.
- * The search advances by the zero of that parabola: it approaches the first zero from the left and
- * cannot step across it, nor across a pair of close zeros. Once f'^2 > 2 B f holds with f' < 0, the
- * next zero is simple and Newton's method converges to it (Kantorovich), so the search ends there.
+ * From a point where the signal f is positive, f(t + d) >= f + f' d - B d^2 / 2 while B bounds
+ * |f''|. The search advances by the zero of that parabola: it approaches the first zero from the
+ * left and cannot step across it, nor across a pair of close zeros. Once f'^2 > 2 B f holds with f'
+ * < 0, the next zero is simple and Newton's method converges to it (Kantorovich), so the search
+ * ends there.
  *
- * A zero that is expected at some time is looked for there at once. It is the first one if the parabola
- * from the start and that from the zero backwards leave no gap between them. */
+ * A zero that is expected at some time is looked for there at once. It is the first one if the
+ * parabola from the start and that from the zero backwards leave no gap between them. */
 #ifndef SLIDER_FIRST_ZERO_H
 #define SLIDER_FIRST_ZERO_H
 
@@ -35,8 +36,8 @@ typedef struct {
  * rounding and count as a touch, which is no zero. */
 double first_zero(const Watch *watch, double limit, double start);
 
-/* The same, with a zero expected near `expected` [s], or anywhere if that is NO_ZERO: the same zero, found
- * sooner if it is there. */
+/* The same, with a zero expected near `expected` [s], or anywhere if that is NO_ZERO: the same
+ * zero, found sooner if it is there. */
 double first_zero_near(const Watch *watch, double limit, double start, double expected);
 
 #endif

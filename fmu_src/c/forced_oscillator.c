@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Angle [rad] of the highest frequency for which bounds of responses from rest hold: more than what most
- * slides last. */
+/* Angle [rad] of the highest frequency for which bounds of responses from rest hold: more than what
+ * most slides last. */
 #define AHEAD 5.0
 
 static Following how_to_follow(const Oscillator *oscillator, double frequency, bool slow,
@@ -17,9 +17,9 @@ static Following how_to_follow(const Oscillator *oscillator, double frequency, b
     return resonates(oscillator, frequency) ? RESONANT_FROM_REST : STEADY;
 }
 
-void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscillator, double constant,
-                             const Forcing *forcing, int forcings, double y0, double u0,
-                             double fastest) {
+void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscillator,
+                             double constant, const Forcing *forcing, int forcings, double y0,
+                             double u0, double fastest) {
     bool slow = fmax(oscillator->frequency, oscillator->decay) < SLOW * fastest;
     double highest = oscillator->frequency;
     motion->oscillator = oscillator;

@@ -1,8 +1,8 @@
 /* A damped oscillator under a constant and sinusoidal forcing, from any state, regular everywhere.
  *
  * The steady responses are split off where they are of moderate size. What is left is a free motion
- * plus responses from rest: to the constant, to forcing that resonates, and to slow forcing of a slow
- * oscillator. */
+ * plus responses from rest: to the constant, to forcing that resonates, and to slow forcing of a
+ * slow oscillator. */
 #ifndef SLIDER_FORCED_OSCILLATOR_H
 #define SLIDER_FORCED_OSCILLATOR_H
 
@@ -20,9 +20,9 @@ typedef struct {
 /* How the response to a forcing is followed: as part of the constant, steady, or from rest. */
 typedef enum { AS_CONSTANT, STEADY, RESONANT_FROM_REST, SLOW_FROM_REST } Following;
 
-/* y'' + 2 decay y' + stiffness y = constant + sum of the forcings. `steady` are the complex amplitudes
- * of steady responses [m], `size` their absolute values; the free motion starts at displacement
- * `free_displacement` [m] and `free_rate` [m/s]. */
+/* y'' + 2 decay y' + stiffness y = constant + sum of the forcings. `steady` are the complex
+ * amplitudes of steady responses [m], `size` their absolute values; the free motion starts at
+ * displacement `free_displacement` [m] and `free_rate` [m/s]. */
 typedef struct {
     const Oscillator *oscillator;
     double constant;
@@ -36,8 +36,8 @@ typedef struct {
     double horizon;
 } ForcedOscillator;
 
-/* Displacement y [m] and derivatives, with bounds on |y'|, |y''| and |y'''| over the horizon. `turn` are
- * exp(i frequency t) of the forcings. */
+/* Displacement y [m] and derivatives, with bounds on |y'|, |y''| and |y'''| over the horizon.
+ * `turn` are exp(i frequency t) of the forcings. */
 typedef struct {
     Complex turn[FORCINGS];
     double displacement, rate, acceleration;
@@ -52,13 +52,15 @@ static inline void turns_of(const Forcing *forcing, int count, double t, Complex
     }
 }
 
-/* The motion from displacement `y0` [m] and rate `u0` [m/s] on under `forcings` <= FORCINGS forcings.
+/* The motion from displacement `y0` [m] and rate `u0` [m/s] on under `forcings` <= FORCINGS
+ * forcings.
  *
- * Slow forcing of a slow oscillator, both by the measure of `fastest` [rad/s], is followed from rest
- * too; samples are then good for times up to 60 / fastest. `oscillator` must outlive the motion. */
-void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscillator, double constant,
-                             const Forcing *forcing, int forcings, double y0, double u0,
-                             double fastest);
+ * Slow forcing of a slow oscillator, both by the measure of `fastest` [rad/s], is followed from
+ * rest too; samples are then good for times up to 60 / fastest. `oscillator` must outlive the
+ * motion. */
+void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscillator,
+                             double constant, const Forcing *forcing, int forcings, double y0,
+                             double u0, double fastest);
 
 /* Displacement and rate at `t` >= 0 [s]; `turn` as in a Sample. */
 Response forced_oscillator_response(const ForcedOscillator *motion, double t, const Complex *turn);

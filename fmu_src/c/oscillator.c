@@ -70,7 +70,8 @@ static Complex complex_expm1(Complex z) {
 }
 
 /* (exp(a t) - exp(b t)) / (a - b) from these exponentials; regular at a = b [s] */
-static Complex divided_difference(Complex a, Complex grown_a, Complex b, Complex grown_b, double t) {
+static Complex divided_difference(Complex a, Complex grown_a, Complex b, Complex grown_b,
+                                  double t) {
     Complex difference = complex_sub(a, b);
     double apart = fmax(fabs(difference.re), fabs(difference.im)) * t;
     if (apart > 1.0) {

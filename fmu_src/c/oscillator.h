@@ -13,8 +13,8 @@
  * response would be far larger than what it reaches between two reversals. */
 #define SLOW 0.02
 
-/* `decay` [1/s] and `stiffness` [1/s^2]; what follows from them is kept beside: `frequency` [rad/s],
- * undamped, and the `eigenvalue` [1/s] with positive imaginary part where `oscillatory`. */
+/* `decay` [1/s] and `stiffness` [1/s^2]; what follows from them is kept beside: `frequency`
+ * [rad/s], undamped, and the `eigenvalue` [1/s] of positive imaginary part where `oscillatory`. */
 typedef struct {
     double decay, stiffness, frequency;
     bool oscillatory;
@@ -38,9 +38,9 @@ Complex transfer(const Oscillator *oscillator, double frequency);
 /* Whether the particular solution at this frequency [rad/s] is too large to be split off. */
 bool resonates(const Oscillator *oscillator, double frequency);
 
-/* Decaying cosine C (in `displacement`) and sine S [s] (in `rate`) after t >= 0 [s]. From displacement
- * y and velocity u the free motion is y (C + decay S) + u S, its velocity u (C - decay S) - stiffness
- * y S. */
+/* Decaying cosine C (in `displacement`) and sine S [s] (in `rate`) after t >= 0 [s]. From
+ * displacement y and velocity u the free motion is y (C + decay S) + u S, its velocity u (C - decay
+ * S) - stiffness y S. */
 Response free_response(const Oscillator *oscillator, double t);
 
 /* Response to exp(i frequency t) from rest; regular at resonance. Only for oscillatory damping and

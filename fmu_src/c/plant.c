@@ -15,8 +15,9 @@ bool steady_resonator(const Device *device, Complex *amplitude, Refusal *refusal
     if (device->damping_ratio == 0.0 && oscillator.stiffness == w * w) {
         char damping[NUMBER_SIZE], frequency[NUMBER_SIZE];
         return refuse(refusal,
-                      "damping_ratio = %s refused: without damping the steady force of the resonator "
-                      "is unbounded at drive_frequency = %s; allowed there is a number above 0",
+                      "damping_ratio = %s refused: without damping the steady force of the "
+                      "resonator is unbounded at drive_frequency = %s; allowed there is a number "
+                      "above 0",
                       number_text(device->damping_ratio, damping), number_text(w, frequency));
     }
     double push = device->base_amplitude * w * w - device->tangential_force / device->slider_mass;

@@ -16,8 +16,8 @@ bool refuse(Refusal *refusal, const char *format, ...) {
     return false;
 }
 
-/* Writes the fewest digits that read back as `value` > 0, without a point; returns the exponent of the
- * first one. */
+/* Writes the fewest digits that read back as `value` > 0, without a point; returns the exponent of
+ * the first one. */
 static int shortest_digits(double value, char digits[MOST_DIGITS + 1]) {
     char scientific[NUMBER_SIZE];
     for (int count = 1; count <= MOST_DIGITS; count++) {

@@ -24,10 +24,11 @@ void regular_slide_begin(RegularSlide *slide, const Plant *plant, int sign, cons
     slide->pair[1].amplitude = complex_scale(-1.0 / plant->total_mass, friction);
     slide->pair_bound = complex_abs(slide->pair[0].amplitude) * w +
                         complex_abs(slide->pair[1].amplitude) * fabs(q);
-    slide->own_bound = (complex_abs(plant->holding_drive) * w + plant->friction_amplitude * fabs(q)) /
-                       plant->slider_mass;
-    forced_oscillator_begin(&slide->resonator, &plant->slip, resisting / plant->slider_mass, forcing,
-                            FORCINGS, state->displacement, state->rate, fmax(w, fabs(q)));
+    slide->own_bound = (complex_abs(plant->holding_drive) * w +
+                        plant->friction_amplitude * fabs(q)) / plant->slider_mass;
+    forced_oscillator_begin(&slide->resonator, &plant->slip, resisting / plant->slider_mass,
+                            forcing, FORCINGS, state->displacement, state->rate,
+                            fmax(w, fabs(q)));
 }
 
 static double velocity_at(const RegularSlide *slide, double t, double rate, const Complex *turn) {
@@ -39,12 +40,13 @@ static double velocity_at(const RegularSlide *slide, double t, double rate, cons
     return velocity - slide->plant->mass_fraction * (rate - slide->start.rate);
 }
 
-/* Bound on the second derivative of the velocity [m/s^3]: by the momentum of the pair, or for a slider that
- * hardly feels its resonator by the force between them. */
+/* Bound on the second derivative of the velocity [m/s^3]: by the momentum of the pair, or for a
+ * slider that hardly feels its resonator by the force between them. */
 static double bound_of(const RegularSlide *slide, const Sample *sample) {
     const Plant *plant = slide->plant;
     double by_pair = slide->pair_bound + plant->mass_fraction * sample->jerk_bound;
-    double between = plant->spring * sample->rate_bound + plant->damper * sample->acceleration_bound;
+    double between =
+        plant->spring * sample->rate_bound + plant->damper * sample->acceleration_bound;
     double by_slider = slide->own_bound + between / plant->slider_mass;
     return by_slider < by_pair ? by_slider : by_pair;
 }

@@ -1,5 +1,5 @@
-/* Sliding or flight in forms that stay regular everywhere: at resonance without damping, at and above
- * critical damping, and for slow, constant or reversed normal loads.
+/* Sliding or flight in forms that stay regular everywhere: at resonance without damping, at and
+ * above critical damping, and for slow, constant or reversed normal loads.
  *
  * The slider follows from the momentum of the pair and the motion of the resonator. */
 #ifndef SLIDER_REGULAR_SLIDE_H
@@ -10,10 +10,10 @@
 #include "plant.h"
 #include "state.h"
 
-/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight. `pair` are the sinusoidal parts
- * of the acceleration [m/s^2] that outer forces give to the pair, `deceleration` the constant one.
- * `pair_bound` and `own_bound` [m/s^3] bound how fast outer forces change the acceleration of the pair
- * and of the slider by itself. */
+/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight. `pair` are the sinusoidal
+ * parts of the acceleration [m/s^2] that outer forces give to the pair, `deceleration` the constant
+ * one. `pair_bound` and `own_bound` [m/s^3] bound how fast outer forces change the acceleration of
+ * the pair and of the slider by itself. */
 typedef struct {
     const Plant *plant;
     int direction;

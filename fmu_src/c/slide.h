@@ -16,8 +16,8 @@ typedef struct {
     } form;
 } Slide;
 
-/* Motion with friction s (F0 + F1 sin(chi)), s = `sign`; its velocity is watched in `direction`, unless
- * that is 0. `held` must outlive the slide. */
+/* Motion with friction s (F0 + F1 sin(chi)), s = `sign`; its velocity is watched in `direction`,
+ * unless that is 0. `held` must outlive the slide. */
 void slide_begin(Slide *slide, const Held *held, int sign, const State *state, double theta,
                  double chi, int direction);
 

@@ -134,7 +134,7 @@ Watch split_slide_watch(const SplitSlide *slide) {
     return watch;
 }
 
-/* Integral of the real part of amplitude exp(i frequency s) from turn 1 to `turn`, frequency != 0. */
+/* Integral of the real part of amplitude exp(i frequency s) from turn 1 on, frequency != 0. */
 static double swing_travel(Complex amplitude, double frequency, Complex turn) {
     turn.re -= 1.0;
     return complex_mul(amplitude, turn).im / frequency;

@@ -1,9 +1,9 @@
 /* Sliding or flight as a sum of exponentials: the fast form, for most devices.
  *
- * Velocity is v(t) = k0 + k1 t + Re(ve exp(i w t) + vq exp(i q t) + vh exp(lambda t)): the particular
- * solutions at drive and normal frequency are split off from the free oscillation. That loses digits
- * near resonance and for slow normal loads; `split_prepare` answers false there and RegularSlide
- * serves. */
+ * Velocity is v(t) = k0 + k1 t + Re(ve exp(i w t) + vq exp(i q t) + vh exp(lambda t)): the
+ * particular solutions at drive and normal frequency are split off from the free oscillation. That
+ * loses digits near resonance and for slow normal loads; `split_prepare` answers false there and
+ * RegularSlide serves. */
 #ifndef SLIDER_SPLIT_SLIDE_H
 #define SLIDER_SPLIT_SLIDE_H
 
@@ -13,9 +13,10 @@
 #include "plant.h"
 #include "state.h"
 
-/* Complex amplitudes per unit exp(i theta_0) and, for s = 1, per unit exp(i chi_0): displacement of the
- * resonator (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal load
- * swing at one frequency, or the normal load is constant: one term of v(t) then stands for both. */
+/* Complex amplitudes per unit exp(i theta_0) and, for s = 1, per unit exp(i chi_0): displacement of
+ * the resonator (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and
+ * normal load swing at one frequency, or the normal load is constant: one term of v(t) then stands
+ * for both. */
 typedef struct {
     bool merges;
     double fastest;
@@ -25,10 +26,10 @@ typedef struct {
 /* The amplitudes; false where splitting would lose digits. */
 bool split_prepare(Split *split, const Plant *plant);
 
-/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight. `travel_free` is the integral
- * of the free part of the velocity, vh / lambda [m]; `bound` and `free_bound` [m/s^3] bound the second
- * derivative of the velocity: of its forced part, and of its free part at first. `noise` [m/s] is the
- * rounding error of the velocity. */
+/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight. `travel_free` is the
+ * integral of the free part of the velocity, vh / lambda [m]; `bound` and `free_bound` [m/s^3]
+ * bound the second derivative of the velocity: of its forced part, and of its free part at first.
+ * `noise` [m/s] is the rounding error of the velocity. */
 typedef struct {
     const Split *split;
     const Plant *plant;

@@ -1,5 +1,5 @@
-/* Sticking: the slider rests, the resonator swings against it, and the force needed to hold the slider
- * is compared with what friction can supply. */
+/* Sticking: the slider rests, the resonator swings against it, and the force needed to hold the
+ * slider is compared with what friction can supply. */
 #ifndef SLIDER_STICK_H
 #define SLIDER_STICK_H
 
@@ -8,8 +8,9 @@
 #include "plant.h"
 #include "state.h"
 
-/* Motion while |needed force| stays within the limit F0 + F1 sin(chi). `direct` is the part of the needed
- * force that follows the drive, `normal` the changing part of the limit, both complex amplitudes [N]. */
+/* Motion while |needed force| stays within the limit F0 + F1 sin(chi). `direct` is the part of the
+ * needed force that follows the drive, `normal` the changing part of the limit, both complex
+ * amplitudes [N]. */
 typedef struct {
     const Plant *plant;
     Complex direct, normal;

@@ -6,11 +6,11 @@
 
 #include "angle.h"
 
-/* Change of the phase of a stop [rad] from one turn to the next up to which it counts as a drift. */
+/* Change of the phase of a stop [rad] in a turn up to which it counts as a drift. */
 #define MOST_DRIFT 0.1
 
-/* Drive phase [rad] at which the slider last stopped after sliding in one direction, not a number before
- * it did, and how far that is from where it stopped before. */
+/* Drive phase [rad] at which the slider last stopped after sliding in one direction, not a number
+ * before it did, and how far that is from where it stopped before. */
 typedef struct {
     double theta, drift;
 } Stop;

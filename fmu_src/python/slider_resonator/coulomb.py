@@ -32,6 +32,9 @@ of large arguments of sine and cosine out."""
 SAME = 1e-6
 """Share of the longest arc within which a release and a lift-off may be the same event."""
 
+STALLED = 1e-6
+"""Share of the longest arc below which a motion counts as no progress in time."""
+
 MOST_STALLED = 1000
 """Events in a row without progress in time that are followed before a step is refused."""
 
@@ -173,7 +176,7 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
             leaving = mode == before
         elif t == switch:
             mode = _mode_in_contact(plant, state, theta, psi) if mode == LIFTED else LIFTED
-        stalled = stalled + 1 if 1e12 * t < arc else 0
+        stalled = 0 if t > STALLED * arc else stalled + 1
         if stalled > MOST_STALLED:
             raise stalling()
         if mode != before:

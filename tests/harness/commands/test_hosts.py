@@ -1,0 +1,68 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from harness.cli import main
+
+FMPY = ("--host", "fmpy")
+
+
+def hosts(*arguments: object) -> Result:
+    return CliRunner().invoke(main, ["hosts", *(str(argument) for argument in arguments)])
+
+
+def test_the_reference_agrees_with_itself(
+    native_fmu: Path, python_fmu: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "hosts.md"
+    done = hosts(native_fmu, "--python-fmu", python_fmu, *FMPY, "--out", out, "--json")
+    assert done.exit_code == 0, done.output
+    results = json.loads(done.stdout)
+    assert [(result["host"], result["fmu"]) for result in results] == [
+        ("fmpy", "native"),
+        ("fmpy", "Python"),
+    ]
+    for result in results:
+        assert [case["deviation"] for case in result["cases"]] == [0.0] * 6
+    assert out.read_text().count("| 0 | 0 | 0 | 0 | 0 | 0 |") == 2
+
+
+def test_an_fmu_that_does_not_run_fails_by_name(python_fmu: Path, tmp_path: Path) -> None:
+    broken = tmp_path / "broken.fmu"
+    broken.write_bytes(b"no zip")
+    done = hosts(broken, "--python-fmu", python_fmu, *FMPY)
+    assert done.exit_code == 1
+    assert "FAIL" in done.stdout
+    assert "fmpy, native FMU, Coulomb 2: in fmpy: BadZipFile" in " ".join(done.stdout.split())
+
+
+def test_hosts_that_are_not_installed_are_no_verdict(
+    native_fmu: Path, python_fmu: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "hosts.md"
+    done = hosts(
+        *(native_fmu, "--python-fmu", python_fmu, "--host", "cofmupy"),
+        *("--own-environment", tmp_path / "nowhere", "--out", out, "--json"),
+    )
+    assert done.exit_code == 2
+    assert "cofmupy: there is no" in json.loads(done.stdout)["error"]
+    assert not out.exists(), "a table that lacks a host is not written"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--host", "matlab"], "'matlab' is not one of"),
+        (["no_such.fmu"], "no_such.fmu"),
+        (["--out", "hosts.txt"], "allowed is .md"),
+    ],
+)
+def test_bad_arguments_are_refused(arguments: list[str], said: str, tmp_path: Path) -> None:
+    with CliRunner().isolated_filesystem(tmp_path):
+        done = CliRunner().invoke(main, ["hosts", *arguments])
+    assert done.exit_code == 2
+    assert said in done.stderr
