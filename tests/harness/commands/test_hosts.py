@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from harness.cli import main
+from harness.commands.hosts import NATIVE, PYTHON
 
 FMPY = ("--host", "fmpy")
 
@@ -31,13 +32,25 @@ def test_the_reference_agrees_with_itself(
     assert out.read_text().count("| 0 | 0 | 0 | 0 | 0 | 0 |") == 2
 
 
-def test_an_fmu_that_does_not_run_fails_by_name(python_fmu: Path, tmp_path: Path) -> None:
+def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(python_fmu: Path, tmp_path: Path) -> None:
     broken = tmp_path / "broken.fmu"
     broken.write_bytes(b"no zip")
     done = hosts(broken, "--python-fmu", python_fmu, *FMPY)
+    assert done.exit_code == 2
+    assert f"{broken}: does not run in fmpy: BadZipFile" in done.stderr
+
+
+def test_a_host_that_fails_is_a_verdict(
+    native_fmu: Path, python_fmu: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("CC", str(tmp_path / "no compiler"))
+    monkeypatch.setattr("harness.hosts.hosts.compiler_version", lambda _: "none")
+    out = tmp_path / "hosts.md"
+    done = hosts(native_fmu, "--python-fmu", python_fmu, "--host", "C driver", "--out", out)
     assert done.exit_code == 1
     assert "FAIL" in done.stdout
-    assert "fmpy, native FMU, Coulomb 2: in fmpy: BadZipFile" in " ".join(done.stdout.split())
+    assert "C driver, native FMU, Coulomb 2: FileNotFoundError" in done.stdout
+    assert out.read_text().count("**failed**") == 6, "the table does not hide it"
 
 
 def test_hosts_that_are_not_installed_are_no_verdict(
@@ -58,11 +71,16 @@ def test_hosts_that_are_not_installed_are_no_verdict(
     [
         (["--host", "matlab"], "'matlab' is not one of"),
         (["no_such.fmu"], "no_such.fmu"),
-        (["--out", "hosts.txt"], "allowed is .md"),
+        (["--out", "hosts.txt"], "allowed is one of .md"),
     ],
 )
-def test_bad_arguments_are_refused(arguments: list[str], said: str, tmp_path: Path) -> None:
-    with CliRunner().isolated_filesystem(tmp_path):
-        done = CliRunner().invoke(main, ["hosts", *arguments])
+def test_bad_arguments_are_refused(
+    arguments: list[str], said: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    for path in (NATIVE, PYTHON):
+        (tmp_path / path).parent.mkdir(exist_ok=True)
+        (tmp_path / path).touch()
+    monkeypatch.chdir(tmp_path)
+    done = hosts(*arguments)
     assert done.exit_code == 2
     assert said in done.stderr

@@ -1,0 +1,102 @@
+"""What a host is asked to run and what it answers, as files that any Python environment reads."""
+
+from __future__ import annotations
+
+import json
+import sys
+import zipfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+Rows = list[list[float]]
+"""Outputs after each step, shape (steps, outputs)."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """A run of `fmu` from time 0 in equal steps of `step` (s).
+
+    `start` gives parameters (Integer parameters as int), `inputs` one value for each step, held
+    over it; the first of them are the start values of the inputs. `partner` is a second FMU, for
+    hosts that couple two.
+    """
+
+    fmu: str
+    start: Mapping[str, float]
+    inputs: Mapping[str, Sequence[float]]
+    step: float
+    outputs: Sequence[str]
+    partner: str | None = None
+
+    @property
+    def steps(self) -> int:
+        """Number of steps."""
+        return len(next(iter(self.inputs.values())))
+
+    def first(self) -> dict[str, float]:
+        """Return all values that are set before initialisation."""
+        return {**self.start, **{name: values[0] for name, values in self.inputs.items()}}
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a host made of a job: rows, or what went wrong."""
+
+    rows: Rows
+    error: str | None = None
+
+
+@dataclass(frozen=True)
+class Description:
+    """What a host must know of an FMU to call it: value references by name, and two texts."""
+
+    guid: str
+    identifier: str
+    references: Mapping[str, int]
+
+    def refer(self, names: Sequence[str]) -> list[int]:
+        """Return the value references of `names`."""
+        return [self.references[name] for name in names]
+
+
+def describe(fmu: str) -> Description:
+    """Read the description of a co-simulation FMU with nothing but the standard library."""
+    with zipfile.ZipFile(fmu) as archive, archive.open("modelDescription.xml") as file:
+        root = ET.parse(file).getroot()
+    references = {
+        variable.attrib["name"]: int(variable.attrib["valueReference"])
+        for variable in root.iter("ScalarVariable")
+    }
+    (simulation,) = root.iter("CoSimulation")
+    return Description(root.attrib["guid"], simulation.attrib["modelIdentifier"], references)
+
+
+def write_jobs(path: Path, jobs: Sequence[Job]) -> None:
+    """Write jobs for `serve`."""
+    path.write_text(json.dumps([asdict(job) for job in jobs]), encoding="utf-8")
+
+
+def read_answers(path: Path) -> list[Answer]:
+    """Read the answers that there are: fewer than jobs when the host died on the way."""
+    if not path.is_file():
+        return []
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return [Answer(**json.loads(line)) for line in lines]
+
+
+def serve(run: Callable[[Job], Rows]) -> None:
+    """Answer the jobs of the file named first on the command line in that named second.
+
+    Each answer is written at once, so that a host that crashes leaves those before it.
+    """
+    jobs, answers = sys.argv[1:]
+    with open(answers, "w", encoding="utf-8") as file:
+        for entry in json.loads(Path(jobs).read_text(encoding="utf-8")):
+            try:
+                answer = Answer(run(Job(**entry)))
+            except Exception as error:  # each host raises its own
+                answer = Answer([], f"{type(error).__name__}: {error}")
+            file.write(json.dumps(asdict(answer)) + "\n")
+            file.flush()
