@@ -13,12 +13,14 @@ import click
 from fmu_src import __version__
 from harness.commands.bench import bench_command
 from harness.commands.blocking import blocking_command
+from harness.commands.extremes import extremes_command
 from harness.commands.hosts import hosts_command
 from harness.commands.paper import paper_command
 from harness.commands.picture import picture_command
 from harness.commands.run import run_command
 from harness.commands.scenes import scenes_command
 from harness.commands.steady import steady_command
+from harness.commands.sweep import sweep_command
 from harness.commands.validate import validate_command
 from harness.console import leave
 from harness.errors import HarnessError
@@ -89,6 +91,8 @@ def main() -> None:
       python -m harness steady my.fmu --set phase=0.4 --set load=0.05 --json
       python -m harness blocking my.fmu --json
       python -m harness paper --out paper
+      python -m harness extremes --out extremes
+      python -m harness sweep grid.toml --out table.parquet
     """
 
 
@@ -102,5 +106,7 @@ for command in (
     picture_command,
     paper_command,
     hosts_command,
+    extremes_command,
+    sweep_command,
 ):
     main.add_command(command)

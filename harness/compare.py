@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +13,25 @@ from numpy.typing import NDArray
 from harness.errors import SceneError
 from harness.fmu_side import FmuSide
 from harness.measures.deviation import peak
+from harness.measures.frequency import NoOscillation
 from harness.quantities import QUANTITIES, Quantity
 from harness.reference_side import ReferenceSide
 from harness.scene_model import ExpectTable
 
+Array = NDArray[np.float64]
 Value = float | str | None
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What an FMU gives for an expectation: number, word, None or a signal (n,).
+
+    `note` says why there is None; a signal has the `times` (s), shape (n,), of its points.
+    """
+
+    value: Any
+    note: str = ""
+    times: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -24,7 +39,8 @@ class Check:
     """One expectation with its verdict.
 
     For a signal, `fmu` and `reference` are peaks, and `deviation` and `allowed` shares of the
-    reference's peak; for a number they carry its unit. `at` says what a sweep has varied.
+    reference's peak; for a number they carry its unit. `at` says what a sweep has varied. A signal
+    that fails is beyond what is allowed from `first_time` (s) on and farthest at `worst_time` (s).
     """
 
     scene: str
@@ -39,6 +55,8 @@ class Check:
     why: str
     note: str = ""
     at: Mapping[str, float] = field(default_factory=dict)
+    first_time: float | None = None
+    worst_time: float | None = None
 
     @property
     def severity(self) -> float:
@@ -50,37 +68,55 @@ class Check:
         return 0.0 if self.passed else float("inf")
 
 
-def check(
-    expect: ExpectTable, fmu: FmuSide, reference: ReferenceSide, at: Mapping[str, float]
-) -> Check:
-    """Measure, compare and judge; SceneError when the comparison itself makes no sense."""
+def measure(expect: ExpectTable, fmu: FmuSide) -> Measurement:
+    """Measure what is expected of the FMU; SceneError when the scene does not allow it."""
     quantity = QUANTITIES[expect.quantity]
     try:
-        measured = quantity.measure(fmu)
-        if quantity.kind == "signal":
-            return _signal_check(expect, quantity, measured, fmu, reference, at)
-        if expect.reference is not None:
-            wanted = quantity.references[expect.reference](reference)
-        else:
-            wanted = next(
-                v for v in (expect.value, expect.at_most, expect.at_least) if v is not None
-            )
-    except (ValueError, RuntimeError, ModuleNotFoundError) as error:
+        value = quantity.measure(fmu)
+    except (NoOscillation, np.linalg.LinAlgError, ArithmeticError) as error:
+        return Measurement(None, f"{expect.quantity} does not exist: {error}")
+    except (ValueError, RuntimeError) as error:
         where = f"{fmu.scene.source}: {expect.quantity}"
-        raise SceneError(f"{where} cannot be compared{_at(at)}: {error}") from error
-    deviation, allowed = _distance(expect, measured, wanted)
+        raise SceneError(f"{where} cannot be measured: {error}") from error
+    if quantity.kind == "signal":
+        return Measurement(value, times=fmu.record.times[-len(value) :])
+    return Measurement(value, _note(expect, value, fmu))
+
+
+def wanted(expect: ExpectTable, reference: ReferenceSide) -> Any:
+    """Return what the reference says: number, word, None or signal (n,).
+
+    Raises SceneError when the comparison makes no sense.
+    """
+    if expect.reference is None:
+        return next(v for v in (expect.value, expect.at_most, expect.at_least) if v is not None)
+    try:
+        return QUANTITIES[expect.quantity].references[expect.reference](reference)
+    except (ValueError, RuntimeError, ModuleNotFoundError) as error:
+        where = f"{reference.scene.source}: {expect.quantity}"
+        raise SceneError(f"{where} cannot be compared: {error}") from error
+
+
+def check(
+    expect: ExpectTable, measured: Measurement, wanted: Any, scene: str, at: Mapping[str, float]
+) -> Check:
+    """Compare a measurement with what is wanted, and judge."""
+    quantity = QUANTITIES[expect.quantity]
+    if quantity.kind == "signal":
+        return _signal_check(expect, quantity, measured, wanted, scene, at)
+    deviation, allowed = _distance(expect, measured.value, wanted)
     return Check(
-        scene=fmu.scene.name,
+        scene=scene,
         quantity=expect.quantity,
         unit=quantity.unit,
-        fmu=measured,
+        fmu=measured.value,
         against=_against(expect),
         reference=wanted,
         deviation=deviation,
         allowed=allowed,
-        passed=_verdict(measured, wanted, deviation, allowed),
+        passed=_verdict(measured.value, wanted, deviation, allowed),
         why=expect.why,
-        note=_note(expect, measured, fmu),
+        note=measured.note,
         at=at,
     )
 
@@ -88,27 +124,41 @@ def check(
 def _signal_check(
     expect: ExpectTable,
     quantity: Quantity,
-    measured: NDArray[np.float64],
-    fmu: FmuSide,
-    reference: ReferenceSide,
+    measured: Measurement,
+    wanted: Array,
+    scene: str,
     at: Mapping[str, float],
 ) -> Check:
     """Compare two signals; a value that is not finite fails."""
-    wanted = quantity.references[str(expect.reference)](reference)
-    deviation = quantity.deviation(measured, wanted)
+    floor = expect.absolute / expect.relative if expect.absolute else 0.0
+    deviation = quantity.deviation(measured.value, wanted, floor)
+    passed = deviation <= expect.relative
+    first = worst = None
+    if not passed and measured.times is not None:
+        allowed = 0.5 if quantity.exact else expect.relative * (peak(wanted) + floor)
+        first, worst = _places(np.abs(measured.value - wanted), allowed, measured.times)
     return Check(
-        scene=fmu.scene.name,
+        scene=scene,
         quantity=expect.quantity,
         unit=quantity.unit,
-        fmu=peak(measured),
+        fmu=peak(measured.value),
         against=_against(expect),
         reference=peak(wanted),
         deviation=deviation,
         allowed=expect.relative,
-        passed=deviation <= expect.relative,
+        passed=passed,
         why=expect.why,
         at=at,
+        first_time=first,
+        worst_time=worst,
     )
+
+
+def _places(error: Array, allowed: float, times: Array) -> tuple[float, float]:
+    """Return the times (s) at which errors (n,) first exceed what is allowed and are largest."""
+    beyond = ~(error <= allowed)
+    size = np.where(np.isfinite(error), error, np.inf)
+    return float(times[np.argmax(beyond)]), float(times[np.argmax(size)])
 
 
 def _distance(
@@ -146,7 +196,3 @@ def _note(expect: ExpectTable, measured: Value, fmu: FmuSide) -> str:
     if measured is not None:
         return ""
     return fmu.steady.reason if expect.quantity == "steady_velocity" else fmu.blocking.reason
-
-
-def _at(at: Mapping[str, float]) -> str:
-    return "".join(f" at {name} = {value:g}" for name, value in at.items())

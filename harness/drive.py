@@ -88,18 +88,24 @@ class Instance:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
         return Block(self.slave, [self._variable(name).valueReference for name in names])
 
-    def start(self, values: Mapping[str, float], stop_time: float | None = None) -> None:
-        """Initialise at time 0 with the given parameters and inputs, all others at their start.
+    def start(
+        self,
+        values: Mapping[str, float],
+        stop_time: float | None = None,
+        *,
+        start_time: float = 0.0,
+    ) -> None:
+        """Initialise with the given parameters and inputs, all others at their start.
 
         Raises FmuError for an unknown name and Refusal for a value that the FMU does not take.
         """
-        self.time = 0.0
+        self.time = start_time
         with self.explained():
             if self._used:
                 self.slave.reset()
             self._used = True
             self._initialised = False
-            self.slave.setupExperiment(startTime=0.0, stopTime=stop_time)
+            self.slave.setupExperiment(startTime=start_time, stopTime=stop_time)
             for name, value in values.items():
                 self._set(name, value)
             self.slave.enterInitializationMode()
@@ -112,7 +118,10 @@ class Instance:
 
     def step_to(self, target: float) -> None:
         """Advance to `target` (s)."""
-        size = target - self.time
+        self.step_by(target - self.time)
+
+    def step_by(self, size: float) -> None:
+        """Advance by `size` (s)."""
         self.slave.fmi2DoStep(self.slave.component, self.time, size, True)
         self.time += size
 

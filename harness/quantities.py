@@ -37,7 +37,7 @@ class Quantity:
     measure: Callable[[FmuSide], Any]
     references: Mapping[str, Callable[[ReferenceSide], Any]] = field(default_factory=dict)
     needs_run: bool = False
-    deviation: Callable[[Array, Array], float] = peak_deviation
+    deviation: Callable[[Array, Array, float], float] = peak_deviation
     exact: bool = False
 
 

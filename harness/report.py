@@ -11,6 +11,7 @@ from harness.compare import Check, Value
 from harness.quantities import QUANTITIES
 from harness.readable import readable
 from harness.validate import Validation, worst_of_sweeps
+from harness.verdict import place, sentence
 
 DIGITS = 8
 """Significant digits in the table; what is asserted is the deviation, which has its own column."""
@@ -32,12 +33,12 @@ def print_validation(console: Console, validation: Validation, *, details: bool 
         console.print(f"{SIGNAL} the peak of a signal; off by and allowed are shares of it")
     for check, _ in rows:
         if not check.passed:
-            text = f"{check.scene}: {check.quantity}{_at(check, ' at ')}: {check.why}"
-            console.print(
-                Text.assemble(("FAIL ", "bold red"), text, f"\n     {check.note}".rstrip())
-            )
+            text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
+            console.print(Text.assemble(("FAIL ", "bold red"), text, f"\n     {sentence(check)}"))
     failed = sum(not check.passed for check in validation.checks)
     verdict = f"[bold red]{failed} failed[/], " if failed else ""
+    if validation.troubles:
+        verdict += f"[bold red]{len(validation.troubles)} could not be run[/], "
     console.print(
         f"{validation.fmu}: {verdict}{len(validation.checks) - failed} of "
         f"{len(validation.checks)} checks passed in {validation.wall_time:.1f} s"
@@ -62,7 +63,7 @@ def _table(rows: list[tuple[Check, int]], details: bool) -> Table:
             table.add_section()
             table.add_row(Text(check.scene + f", {points} points" * (points > 1), "bold"))
             scene = check.scene
-        cells = [f" {_quantity(check)}", *([_at(check, "")] if swept else [])]
+        cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
         cells += [_value(check.fmu), _value(check.reference), check.against.split("_")[0]]
         cells += [_size(check.deviation), _size(check.allowed)]
         verdict = Text("pass", "green") if check.passed else Text("FAIL", "bold red")
@@ -80,10 +81,6 @@ def _quantity(check: Check) -> str:
 
 def _is_signal(check: Check) -> bool:
     return QUANTITIES[check.quantity].kind == "signal"
-
-
-def _at(check: Check, before: str) -> str:
-    return before * bool(check.at) + ", ".join(f"{n} {v:g}" for n, v in check.at.items())
 
 
 def _value(value: Value) -> str:

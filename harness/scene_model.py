@@ -80,7 +80,8 @@ class ExpectTable(_Table):
     """One thing that must hold: a quantity of the FMU against a reference, a value or a bound.
 
     The deviation allowed is `absolute + relative * |reference|`; for a signal it is `relative`, a
-    share of the reference's peak. Whoever expects a real number says how near it must be, be it 0.
+    share of the reference's peak, and an `absolute` beside it is for a reference near zero.
+    Whoever expects a real number says how near it must be, be it 0.
     """
 
     quantity: str
@@ -132,8 +133,11 @@ class ExpectTable(_Table):
 
     def _check_tolerance(self, quantity: Quantity) -> None:
         signal = quantity.kind == "signal"
-        if signal and "absolute" in self.model_fields_set:
-            raise ValueError(f"{self.quantity} is a signal: allowed is relative, not absolute")
+        alone = quantity.exact or not self.relative > 0.0
+        if signal and "absolute" in self.model_fields_set and alone:
+            raise ValueError(
+                f"{self.quantity} is a signal: allowed is relative, not absolute alone"
+            )
         if not quantity.exact and not self.model_fields_set & {"absolute", "relative"}:
             needed = "relative, a share of the peak" if signal else "relative or absolute"
             raise ValueError(f"{self.quantity} is a real number: it needs a tolerance, {needed}")

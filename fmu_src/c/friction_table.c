@@ -72,7 +72,7 @@ static double layer_in(const TabulatedMeans *table, const Part *part) {
 static Interpolation interpolation(void) {
     Interpolation rule;
     for (int j = 0; j < TABLE_NODES; j++) {
-        rule.node[j] = cos(PI * (j + 0.5) / TABLE_NODES);
+        rule.node[j] = cos(PI * (j + 0.5) / (double)TABLE_NODES);
     }
     for (int j = 0; j < TABLE_NODES; j++) {
         /* The Lagrange polynomial of this node, by multiplying out its roots. */

@@ -13,6 +13,9 @@
  * away from full when closed forms take over. */
 #define SHARE 0.01
 
+/* Series and closed forms in one step up to which its work is accepted. */
+enum { MOST_LEGS = 10000000 };
+
 /* A motion in one direction, and how far it may be followed [s]. */
 typedef struct {
     bool bends;
@@ -137,9 +140,13 @@ bool lugre_advance(const Held *held, const Bristle *bristle, double tolerance, c
     }
     Clock clock = clock_of(duration);
     double remaining = duration;
-    int stalled = 0;
+    int stalled = 0, legs = 0;
     Leg leg;
     while (remaining > 0.0 && isfinite(now.state.velocity)) {
+        if (++legs > MOST_LEGS) {
+            return refuse(refusal, "doStep refused: the bristle needs more than %d series in one step; "
+                          "allowed are shorter steps, softer bristles or less normal load", MOST_LEGS);
+        }
         double chi = now.psi + plant->phase;
         leg_onward(&leg, held, bristle, lifted, &now.state, now.bristle, now.theta, chi, tolerance);
         double switching = time_to_switch(&held->window, chi, q, lifted);

@@ -34,6 +34,14 @@ static double value(const double *coefficients, double t) {
     return total;
 }
 
+/* Share of a motion that the last terms of its series may have, and how often a series is cut shorter
+ * for it. */
+#define SMALL 1e-3
+
+/* Motion [m/s] that is as good as none. */
+#define LEAST 1e-200
+enum { MOST_SHRINKS = 4 };
+
 /* How far a series holds [s]: where its last two terms are `tolerance`. */
 static double series_reach(const double *coefficients, double tolerance) {
     double reach = INFINITY;
@@ -67,7 +75,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
     }
     limit[0] += plant->friction_preload;
     slide->direction = direction;
-    slide->resonates = plant->mass_fraction != 0.0;
+    slide->resonates = plant->resolves_resonator;
     v[0] = state->velocity;
     y[0] = state->displacement;
     u[0] = state->rate;
@@ -99,7 +107,17 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
     slide->bound = 0.0;
     slide->reach = series_reach(v, tolerance);
     if (slide->resonates) {
-        slide->reach = fmin(slide->reach, series_reach(u, tolerance / plant->mass_fraction));
+        double weight = plant->mass_fraction > 0.0 ? plant->mass_fraction : 1.0;
+        slide->reach = fmin(slide->reach, series_reach(u, tolerance / weight));
+    }
+    /* Of a motion far below the tolerance the last terms would be the larger part, and its first zero
+     * hard to find. */
+    for (int i = 0; i < MOST_SHRINKS; i++) {
+        double small = SMALL * (fabs(v[0]) + fabs(v[1]) * slide->reach);
+        if (!(small > LEAST && small < tolerance)) {
+            break;
+        }
+        slide->reach = fmin(slide->reach, series_reach(v, small));
     }
 }
 

@@ -10,6 +10,9 @@ from harness.hosts.compiler import SOURCES, WINDOWS, compile_program, zig_compil
 from harness.hosts.driver_host import BINARY, drive, fleeting_folder
 from harness.hosts.job import Job, Rows, serve
 
+LIKE_THE_FMU = ("-g0", "-s")
+"""As the FMU is built: with other options ziglang would first build another C library."""
+
 
 def run(job: Job) -> Rows:
     """Step the FMU's Windows binary."""
@@ -25,7 +28,8 @@ def seen_from_windows(path: Path) -> str:
 def windows_driver() -> Path:
     """Cross-compile the driver, once per process, and return it."""
     compiler = [*zig_compiler(), *WINDOWS]
-    return compile_program(compiler, SOURCES / "driver.c", fleeting_folder() / "driver.exe")
+    program = fleeting_folder() / "driver.exe"
+    return compile_program(compiler, SOURCES / "driver.c", program, LIKE_THE_FMU)
 
 
 if __name__ == "__main__":

@@ -11,18 +11,25 @@ def peak(signal: NDArray[np.float64]) -> float:
     return float(np.abs(signal).max())
 
 
-def peak_deviation(signal: NDArray[np.float64], reference: NDArray[np.float64]) -> float:
+def peak_deviation(
+    signal: NDArray[np.float64], reference: NDArray[np.float64], floor: float = 0.0
+) -> float:
     """Return the largest difference of two signals (n,) as a share of the reference's peak.
 
-    Two signals that are zero throughout agree; against a reference that is zero throughout any
-    other signal deviates infinitely.
+    `floor`, in the signals' unit, is added to the peak, for references near zero. Two signals that
+    are zero throughout agree; without a floor any other signal deviates infinitely from zero.
     """
-    difference, size = peak(signal - reference), peak(reference)
+    difference, size = peak(signal - reference), peak(reference) + floor
     if difference == 0.0:
         return 0.0
     return difference / size if size > 0.0 else float("inf")
 
 
-def mismatch_share(signal: NDArray[np.float64], reference: NDArray[np.float64]) -> float:
-    """Return the share of points at which two signals of whole numbers (n,) differ."""
-    return float(np.mean(np.rint(signal) != np.rint(reference)))
+def mismatch_share(
+    signal: NDArray[np.float64], reference: NDArray[np.float64], floor: float = 0.0
+) -> float:
+    """Return the share of points at which two signals of whole numbers (n,) differ by over `floor`.
+
+    What is not finite differs.
+    """
+    return float(np.mean(~(np.abs(np.rint(signal) - np.rint(reference)) <= floor)))

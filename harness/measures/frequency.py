@@ -12,20 +12,26 @@ HARMONICS = 3
 """Harmonics that are fitted along, so that a distorted wave keeps its frequency."""
 
 
+class NoOscillation(ValueError):
+    """A signal that has no frequency, being constant or not finite."""
+
+
 def dominant_frequency(times: Array, signal: Array) -> float:
     """Return the frequency (Hz) of the strongest oscillation around the trend of a signal (n,).
 
     The highest line of a windowed spectrum starts a least squares fit of a wave with harmonics and
-    a straight trend. Raises ValueError for unequal steps, for fewer than 16 points, and for a
-    signal that is constant.
+    a straight trend. Raises ValueError for unequal steps and for fewer than 16 points, and
+    NoOscillation for a signal that is constant or not finite.
     """
     steps = np.diff(times)
     if len(times) < 16 or np.ptp(steps) > 1e-6 * steps.mean():
         raise ValueError("the dominant frequency needs at least 16 points at equal steps")
+    if not np.isfinite(signal).all():
+        raise NoOscillation("the signal is not finite")
     trend = np.polynomial.Polynomial.fit(times, signal, 1)
     flat = signal - trend(times)
     if float(np.abs(flat).max()) <= 1e-12 * float(np.abs(signal).max()):
-        raise ValueError("the signal does not oscillate")
+        raise NoOscillation("the signal does not oscillate")
     spectrum = np.abs(np.fft.rfft(flat * np.hanning(len(flat))))
     resolution = 1.0 / (len(flat) * float(steps.mean()))
     line = max(int(np.argmax(spectrum)), 1)

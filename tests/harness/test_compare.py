@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from harness.compare import Check, check
+from harness.compare import Check, check, measure, wanted
 from harness.errors import SceneError
 from harness.fmu_side import FmuSide
 from harness.reference_side import ReferenceSide
@@ -28,12 +28,19 @@ def steady(velocity: float | None, status: str = "steady") -> FmuSide:
 
 
 def reference(**parts: Any) -> ReferenceSide:
-    return cast(ReferenceSide, SimpleNamespace(**parts))
+    return cast(ReferenceSide, SimpleNamespace(scene=fmu().scene, **parts))
 
 
 def judge(fmu_side: FmuSide, reference_side: ReferenceSide | None = None, **expect: Any) -> Check:
     table = ExpectTable.model_validate({"why": "test", **expect})
-    return check(table, fmu_side, reference_side or reference(), {})
+    sides = measure(table, fmu_side), wanted(table, reference_side or reference())
+    return check(table, *sides, scene="scene", at={})
+
+
+class RecordOf(dict[str, np.ndarray]):
+    """Outputs by name at 1000 points, 1 ms apart."""
+
+    times = 1e-3 * np.arange(1000)
 
 
 @pytest.mark.parametrize(("velocity", "passed"), [(0.1 + 9e-9, True), (0.1 + 2e-7, False)])
@@ -95,7 +102,7 @@ def test_bounds_are_one_sided() -> None:
 def test_a_signal_is_judged_by_its_largest_deviation(signal: np.ndarray, passed: bool) -> None:
     side = reference(signal=lambda referee, name: WAVE)
     verdict = judge(
-        fmu(record={"position": signal}),
+        fmu(record=RecordOf(position=signal)),
         side,
         quantity="position",
         reference="located_events",
@@ -107,6 +114,8 @@ def test_a_signal_is_judged_by_its_largest_deviation(signal: np.ndarray, passed:
 
 def test_a_comparison_that_makes_no_sense_could_not_run() -> None:
     class Refusing:
+        scene = fmu().scene
+
         @property
         def averaged_velocity(self) -> float:
             raise ValueError("frequency_ratio = 3.0: the closed form allows only 1")
@@ -119,3 +128,52 @@ def test_a_comparison_that_makes_no_sense_could_not_run() -> None:
             reference="closed_form",
             relative=1e-6,
         )
+
+
+def judge_position(signal: np.ndarray, expected: np.ndarray, **expect: Any) -> Check:
+    return judge(
+        fmu(record=RecordOf(position=signal)),
+        reference(signal=lambda referee, name: expected),
+        quantity="position",
+        reference="located_events",
+        **expect,
+    )
+
+
+def test_a_failed_signal_says_from_where_on_and_where_most() -> None:
+    signal = WAVE.copy()
+    signal[300] += 1e-6
+    signal[700] += 1e-3
+    verdict = judge_position(signal, WAVE, relative=1e-8)
+    assert (verdict.first_time, verdict.worst_time) == pytest.approx((0.3, 0.7))
+    assert judge_position(WAVE, WAVE, relative=1e-8).first_time is None
+    lost = np.where(np.arange(1000) >= 500, np.nan, WAVE)
+    assert judge_position(lost, WAVE, relative=1e-8).first_time == 0.5
+
+
+@pytest.mark.parametrize(("noise", "passed"), [(9e-13, True), (2e-12, False)])
+def test_near_a_reference_of_zero_the_absolute_tolerance_counts(noise: float, passed: bool) -> None:
+    for expected in (np.zeros(1000), 1e-17 * WAVE):
+        verdict = judge_position(expected + noise, expected, relative=1e-8, absolute=1e-12)
+        assert verdict.passed is passed
+        assert verdict.deviation is not None
+        assert np.isfinite(verdict.deviation), "a share of next to nothing means nothing"
+
+
+def test_what_does_not_oscillate_has_no_frequency_and_fails() -> None:
+    for still in (np.ones(1000), np.full(1000, np.nan)):
+        verdict = judge(
+            fmu(record=RecordOf(velocity=still)),
+            quantity="ripple_frequency",
+            value=557.0,
+            relative=1e-6,
+        )
+        assert not verdict.passed
+        assert "ripple_frequency does not exist" in verdict.note
+
+
+def test_a_scene_that_does_not_allow_a_measure_could_not_run() -> None:
+    record = RecordOf(velocity=WAVE[:10])
+    record.times = RecordOf.times[:10]
+    with pytest.raises(SceneError, match=r"ripple_frequency cannot be measured: .* 16 points"):
+        judge(fmu(record=record), quantity="ripple_frequency", value=557.0, relative=1e-6)

@@ -30,6 +30,10 @@ MOST_WAVES_TABULATED = 8
 MOST_HALVINGS = 24
 """Halvings of a panel after which it is taken as it is, a fraction 6e-8 of the whole."""
 
+MOST_PANELS = 32
+"""Panels after which all are taken as they are. Regular devices need fewer; beyond, rounding of the
+path exceeds ERROR."""
+
 Polynomial = tuple[float, float, float, float, float, float, float, float, float]
 """Coefficients, that of the highest power first."""
 
@@ -69,13 +73,15 @@ class FrictionTable:
 
 def friction_table(bristle: Bristle, fast: FastMotion, n: int) -> FrictionTable:
     """The means under n waves of the normal load over a turn, n not 0, to ERROR."""
-    ends, panels = [0.0], []
+    ends = [0.0]
+    panels: list[Polynomials] = []
     # Panels still to be made, the next one last: width in halvings of the whole, and the panel.
     todo = [(0, 0.0, 0.5 * pi)]
     while todo:
         halvings, low, high = todo.pop()
         polynomials, error = _panel(bristle, fast, n, low, high)
-        if error <= ERROR or halvings == MOST_HALVINGS:
+        full = len(panels) + len(todo) + 1 >= MOST_PANELS
+        if error <= ERROR or halvings == MOST_HALVINGS or full:
             ends.append(high)
             panels.append(polynomials)
         else:

@@ -31,6 +31,7 @@ from .first_zero import Watch, first_zero
 from .motion import State
 from .period import PeriodMeans
 from .plant import Plant
+from .refusal import Refusal
 from .regular_slide import RegularSlide
 from .split_slide import SplitSlide
 from .taylor_slide import TaylorSlide
@@ -38,6 +39,9 @@ from .taylor_slide import TaylorSlide
 SHARE = 0.01
 """Part of the tolerance that one series may use up, and that the bend of the bristle may still be
 away from full when closed forms take over."""
+
+MOST_LEGS = 10_000_000
+"""Series and closed forms in one step up to which its work is accepted."""
 
 
 def velocity_scale(plant: Plant, state: State) -> float:
@@ -88,8 +92,14 @@ def advance(
         age = 0.0
     clock = Clock(duration)
     remaining = duration
-    stalled = 0
+    stalled = legs = 0
     while remaining > 0.0:
+        legs += 1
+        if legs > MOST_LEGS:
+            raise Refusal(
+                f"doStep refused: the bristle needs more than {MOST_LEGS} series in one step; "
+                "allowed are shorter steps, softer bristles or less normal load"
+            )
         chi = psi + plant.phase
         leg = _leg(held, bristle, lifted, state, bent, theta, chi, tolerance)
         switch = time_to_switch(window, chi, q, lifted)

@@ -24,6 +24,15 @@ from .plant import Plant
 ORDER = 22
 """Terms of the series: near the order at which a digit costs least, whatever the tolerance."""
 
+SMALL = 1e-3
+"""Share of a motion that the last terms of its series may have."""
+
+LEAST = 1e-200
+"""Motion [m/s] that is as good as none."""
+
+MOST_SHRINKS = 4
+"""How often a series is cut shorter for that."""
+
 
 class TaylorSlide:
     """Motion in contact from `state` on, in direction `sign`, until the series no longer holds.
@@ -56,7 +65,7 @@ class TaylorSlide:
         v, y, u = [state.velocity], [state.displacement], [state.rate]
         limit, decay, bent = [plant.friction_preload], [1.0], []
         load = plant.load
-        resonates = plant.mass_fraction != 0.0
+        resonates = plant.resolves_resonator
         for k in range(ORDER):
             step = 1.0 / (k + 1)
             limit[k] += normal.real
@@ -80,7 +89,15 @@ class TaylorSlide:
         self._position = [0.0] + [c / (k + 1) for k, c in enumerate(v)]
         self.reach = _reach(v, tolerance)
         if resonates:
-            self.reach = min(self.reach, _reach(u, tolerance / plant.mass_fraction))
+            weight = plant.mass_fraction or 1.0
+            self.reach = min(self.reach, _reach(u, tolerance / weight))
+        # Of a motion far below the tolerance the last terms would be the larger part, and its first
+        # zero hard to find.
+        for _ in range(MOST_SHRINKS):
+            small = SMALL * (abs(v[0]) + abs(v[1]) * self.reach)
+            if not LEAST < small < tolerance:
+                break
+            self.reach = min(self.reach, _reach(v, small))
 
     def departs(self) -> bool:
         """Whether the motion begins in direction `sign`, or stays at rest."""

@@ -1,0 +1,48 @@
+"""A picture of a signal that differs from its reference: the whole run, and where it begins."""
+
+from __future__ import annotations
+
+import base64
+import io
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from harness.plot_style import COLOURS, style
+from harness.validate import Curves
+
+ZOOM_POINTS = 64
+"""Points shown on each side of the first one that is beyond what is allowed."""
+
+
+def deviation_png(curves: Curves) -> str:
+    """Return a PNG as a data URI: FMU and reference over the run and near the first deviation."""
+    first = curves.check.first_time
+    with style():
+        figure = Figure(figsize=(9.0, 4.2), layout="constrained")
+        axes = figure.subplots(2, 2, sharex="col")
+        index = 0 if first is None else int(np.searchsorted(curves.times, first))
+        near = slice(max(0, index - ZOOM_POINTS), index + ZOOM_POINTS)
+        for column, part in enumerate((slice(None), near)):
+            _draw(axes[0][column], axes[1][column], curves, part)
+        axes[0][0].set(title="whole run", ylabel=f"{curves.check.quantity} [{curves.check.unit}]")
+        axes[0][1].set(title="around the first deviation")
+        axes[1][0].set(ylabel="FMU - reference")
+        axes[0][0].legend()
+        FigureCanvasAgg(figure)
+        buffer = io.BytesIO()
+        figure.savefig(buffer, format="png", dpi=100)
+    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
+
+
+def _draw(above: Axes, below: Axes, curves: Curves, part: slice) -> None:
+    times = curves.times[part]
+    above.plot(times, curves.reference[part], color=COLOURS["theory"], label="reference")
+    above.plot(times, curves.fmu[part], "--", color=COLOURS["velocity"], label="FMU")
+    below.plot(times, curves.fmu[part] - curves.reference[part], color=COLOURS["velocity"])
+    below.set(xlabel="time [s]")
+    if curves.check.first_time is not None:
+        for axes in (above, below):
+            axes.axvline(curves.check.first_time, color="0.4", linewidth=0.8)

@@ -1,0 +1,79 @@
+"""The axes that are how a host steps: sizes, start time, length, and stored states."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from math import tau
+
+from harness.extremes.cell import COULOMB_RESOLVED, MODELS, Cell, Hold, Limit, Model
+from harness.extremes.device_axes import AMPLITUDE, W
+
+PERIOD = tau / W
+LATE = 1e12
+"""A start time, s, at which time is known to 2^-13 s only."""
+SMALLEST = 5e-324
+
+PERIODS = {0: 1e8, 1: 1e6, 2: 1e6}
+"""Drive periods of the longest runs, by fidelity."""
+LUGRE_PERIODS = 1e4
+ALL_PERIODS = 1e8
+STEADY = {2: 0.12666700, 1: 0.1266646, 0: 0.126731}
+"""Steady velocity of table 1, m/s, by fidelity, found without long runs."""
+
+
+def step_cells(*, long: bool) -> Iterator[Cell]:
+    """Yield the cells of all axes that are steps; `long` adds resolved runs of 1e8 periods."""
+    for model in MODELS:
+        yield from _sizes(model)
+        yield _late(model)
+        yield from _restored(model)
+        yield _many_periods(model, _periods(model))
+    if long:
+        for model in COULOMB_RESOLVED:
+            yield _many_periods(model, ALL_PERIODS)
+
+
+def _sizes(model: Model) -> Iterator[Cell]:
+    draw = random.Random(3)
+    slow = {
+        "drive_frequency": W / 100.0,
+        "resonator_frequency": W / 100.0,
+        "base_amplitude": AMPLITUDE * 100.0,
+    }
+    logarithmic = tuple(Hold(10.0 ** draw.uniform(-12.0, -2.0)) for _ in range(100))
+    alternating = tuple(Hold(10.0 * PERIOD if i % 2 else 1e-15) for i in range(40))
+    denormal = tuple(Hold(SMALLEST if i % 2 else PERIOD / 7.0) for i in range(60))
+    axis = "communication step"
+    yield Cell(axis, "1e-12 s", model, {}, (Hold(PERIOD / 3.0), Hold(1e-12, 1000)))
+    yield Cell(axis, "1e4 s", model, slow, (Hold(1e4),))
+    yield Cell(axis, "smallest denormal", model, {}, denormal)
+    yield Cell(axis, "random, 1e-12 to 1e-2 s", model, {}, logarithmic)
+    yield Cell(axis, "10 periods and 1e-15 s in turn", model, {}, alternating)
+
+
+def _late(model: Model) -> Cell:
+    """Steps that time can hold at 1e12 s: the motion is that from time 0."""
+    holds = (Hold(2.0**-13, 300), Hold(2.0**-5, 3))
+    return Cell("start time", "1e12 s", model, {}, holds, start_time=LATE, from_zero=True)
+
+
+def _restored(model: Model) -> Iterator[Cell]:
+    """A friction that holds the slider for part of each period."""
+    sticking = {"friction_coefficient": 100.0, "normal_amplitude": 0.9}
+    holds = (Hold(PERIOD / 16.0, 160),)
+    yield Cell("state restored", "mid-stick", model, sticking, holds, restored=True)
+    yield Cell("state restored", "table 1", model, {}, holds, restored=True)
+
+
+def _periods(model: Model) -> float:
+    return LUGRE_PERIODS if model.friction_law and model.fidelity else PERIODS[model.fidelity]
+
+
+def _many_periods(model: Model, periods: float) -> Cell:
+    limits: tuple[Limit, ...] = ()
+    if model.friction_law == 0:
+        why = "the steady motion, found without a long run, does not drift"
+        limits = (Limit("mean_velocity", STEADY[model.fidelity], 1e-6, why),)
+    holds = (Hold(periods * PERIOD / 10.0, 10, phase=0.0),)
+    return Cell("drive periods", f"{periods:.0e}", model, {}, holds, limits=limits)

@@ -1,0 +1,47 @@
+"""What is said of a cell."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+PASSED = "passed"
+REFUSED = "refused by name"
+FAILED = "failed"
+
+
+@dataclass(frozen=True)
+class Check:
+    """One bound: the largest deviation that was found, in units of what is allowed."""
+
+    name: str
+    found: float
+    words: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether the bound holds; not a number never does."""
+        return self.found <= 1.0
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The verdict on one cell, the checks behind it, and its reason where it did not pass."""
+
+    axis: str
+    value: str
+    model: str
+    verdict: str
+    reason: str
+    checks: tuple[Check, ...] = ()
+    worst_step: float = 0.0
+    period_cost: float = 0.0
+
+    @property
+    def cost_ratio(self) -> float:
+        """Worst cost of a step, per period in it but at least one, over that of a period."""
+        return self.worst_step / self.period_cost if self.period_cost > 0.0 else 0.0
+
+    @property
+    def name(self) -> str:
+        """Axis, value and model."""
+        return f"{self.axis}: {self.value}: {self.model}"

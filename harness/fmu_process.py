@@ -1,0 +1,155 @@
+"""An FMU in a process of its own, seen from outside: it may crash or hang there."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import queue
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import IO
+
+from harness.compare import Measurement
+from harness.errors import FmuError
+from harness.isolated import Answer, Request
+from harness.last_words import last_words
+
+GRACE = 10.0
+"""Seconds beyond its time limit after which a process that did not end itself is ended."""
+START_UP = 60.0
+"""Seconds in which Python and the harness are loaded, beside the FMU's own time limit."""
+_TEMPORARY = ("TMPDIR", "TEMP", "TMP")
+"""Environment variables that name the folder for temporary files."""
+
+
+class FmuDied(FmuError):
+    """The process of the FMU has crashed or did not answer in time: it is gone."""
+
+
+class FmuProcess:
+    """A process that has instantiated an FMU and measures what scenes expect of it.
+
+    Raises FmuError when the FMU cannot be used, and FmuDied when it ends the process. Each call
+    of the FMU may take `time_limit` (s). Must be ended with `close` or `kill`.
+    """
+
+    def __init__(self, fmu: Path, time_limit: float) -> None:
+        self.time_limit = time_limit
+        # Also for the unpacked FMU, which a process that has crashed does not tidy up.
+        self._folder = tempfile.TemporaryDirectory(
+            prefix="slider-resonator-", ignore_cleanup_errors=True
+        )
+        folder = self._folder.name
+        self._log = Path(folder) / "said.txt"
+        with self._log.open("wb") as log:
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", "harness.isolated", str(fmu), repr(time_limit)],
+                env={
+                    **os.environ,
+                    **dict.fromkeys(_TEMPORARY, folder),
+                    "PYTHONPATH": _search_path(),
+                },
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=log,
+                start_new_session=True,
+            )
+        self._answers: queue.SimpleQueue[Answer | None] = queue.SimpleQueue()
+        assert self._process.stdout is not None
+        reader = threading.Thread(
+            target=_collect, args=(self._process.stdout, self._answers), daemon=True
+        )
+        reader.start()
+        try:
+            self._receive(START_UP)
+        except BaseException:
+            self.kill()
+            raise
+
+    def ask(self, scene: Path, at: Mapping[str, float]) -> None:
+        """Have what a scene expects measured, with some of its values replaced; do not wait."""
+        assert self._process.stdin is not None
+        try:
+            pickle.dump(Request(scene, dict(at)), self._process.stdin)
+            self._process.stdin.flush()
+        except OSError as error:
+            raise self._died() from error
+
+    def answer(self) -> tuple[Measurement, ...]:
+        """Wait for the measurements last asked for, one for each expectation."""
+        return self._receive(GRACE).measurements
+
+    def close(self) -> None:
+        """Let the FMU be freed and the process end; FmuDied when it does not get that far."""
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.close()
+            if self._process.wait(self.time_limit + GRACE) != 0:
+                raise self._died()
+        except (OSError, subprocess.TimeoutExpired) as error:
+            raise self._died() from error
+        finally:
+            self.kill()
+
+    def kill(self) -> None:
+        """End the process and what it started, if it still runs."""
+        if self._process.poll() is None:
+            _end(self._process)
+        for stream in (self._process.stdin, self._process.stdout):
+            if stream is not None:
+                with suppress(OSError):  # what cannot be flushed nobody reads any more
+                    stream.close()
+        self._folder.cleanup()
+
+    def _receive(self, grace: float) -> Answer:
+        try:
+            answer = self._answers.get(timeout=self.time_limit + grace)
+        except queue.Empty:
+            raise self._died() from None
+        if answer is None:
+            raise self._died()
+        if answer.error:
+            raise FmuError(answer.error)
+        return answer
+
+    def _died(self) -> FmuDied:
+        """Return the error for a process that has ended, or that has to be ended now."""
+        try:
+            code: int | None = self._process.wait(1.0)
+        except subprocess.TimeoutExpired:
+            code = None
+            _end(self._process)
+        log = self._log.read_text(encoding="utf-8", errors="replace")
+        return FmuDied(last_words(log, code, self.time_limit))
+
+
+def _collect(file: IO[bytes], answers: queue.SimpleQueue[Answer | None]) -> None:
+    """Pass answers on, and None where there are no more or what comes is none."""
+    while True:
+        try:
+            answer = pickle.load(file)
+        except Exception:  # an FMU that scribbles over the pipe makes pickle raise anything
+            answers.put(None)
+            return
+        answers.put(answer if isinstance(answer, Answer) else None)
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    if sys.platform == "win32":
+        process.kill()
+    else:
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+
+
+def _search_path() -> str:
+    """Return PYTHONPATH with this package in front."""
+    here = str(Path(__file__).resolve().parents[1])
+    given = os.environ.get("PYTHONPATH")
+    return os.pathsep.join([here, given] if given else [here])

@@ -1,0 +1,112 @@
+"""Verdicts as one HTML file that needs nothing beside it, with pictures of what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+from harness.atomic import replacing
+from harness.compare import Check, Value
+from harness.deviation_plot import deviation_png
+from harness.quantities import QUANTITIES
+from harness.readable import readable
+from harness.validate import Curves, Validation, worst_of_sweeps
+from harness.verdict import place, sentence, title
+
+MOST_PICTURES = 40
+"""Pictures for each FMU, of the worst point of a sweep only: a hopeless FMU fails everywhere."""
+
+_STYLE = """
+body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
+  color: #222 }
+table { border-collapse: collapse; width: 100%; font-size: 13px;
+  font-variant-numeric: tabular-nums }
+th, td { text-align: left; padding: .2rem .6rem; border-bottom: 1px solid #ddd }
+td.n { text-align: right; white-space: nowrap }
+.pass { color: #1a7f37 } .fail { color: #b3261e; font-weight: 600 }
+.wide { overflow-x: auto } img { max-width: 100% } summary { cursor: pointer; margin: 1rem 0 }
+.why { color: #666 }
+"""
+
+
+def write_html(path: Path, validations: Sequence[Validation], error: str = "") -> None:
+    """Write the report; `error` is what kept the command from getting as far as an FMU.
+
+    Raises HarnessError when the file cannot be written.
+    """
+    parts = [
+        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
+        '<meta name="viewport" content="width=device-width">',
+        f"<title>Slider-resonator validation</title><style>{_STYLE}</style></head><body>",
+        "<h1>Slider-resonator validation</h1>",
+    ]
+    if error:
+        parts.append(f'<p class="fail">Could not run: {escape(error)}</p>')
+    parts += [part for validation in validations for part in _section(validation)]
+    parts.append("</body></html>")
+    with replacing(path) as temporary:
+        temporary.write_text("\n".join(parts) + "\n", encoding="utf-8", errors="replace")
+
+
+def _section(validation: Validation) -> list[str]:
+    failed = [check for check in validation.checks if not check.passed]
+    passed = len(validation.checks) - len(failed)
+    verdict = ("pass", "fail", "could not be run")[validation.exit_code]
+    colour = "pass" if validation.passed else "fail"
+    parts = [
+        f"<h2>{escape(validation.fmu)}</h2>",
+        f'<p><span class="{colour}">{verdict}</span>: {passed} of {len(validation.checks)} checks '
+        f"passed in {validation.wall_time:.1f} s</p>",
+    ]
+    for trouble in validation.troubles:
+        where = f"{trouble.scene}{place(trouble.at, ' at ')}: " * bool(trouble.scene)
+        parts.append(f'<p class="fail">{escape(where + trouble.reason)}</p>')
+    worst = [check for check, _ in worst_of_sweeps(failed)]
+    pictures = {id(curves.check): curves for curves in validation.curves}
+    for index, check in enumerate(worst):
+        parts += _failure(check, pictures.get(id(check)) if index < MOST_PICTURES else None)
+    parts.append(_table(validation.checks))
+    return parts
+
+
+def _failure(check: Check, curves: Curves | None) -> list[str]:
+    parts = [
+        f"<h3>{escape(check.scene)}: {escape(title(check))}</h3>",
+        f'<p>{escape(sentence(check))}<br><span class="why">{escape(check.why)}</span></p>',
+    ]
+    if curves is not None:
+        parts.append(f'<img alt="{escape(title(check))}" src="{deviation_png(curves)}">')
+    return parts
+
+
+def _table(checks: Sequence[Check]) -> str:
+    if not checks:
+        return ""
+    heads = ("scene", "quantity", "FMU", "reference", "off by", "allowed", "")
+    rows = "\n".join(_row(check) for check in checks)
+    head = "".join(f"<th>{name}</th>" for name in heads)
+    return (
+        f'<details><summary>All {len(checks)} checks</summary><div class="wide"><table>'
+        f"<thead><tr>{head}</tr></thead><tbody>\n{rows}\n</tbody></table></div></details>"
+    )
+
+
+def _row(check: Check) -> str:
+    signal = QUANTITIES[check.quantity].kind == "signal"
+    sizes = [
+        "-" if size is None else f"{size:.2g}" + " of peak" * signal
+        for size in (check.deviation, check.allowed)
+    ]
+    numbers = [_value(check.fmu), _value(check.reference), *sizes]
+    unit = f" [{check.unit}]" * (check.unit not in ("", "1"))
+    cells = "".join(f"<td>{escape(text)}</td>" for text in (check.scene, title(check) + unit))
+    cells += "".join(f'<td class="n">{escape(text)}</td>' for text in numbers)
+    verdict = "pass" if check.passed else "fail"
+    return f'<tr title="{escape(check.why)}">{cells}<td class="{verdict}">{verdict}</td></tr>'
+
+
+def _value(value: Value) -> str:
+    if value is None:
+        return "none"
+    return value if isinstance(value, str) else readable(value, 8)

@@ -1,0 +1,51 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from harness.cli import main
+from harness.commands import extremes
+from harness.extremes.cell import Cell, Hold, Limit, Model
+
+HOLDS = (Hold(1e-4, 20),)
+GOOD = Cell("steps", "few", Model(2, 0), {}, HOLDS)
+REFUSED = Cell("mu", "0", Model(2, 1), {"friction_coefficient": 0.0}, HOLDS)
+FLIES = Limit("position", 1.0, 1e-9, "it flies")
+WRONG = Cell("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
+
+
+def invoke(monkeypatch: pytest.MonkeyPatch, cells: list[Cell], *arguments: str) -> tuple[int, str]:
+    monkeypatch.setattr(extremes, "all_cells", lambda *, long: cells)
+    result = CliRunner().invoke(main, ["extremes", *arguments])
+    return result.exit_code, result.output
+
+
+def test_results_are_written(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "new"
+    code, said = invoke(monkeypatch, [GOOD, REFUSED], str(native_fmu), "--out", str(out))
+    assert code == 0, said
+    assert "2 cells: 1 passed, 1 refused by name, 0 failed, none skipped" in said
+    assert "worst cost of a step" in said
+    written = json.loads((out / "extremes.json").read_text(encoding="utf-8"))
+    verdicts = [one["verdict"] for one in written["fmus"][0]["verdicts"]]
+    assert verdicts == ["passed", "refused by name"]
+    assert "friction_coefficient = 0.0 refused" in (out / "extremes.md").read_text(encoding="utf-8")
+    assert (out / "extremes_SliderResonator.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_failed_cell_ends_with_1(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code, said = invoke(monkeypatch, [WRONG], str(native_fmu), "--out", str(tmp_path), "--json")
+    assert code == 1
+    assert "it flies" in json.loads(said)["fmus"][0]["verdicts"][0]["reason"]
+
+
+def test_what_cannot_be_run_ends_with_2(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    code, _ = invoke(monkeypatch, [GOOD], "missing.fmu", "--out", str(tmp_path))
+    assert code == 2

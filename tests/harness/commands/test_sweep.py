@@ -1,0 +1,61 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from harness.cli import main
+
+
+def _grid(tmp_path: Path, text: str) -> str:
+    path = tmp_path / "grid.toml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> None:
+    grid = _grid(tmp_path, "[grid]\nphase = [0.0, 0.4, 0.8]")
+    out, plot = tmp_path / "a.csv", tmp_path / "a.svg"
+    arguments = ["--out", str(out), "--plot", str(plot), "--fmu", str(native_fmu), "--json"]
+    result = CliRunner().invoke(main, ["sweep", grid, *arguments])
+    assert result.exit_code == 0, result.output
+    told = json.loads(result.stdout)
+    assert (told["points"], told["found"], told["failed"]) == (3, 0, 0)
+    lines = out.read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "point,phase,steady_velocity,steady_velocity_status,error"
+    assert float(lines[1].split(",")[2]) == pytest.approx(0.126667, abs=1e-6)
+    assert plot.is_file()
+
+
+def test_a_failed_point_ends_with_1_and_its_error_is_told(native_fmu: Path, tmp_path: Path) -> None:
+    grid = _grid(tmp_path, "[list]\nfriction_coefficient = [0.1, -1]")
+    arguments = ["--out", str(tmp_path / "a.csv"), "--fmu", str(native_fmu), "--workers", "1"]
+    result = CliRunner().invoke(main, ["sweep", grid, *arguments])
+    assert result.exit_code == 1
+    assert "failed   1 points; the first error:" in result.output
+    assert "friction_coefficient = -1" in result.output
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "words"),
+    [
+        ("[grid]\nfase = [1]", ["--out", "a.csv"], "did you mean 'phase'"),
+        ("[grid]\nphase = [1]", ["--out", "a.txt"], "allowed is one of .parquet, .csv"),
+        ("[grid]\nphase = [1]", ["--out", "a.csv", "--fmu", "none.fmu"], "none.fmu: no such file"),
+        (
+            "[grid]\nphase = [1]\nload = [0]\nfidelity = [2]",
+            ["--out", "a.csv", "--plot", "a.png"],
+            "3 variables",
+        ),
+    ],
+)
+def test_what_cannot_be_run_ends_with_2(
+    text: str, arguments: list[str], words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(main, ["sweep", _grid(tmp_path, text), *arguments])
+    assert result.exit_code == 2
+    assert words in result.output
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["grid.toml"]

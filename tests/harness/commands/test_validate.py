@@ -1,0 +1,112 @@
+"""`validate` as CI jobs meet it: exit codes and report files in every case."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+from click.testing import CliRunner, Result
+
+from harness.cli import main
+from tests.harness import faulty_fmus
+
+
+def call(*arguments: object, summary: Path | None = None) -> Result:
+    environment = {"GITHUB_STEP_SUMMARY": str(summary or "")}
+    return CliRunner().invoke(main, ["validate", *map(str, arguments)], env=environment)
+
+
+def reported(folder: Path, *arguments: object) -> tuple[Result, dict[str, object], ET.Element]:
+    """Run with all reports and return what came of it, the JSON and the JUnit document."""
+    names = ("report.json", "report.xml", "report.html", "summary.md")
+    files = [folder / name for name in names]
+    options = [*("--json", files[0]), *("--junit", files[1]), *("--html", files[2])]
+    result = call(*arguments, *options, summary=files[3])
+    assert files[2].read_text(encoding="utf-8").endswith("</html>\n")
+    assert "## Slider-resonator validation" in files[3].read_text()
+    assert sorted(folder.glob(".report*")) == [], "no temporary file is left"
+    return result, json.loads(files[0].read_text()), ET.parse(files[1]).getroot()
+
+
+def test_a_pass_leaves_with_0(native_fmu: Path, tmp_path: Path) -> None:
+    result, report, junit = reported(tmp_path, native_fmu, "--scene", faulty_fmus.scene(tmp_path))
+    assert result.exit_code == 0, result.output
+    assert report["passed"] is True
+    assert "1 of 1 checks passed" in result.stdout
+    assert (junit.get("failures"), junit.get("errors")) == ("0", "0")
+
+
+def test_a_failure_leaves_with_1(native_fmu: Path, tmp_path: Path) -> None:
+    still = faulty_fmus.compiled(native_fmu, tmp_path / "still.fmu", "IN_STEP=PRINT")
+    result, report, junit = reported(tmp_path, still, "--scene", faulty_fmus.scene(tmp_path))
+    assert result.exit_code == 1, result.output
+    assert report["passed"] is False
+    assert junit.get("failures") == "1"
+    assert "off by 1 of the peak" in result.stdout, "it stands where it should move"
+    assert "data:image/png" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("define", "limit", "cause"),
+    [("IN_STEP=CRASH", 60, "crashed in fmi2DoStep"), ("IN_STEP=LOOP", 2, "time limit of 2 s")],
+)
+def test_what_could_not_be_run_leaves_with_2(
+    native_fmu: Path, tmp_path: Path, define: str, limit: float, cause: str
+) -> None:
+    faulty = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", define)
+    scene = faulty_fmus.scene(tmp_path)
+    result, report, junit = reported(tmp_path, faulty, "--scene", scene, "--time-limit", limit)
+    assert result.exit_code == 2
+    assert cause in result.stderr
+    assert cause in json.dumps(report["errors"])
+    (error,) = junit.iter("error")
+    assert cause in str(error.get("message"))
+
+
+@pytest.mark.parametrize("text", ["no TOML", 'name = "mine"\ntitle = "Mine"\n'])
+def test_a_scene_at_fault_is_reported_too(native_fmu: Path, tmp_path: Path, text: str) -> None:
+    scene = tmp_path / "mine.toml"
+    scene.write_text(text)
+    result, report, junit = reported(tmp_path, native_fmu, "--scene", scene)
+    assert result.exit_code == 2
+    assert "mine.toml" in result.stderr
+    assert "mine.toml" in str(report["error"])
+    assert junit.get("errors") == "1"
+
+
+def test_a_folder_of_scenes(native_fmu: Path, tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        faulty_fmus.scene(tmp_path, name)
+    result = call(native_fmu, "--scene", tmp_path, "--json")
+    assert result.exit_code == 0, result.output
+    assert [check["scene"] for check in json.loads(result.stdout)["checks"]] == ["one", "two"]
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    assert "with scene files" in call(native_fmu, "--scene", empty).stderr
+
+
+def test_json_takes_no_fmu_for_its_file(native_fmu: Path) -> None:
+    before = native_fmu.read_bytes()
+    result = call("--json", native_fmu)
+    assert result.exit_code == 2
+    assert "allowed is one of .json" in result.stderr
+    assert native_fmu.read_bytes() == before
+
+
+def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) -> None:
+    scene = faulty_fmus.scene(tmp_path)
+    fmu, mine = tmp_path / "fmu.xml", tmp_path / "scene.xml"
+    fmu.write_bytes(native_fmu.read_bytes())
+    mine.write_text(scene.read_text())
+    for target, said in (
+        (scene, "allowed is one of .xml"),
+        (mine, "allowed is a file of its own"),
+        (fmu, "allowed is a file of its own"),
+    ):
+        before = target.read_bytes()
+        result = call(fmu, "--scene", mine, "--junit", target)
+        assert result.exit_code == 2
+        assert said in result.stderr
+        assert target.read_bytes() == before

@@ -1,0 +1,86 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness.drive import instantiate
+from harness.extremes.cell import Cell, Hold, Model
+from harness.extremes.judge import judge
+from harness.extremes.observe import NAMES, Observation, observe
+from harness.extremes.verdict import FAILED, PASSED, REFUSED
+from harness.fmu import open_fmu
+
+TABLE_1 = Cell("table 1", "as it is", Model(2, 0), {}, (Hold(1e-4, 60),))
+
+
+@pytest.fixture(scope="module")
+def seen(native_fmu: Path) -> Observation:
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        return observe(instance, TABLE_1)
+
+
+def changed(seen: Observation, name: str, change: float) -> Observation:
+    """Add to one output, at the last point only."""
+    outputs = seen.outputs.copy()
+    outputs[-1, NAMES.index(name)] += change
+    return replace(seen, outputs=outputs)
+
+
+def test_table_1_passes(seen: Observation) -> None:
+    verdict = judge(TABLE_1, seen)
+    assert verdict.verdict == PASSED, verdict.reason
+    assert {"momentum", "phase of the normal load", "referee"} <= {c.name for c in verdict.checks}
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "check"),
+    [
+        ("position", float("nan"), "finite"),
+        ("steady_velocity", float("inf"), "finite"),
+        ("normal_force", 1e-6, "phase of the normal load"),
+        ("friction_force", 1.0, "friction bound"),
+        ("velocity", 0.1, "momentum"),
+        ("velocity", 1e-7, "referee"),
+        ("position", 1e-9, "other steps"),
+        ("stick_fraction", 1.5, "counts and shares"),
+        ("reversals", -100.0, "counts and shares"),
+    ],
+)
+def test_a_wrong_motion_fails(seen: Observation, name: str, change: float, check: str) -> None:
+    verdict = judge(TABLE_1, changed(seen, name, change))
+    assert verdict.verdict == FAILED
+    assert check in verdict.reason, "the reason names the bound that was broken"
+
+
+def test_energy_must_not_grow(native_fmu: Path) -> None:
+    free = {"base_amplitude": 0.0, "damping_ratio": 0.0, "friction_coefficient": 0.0}
+    parameters = {**free, "initial_resonator_displacement": 1e-4}
+    cell = Cell("free", "ringing", Model(2, 0), parameters, (Hold(1e-4, 60),))
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        rung = observe(instance, cell)
+    assert judge(cell, rung).verdict == PASSED, "an undamped resonator keeps its energy"
+    verdict = judge(cell, changed(rung, "resonator_displacement", 1e-6))
+    assert "energy" in verdict.reason
+
+
+def test_a_replay_that_differs_fails(seen: Observation) -> None:
+    assert "replay" in judge(TABLE_1, replace(seen, replayed=False)).reason
+
+
+def test_a_refusal_must_name_what_it_refuses(seen: Observation) -> None:
+    named = replace(seen, refusal="x.fmu: load = nan refused: allowed is a finite number")
+    assert judge(TABLE_1, named).verdict == REFUSED
+    unnamed = replace(seen, refusal="x.fmu: fmi2DoStep failed with status 3 (error).")
+    assert judge(TABLE_1, unnamed).verdict == FAILED
+
+
+def test_the_phase_is_followed_through_changes_of_ratio(native_fmu: Path) -> None:
+    holds = (Hold(1e-4, 7, 0.4, 0.0, 3.0), Hold(1e-4, 7, 1.0, 0.0, -0.5), Hold(1e-4, 7))
+    cell = Cell("ratio", "changes", Model(1, 0), {}, holds)
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        verdict = judge(cell, observe(instance, cell))
+    assert verdict.verdict == PASSED, verdict.reason
+    assert np.isfinite(verdict.cost_ratio)

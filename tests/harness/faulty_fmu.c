@@ -1,0 +1,79 @@
+/* An FMU that does nothing, and goes wrong in one place that is chosen when it is compiled. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifndef IN_INSTANTIATE
+#define IN_INSTANTIATE
+#endif
+#ifndef IN_STEP
+#define IN_STEP
+#endif
+#ifndef IN_FREE
+#define IN_FREE
+#endif
+#define CRASH abort();
+#define LOOP for (volatile int turn = 1; turn;) { }
+#define LEAVE exit(0);
+#define PRINT puts("stepping \x01 <now>"); fflush(stdout);
+#define EXPORT __attribute__((visibility("default")))
+
+typedef void *C;
+typedef unsigned int R;
+typedef int I;
+
+static int instance;
+
+EXPORT const char *fmi2GetTypesPlatform(void) { return "default"; }
+EXPORT const char *fmi2GetVersion(void) { return "2.0"; }
+EXPORT I fmi2SetDebugLogging(C c, I on, size_t n, const char *const *s) { return 0; }
+EXPORT C fmi2Instantiate(const char *n, I t, const char *guid, const char *r, const void *f, I v, I l)
+{
+    IN_INSTANTIATE
+    return &instance;
+}
+EXPORT void fmi2FreeInstance(C c) { IN_FREE }
+EXPORT I fmi2SetupExperiment(C c, I td, double t, double start, I sd, double stop) { return 0; }
+EXPORT I fmi2EnterInitializationMode(C c) { return 0; }
+EXPORT I fmi2ExitInitializationMode(C c) { return 0; }
+EXPORT I fmi2Terminate(C c) { return 0; }
+EXPORT I fmi2Reset(C c) { return 0; }
+EXPORT I fmi2GetReal(C c, const R *r, size_t n, double *values)
+{
+    memset(values, 0, n * sizeof *values);
+    return 0;
+}
+EXPORT I fmi2GetInteger(C c, const R *r, size_t n, I *values)
+{
+    memset(values, 0, n * sizeof *values);
+    return 0;
+}
+EXPORT I fmi2SetReal(C c, const R *r, size_t n, const double *values) { return 0; }
+EXPORT I fmi2SetInteger(C c, const R *r, size_t n, const I *values) { return 0; }
+EXPORT I fmi2DoStep(C c, double t, double step, I no_rollback)
+{
+    IN_STEP
+    return 0;
+}
+
+/* A host looks for these too; none is called. */
+#define STUB(name) EXPORT I name(void) { return 3; }
+STUB(fmi2CancelStep)
+STUB(fmi2GetBoolean)
+STUB(fmi2SetBoolean)
+STUB(fmi2GetString)
+STUB(fmi2SetString)
+STUB(fmi2GetFMUstate)
+STUB(fmi2SetFMUstate)
+STUB(fmi2FreeFMUstate)
+STUB(fmi2SerializedFMUstateSize)
+STUB(fmi2SerializeFMUstate)
+STUB(fmi2DeSerializeFMUstate)
+STUB(fmi2GetDirectionalDerivative)
+STUB(fmi2SetRealInputDerivatives)
+STUB(fmi2GetRealOutputDerivatives)
+STUB(fmi2GetStatus)
+STUB(fmi2GetRealStatus)
+STUB(fmi2GetIntegerStatus)
+STUB(fmi2GetBooleanStatus)
+STUB(fmi2GetStringStatus)

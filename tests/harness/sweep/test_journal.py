@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+from math import inf
+from pathlib import Path
+
+import pytest
+
+from harness.errors import HarnessError
+from harness.sweep.journal import Journal, journal_path
+from harness.sweep.worker import Row
+
+ROWS: list[Row] = [
+    (0, [0.1 + 0.2, "steady"], None),
+    (1, [None, None], "load = nan"),
+    (2, [inf], None),
+]
+
+
+def test_rows_come_back_to_the_last_digit(tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    with Journal(path, "a") as journal:
+        journal.add(ROWS[:1])
+        journal.add(ROWS[1:])
+    with Journal(path, "a") as journal:
+        assert list(journal.rows.values()) == ROWS
+
+
+@pytest.mark.parametrize("keep", range(0, 140, 7))
+def test_a_file_cut_anywhere_keeps_its_whole_lines_and_goes_on(keep: int, tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    with Journal(path, "a") as journal:
+        journal.add(ROWS)
+    content = path.read_bytes()
+    path.write_bytes(content[:keep])
+    whole = max(0, content[:keep].count(b"\n") - 1)
+    with Journal(path, "a") as journal:
+        assert list(journal.rows.values()) == ROWS[:whole]
+        journal.add(ROWS[whole:])
+    assert path.read_bytes() == content
+
+
+def test_the_journal_of_another_sweep_is_refused_and_left_alone(tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    with Journal(path, "a") as journal:
+        journal.add(ROWS)
+    content = path.read_bytes()
+    with pytest.raises(HarnessError, match=r"another sweep.*--restart"):
+        Journal(path, "b")
+    assert path.read_bytes() == content
+
+
+def test_two_at_once_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    with Journal(path, "a"), pytest.raises(HarnessError, match="another sweep is writing it"):
+        Journal(path, "a")
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(HarnessError, match="cannot be written"):
+        Journal(tmp_path / "none" / "journal", "a")
+
+
+def test_the_journal_is_beside_its_table() -> None:
+    assert journal_path(Path("a") / "b.csv") == Path("a") / "b.csv.journal"
