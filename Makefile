@@ -6,7 +6,7 @@ PY := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build validate test lint bench ci clean
+.PHONY: help setup build validate test lint bench ci hosts interop clean
 
 help: ## print this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -29,10 +29,19 @@ validate: build ## build both FMUs, run every built-in scene and compare them wi
 	$(PY) -m harness validate
 
 test: lint ## lint, check types, run the tests that take seconds
-	$(PY) -m pytest
+	$(PY) -m pytest -n 2 --dist loadfile
 
 ci: test ## make test, then the slow tests
-	$(PY) -m pytest -m slow
+	$(PY) -m pytest -n 2 --dist worksteal -m slow
+
+hosts: $(READY) ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
+	.ci/install-tools.sh
+	$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[dev,hosts]'
+	@test -x .venv-hosts/bin/python || $(PYTHON) -m venv .venv-hosts
+	.venv-hosts/bin/python -m pip install --quiet --disable-pip-version-check cofmupy==1.0.0
+
+interop: hosts ## run table 1 in all of them
+	$(PY) -m pytest -m interop
 
 lint: $(READY) ## check style, formatting and types
 	$(PY) -m ruff check .
@@ -43,5 +52,5 @@ bench: build ## measure what accuracy costs
 	$(PY) -m harness bench
 
 clean: ## remove .venv, dist and every cache
-	rm -rf $(VENV) dist build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .venv-hosts dist build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,38 @@
+"""Table 1 in every host: each fidelity with each friction law, compared with fmpy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from harness.errors import HarnessError
+from harness.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
+from harness.hosts.runs import ALLOWED, run_host
+
+pytestmark = pytest.mark.interop
+
+HOSTS = hosts(Path(__file__).parents[2] / OWN_ENVIRONMENT)
+
+
+@pytest.mark.parametrize("host", HOSTS, ids=lambda host: host.module)
+def test_table_1_gives_the_numbers_of_fmpy(
+    host: Host, native_fmu_for_wine: Path, python_fmu: Path
+) -> None:
+    try:
+        results = run_host(host, HOSTS[0], native_fmu_for_wine, python_fmu)
+    except HarnessError as error:
+        pytest.fail(str(error))
+    assert [result.fmu for result in results] == expected_fmus(host.name)
+    for result in results:
+        for case, comparison in result.comparisons.items():
+            assert comparison.error is None, f"{result.fmu}, {case.title}: {comparison.error}"
+            assert comparison.passed, (
+                f"{result.fmu}, {case.title}: {comparison.deviation} of the peak, not {ALLOWED}"
+            )
+
+
+def expected_fmus(host: str) -> list[str]:
+    if host in ("fmpy", "libcosimpy", "pathsim-fmi", "cofmupy"):
+        return ["native", "Python"]
+    return ["native behind Python"] if host == "fmu_manipulation_toolbox" else ["native"]

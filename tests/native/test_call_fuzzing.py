@@ -1,0 +1,54 @@
+"""All functions of FMI 2.0 in random order, with good, bad and absurd arguments."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from fmu_src.c_header import C_SOURCES
+from harness.hosts.compiler import compile_program, native_compiler
+from tests.native.toolchain import PROGRAMS, UNBUILT_GUID, Binary, program, run
+
+CALLS = 300_000
+
+
+@pytest.fixture(scope="module")
+def fuzzer(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return program(PROGRAMS / "fuzz.c", tmp_path_factory.mktemp("fuzzer"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(4))
+def test_no_call_crashes_hangs_or_is_refused_in_silence(
+    fuzzer: Path, product: Binary, seed: int
+) -> None:
+    done = run([fuzzer, product.library, product.guid, seed, CALLS])
+    assert done.returncode == 0, f"seed {seed}: {done.stdout}{done.stderr}"
+    assert done.stdout.startswith(f"{CALLS} calls"), "the fuzzer ended before its last call"
+    calls = {name: (int(n), int(k)) for name, n, k in re.findall(r"(\w+) (\d+) (\d+)", done.stdout)}
+    never = [name for name, (number, _) in calls.items() if number < 500]
+    assert never == [], "every function is called hundreds of times"
+    for name in ("fmi2DoStep", "fmi2SetReal", "fmi2SetFMUstate", "fmi2DeSerializeFMUstate"):
+        number, carried_out = calls[name]
+        assert 1000 < carried_out < number, f"{name} is both carried out and refused"
+
+
+@pytest.mark.slow
+def test_the_fuzzer_notices_a_refusal_that_is_not_logged(fuzzer: Path, tmp_path: Path) -> None:
+    silent = tmp_path / "silent"
+    shutil.copytree(C_SOURCES, silent)
+    speaking = "done ? fmi2OK : report(instance, fmi2Error, refusal->text)"
+    text = (silent / "instance.c").read_text()
+    assert text.count(speaking) == 1
+    text = text.replace(speaking, "(void)instance, (void)refusal, done ? fmi2OK : fmi2Error")
+    (silent / "instance.c").write_text(text)
+    library = tmp_path / "silent.so"
+    sources = [str(path) for path in sorted(silent.glob("*.c"))]
+    flags = ["-fPIC", "-shared", "-Wno-error", f"-I{silent}", *sources[1:]]
+    compile_program(native_compiler(), Path(sources[0]), library, flags)
+    done = run([fuzzer, library, UNBUILT_GUID, 1, CALLS])
+    assert done.returncode == 1
+    assert "refused, but not logged" in done.stdout

@@ -1,0 +1,112 @@
+"""AddressSanitizer, UndefinedBehaviorSanitizer, ThreadSanitizer and memcheck on the C sources."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from harness.hosts.compiler import SOURCES
+from tests.native.scripts import CHOICES, devices, script
+from tests.native.toolchain import (
+    FAULT,
+    PROGRAMS,
+    Binary,
+    needed,
+    program,
+    run,
+    sanitized_binary,
+)
+
+pytestmark = pytest.mark.interop
+
+KEEP = ("-O1", "-g", "-fno-omit-frame-pointer")
+MEMORY = (
+    *KEEP,
+    "-fsanitize=address,undefined,float-cast-overflow",
+    "-fno-sanitize-recover=all",
+)
+THREADS = (*KEEP, "-fsanitize=thread")
+SPEAK_UP = {
+    "ASAN_OPTIONS": f"exitcode={FAULT}",
+    "UBSAN_OPTIONS": f"exitcode={FAULT}:print_stacktrace=1",
+    "TSAN_OPTIONS": f"exitcode={FAULT}",
+}
+MEMCHECK = (
+    "--quiet",
+    f"--error-exitcode={FAULT}",
+    "--leak-check=full",
+    "--show-leak-kinds=definite,indirect,possible",
+    "--errors-for-leak-kinds=definite,indirect,possible",
+)
+REFUSED = 1
+
+
+@pytest.fixture(scope="module")
+def memory_checked(tmp_path_factory: pytest.TempPathFactory) -> Binary:
+    return sanitized_binary(tmp_path_factory.mktemp("memory_checked"), MEMORY)
+
+
+@pytest.fixture(scope="module")
+def memory_checked_driver(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return program(SOURCES / "driver.c", tmp_path_factory.mktemp("driver"), MEMORY)
+
+
+@pytest.mark.parametrize(
+    ("flags", "kind"), [(MEMORY, "block"), (MEMORY, "overflow"), (THREADS, "race")]
+)
+def test_the_sanitizers_report_what_is_wrong(
+    flags: tuple[str, ...], kind: str, tmp_path: Path
+) -> None:
+    faulty = program(PROGRAMS / "faulty.c", tmp_path, flags)
+    assert run([faulty, kind], environment=SPEAK_UP).returncode == FAULT
+    assert run([faulty, "none"], environment=SPEAK_UP).returncode == 0
+
+
+@pytest.mark.parametrize(("law", "fidelity"), CHOICES)
+def test_no_device_makes_undefined_behaviour(
+    memory_checked: Binary, memory_checked_driver: Path, law: int, fidelity: int
+) -> None:
+    command = [memory_checked_driver, memory_checked.library, memory_checked.guid, "file:///"]
+    ran = 0
+    for name, values in devices().items():
+        done = run(command, script(values, law, fidelity), SPEAK_UP)
+        assert done.returncode in (0, REFUSED), f"{name}: {done.stderr}"
+        if done.returncode == REFUSED:
+            assert "refused" in done.stderr, f"{name}: {done.stderr}"
+        assert "nan" not in done.stdout, f"{name} gives NaN: {done.stdout}"
+        ran += done.returncode == 0
+    assert ran > 0.8 * len(devices()), "nearly all of the devices are carried out"
+
+
+def test_no_random_call_makes_undefined_behaviour(memory_checked: Binary, tmp_path: Path) -> None:
+    fuzzer = program(PROGRAMS / "fuzz.c", tmp_path, MEMORY)
+    command = [fuzzer, memory_checked.library, memory_checked.guid, 7, 200_000]
+    done = run(command, environment=SPEAK_UP)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_no_instance_leaves_memory_behind(memory_checked: Binary, tmp_path: Path) -> None:
+    instances = program(PROGRAMS / "instances.c", tmp_path, MEMORY)
+    command = [instances, memory_checked.library, memory_checked.guid, 600]
+    done = run(command, environment=SPEAK_UP)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_8_instances_in_8_threads_do_not_race(tmp_path: Path) -> None:
+    binary = sanitized_binary(tmp_path, THREADS)
+    threads = program(PROGRAMS / "threads.c", tmp_path, THREADS)
+    done = run([threads, binary.library, binary.guid, 8, 300], environment=SPEAK_UP)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(("law", "fidelity"), CHOICES)
+def test_memcheck_finds_nothing_in_the_binary_that_users_get(
+    product: Binary, tmp_path: Path, law: int, fidelity: int
+) -> None:
+    valgrind = needed("valgrind", "it is memcheck")
+    driver = program(SOURCES / "driver.c", tmp_path)
+    command = [valgrind, *MEMCHECK, driver, product.library, product.guid, "file:///"]
+    done = run(command, script({}, law, fidelity))
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == "", "valgrind and the FMU have nothing to say"

@@ -1,0 +1,83 @@
+"""Compiling the C sources of the FMU, and C programs that call them, in ways that find faults."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from fmu_src.c_header import C_SOURCES
+from harness.hosts.compiler import compile_program, native_compiler
+from harness.hosts.driver_host import BINARY
+from harness.hosts.job import describe
+
+PROGRAMS = Path(__file__).parent / "c"
+UNBUILT_GUID = "00000000-0000-0000-0000-000000000000"
+FAULT = 99
+"""Exit code by which a tool says that it has found something."""
+
+
+@dataclass(frozen=True)
+class Binary:
+    """A shared library of the FMU and the GUID that it answers to."""
+
+    library: Path
+    guid: str
+
+
+def unpacked_binary(fmu: Path, folder: Path) -> Binary:
+    """The binary inside an FMU for this machine."""
+    description = describe(str(fmu))
+    place, suffix = BINARY["Linux"]
+    with zipfile.ZipFile(fmu) as archive:
+        name = archive.extract(f"binaries/{place}/{description.identifier}{suffix}", folder)
+    return Binary(Path(name), description.guid)
+
+
+def program(source: Path, folder: Path, flags: Sequence[str] = ()) -> Path:
+    """A C program, compiled with a sanitizer's flags or with any compiler there is."""
+    compiler = sanitizing_compiler() if flags else native_compiler()
+    return compile_program(compiler, source, folder / source.stem, flags)
+
+
+def sanitized_binary(folder: Path, flags: Sequence[str], sources: Path = C_SOURCES) -> Binary:
+    """The C sources as a library with a sanitizer's flags."""
+    library = folder / "SliderResonator.so"
+    command = [*sanitizing_compiler(), "-std=c99", "-ffp-contract=off", *flags, "-fPIC", "-shared"]
+    command += [*(str(path) for path in sorted(sources.glob("*.c"))), "-o", str(library), "-lm"]
+    subprocess.run(command, check=True)
+    return Binary(library, UNBUILT_GUID)
+
+
+def sanitizing_compiler() -> list[str]:
+    return [needed("gcc", "it brings the sanitizers that ziglang lacks")]
+
+
+def needed(tool: str, why: str) -> str:
+    """The path of a tool without which a test cannot say anything."""
+    found = shutil.which(tool)
+    if found is None:
+        pytest.fail(f"{tool} is not installed ({why}); `make hosts` installs it")
+    return found
+
+
+def run(
+    command: Sequence[object], commands: str = "", environment: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Run a program on standard input `commands`; the caller judges how it ended."""
+    return subprocess.run(
+        [str(part) for part in command],
+        input=commands,
+        env=os.environ | dict(environment or {}),
+        capture_output=True,
+        text=True,
+        errors="replace",
+        timeout=400,
+        check=False,
+    )
