@@ -59,9 +59,11 @@ def compile_program(
     Raises HarnessError with what the compiler said.
     """
     command = [*compiler, *FLAGS, *flags, *(f"-I{folder}" for folder in (fmi_headers(), SOURCES))]
-    libraries = () if "-target" in compiler else LIBRARIES
-    command += [str(source), "-o", str(program), *libraries]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    libraries = () if "-target" in compiler or sys.platform == "win32" else LIBRARIES
+    command += [str(source.resolve()), "-o", str(program.resolve()), *libraries]
+    # Not where ziglang may be installed below: it would not find the C library it has built before.
+    folder = program.parent
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise HarnessError(f"{source.name} cannot be compiled: {done.stderr.strip()}")
     return program

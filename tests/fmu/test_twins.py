@@ -24,6 +24,9 @@ COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11
 """Difference of Coulomb signals, as a share of their peak."""
 
+LEAST_FAST_VELOCITY = 1e-4
+"""Of the devices below, in m/s."""
+
 Twins = tuple[Instance, Instance]
 
 
@@ -61,6 +64,9 @@ def scale(name: str, record: Record) -> float:
     }.get(name)
     if beside:
         peak = max(peak, float(np.abs(record[beside]).max()))
+    if name == "steady_velocity":
+        # Where it is 0 it is the fast velocity times the rounding of cos(pi / 2).
+        peak = max(peak, LEAST_FAST_VELOCITY)
     return max(peak, 1e-300)
 
 
@@ -97,7 +103,8 @@ parameters = st.fixed_dictionaries(
         "friction_coefficient": st.floats(0.01, 0.8),
         "friction_faces": st.sampled_from([1, 2]),
         "fidelity": st.sampled_from([0, 1, 2]),
-        "initial_velocity": st.one_of(st.just(0.0), st.floats(-0.1, 0.1)),
+        # Not from rest: there a free slider comes back to rest in each period, a tie for counts.
+        "initial_velocity": st.one_of(st.floats(-0.1, -0.003), st.floats(0.003, 0.1)),
         "initial_resonator_displacement": st.one_of(st.just(0.0), st.floats(-1e-3, 1e-3)),
     }
 )

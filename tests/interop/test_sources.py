@@ -1,0 +1,39 @@
+"""The C sources inside the native FMU, compiled by a tool that knows only the description."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from harness.hosts.hosts import hosts
+from harness.hosts.runs import CASES, ask, by_case, table_1_jobs
+
+pytestmark = pytest.mark.interop
+
+
+def without_binaries(fmu: Path, target: Path) -> Path:
+    with zipfile.ZipFile(fmu) as archive, zipfile.ZipFile(target, "w") as stripped:
+        for name in archive.namelist():
+            if not name.startswith("binaries/"):
+                stripped.writestr(name, archive.read(name))
+    return target
+
+
+def test_fmutool_makes_a_binary_that_gives_the_same_numbers(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    stripped = without_binaries(native_fmu, tmp_path / "stripped.fmu")
+    compiled = tmp_path / "compiled.fmu"
+    fmutool = Path(sys.executable).with_name("fmutool")
+    command = [fmutool, "-input", stripped, "-compile-sources", "-output", compiled]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert compiled.is_file(), done.stdout + done.stderr
+    fmpy = hosts()[0]
+    ours = [answer.rows for answer in ask(fmpy, table_1_jobs(native_fmu))]
+    compared = by_case(ours, ask(fmpy, table_1_jobs(compiled)))
+    failed = {case.title: compared[case] for case in CASES if not compared[case].passed}
+    assert failed == {}, "another compiler must not make another motion"
