@@ -6,7 +6,7 @@ import pytest
 
 from harness.compare import Check
 from harness.errors import SceneError
-from harness.scene import built_in_scenes, find_scene
+from harness.scene import find_scene
 from harness.validate import validate, worst_of_sweeps
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
@@ -70,19 +70,6 @@ def test_a_scene_of_each_kind_passes(python_fmu: Path, scene: str) -> None:
         (check.quantity, check.fmu, check.reference) for check in result.checks if not check.passed
     ]
     assert not failed
-
-
-@pytest.mark.slow
-def test_every_built_in_scene_passes_with_both_fmus(native_fmu: Path, python_fmu: Path) -> None:
-    results = validate([native_fmu, python_fmu], list(built_in_scenes().values()))
-    failed = [
-        (Path(result.fmu).name, c.scene, c.quantity, c.fmu, c.reference)
-        for result in results
-        for c in result.checks
-        if not c.passed
-    ]
-    assert not failed
-    assert len(results[0].checks) == len(results[1].checks)
 
 
 def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) -> None:
