@@ -34,11 +34,14 @@ test: lint ## lint, check types, run the tests that take seconds
 ci: test ## make test, then the slow tests
 	$(PY) -m pytest -n 2 --dist worksteal -m slow
 
-hosts: $(READY) ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
+hosts: $(READY) .venv-hosts/.ready ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
 	.ci/install-tools.sh
 	$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[dev,hosts]'
+
+.venv-hosts/.ready:
 	@test -x .venv-hosts/bin/python || $(PYTHON) -m venv .venv-hosts
 	.venv-hosts/bin/python -m pip install --quiet --disable-pip-version-check cofmupy==1.0.0
+	@touch $@
 
 interop: hosts ## run table 1 in all of them
 	$(PY) -m pytest -m interop
