@@ -52,10 +52,18 @@ class HarnessGroup(click.Group):
         except Exception as error:
             with suppress(OSError):
                 message = _told(error)
-                if "--json" in arguments:
+                if _prints_json(arguments):
                     click.echo(to_json({"error": message}))
             leave(COULD_NOT_RUN)
         leave(code if isinstance(code, int) else 0)
+
+
+def _prints_json(arguments: Sequence[str]) -> bool:
+    """Whether JSON is asked for on the standard output, and not in a file named after --json."""
+    return any(
+        argument == "--json" and not after.endswith(".json")
+        for argument, after in zip(arguments, [*arguments[1:], ""], strict=True)
+    )
 
 
 def _told(error: Exception) -> str:

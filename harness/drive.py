@@ -82,6 +82,7 @@ class Instance:
         self.time = 0.0
         self._used = False
         self._initialised = False
+        self._plans: dict[tuple[str, ...], tuple[Mapping[str, int], Block]] = {}
         self._inputs = self.block(list(INPUTS))
 
     def block(self, names: Sequence[str]) -> Block:
@@ -106,8 +107,7 @@ class Instance:
             self._used = True
             self._initialised = False
             self.slave.setupExperiment(startTime=start_time, stopTime=stop_time)
-            for name, value in values.items():
-                self._set(name, value)
+            self._set(values)
             self.slave.enterInitializationMode()
             self.slave.exitInitializationMode()
             self._initialised = True
@@ -144,16 +144,22 @@ class Instance:
             raise FmuError(unknown_name("variable", name, self.fmu.variables))
         return self.fmu.variables[name]
 
-    def _set(self, name: str, value: float) -> None:
-        variable = self.fmu.settable(name)
-        if variable.type == "Integer":
+    def _set(self, values: Mapping[str, float]) -> None:
+        """Set Integers one by one and all Reals in one call, each of which costs a drive period."""
+        names = tuple(values)
+        if names not in self._plans:
+            settable = {name: self.fmu.settable(name) for name in names}
+            references = {n: v.valueReference for n, v in settable.items() if v.type == "Integer"}
+            block = self.block([name for name in names if name not in references])
+            self._plans[names] = references, block
+        integers, reals = self._plans[names]
+        for name, reference in integers.items():
             try:
-                check_integer(name, value)
+                check_integer(name, values[name])
             except ValueError as error:
                 raise FmuError(str(error)) from error
-            self.slave.setInteger([variable.valueReference], [int(value)])
-        else:
-            self.slave.setReal([variable.valueReference], [value])
+            self.slave.setInteger([reference], [int(values[name])])
+        reals.write([value for name, value in values.items() if name not in integers])
 
     @contextmanager
     def explained(self) -> Iterator[None]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import pickle
 import queue
-import signal
 import subprocess
 import sys
 import tempfile
@@ -19,6 +18,7 @@ from harness.compare import Measurement
 from harness.errors import FmuError
 from harness.isolated import Answer, Request
 from harness.last_words import last_words
+from harness.process_group import end_group
 
 GRACE = 10.0
 """Seconds beyond its time limit after which a process that did not end itself is ended."""
@@ -100,7 +100,7 @@ class FmuProcess:
     def kill(self) -> None:
         """End the process and what it started, if it still runs."""
         if self._process.poll() is None:
-            _end(self._process)
+            end_group(self._process)
         for stream in (self._process.stdin, self._process.stdout):
             if stream is not None:
                 with suppress(OSError):  # what cannot be flushed nobody reads any more
@@ -124,7 +124,7 @@ class FmuProcess:
             code: int | None = self._process.wait(1.0)
         except subprocess.TimeoutExpired:
             code = None
-            _end(self._process)
+            end_group(self._process)
         log = self._log.read_text(encoding="utf-8", errors="replace")
         return FmuDied(last_words(log, code, self.time_limit))
 
@@ -138,14 +138,6 @@ def _collect(file: IO[bytes], answers: queue.SimpleQueue[Answer | None]) -> None
             answers.put(None)
             return
         answers.put(answer if isinstance(answer, Answer) else None)
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    if sys.platform == "win32":
-        process.kill()
-    else:
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
 
 
 def _search_path() -> str:

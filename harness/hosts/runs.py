@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
-import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -17,6 +15,7 @@ from harness.errors import HarnessError
 from harness.hosts.hosts import Host
 from harness.hosts.job import Answer, Job, Rows, read_answers, write_jobs
 from harness.interface import OUTPUTS
+from harness.process_group import end_group
 
 STEP, STEPS = 1e-3, 40
 
@@ -129,15 +128,7 @@ def _run(command: Sequence[str], said: Path) -> int | None:
             return None
         finally:
             if process.poll() is None:
-                _end(process)
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    if sys.platform == "win32":
-        process.kill()
-    else:
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
+                end_group(process)
 
 
 def coupled(jobs: Sequence[Job], leaders: Sequence[Rows]) -> list[Job]:

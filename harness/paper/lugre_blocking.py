@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from harness.drive import Instance
-from harness.paper.figure import Data, Progress
 from harness.paper.mapping import lugre_case
 from harness.paper.measure import blocking_force
-from harness.paper.table import PaperTable
+from harness.paper.table import PaperTable, rows_over
 from harness.references import averaged_lugre, uniform_average
 from harness.references.averaged_lugre import LugreCase
 
@@ -33,14 +32,6 @@ def _row(instance: Instance, kappa: float) -> dict[str, float]:
     }
 
 
-def _measure(instance: Instance, progress: Progress) -> Data:
-    rows = []
-    for index, kappa in enumerate(KAPPAS):
-        rows.append(_row(instance, kappa))
-        progress((index + 1) / len(KAPPAS))
-    return {"rows": rows}
-
-
 TABLE = PaperTable(
     "lugre_blocking",
     "Blocking force with LuGre friction",
@@ -58,5 +49,5 @@ TABLE = PaperTable(
     },
     {"uniform_deviation": 2e-3},
     {"kappas": KAPPAS, "case": lugre_case(CASE, FREQUENCY, 1.0)},
-    _measure,
+    rows_over(KAPPAS, _row),
 )

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from harness.drive import Instance
-from harness.paper.figure import Data, Progress
 from harness.paper.measure import blocking_force, steady_velocity
-from harness.paper.table import PaperTable
+from harness.paper.table import PaperTable, rows_over
 from harness.references import uniform_average
 from harness.references.closed_forms import equivalent_force
 from harness.references.device import Device
@@ -41,14 +40,6 @@ def _row(instance: Instance, kappa: float) -> dict[str, float]:
     }
 
 
-def _measure(instance: Instance, progress: Progress) -> Data:
-    rows = []
-    for index, kappa in enumerate(KAPPAS):
-        rows.append(_row(instance, kappa))
-        progress((index + 1) / len(KAPPAS))
-    return {"rows": rows}
-
-
 TABLE = PaperTable(
     "lugre_device",
     "The device of table 1 with LuGre friction",
@@ -69,5 +60,5 @@ TABLE = PaperTable(
     },
     {"velocity_deviation": 2e-3, "force_deviation": 2e-3},
     {"kappas": KAPPAS},
-    _measure,
+    rows_over(KAPPAS, _row),
 )

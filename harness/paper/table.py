@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,3 +33,18 @@ class PaperTable:
     def confirmed(self, data: Data) -> bool:
         """Return whether all deviations are within their bounds."""
         return all(size <= self.bounds[name] for name, size in self.largest(data).items())
+
+
+def rows_over(
+    values: Sequence[float], row: Callable[[Instance, float], Mapping[str, float]]
+) -> Callable[[Instance, Progress], Data]:
+    """Return the measurement of a table with one row for each value."""
+
+    def measure(instance: Instance, progress: Progress) -> Data:
+        rows = []
+        for index, value in enumerate(values):
+            rows.append(row(instance, value))
+            progress((index + 1) / len(values))
+        return {"rows": rows}
+
+    return measure

@@ -16,7 +16,6 @@ from harness.drive import Instance, instantiate
 from harness.errors import HarnessError
 from harness.fmu import open_fmu
 from harness.sweep.measures import Cell, Task, measure
-from harness.sweep.quick_start import QuickStart
 
 Point = tuple[int, tuple[float, ...]]
 """Number of a point and its values."""
@@ -85,7 +84,7 @@ def _instance(digest: str) -> Instance:
             raise HarnessError("this worker has not been given the FMU")
         with ExitStack() as stack:
             fmu = stack.enter_context(open_fmu(_files[digest]))
-            _own.instance = QuickStart(stack.enter_context(instantiate(fmu)))
+            _own.instance = stack.enter_context(instantiate(fmu))
             _own.stack = stack.pop_all()
         _own.digest = digest
         _open.append(_own.stack)
