@@ -119,7 +119,7 @@ def switching_outcome(end: switching_taylor.SlidingEnd, device: Device, stop: fl
     start = (device.initial_position, device.initial_velocity)
     position, velocity = np.array([start, end.state[:2]], dtype=np.float64).T
     times = np.array([0.0, stop])
-    return Outcome(times, position, velocity, end.reversals, end.steps, None)
+    return Outcome(times, position, velocity, end.reversals, end.steps, end.evaluations or None)
 
 
 def _reference(simulate: Callable[..., Trajectory], periods: int) -> Outcome:

@@ -82,13 +82,15 @@ class Equations:
         theta: float,
         angle: float,
         frequency_ratio: float,
+        width: float = 0.0,
     ) -> Callable[[float, NDArray[np.float64]], list[float]]:
         """Return the time derivative of the state as a function of time (s) and state (4).
 
         ``theta`` and ``angle`` are those at time 0. Within a contact mode the derivative is smooth;
-        with mode None friction follows the sign of the velocity at every instant.
+        with mode None friction follows the sign of the velocity at every instant, or with a
+        ``width`` in m/s its regularisation tanh(velocity / width).
         """
-        sin, cos = math.sin, math.cos
+        sin, cos, tanh = math.sin, math.cos, math.tanh
         rate, angle_rate = self.drive_frequency, frequency_ratio * self.drive_frequency
         coupling_damping, coupling_stiffness = self.coupling_damping, self.coupling_stiffness
         force_sine, force_cosine = self.force_sine, self.force_cosine
@@ -104,7 +106,7 @@ class Equations:
             resonator = base * sine - damping * resonator_velocity - stiffness * displacement
             if not slides:
                 return [0.0, 0.0, resonator_velocity, resonator]
-            direction = fixed_direction
+            direction: float = fixed_direction
             force = (
                 coupling_damping * resonator_velocity
                 + coupling_stiffness * displacement
@@ -116,7 +118,7 @@ class Equations:
             limit = mean + amplitude * sin(angle + angle_rate * time)
             if mode is None:
                 limit = max(0.0, limit)
-                direction = (velocity > 0.0) - (velocity < 0.0)
+                direction = tanh(velocity / width) if width else (velocity > 0.0) - (velocity < 0.0)
             acceleration = (force - direction * limit) / inertia
             return [velocity, acceleration, resonator_velocity, resonator - acceleration]
 

@@ -1,4 +1,4 @@
-"""The full equations by scipy's DOP853, with every change of contact mode located.
+"""The full equations by scipy, with every change of contact mode located; DOP853 is the reference.
 
 Within one contact mode the equations are smooth, so the high order method keeps its order; at
 events the mode changes by the contact law. Steps are bounded by a fraction of the fastest period,
@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import DOP853
+from scipy.integrate import DOP853, OdeSolver
 
 from harness.references.contact import LIFTED, STICK
 from harness.references.device import Device
@@ -22,12 +23,13 @@ from harness.references.first_crossing import first_crossing
 from harness.references.held_inputs import HeldInputs
 from harness.references.mode_sequence import ModeSequence
 from harness.references.passage import Follow, Passage, Stretch
+from harness.references.scipy_methods import scipy_method
 from harness.references.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 Dense = Callable[[float | Array], Array]
 
-_STEPS_PER_FASTEST_PERIOD = 16
+STEPS_PER_FASTEST_PERIOD = 16
 _SEARCHED_PER_STEP = 8
 _NOISE = 1e-15
 
@@ -37,22 +39,24 @@ def simulate(
     held: Sequence[HeldInputs],
     times: Array,
     *,
+    method: str = "DOP853",
     rtol: float = 1e-12,
     atol: float = 1e-14,
+    steps_per_period: int = STEPS_PER_FASTEST_PERIOD,
 ) -> Trajectory:
     """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
 
     ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
     start. A sample on a boundary between inputs belongs to the inputs before it. ``rtol`` is the
     relative tolerance of every step, ``atol`` the absolute one in fractions of a characteristic
-    velocity and displacement. Counts cover the whole span of the inputs. Raises ValueError for a
-    device that the equations do not cover, inputs with gaps, and times outside them.
+    velocity and displacement. ``method`` is DOP853, LSODA or Radau; the fastest period takes at
+    least ``steps_per_period`` steps, which costs a loose tolerance more than it asks for. Counts
+    cover the whole span of the inputs. Raises ValueError for a device that the equations do not
+    cover, another method, inputs with gaps, and times outside them.
     """
     equations = equations_of(device)
-    sequence = ModeSequence(
-        equations, _follow_with(equations, rtol, atol), initial_state(device), times
-    )
-    return sequence.run(held)
+    follow = _follow_with(equations, scipy_method(method), rtol, atol, steps_per_period)
+    return ModeSequence(equations, follow, initial_state(device), times).run(held)
 
 
 def advance(
@@ -70,16 +74,18 @@ def advance(
     point is the steady motion. ``rtol``, ``atol`` and the errors raised are those of ``simulate``.
     """
     equations = equations_of(device)
-    follow = _follow_with(equations, rtol, atol)
+    follow = _follow_with(equations, DOP853, rtol, atol, STEPS_PER_FASTEST_PERIOD)
     sequence = ModeSequence(equations, follow, (0.0, *state), np.empty(0))
     sequence.run([inputs])
     displacement, *end = sequence.state
     return (end[0], end[1], end[2]), displacement
 
 
-def _follow_with(equations: Equations, rtol: float, atol: float) -> Follow:
+def _follow_with(
+    equations: Equations, method: type[OdeSolver], rtol: float, atol: float, steps_per_period: int
+) -> Follow:
     def follow(stretch: Stretch) -> Passage:
-        return _Motion(equations, stretch).follow(rtol, atol)
+        return _Motion(equations, stretch).follow(method, rtol, atol, steps_per_period)
 
     return follow
 
@@ -96,11 +102,13 @@ class _Motion:
         self._rate = equations.drive_frequency
         self._angle_rate = stretch.frequency_ratio * equations.drive_frequency
 
-    def follow(self, rtol: float, atol: float) -> Passage:
+    def follow(
+        self, method: type[OdeSolver], rtol: float, atol: float, steps_per_period: int
+    ) -> Passage:
         stretch = self._stretch
         fastest = self._equations.fastest_rate(stretch.frequency_ratio)
-        longest_step = 2.0 * math.pi / fastest / _STEPS_PER_FASTEST_PERIOD
-        solver = DOP853(
+        longest_step = 2.0 * math.pi / fastest / steps_per_period
+        solver: Any = method(
             self._equations.slopes(
                 stretch.mode, stretch.load, stretch.theta, stretch.angle, stretch.frequency_ratio
             ),
@@ -120,8 +128,8 @@ class _Motion:
             message = solver.step()
             if solver.status == "failed":
                 raise RuntimeError(
-                    f"DOP853 failed at {solver.t!r} s into a stretch of mode {stretch.mode}: "
-                    f"{message}; use a greater rtol"
+                    f"{method.__name__} failed at {solver.t!r} s into a stretch of mode "
+                    f"{stretch.mode}: {message}; use a greater rtol"
                 )
             steps += 1
             dense = solver.dense_output()

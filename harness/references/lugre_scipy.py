@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import LSODA, OdeSolver, Radau
 
 from harness.references.contact import LIFTED
 from harness.references.device import Device
@@ -19,10 +19,10 @@ from harness.references.equations import initial_state
 from harness.references.held_inputs import HeldInputs, check_contiguous, check_times
 from harness.references.lugre_equations import LugreEquations, lugre_equations_of
 from harness.references.lugre_trajectory import LugreTrajectory
+from harness.references.scipy_methods import scipy_method
 
 Array = NDArray[np.float64]
 
-_METHODS = {"LSODA": LSODA, "Radau": Radau}
 _STEPS_PER_FASTEST_PERIOD = 16
 
 
@@ -37,18 +37,17 @@ def simulate_lugre(
 ) -> LugreTrajectory:
     """Return the motion with LuGre friction (8) under held inputs at ``times`` (shape (n,), s).
 
-    Takes the inputs that ``lugre_taylor.simulate_lugre`` takes. ``method`` is LSODA or Radau,
-    ``atol`` is in fractions of characteristic sizes of the states. Reversals are counted between
-    the ends of steps, and ``event_times`` is empty. Raises ValueError as the other does, and for
-    another method; RuntimeError if a step fails.
+    Takes the inputs that ``lugre_taylor.simulate_lugre`` takes. ``method`` is LSODA, Radau
+    or, for soft bristles, DOP853, ``atol`` is in fractions of characteristic sizes of the states.
+    Reversals are counted between the ends of steps, and ``event_times`` is empty. Raises ValueError
+    as the other does, and for another method; RuntimeError if a step fails.
     """
-    if method not in _METHODS:
-        raise ValueError(f"method = {method!r}: allowed are {', '.join(_METHODS)}")
+    solver = scipy_method(method)
     check_contiguous(held)
     check_times(times, held)
     run = _Run(device, lugre_equations_of(device), times)
     for inputs in held:
-        run.follow(inputs, _METHODS[method], rtol, atol)
+        run.follow(inputs, solver, rtol, atol)
     return LugreTrajectory(
         time=times,
         position=run.signals[:, 0],
@@ -90,7 +89,7 @@ class _Run:
         self._moved = 0.0
 
     def follow(
-        self, inputs: HeldInputs, method: Callable[..., OdeSolver], rtol: float, atol: float
+        self, inputs: HeldInputs, method: Callable[..., Any], rtol: float, atol: float
     ) -> None:
         equations = self._equations
         ratio = inputs.frequency_ratio

@@ -282,3 +282,18 @@ def test_the_referee_agrees(name: str) -> None:
         error = abs(getattr(run, signal) - expected).max()
         assert error <= 3e-9 * peak, f"{signal}: {error} of {peak}"
     assert (run.reversals, run.sticks) == (exact.reversals, exact.sticks), "the same events"
+
+
+@pytest.mark.parametrize("method", ["LSODA", "Radau"])
+def test_another_method_finds_the_same_events(method: str) -> None:
+    device, held = Device(), [HeldInputs(0.0, 3 * PERIOD, phase=0.4)]
+    times = np.linspace(0.0, held[0].stop, 13)
+    run = simulate(device, held, times, method=method, rtol=1e-7, atol=1e-9, steps_per_period=4)
+    expected = simulate(device, held, times)
+    assert run.event_times == pytest.approx(expected.event_times, abs=1e-6 * PERIOD)
+    assert np.abs(run.velocity - expected.velocity).max() < 1e-5 * np.abs(expected.velocity).max()
+
+
+def test_an_unknown_method_is_refused() -> None:
+    with pytest.raises(ValueError, match="method = 'Euler': allowed are DOP853, LSODA, Radau"):
+        simulate(Device(), [HeldInputs(0.0, PERIOD)], np.empty(0), method="Euler")

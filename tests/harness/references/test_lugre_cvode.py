@@ -27,6 +27,15 @@ def test_error_falls_with_tolerance() -> None:
     assert errors[1] < 1e-2 * errors[0] or errors[1] < 1e-8
 
 
+def test_states_at_the_times_asked_for() -> None:
+    times = np.linspace(0.0, HELD.stop, 5)
+    run = simulate_lugre_cvode(DEVICE, HELD, tolerance=1e-9, times=times)
+    referee = simulate_lugre(DEVICE, [HELD], times)
+    assert run.samples[:, 1] == pytest.approx(referee.velocity, abs=1e-5)
+    assert run.samples[-1] == pytest.approx(run.state)
+    assert run.evaluations > 0
+
+
 def test_other_devices_are_refused() -> None:
     with pytest.raises(ValueError, match="LuGre friction"):
         simulate_lugre_cvode(replace(DEVICE, friction_law=0), HELD, tolerance=1e-6)

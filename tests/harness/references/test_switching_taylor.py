@@ -11,6 +11,7 @@ import pytest
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
 from harness.references.lugre_taylor import simulate_lugre
+from harness.references.lugre_trajectory import LugreTrajectory
 from harness.references.switching_taylor import simulate_sliding
 from harness.references.taylor import simulate
 
@@ -53,3 +54,27 @@ def test_what_it_does_not_cover_is_refused() -> None:
         simulate_sliding(replace(MOVING, normal_amplitude=1.5), held, tolerance=1e-10)
     with pytest.raises(RuntimeError, match="after 3 steps"):
         simulate_sliding(MOVING, held, tolerance=1e-10, most_steps=3)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_a_run_goes_on_from_within_its_inputs(law: int) -> None:
+    device = replace(MOVING, friction_law=law, bristle_stiffness=1e4)
+    held = HeldInputs(0.0, 6 * PERIOD, phase=0.2, frequency_ratio=1.5)
+    times = np.linspace(0.0, held.stop, 25)
+    referee = (simulate, simulate_lugre)[law](device, [held], times)
+    begin = 8
+    bent = referee.bristle_deflection[begin] if isinstance(referee, LugreTrajectory) else 0.0
+    later = replace(
+        device,
+        initial_position=referee.position[begin],
+        initial_velocity=referee.velocity[begin],
+        initial_resonator_displacement=referee.resonator_displacement[begin],
+        initial_resonator_velocity=referee.resonator_velocity[begin],
+        initial_bristle_deflection=bent,
+    )
+    end = simulate_sliding(
+        later, held, tolerance=1e-14, begin=float(times[begin]), times=times[begin:]
+    )
+    assert end.samples[:, 0] == pytest.approx(referee.position[begin:], rel=1e-9)
+    assert end.samples[:, 1] == pytest.approx(referee.velocity[begin:], rel=1e-9)
+    assert end.state == pytest.approx(end.samples[-1])
