@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from harness.errors import SceneError
 from harness.fmu_side import FmuSide
-from harness.measures.deviation import peak
+from harness.measures.deviation import mismatch_share, peak, share_of
 from harness.measures.frequency import NoOscillation
+from harness.measures.tube import Tube, no_tube
 from harness.quantities import QUANTITIES, Quantity
 from harness.reference_side import ReferenceSide
 from harness.scene_model import ExpectTable
@@ -39,8 +40,10 @@ class Check:
     """One expectation with its verdict.
 
     For a signal, `fmu` and `reference` are peaks, and `deviation` and `allowed` shares of the
-    reference's peak; for a number they carry its unit. `at` says what a sweep has varied. A signal
-    that fails is beyond what is allowed from `first_time` (s) on and farthest at `worst_time` (s).
+    reference's peak; for a number, and for times of events, they carry its unit. `at` says what a
+    sweep has varied. A signal that fails is beyond what is allowed from `first_time` (s) on and
+    farthest at `worst_time` (s). A deviation is counted from the edge of a tube, where there is
+    one; `tube` is its half width in drive periods.
     """
 
     scene: str
@@ -57,6 +60,7 @@ class Check:
     at: Mapping[str, float] = field(default_factory=dict)
     first_time: float | None = None
     worst_time: float | None = None
+    tube: float | None = None
 
     @property
     def severity(self) -> float:
@@ -84,27 +88,41 @@ def measure(expect: ExpectTable, fmu: FmuSide) -> Measurement:
 
 
 def wanted(expect: ExpectTable, reference: ReferenceSide) -> Any:
-    """Return what the reference says: number, word, None or signal (n,).
+    """Return what the reference says: number, word, None, signal (n,) or a tube around one.
 
     Raises SceneError when the comparison makes no sense.
     """
     if expect.reference is None:
         return next(v for v in (expect.value, expect.at_most, expect.at_least) if v is not None)
+    quantity = QUANTITIES[expect.quantity]
     try:
-        return QUANTITIES[expect.quantity].references[expect.reference](reference)
+        if expect.tube is not None and not quantity.in_periods:
+            return reference.tube(expect.reference, expect.quantity, expect.tube)
+        return quantity.references[expect.reference](reference)
     except (ValueError, RuntimeError, ModuleNotFoundError) as error:
         where = f"{reference.scene.source}: {expect.quantity}"
         raise SceneError(f"{where} cannot be compared: {error}") from error
 
 
 def check(
-    expect: ExpectTable, measured: Measurement, wanted: Any, scene: str, at: Mapping[str, float]
+    expect: ExpectTable,
+    measured: Measurement,
+    wanted: Any,
+    scene: str,
+    at: Mapping[str, float],
+    smallest: float = 0.0,
 ) -> Check:
-    """Compare a measurement with what is wanted, and judge."""
+    """Compare a measurement with what is wanted, and judge.
+
+    A reference nearer to zero than `smallest`, in its unit, counts as that, unless the scene says
+    what is allowed in absolute terms.
+    """
     quantity = QUANTITIES[expect.quantity]
+    if "absolute" in expect.model_fields_set:
+        smallest = 0.0
     if quantity.kind == "signal":
-        return _signal_check(expect, quantity, measured, wanted, scene, at)
-    deviation, allowed = _distance(expect, measured.value, wanted)
+        return _signal_check(expect, quantity, measured, wanted, scene, at, smallest)
+    deviation, allowed = _distance(expect, measured.value, wanted, smallest)
     return Check(
         scene=scene,
         quantity=expect.quantity,
@@ -125,32 +143,43 @@ def _signal_check(
     expect: ExpectTable,
     quantity: Quantity,
     measured: Measurement,
-    wanted: Array,
+    wanted: Array | Tube,
     scene: str,
     at: Mapping[str, float],
+    smallest: float,
 ) -> Check:
     """Compare two signals; a value that is not finite fails."""
-    floor = expect.absolute / expect.relative if expect.absolute else 0.0
-    deviation = quantity.deviation(measured.value, wanted, floor)
-    passed = deviation <= expect.relative
+    tube = wanted if isinstance(wanted, Tube) else no_tube(wanted)
+    outside = tube.outside(measured.value)
+    size = peak(tube.middle)
+    floor = expect.absolute / expect.relative if expect.absolute else max(0.0, smallest - size)
+    allowed = expect.relative
+    if quantity.exact:
+        deviation, limit = mismatch_share(outside), 0.5
+    elif quantity.in_periods:
+        allowed = limit = expect.tube or 0.0
+        deviation = peak(outside)
+    else:
+        deviation, limit = share_of(peak(outside), size + floor), allowed * (size + floor)
+    passed = deviation <= allowed
     first = worst = None
     if not passed and measured.times is not None:
-        allowed = 0.5 if quantity.exact else expect.relative * (peak(wanted) + floor)
-        first, worst = _places(np.abs(measured.value - wanted), allowed, measured.times)
+        first, worst = _places(outside, limit, measured.times)
     return Check(
         scene=scene,
         quantity=expect.quantity,
         unit=quantity.unit,
         fmu=peak(measured.value),
         against=_against(expect),
-        reference=peak(wanted),
+        reference=size,
         deviation=deviation,
-        allowed=expect.relative,
+        allowed=allowed,
         passed=passed,
         why=expect.why,
         at=at,
         first_time=first,
         worst_time=worst,
+        tube=expect.tube,
     )
 
 
@@ -162,7 +191,7 @@ def _places(error: Array, allowed: float, times: Array) -> tuple[float, float]:
 
 
 def _distance(
-    expect: ExpectTable, measured: Value, wanted: Value
+    expect: ExpectTable, measured: Value, wanted: Value, smallest: float
 ) -> tuple[float | None, float | None]:
     """Return deviation and what is allowed; for a bound, by how much it is exceeded."""
     if isinstance(measured, str) or isinstance(wanted, str) or wanted is None or measured is None:
@@ -172,7 +201,7 @@ def _distance(
         difference = max(0.0, difference)
     if expect.at_least is not None:
         difference = max(0.0, -difference)
-    return abs(difference), expect.absolute + expect.relative * abs(wanted)
+    return abs(difference), expect.absolute + expect.relative * max(abs(wanted), smallest)
 
 
 def _verdict(

@@ -23,6 +23,9 @@ from harness.names import unknown_name
 from harness.schedule import Schedule
 from harness.values import check_integer
 
+EQUAL = 1e-6
+"""Relative difference up to which two communication steps are of one size."""
+
 _numbers = count(1)
 
 
@@ -111,6 +114,16 @@ class Instance:
             self.slave.enterInitializationMode()
             self.slave.exitInitializationMode()
             self._initialised = True
+
+    def check_steps(self, times: NDArray[np.float64]) -> None:
+        """Raise FmuError where the FMU takes equal steps only and those to `times` (s) differ."""
+        steps = np.diff(times, prepend=self.time)
+        if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * steps.max():
+            raise FmuError(
+                f"{self.fmu.path.name} says canHandleVariableCommunicationStepSize = false, but "
+                f"this needs steps from {steps.min():.6g} s to {steps.max():.6g} s; allowed is one "
+                "size for the whole run"
+            )
 
     def set_inputs(self, values: Sequence[float]) -> None:
         """Set phase (rad), load (N), frequency_ratio."""
@@ -209,7 +222,8 @@ def run(
 ) -> Record:
     """Run the schedule from the given parameters and return the outputs at all its points.
 
-    `progress` is told now and then which share of the points is done.
+    `progress` is told now and then which share of the points is done. Raises FmuError and Refusal
+    as `Instance.start` and `Instance.check_steps` do.
     """
     times = schedule.times
     inputs = schedule.sampled()
@@ -218,6 +232,7 @@ def run(
     began = time.perf_counter()
     first = dict(zip(INPUTS, held[0], strict=True))
     instance.start({**parameters, **first}, stop_time=float(times[-1]))
+    instance.check_steps(times[1:])
     block = instance.block(outputs)
     report_every = max(1, len(times) // 100)
     with instance.explained():

@@ -9,14 +9,14 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree as ET
 
 import fmpy
 from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
 
 from harness.errors import FmuError
-from harness.interface import INPUTS, OUTPUTS, PARAMETERS
+from harness.interface import INPUTS, PARAMETERS
+from harness.interface_check import interface_problems
 from harness.names import unknown_name
 
 
@@ -39,6 +39,11 @@ class Fmu:
         """Whether a host without Python can load it: it carries no Python sources to run."""
         return not any((self.folder / "resources").glob("*.py"))
 
+    @property
+    def takes_equal_steps_only(self) -> bool:
+        """Whether all communication steps of a run must have one size, as the FMU says."""
+        return not self.description.coSimulation.canHandleVariableCommunicationStepSize
+
     def settable(self, name: str) -> ModelVariable:
         """Return the parameter or input called `name`; FmuError names the nearest if none is."""
         allowed = [*PARAMETERS, *INPUTS]
@@ -52,12 +57,12 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
     """Unpack the FMU at `path` for the length of the block.
 
     Raises FmuError when it is no FMI 2.0 co-simulation FMU, lacks a variable of the interface,
-    gives one of them another causality or unit, or has no binary for this platform.
+    gives one of them another causality, type or unit, or has no binary for this platform.
     """
     path = Path(path)
     description = _read_description(path)
     variables = {variable.name: variable for variable in description.modelVariables}
-    _check_interface(path, description, variables)
+    _check_interface(path, description)
     folder = Path(tempfile.mkdtemp(prefix="slider-resonator-"))
     try:
         try:
@@ -97,31 +102,12 @@ def _fmi_version(path: Path) -> str:
             return str(root.get("fmiVersion", "unknown"))
 
 
-def _check_interface(
-    path: Path, description: ModelDescription, variables: Mapping[str, Any]
-) -> None:
+def _check_interface(path: Path, description: ModelDescription) -> None:
     if description.coSimulation is None:
         raise FmuError(f"{path}: an FMU for model exchange only; allowed is co-simulation")
-    problems = []
-    for causality, wanted in (("input", INPUTS), ("parameter", PARAMETERS), ("output", OUTPUTS)):
-        for name, unit in wanted.items():
-            if name not in variables:
-                problems.append(f"{causality} {name} is missing")
-                continue
-            variable = variables[name]
-            if variable.causality != causality:
-                problems.append(f"{name} is {variable.causality}, must be {causality}")
-            found = _unit(variable)
-            if found != unit:
-                problems.append(f"{name} has unit {found}, must be {unit}")
+    problems = interface_problems(description)
     platforms = fmpy.supported_platforms(str(path))
     if not problems and fmpy.platform not in platforms:
         problems.append(f"no binary for {fmpy.platform}, only for {', '.join(platforms) or 'none'}")
     if problems:
         raise FmuError(f"{path}: not usable as a slider-resonator: {'; '.join(problems)}")
-
-
-def _unit(variable: ModelVariable) -> str:
-    """Return the unit of a variable, "1" where it has none."""
-    declared = variable.declaredType.unit if variable.declaredType else None
-    return str(variable.unit or declared or "1")

@@ -93,9 +93,9 @@ def _table(checks: Sequence[Check]) -> str:
 
 
 def _row(check: Check) -> str:
-    signal = QUANTITIES[check.quantity].kind == "signal"
+    of_peak = QUANTITIES[check.quantity].relative_to_peak
     sizes = [
-        "-" if size is None else f"{size:.2g}" + " of peak" * signal
+        "-" if size is None else f"{size:.2g}" + " of peak" * of_peak
         for size in (check.deviation, check.allowed)
     ]
     numbers = [_value(check.fmu), _value(check.reference), *sizes]

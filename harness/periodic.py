@@ -152,12 +152,13 @@ class FmuPeriodMap:
         start = np.zeros(len(self.names))
         start[0] = velocity
         self._start(start, load)
-        samples = (count - 1 + np.arange(SAMPLES + 1) / SAMPLES) * period
+        whole = 0 if self.instance.fmu.takes_equal_steps_only else count - 1
+        samples = np.linspace(whole * period, count * period, (count - whole) * SAMPLES + 1)
         before_end = self._times_before(count * period)
         times = np.union1d(samples, before_end)
         readings = self._readings(times)
         self.periods += count
-        last = readings[np.searchsorted(times, samples)]
+        last = readings[np.searchsorted(times, samples[-SAMPLES - 1 :])]
         floor = self.facts.velocity_floor
         sizes = np.abs(last[1:, 1:4]).max(axis=0)
         scale = np.maximum(sizes, [floor, floor * period / (2.0 * pi), floor])
@@ -178,6 +179,8 @@ class FmuPeriodMap:
     def _readings(self, times: Array) -> Array:
         """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""
         rows = []
+        if self.instance.fmu.takes_equal_steps_only:
+            self.instance.check_steps(times[times > self.instance.time])
         with self.instance.explained():
             for time in times.tolist():
                 if time > self.instance.time:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.measures.deviation import mismatch_share, peak_deviation
 from harness.measures.frequency import dominant_frequency
 from harness.measures.ripple import ripple_amplitude
 from harness.measures.slow import slow_displacement
@@ -27,8 +26,9 @@ class Quantity:
     """A quantity: number, word or signal.
 
     `measure` takes it from the FMU, `references` from what each named reference knows. A number or
-    word that is None does not exist. `deviation` is used for signals. Of an `exact` quantity, a
-    count or a word, equality can be expected without naming a tolerance.
+    word that is None does not exist. Of an `exact` quantity, a count or a word, equality can be
+    expected without naming a tolerance. The `referees` know a signal at any time, so that there can
+    be a tube around it. A signal `in_periods` is judged by its deviation in drive periods.
     """
 
     kind: Kind
@@ -37,8 +37,14 @@ class Quantity:
     measure: Callable[[FmuSide], Any]
     references: Mapping[str, Callable[[ReferenceSide], Any]] = field(default_factory=dict)
     needs_run: bool = False
-    deviation: Callable[[Array, Array, float], float] = peak_deviation
     exact: bool = False
+    referees: tuple[str, ...] = ()
+    in_periods: bool = False
+
+    @property
+    def relative_to_peak(self) -> bool:
+        """Whether a deviation is a share of the reference's peak."""
+        return self.kind == "signal" and not self.in_periods
 
 
 def _signal(name: str, unit: str, meaning: str, *, averaged: bool = False) -> Quantity:
@@ -48,6 +54,7 @@ def _signal(name: str, unit: str, meaning: str, *, averaged: bool = False) -> Qu
         "taylor": lambda reference: reference.signal("taylor", name),
         "bristle_state": lambda reference: reference.signal("bristle_state", name),
     }
+    referees = () if name == "contact_mode" else tuple(references)
     if averaged:
         references["averaged"] = lambda reference: getattr(reference.averaged_motion, name)
     return Quantity(
@@ -57,8 +64,8 @@ def _signal(name: str, unit: str, meaning: str, *, averaged: bool = False) -> Qu
         lambda fmu: fmu.record[name],
         references,
         needs_run=True,
-        deviation=mismatch_share if name == "contact_mode" else peak_deviation,
         exact=name == "contact_mode",
+        referees=referees,
     )
 
 
@@ -193,6 +200,18 @@ QUANTITIES: Mapping[str, Quantity] = {
         },
         needs_run=True,
         exact=True,
+    ),
+    "event_times": Quantity(
+        "signal",
+        "drive periods",
+        "time of the last event before each point of the run",
+        lambda fmu: fmu.record["last_event_time"] / fmu.drive_period,
+        {
+            "located_events": lambda reference: reference.event_times("located_events"),
+            "taylor": lambda reference: reference.event_times("taylor"),
+        },
+        needs_run=True,
+        in_periods=True,
     ),
     "last_event_time": Quantity(
         "number",

@@ -10,6 +10,7 @@ from math import floor, pi
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.measures.tube import Tube
 from harness.reference_steady import reference_blocking_force, reference_steady_velocity
 from harness.references import (
     averaged_coulomb,
@@ -31,6 +32,11 @@ _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
     "bristle_state": lugre_scipy.simulate_lugre,
 }
 
+TUBE_POINTS = 3
+"""Points on each side of a time at which a tube looks at the reference."""
+COINCIDENCE = 1e-6
+"""Share of a drive period within which an event and a communication point coincide."""
+
 
 class ReferenceSide:
     """Trajectories, steady motion and closed forms for one scene."""
@@ -40,6 +46,7 @@ class ReferenceSide:
         self.device = scene.device
         self.inputs = {name: signal.at(0.0) for name, signal in scene.signals.items()}
         self._trajectories: dict[str, Trajectory] = {}
+        self._around: dict[tuple[str, float], Trajectory] = {}
 
     @property
     def drive_period(self) -> float:
@@ -57,10 +64,8 @@ class ReferenceSide:
         It also has the two ends of the last whole drive period.
         """
         if referee not in self._trajectories:
-            simulate = _SIMULATORS[referee]
-            held = self.scene.schedule().held()
             times = np.union1d(self.times, self._last_period)
-            self._trajectories[referee] = simulate(self.device, held, times)
+            self._trajectories[referee] = self._simulate(referee, times)
         return self._trajectories[referee]
 
     def signal(self, referee: str, name: str) -> Array:
@@ -68,6 +73,35 @@ class ReferenceSide:
         run = self.trajectory(referee)
         values = np.asarray(getattr(run, name), dtype=np.float64)
         return values[np.searchsorted(run.time, self.times)]
+
+    def tube(self, referee: str, name: str, share: float) -> Tube:
+        """Return one output with what it takes on within a share of a drive period around."""
+        offsets = share * self.drive_period * np.linspace(-1.0, 1.0, 2 * TUBE_POINTS + 1)
+        around = np.clip(self.times[:, None] + offsets, 0.0, self.times[-1])
+        if (referee, share) not in self._around:
+            self._around[referee, share] = self._simulate(referee, np.unique(around))
+        run = self._around[referee, share]
+        values = np.asarray(getattr(run, name), dtype=np.float64)
+        window = values[np.searchsorted(run.time, around)]
+        return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
+
+    def event_times(self, referee: str) -> Tube:
+        """Return the time of the last event before each communication point, in drive periods.
+
+        Where an event all but coincides with a point the tube leaves open which of the two was
+        first.
+        """
+        events = np.append(0.0, self.trajectory(referee).event_times)
+
+        def last_before(times: Array) -> Array:
+            return events[np.searchsorted(events, np.maximum(times, 0.0), side="right") - 1]
+
+        margin = COINCIDENCE * self.drive_period
+        courses = [last_before(self.times + shift) for shift in (0.0, -margin, margin)]
+        return Tube(*(course / self.drive_period for course in courses))
+
+    def _simulate(self, referee: str, times: Array) -> Trajectory:
+        return _SIMULATORS[referee](self.device, self.scene.schedule().held(), times)
 
     @cached_property
     def averaged_motion(self) -> AveragedMotion:

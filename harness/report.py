@@ -29,7 +29,7 @@ def print_validation(console: Console, validation: Validation, *, details: bool 
         else worst_of_sweeps(validation.checks)
     )
     console.print(_table(rows, details))
-    if any(_is_signal(check) for check, _ in rows):
+    if any(_of_peak(check) for check, _ in rows):
         console.print(f"{SIGNAL} the peak of a signal; off by and allowed are shares of it")
     for check, _ in rows:
         if not check.passed:
@@ -76,11 +76,11 @@ def _table(rows: list[tuple[Check, int]], details: bool) -> Table:
 def _quantity(check: Check) -> str:
     """Return name and unit, with a mark for a signal."""
     unit = f", {check.unit}" * (check.unit not in ("", "1"))
-    return f"{check.quantity}{SIGNAL * _is_signal(check)}{unit}"
+    return f"{check.quantity}{SIGNAL * _of_peak(check)}{unit}"
 
 
-def _is_signal(check: Check) -> bool:
-    return QUANTITIES[check.quantity].kind == "signal"
+def _of_peak(check: Check) -> bool:
+    return QUANTITIES[check.quantity].relative_to_peak
 
 
 def _value(value: Value) -> str:

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from harness.interface import INPUTS, PARAMETERS
+from harness.measures.tube import WIDEST
 from harness.names import unknown_name
 from harness.quantities import QUANTITIES, Quantity
 from harness.values import check_value
@@ -81,7 +82,9 @@ class ExpectTable(_Table):
 
     The deviation allowed is `absolute + relative * |reference|`; for a signal it is `relative`, a
     share of the reference's peak, and an `absolute` beside it is for a reference near zero.
-    Whoever expects a real number says how near it must be, be it 0.
+    Without an `absolute` a reference counts as no smaller than a hundredth of its natural scale.
+    Whoever expects a real number says how near it must be, be it 0. A `tube` leaves a signal room
+    in time, as a share of the drive period to each side; for event times it is the tolerance.
     """
 
     quantity: str
@@ -91,6 +94,7 @@ class ExpectTable(_Table):
     at_least: Number | None = None
     absolute: NotNegative = 0.0
     relative: NotNegative = 0.0
+    tube: Annotated[float, Field(strict=True, gt=0.0, lt=WIDEST)] | None = None
     why: str
 
     @field_validator("quantity")
@@ -132,6 +136,16 @@ class ExpectTable(_Table):
         return self
 
     def _check_tolerance(self, quantity: Quantity) -> None:
+        if quantity.in_periods:
+            given = sorted(self.model_fields_set & {"absolute", "relative"})
+            if self.tube is None or given:
+                raise ValueError(f"{self.quantity} needs a tube, a share of the period, alone")
+            return
+        if self.tube is not None and self.reference not in quantity.referees:
+            allowed = ", ".join(quantity.referees) or "none"
+            raise ValueError(
+                f"tube = {self.tube!r}: references of {self.quantity} that allow one: {allowed}"
+            )
         signal = quantity.kind == "signal"
         alone = quantity.exact or not self.relative > 0.0
         if signal and "absolute" in self.model_fields_set and alone:

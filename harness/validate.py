@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from harness.compare import Check, check, wanted
 from harness.errors import FmuError, SceneError
 from harness.fmu_process import FmuDied, FmuProcess
+from harness.measures.tube import Tube
+from harness.natural_scale import smallest_reference
 from harness.quantities import QUANTITIES
 from harness.reference_side import ReferenceSide
 from harness.scene import Scene, read_scene, sweep_points
@@ -187,11 +189,13 @@ class _Judge:
             if isinstance(reference, SceneError):
                 self._trouble(reference, point)
                 continue
-            verdict = check(expect, measured, reference, point.scene.name, point.at)
+            smallest = smallest_reference(expect.quantity, point.scene.device)
+            verdict = check(expect, measured, reference, point.scene.name, point.at, smallest)
             self.checks.append(verdict)
             signal = QUANTITIES[expect.quantity].kind == "signal"
             if signal and not verdict.passed and measured.times is not None:
-                self.curves.append(Curves(verdict, measured.times, measured.value, reference))
+                middle = reference.middle if isinstance(reference, Tube) else reference
+                self.curves.append(Curves(verdict, measured.times, measured.value, middle))
 
     def _trouble(self, error: Exception, point: _Point | None = None) -> None:
         if point is None:

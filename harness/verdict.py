@@ -41,10 +41,15 @@ def sentence(check: Check) -> str:
 
 def _signal_sentence(check: Check, unit: str) -> str:
     assert check.deviation is not None
-    if QUANTITIES[check.quantity].exact:
+    quantity = QUANTITIES[check.quantity]
+    if quantity.exact:
         size = f"differs at {check.deviation:.2%} of the points"
+    elif quantity.in_periods:
+        size = f"off by {check.deviation:.2g} drive periods"
     else:
-        size = f"off by {check.deviation:.2g} of the peak, which is {_value(check.reference, unit)}"
+        tube = f"a tube of {check.tube:g} drive periods to each side " if check.tube else ""
+        size = "outside " + tube if tube else "off "
+        size += f"by {check.deviation:.2g} of the peak, which is {_value(check.reference, unit)}"
     text = f"{size}, {_times(check)}"
     if check.first_time is None or check.worst_time is None:
         return text

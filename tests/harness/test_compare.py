@@ -11,8 +11,10 @@ import pytest
 from harness.compare import Check, check, measure, wanted
 from harness.errors import SceneError
 from harness.fmu_side import FmuSide
+from harness.measures.tube import Tube, no_tube
 from harness.reference_side import ReferenceSide
 from harness.scene_model import ExpectTable
+from harness.verdict import sentence
 
 WAVE = np.sin(np.linspace(0.0, 50.0, 1000))
 
@@ -31,10 +33,15 @@ def reference(**parts: Any) -> ReferenceSide:
     return cast(ReferenceSide, SimpleNamespace(scene=fmu().scene, **parts))
 
 
-def judge(fmu_side: FmuSide, reference_side: ReferenceSide | None = None, **expect: Any) -> Check:
+def judge(
+    fmu_side: FmuSide,
+    reference_side: ReferenceSide | None = None,
+    smallest: float = 0.0,
+    **expect: Any,
+) -> Check:
     table = ExpectTable.model_validate({"why": "test", **expect})
     sides = measure(table, fmu_side), wanted(table, reference_side or reference())
-    return check(table, *sides, scene="scene", at={})
+    return check(table, *sides, scene="scene", at={}, smallest=smallest)
 
 
 class RecordOf(dict[str, np.ndarray]):
@@ -177,3 +184,84 @@ def test_a_scene_that_does_not_allow_a_measure_could_not_run() -> None:
     record.times = RecordOf.times[:10]
     with pytest.raises(SceneError, match=r"ripple_frequency cannot be measured: .* 16 points"):
         judge(fmu(record=record), quantity="ripple_frequency", value=557.0, relative=1e-6)
+
+
+@pytest.mark.parametrize(("velocity", "passed"), [(9e-10, True), (2e-9, False)])
+def test_a_reference_next_to_zero_counts_as_its_smallest_size(
+    velocity: float, passed: bool
+) -> None:
+    expect = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
+    verdict = judge(steady(velocity), smallest=1e-3, **expect)
+    assert verdict.passed is passed
+    assert verdict.allowed == pytest.approx(1e-9)
+    assert not judge(steady(velocity), **expect).passed
+    assert not judge(steady(velocity), smallest=1e-3, **expect, absolute=0.0).passed, (
+        "the scene has the last word"
+    )
+
+
+def test_the_smallest_size_loosens_nothing_else() -> None:
+    expect = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
+    assert judge(steady(0.1), smallest=1e-3, **expect).allowed == pytest.approx(1e-7)
+
+
+@pytest.mark.parametrize(("noise", "passed"), [(9e-12, True), (2e-11, False)])
+def test_a_signal_next_to_zero_counts_as_its_smallest_size(noise: float, passed: bool) -> None:
+    verdict = judge(
+        fmu(record=RecordOf(position=np.full(1000, noise))),
+        reference(signal=lambda referee, name: np.zeros(1000)),
+        smallest=1e-3,
+        quantity="position",
+        reference="located_events",
+        relative=1e-8,
+    )
+    assert verdict.passed is passed
+    assert verdict.deviation == pytest.approx(noise / 1e-3)
+
+
+def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
+    tube = Tube(WAVE, np.minimum(np.roll(WAVE, 1), WAVE), np.maximum(np.roll(WAVE, 1), WAVE))
+    asked = []
+
+    def around(referee: str, name: str, share: float) -> Tube:
+        asked.append((referee, name, share))
+        return tube
+
+    def judged(signal: np.ndarray) -> Check:
+        return judge(
+            fmu(record=RecordOf(position=signal)),
+            reference(tube=around),
+            quantity="position",
+            reference="located_events",
+            relative=1e-8,
+            tube=0.01,
+        )
+
+    assert judged(np.roll(WAVE, 1)).passed
+    assert asked == [("located_events", "position", 0.01)]
+    late = judged(np.roll(WAVE, 2))
+    assert not late.passed
+    assert "outside a tube of 0.01 drive periods to each side by" in sentence(late)
+    assert not judged(-WAVE).passed
+
+
+@pytest.mark.parametrize(("shift", "passed"), [(9e-4, True), (2e-3, False), (np.nan, False)])
+def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) -> None:
+    events = np.floor(np.linspace(0.0, 20.0, 1000))
+    found = events.copy()
+    found[600:620] += shift
+    side = fmu(record=RecordOf(last_event_time=0.5 * found), drive_period=0.5)
+    verdict = judge(
+        side,
+        reference(event_times=lambda referee: no_tube(events)),
+        quantity="event_times",
+        reference="located_events",
+        tube=1e-3,
+    )
+    assert verdict.passed is passed
+    assert verdict.allowed == 1e-3
+    if not passed:
+        assert verdict.first_time == 0.6
+    if shift == 2e-3:
+        said = "off by 0.002 drive periods, 2 times the allowed 0.001; from 0.6 s on"
+        assert sentence(verdict).startswith(said)

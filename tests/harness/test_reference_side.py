@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from harness.reference_side import ReferenceSide
+from harness.references import located_events
 from harness.scene import read_scene
 
 RUN = "[run]\ndrive_periods = 12.3\nsteps_per_period = 8\n"
@@ -96,3 +97,29 @@ def test_averaged_motion_is_at_the_communication_points(tmp_path: Path) -> None:
     assert (averaged.time == reference.times).all()
     resolved = reference.signal("located_events", "position")
     assert averaged.position == pytest.approx(resolved, abs=0.1 * np.abs(resolved).max())
+
+
+def test_a_tube_holds_what_is_early_or_late_by_less_than_its_width(tmp_path: Path) -> None:
+    reference = side(tmp_path, RUN)
+    tube = reference.tube("located_events", "velocity", 0.02)
+    velocity = reference.signal("located_events", "velocity")
+    assert np.abs(tube.middle - velocity).max() < 1e-12 * np.abs(velocity).max()
+    held = reference.scene.schedule().held()
+    for late, inside in ((0.015, True), (-0.015, True), (0.03, False)):
+        shift = late * reference.drive_period
+        times = np.clip(reference.times - shift, 0.0, reference.times[-1])
+        shifted = located_events.simulate(reference.device, held, np.unique(times)).velocity
+        shifted = shifted[np.searchsorted(np.unique(times), times)]
+        assert (tube.outside(shifted).max() < 1e-3 * np.abs(velocity).max()) == inside
+
+
+def test_event_times_are_in_drive_periods_and_open_where_they_coincide(tmp_path: Path) -> None:
+    reference = side(tmp_path, RUN)
+    tube = reference.event_times("located_events")
+    last = tube.middle[-1] * reference.drive_period
+    assert last == pytest.approx(reference.last_event_time, rel=1e-12)
+    assert (tube.middle * reference.drive_period <= reference.times).all()
+    assert (np.diff(tube.middle) >= 0.0).all()
+    assert np.array_equal(tube.lower, tube.upper), "no event falls on a communication point here"
+    rest = side(tmp_path, "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n" + RUN)
+    assert not rest.event_times("located_events").upper.any()

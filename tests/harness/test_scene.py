@@ -136,6 +136,18 @@ def test_a_name_that_is_no_word_is_refused_in_words(tmp_path: Path) -> None:
     [
         ('quantity = "velocty"', ["quantity", "did you mean 'velocity'?"]),
         ('quantity = "velocity"\nvalue = 1.0', ["signal", "needs a reference"]),
+        (
+            'quantity = "event_times"\nreference = "taylor"\nrelative = 1e-6',
+            ["event_times needs a tube"],
+        ),
+        (
+            'quantity = "position"\nreference = "averaged"\nrelative = 1e-6\ntube = 0.01',
+            ["tube = 0.01", "located_events, taylor, bristle_state"],
+        ),
+        (
+            'quantity = "position"\nreference = "taylor"\nrelative = 1e-6\ntube = 0.5',
+            ["tube", "0.5", "0.25"],
+        ),
         ('quantity = "steady_velocity"', ["exactly one of reference, value"]),
         ('quantity = "steady_velocity"\nvalue = 1.0\nat_most = 2.0', ["exactly one"]),
         ('quantity = "steady_velocity"\nreference = "paper"', ["reference for steady_velocity"]),

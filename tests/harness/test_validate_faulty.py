@@ -1,4 +1,4 @@
-"""Whatever is wrong with an FMU, `validate` ends, names the cause and goes on with the others."""
+"""Whatever an FMU does, `validate` ends, names the cause and goes on with the others."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 
 from harness.validate import MOST_DEATHS, Validation, validate
 from tests.harness import faulty_fmus
-from tests.harness.faulty_fmus import altered, compiled, redescribed
+from tests.harness.faulty_fmus import compiled
 
 
 def judged(fmu: Path, *scenes: Path, time_limit: float = 60.0) -> Validation:
@@ -28,61 +28,20 @@ def test_a_missing_file(tmp_path: Path, scene: Path) -> None:
     assert "no.fmu: no such file" in validation.troubles[0].reason
 
 
-def test_a_corrupt_zip(native_fmu: Path, tmp_path: Path, scene: Path) -> None:
-    content = bytearray(native_fmu.read_bytes())
-    for name, reason in (("cut", "no zip archive"), ("flipped", "cannot be ")):
-        fmu = tmp_path / f"{name}.fmu"
-        content[40:4000] = bytes(3960)
-        fmu.write_bytes(content[: len(content) // 2] if name == "cut" else content)
-        validation = judged(fmu, scene)
-        assert validation.exit_code == 2
-        assert reason in validation.troubles[0].reason
-
-
-def test_a_missing_binary(native_fmu: Path, tmp_path: Path, scene: Path) -> None:
-    def without(name: str, content: bytes) -> bytes | None:
-        return None if name.startswith("binaries/") else content
-
-    validation = judged(altered(native_fmu, tmp_path / "no_binary.fmu", without), scene)
-    assert validation.exit_code == 2
-    assert "no binary for " in validation.troubles[0].reason
-
-
 @pytest.mark.parametrize(
-    ("old", "new", "reason"),
+    ("define", "reason"),
     [
-        (b'guid="', b'guid="0', "guid"),
-        (b'name="load"', b'name="lode"', "input load is missing"),
-        (b'unit="N" displayUnit="mN"', b'unit="m"', "load has unit m, must be N"),
-        (b"</ModelStructure>", b"", "modelDescription.xml cannot be read"),
-        (b"</fmiModelDescription>", b"", "modelDescription.xml cannot be read"),
+        ("IN_STEP=LEAVE", "exit code 0"),
+        ("IN_INSTANTIATE=CRASH", "the FMU crashed in fmi2Instantiate"),
+        ("IN_INSTANTIATE=LOOP", "no answer within the time limit of 2 s in fmi2Instantiate"),
+        ("IN_FREE=CRASH", "fmi2FreeInstance"),
     ],
 )
-def test_a_wrong_description(
-    native_fmu: Path, tmp_path: Path, scene: Path, old: bytes, new: bytes, reason: str
-) -> None:
-    validation = judged(redescribed(native_fmu, tmp_path / "wrong.fmu", old, new), scene)
-    assert validation.exit_code == 2
-    (trouble,) = validation.troubles
-    assert reason in trouble.reason.lower() if reason == "guid" else reason in trouble.reason
-    assert "wrong.fmu" in trouble.reason
-
-
-@pytest.mark.parametrize(
-    ("define", "limit", "reason"),
-    [
-        ("IN_STEP=CRASH", 60.0, "the FMU crashed in fmi2DoStep"),
-        ("IN_STEP=LOOP", 2.0, "no answer within the time limit of 2 s in fmi2DoStep"),
-        ("IN_STEP=LEAVE", 60.0, "exit code 0"),
-        ("IN_INSTANTIATE=CRASH", 60.0, "the FMU crashed in fmi2Instantiate"),
-        ("IN_FREE=CRASH", 60.0, "fmi2FreeInstance"),
-    ],
-)
-def test_a_crash_or_an_endless_loop(
-    native_fmu: Path, tmp_path: Path, scene: Path, define: str, limit: float, reason: str
+def test_a_crash_or_an_endless_loop_elsewhere(
+    native_fmu: Path, tmp_path: Path, scene: Path, define: str, reason: str
 ) -> None:
     fmu = compiled(native_fmu, tmp_path / "faulty.fmu", define)
-    validation = judged(fmu, scene, time_limit=limit)
+    validation = judged(fmu, scene, time_limit=2.0)
     assert validation.exit_code == 2
     (trouble,) = validation.troubles
     assert reason in trouble.reason

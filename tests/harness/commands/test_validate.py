@@ -48,16 +48,15 @@ def test_a_failure_leaves_with_1(native_fmu: Path, tmp_path: Path) -> None:
     assert "data:image/png" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    ("define", "limit", "cause"),
-    [("IN_STEP=CRASH", 60, "crashed in fmi2DoStep"), ("IN_STEP=LOOP", 2, "time limit of 2 s")],
-)
-def test_what_could_not_be_run_leaves_with_2(
-    native_fmu: Path, tmp_path: Path, define: str, limit: float, cause: str
+@pytest.mark.parametrize("fault", faulty_fmus.BROKEN)
+def test_what_could_not_be_run_leaves_with_2_and_all_reports(
+    native_fmu: Path, tmp_path: Path, fault: str
 ) -> None:
-    faulty = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", define)
+    broken, cause = faulty_fmus.BROKEN[fault]
+    fmu = broken(native_fmu, tmp_path / "faulty.fmu")
     scene = faulty_fmus.scene(tmp_path)
-    result, report, junit = reported(tmp_path, faulty, "--scene", scene, "--time-limit", limit)
+    limit = 2 if "loop" in fault else 60
+    result, report, junit = reported(tmp_path, fmu, "--scene", scene, "--time-limit", limit)
     assert result.exit_code == 2
     assert cause in result.stderr
     assert cause in json.dumps(report["errors"])

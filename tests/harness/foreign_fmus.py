@@ -1,0 +1,72 @@
+"""FMUs with this interface as other tools might make them, from the native one."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import fmpy
+
+SOURCE = Path(__file__).with_name("foreign_fmu.c")
+IDENTIFIER = "foreign_slider"
+FLAGS = ("canGetAndSetFMUstate", "canSerializeFMUstate", "canHandleVariableCommunicationStepSize")
+
+
+def foreign(fmu: Path, out: Path) -> Path:
+    """Write an FMU with another order of variables, other references and fewer capabilities."""
+    library = out.with_suffix(".library")
+    command = [sys.executable, "-m", "ziglang", "cc", "-shared", "-fPIC", "-O1", "-std=gnu99"]
+    subprocess.run([*command, "-o", str(library), str(SOURCE), "-ldl"], check=True)
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(out, "w") as new:
+        (original,) = (n for n in old.namelist() if n.startswith(f"binaries/{fmpy.platform}/"))
+        new.writestr("resources/original.so", old.read(original))
+        new.writestr("modelDescription.xml", _description(old.read("modelDescription.xml")))
+        binary = f"binaries/{fmpy.platform}/{IDENTIFIER}{Path(original).suffix}"
+        new.writestr(binary, library.read_bytes())
+    return out
+
+
+def _description(xml: bytes) -> bytes:
+    root = ET.fromstring(xml)
+    simulation = root.find("CoSimulation")
+    assert simulation is not None
+    for source_files in simulation.findall("SourceFiles"):
+        simulation.remove(source_files)
+    simulation.attrib.update(dict.fromkeys(FLAGS, "false"), modelIdentifier=IDENTIFIER)
+    simulation.set("canBeInstantiatedOnlyOncePerProcess", "true")
+    for element in ("LogCategories", "DefaultExperiment"):
+        found = root.find(element)
+        if found is not None:
+            root.remove(found)
+    units = root.find("UnitDefinitions")
+    assert units is not None
+    for unit in units:
+        for display in unit.findall("DisplayUnit"):
+            unit.remove(display)
+    places = _turn_round(root)
+    for unknown in root.iterfind("ModelStructure/*/Unknown"):
+        unknown.set("index", places[unknown.attrib["index"]])
+        if "dependencies" in unknown.attrib:
+            dependencies = [places[index] for index in unknown.attrib["dependencies"].split()]
+            unknown.set("dependencies", " ".join(dependencies))
+    for parent in root.iterfind("ModelStructure/*"):
+        parent[:] = sorted(parent, key=lambda unknown: int(unknown.attrib["index"]))
+    return ET.tostring(root)
+
+
+def _turn_round(root: ET.Element) -> dict[str, str]:
+    """Reverse the variables and give them other references; return old index to new index."""
+    variables = root.find("ModelVariables")
+    assert variables is not None
+    for variable in variables:
+        variable.set("valueReference", str(1000 + 7 * int(variable.attrib["valueReference"])))
+        del variable.attrib["description"]
+        for kind in variable:
+            for name in ("displayUnit", "nominal"):
+                kind.attrib.pop(name, None)
+    variables[:] = reversed(variables)
+    count = len(variables)
+    return {str(old): str(count + 1 - old) for old in range(1, count + 1)}
