@@ -1,4 +1,7 @@
-"""Builds the FMUs: `python build_fmu.py` writes dist/SliderResonator.fmu and its Python twin."""
+"""Builds the FMUs: `python build_fmu.py` writes dist/SliderResonator.fmu and its Python twin.
+
+Besides these it writes a velocity controller, and slider and controller as a closed loop.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,10 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from fmu_src.building import native_fmu, python_fmu
+from fmu_src.building import closed_loop_ssp, controller_fmu, native_fmu, python_fmu
 from fmu_src.building.build_error import BuildError
+from fmu_src.building.closed_loop_ssp import build_closed_loop
+from fmu_src.building.controller_fmu import build_controller
 from fmu_src.building.dates import EPOCH
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, PLATFORMS
@@ -36,22 +41,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _builds(options: argparse.Namespace) -> Iterator[Callable[[], Path]]:
-    if options.only != "native":
+    native = {
+        "platforms": options.platform,
+        "compiler": options.compiler,
+        "progress": _progress,
+    }
+    if options.only in (None, "python"):
         yield lambda: build_python(options.out)
-    if options.only != "python":
-        yield lambda: build_native(
-            options.out,
-            platforms=options.platform,
-            compiler=options.compiler,
-            progress=_progress,
-        )
+    if options.only in (None, "native"):
+        yield lambda: build_native(options.out, **native)
+    if options.only in (None, "system"):
+        slider = options.out / f"{native_fmu.MODEL}.fmu"
+        controller = options.out / f"{controller_fmu.MODEL}.fmu"
+        yield lambda: build_controller(options.out, **native)
+        yield lambda: build_closed_loop(options.out, slider, controller)
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="build_fmu.py",
         description=f"Build {native_fmu.MODEL}.fmu (native, no needs on the target) and "
-        f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation.",
+        f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation; then "
+        f"{controller_fmu.MODEL}.fmu and, with both components, {closed_loop_ssp.MODEL}.ssp.",
         epilog="The same sources give the same bytes, but for chance padding in the binary for "
         "macOS. The environment variable SOURCE_DATE_EPOCH (seconds since 1970-01-01) sets the "
         f"date in the model description; without it the date is {EPOCH:%Y-%m-%d}. Exit code 0: "
@@ -64,13 +75,17 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FOLDER",
         help="folder for the FMUs, created if missing (default: %(default)s)",
     )
-    parser.add_argument("--only", choices=("native", "python"), help="build one of the two")
+    parser.add_argument(
+        "--only",
+        choices=("native", "python", "system"),
+        help="build one of the two, or controller and closed loop around the native one",
+    )
     parser.add_argument(
         "--platform",
         action="append",
         default=[],
         choices=(*PLATFORMS, HOST),
-        help="platform of the native FMU; may be given more than once (default: all)",
+        help="platform of the native FMUs; may be given more than once (default: all)",
     )
     parser.add_argument(
         "--compiler",

@@ -26,17 +26,20 @@ def documentation_page(
     model: str,
     generation_tool: str,
     host: Literal["native", "python"],
+    about: str = DESCRIPTION,
+    page: str = "page.html",
     variables: Sequence[Variable] = VARIABLES,
 ) -> bytes:
     """A self-contained HTML page as UTF-8 bytes; equal arguments give equal bytes.
 
-    `host` tells which part on statuses, messages and needs of the target goes in.
+    `page` is the fixed text in `assets`, `about` the model in a sentence; `host` tells which part
+    on statuses, messages and needs of the target goes in.
     """
-    template = Template((ASSETS / "page.html").read_text(encoding="utf-8"))
+    template = Template((ASSETS / page).read_text(encoding="utf-8"))
     page = template.substitute(
         host=(ASSETS / f"{host}_host.html").read_text(encoding="utf-8").rstrip("\n"),
         model=escape(model),
-        description=escape(DESCRIPTION),
+        description=escape(about),
         generation_tool=escape(generation_tool),
         variables=_variable_tables(variables),
     )

@@ -45,6 +45,7 @@ def model_description(
     generated: str,
     host_manages_memory: bool,
     source_files: Sequence[str] = (),
+    about: str = DESCRIPTION,
     variables: Sequence[Variable] = VARIABLES,
     initial_dependencies: Mapping[str, Iterable[str]] = INITIAL_DEPENDENCIES,
 ) -> bytes:
@@ -52,8 +53,8 @@ def model_description(
 
     `model` is both the model's name and the name of its binaries, `generated` the date and time of
     the build (ISO 8601, UTC). `host_manages_memory` tells whether the FMU takes its memory from the
-    host, `source_files` are the files to compile in its folder `sources`. The value reference of a
-    variable is its position in `variables`.
+    host, `source_files` are the files to compile in its folder `sources`. `about` is the model in a
+    sentence. The value reference of a variable is its position in `variables`.
 
     Raises ValueError when a variable has a unit that `fmu_src.units` lacks, or depends on
     something that FMI 2.0 section 2.2.8 does not count as known.
@@ -64,7 +65,7 @@ def model_description(
             "fmiVersion": "2.0",
             "modelName": model,
             "guid": guid,
-            "description": DESCRIPTION,
+            "description": about,
             "author": "slider-resonator contributors",
             "version": __version__,
             "license": "MIT",

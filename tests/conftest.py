@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from hypothesis import Phase, settings
 
+from fmu_src.building.closed_loop_ssp import build_closed_loop
+from fmu_src.building.controller_fmu import build_controller
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
@@ -34,3 +36,17 @@ def fmu(request: pytest.FixtureRequest) -> Path:
     """The Python FMU; in tests marked with `fmus.both_fmus` the native one as well."""
     built: Path = request.getfixturevalue(f"{getattr(request, 'param', 'python')}_fmu")
     return built
+
+
+@pytest.fixture(scope="session")
+def controller_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The velocity controller for the platform of this machine."""
+    return build_controller(tmp_path_factory.mktemp("controller_fmu"), platforms=[HOST])
+
+
+@pytest.fixture(scope="session")
+def closed_loop_package(
+    native_fmu: Path, controller_fmu: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Path:
+    """The package of native slider and controller."""
+    return build_closed_loop(tmp_path_factory.mktemp("closed_loop"), native_fmu, controller_fmu)

@@ -147,13 +147,24 @@ def test_page_is_self_contained_and_balanced(page: str) -> None:
     assert re.search(r"\$\w", page) is None, "every place of the template is filled"
 
 
-def test_both_are_built_and_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_are_built_and_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--out", str(tmp_path), "--platform", HOST]) == 0
     said = capsys.readouterr().out
-    for name in ("SliderResonator.fmu", "SliderResonatorPy.fmu"):
+    names = [
+        "ClosedLoop.ssp",
+        "SliderResonator.fmu",
+        "SliderResonatorPy.fmu",
+        "VelocityController.fmu",
+    ]
+    for name in names:
         assert str(tmp_path / name) in said
-    built = sorted(p.name for p in tmp_path.iterdir())
-    assert built == ["SliderResonator.fmu", "SliderResonatorPy.fmu"], "no left-overs"
+    assert sorted(p.name for p in tmp_path.iterdir()) == names, "no left-overs"
+
+
+def test_a_closed_loop_needs_the_slider(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--out", str(tmp_path), "--only", "system", "--platform", HOST]) == 2
+    slider = tmp_path / "SliderResonator.fmu"
+    assert f"{slider}: no such file; ClosedLoop.ssp needs it" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("date", ["yesterday", "-5", "1e9", "9" * 30])

@@ -1,4 +1,4 @@
-"""FMU files: zip archives whose bytes follow from names and contents only."""
+"""FMU and SSP files: zip archives whose bytes follow from names and contents only."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def check_folder(dest: Path) -> None:
         raise BuildError(f"folder {dest} refused: {there} is a file; allowed is a folder")
 
 
-def write_fmu(dest: Path, model: str, files: Mapping[str, bytes]) -> Path:
+def write_fmu(dest: Path, model: str, files: Mapping[str, bytes], suffix: str = ".fmu") -> Path:
     """Write `dest`/`model`.fmu and return its path; it appears at once or not at all."""
     dest.mkdir(parents=True, exist_ok=True)
-    target = dest / f"{model}.fmu"
+    target = dest / f"{model}{suffix}"
     partial = target.with_suffix(f".{os.getpid()}.partial")
     try:
         partial.write_bytes(_archive(files))

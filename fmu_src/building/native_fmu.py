@@ -1,10 +1,12 @@
-"""The native FMU: the C twin, compiled for every platform and as source code."""
+"""Native FMUs: compiled for every platform, and as source code."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from fmu_src import __version__
 from fmu_src.building.archive import check_folder, write_fmu
@@ -20,12 +22,29 @@ from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.building.platforms import HOST, host_platform, platforms_named
 from fmu_src.c_header import C_SOURCES
 from fmu_src.documentation import documentation_page
-from fmu_src.model_description import model_description
+from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
+from fmu_src.model_description import DESCRIPTION, model_description
+from fmu_src.python.slider_resonator.variables import VARIABLES
 
 MODEL = "SliderResonator"
 
 GUID_HEADER = "model_guid.h"
 _NO_GUID = "00000000-0000-0000-0000-000000000000"
+
+
+@dataclass(frozen=True)
+class NativeModel:
+    """What a native FMU is made of, besides what all have in common.
+
+    `code` is its C sources, path in the folder `sources` -> bytes. `details` go to both the model
+    description and the documentation page, `initial_dependencies` and `page` to one of them.
+    """
+
+    name: str
+    code: Mapping[str, bytes]
+    details: Mapping[str, Any]
+    initial_dependencies: Mapping[str, Sequence[str]]
+    page: str
 
 
 def build_native(
@@ -36,14 +55,31 @@ def build_native(
     sources: Path = C_SOURCES,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Path:
-    """Build the native FMU in the folder `dest` (created if missing) and return its path.
+    """Build the native slider in the folder `dest`; `sources` is the folder with the C code.
+
+    As `build_model` otherwise.
+    """
+    about = {"about": DESCRIPTION, "variables": VARIABLES}
+    code = read_sources(sources)
+    model = NativeModel(MODEL, code, about, INITIAL_DEPENDENCIES, "page.html")
+    return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
+
+
+def build_model(
+    dest: Path,
+    model: NativeModel,
+    *,
+    platforms: Sequence[str] = (),
+    compiler: str | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Path:
+    """Build a native FMU in the folder `dest` (created if missing) and return its path.
 
     `platforms` are names of FMI 2.0 or `host`; none stand for all, or with a `compiler` for `host`.
     That is a C compiler for the platform of this machine, by default ziglang, which compiles for
-    all. `sources` is the folder with the C code. The bytes depend on the sources, the compiler and
-    the version of zlib, and on the environment variable SOURCE_DATE_EPOCH, which sets the date in
-    the description; for macOS zig's linker leaves chance bytes in the padding besides. The file
-    appears at once or not at all.
+    all. The bytes depend on the sources, the compiler and the version of zlib, and on the
+    environment variable SOURCE_DATE_EPOCH, which sets the date in the description; for macOS zig's
+    linker leaves chance bytes in the padding besides. The file appears at once or not at all.
 
     Raises BuildError.
     """
@@ -57,26 +93,34 @@ def build_native(
             f"compiler {compiler!r} refused for {names}: allowed is {host_platform().name}, the "
             "platform of this machine; ziglang compiles for the others"
         )
-    code = _read_sources(sources)
+    code = dict(model.code)
     generation_tool = _generation_tool(tool)
-    page = documentation_page(model=MODEL, generation_tool=generation_tool, host="native")
     files = icon_and_licences("license.txt", "fmi2.txt")
-    files["documentation/index.html"] = page
-    undated = _description(generation_tool, "", EPOCH, sorted(code))
+    files["documentation/index.html"] = documentation_page(
+        model=model.name,
+        generation_tool=generation_tool,
+        host="native",
+        page=model.page,
+        **model.details,
+    )
+    undated = _description(model, generation_tool, "", EPOCH)
     hashed = files | {f"sources/{name}": data for name, data in code.items()}
     guid = guid_of(digest_of(hashed | {"modelDescription.xml": undated}))
     code[GUID_HEADER] = _with_guid(code[GUID_HEADER], guid)
     files |= {f"sources/{name}": data for name, data in code.items()}
-    files |= compile_binaries(code, MODEL, chosen, tool, progress)
-    files["modelDescription.xml"] = _description(generation_tool, guid, date, sorted(code))
-    return write_fmu(dest, MODEL, files)
+    files |= compile_binaries(code, model.name, chosen, tool, progress)
+    files["modelDescription.xml"] = _description(model, generation_tool, guid, date)
+    return write_fmu(dest, model.name, files)
 
 
-def _read_sources(folder: Path) -> dict[str, bytes]:
-    """Path below the folder -> bytes of every C file and header."""
+def read_sources(folder: Path, patterns: Sequence[str] = ("*.c", "*.h")) -> dict[str, bytes]:
+    """Path below the folder -> bytes of the C files and headers that match one of the patterns.
+
+    Raises BuildError where the header of the GUID is not among them.
+    """
     code = {
         path.relative_to(folder).as_posix(): path.read_bytes()
-        for pattern in ("*.c", "*.h")
+        for pattern in patterns
         for path in sorted(folder.rglob(pattern))
     }
     if GUID_HEADER not in code:
@@ -94,12 +138,14 @@ def _generation_tool(compiler: Compiler) -> str:
     return f"slider-resonator {__version__} ({compiler.description})"
 
 
-def _description(tool: str, guid: str, generated: datetime, code: Sequence[str]) -> bytes:
+def _description(model: NativeModel, tool: str, guid: str, generated: datetime) -> bytes:
     return model_description(
-        model=MODEL,
+        model=model.name,
         guid=guid,
         generation_tool=tool,
         generated=date_text(generated),
         host_manages_memory=True,
-        source_files=[name for name in code if name.endswith(".c")],
+        source_files=[name for name in sorted(model.code) if name.endswith(".c")],
+        initial_dependencies=model.initial_dependencies,
+        **model.details,
     )

@@ -1,17 +1,22 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
+from pathlib import Path
 
 import pytest
 
-from fmu_src.c_header import C_SOURCES, c_table
+from fmu_src.c_header import C_SOURCES, CONTROLLER_SOURCES, c_table, controller_table
 from fmu_src.python.slider_resonator.variables import VARIABLES
 
 
 @pytest.mark.parametrize("name", c_table())
-def test_the_generated_file_is_current(name: str) -> None:
-    assert (C_SOURCES / name).read_text() == c_table()[name], (
-        f"{name} is old: `python -m fmu_src.c_header` writes it anew"
+@pytest.mark.parametrize(
+    ("folder", "table"), [(C_SOURCES, c_table()), (CONTROLLER_SOURCES, controller_table())]
+)
+def test_the_generated_file_is_current(folder: Path, table: Mapping[str, str], name: str) -> None:
+    assert (folder / name).read_text() == table[name], (
+        f"{folder / name} is old: `python -m fmu_src.c_header` writes it anew"
     )
 
 

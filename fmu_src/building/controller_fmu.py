@@ -1,0 +1,47 @@
+"""The velocity controller's FMU: its own law behind the files that speak FMI for the slider."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from fmu_src.building.native_fmu import NativeModel, build_model, read_sources
+from fmu_src.c_header import C_SOURCES, CONTROLLER_SOURCES
+from fmu_src.controller.variables import INITIAL_DEPENDENCIES, VARIABLES
+
+MODEL = "VelocityController"
+
+DESCRIPTION = "Holds the velocity of the slider with an embedded resonator by moving its phase"
+
+SHELL = (
+    "fmi2*.[ch]",
+    "instance.[ch]",
+    "lifecycle.h",
+    "model_guid.h",
+    "refusal.[ch]",
+    "values.[ch]",
+)
+"""The slider's C files that know FMI and a table of variables, but nothing of the slider."""
+
+
+def build_controller(
+    dest: Path,
+    *,
+    platforms: Sequence[str] = (),
+    compiler: str | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Path:
+    """Build the controller in the folder `dest` and return its path, as `build_model` does."""
+    own = {
+        path.name: path.read_bytes()
+        for pattern in ("*.c", "*.h")
+        for path in sorted(CONTROLLER_SOURCES.glob(pattern))
+    }
+    model = NativeModel(
+        MODEL,
+        read_sources(C_SOURCES, SHELL) | own,
+        {"about": DESCRIPTION, "variables": VARIABLES},
+        INITIAL_DEPENDENCIES,
+        "controller_page.html",
+    )
+    return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)

@@ -1,0 +1,175 @@
+"""The velocity controller, run alone: its law, its samples, what it refuses, its state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import asin, nan, pi
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.fmu.host import Instance, unpack
+
+GAIN, INTEGRAL, THETA, SAMPLE = 100.0, 400.0, 0.733313, 0.01
+
+
+@pytest.fixture(scope="module")
+def controller(
+    controller_fmu: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Callable[[], Instance]]:
+    unpacked = unpack(controller_fmu, tmp_path_factory.mktemp("controller"))
+    made: list[Instance] = []
+
+    def make() -> Instance:
+        made.append(Instance(unpacked))
+        return made[-1]
+
+    yield make
+    for instance in made:
+        instance.free()
+
+
+class Law:
+    """The law once more: velocity errors in, effort out."""
+
+    def __init__(self) -> None:
+        self.integral = 0.0
+
+    def effort(self, error: float) -> float:
+        wanted = GAIN * error + self.integral
+        effort = max(-1.0, min(1.0, wanted))
+        if effort == wanted or wanted * error < 0.0:
+            self.integral = max(-1.0, min(1.0, self.integral + INTEGRAL * SAMPLE * error))
+        return effort
+
+
+def test_at_the_start_the_vibration_gives_no_mean_force(
+    controller: Callable[[], Instance],
+) -> None:
+    instance = controller().initialize()
+    assert instance.get("effort", "phase") == (0.0, -THETA)
+    instance.step(SAMPLE)
+    assert instance.get("effort", "phase") == (0.0, -THETA), "no error, as all inputs are 0"
+
+
+@given(st.lists(st.floats(-0.05, 0.05), min_size=1, max_size=60))
+def test_effort_and_phase_follow_the_law(
+    controller: Callable[[], Instance], errors: list[float]
+) -> None:
+    law = Law()
+    instance = controller()
+    instance.initialize(velocity_reference=0.06)
+    for error in errors:
+        measured = 0.06 - error
+        instance.set(measured_velocity=measured)
+        instance.step(SAMPLE)
+        expected = law.effort(0.06 - measured)
+        effort, phase = instance.get("effort", "phase")
+        assert effort == pytest.approx(expected, abs=1e-12)
+        assert phase == pytest.approx(asin(expected) - THETA, abs=1e-6)
+
+
+def test_the_integral_does_not_wind_up(controller: Callable[[], Instance]) -> None:
+    instance = controller().initialize(velocity_reference=0.06)
+    for _ in range(1000):
+        instance.step(SAMPLE)
+    assert instance.get("effort", "phase") == pytest.approx((1.0, pi / 2 - THETA)), "at its limit"
+    instance.set(measured_velocity=0.061)
+    instance.step(SAMPLE)
+    (effort,) = instance.get("effort")
+    assert effort == pytest.approx(-0.1), "ten seconds at the limit have left nothing behind"
+
+
+@pytest.mark.parametrize("parts", [1, 4, 10])
+def test_samples_do_not_depend_on_the_communication_step(
+    controller: Callable[[], Instance], parts: int
+) -> None:
+    instance = controller().initialize(velocity_reference=0.001)
+    efforts = []
+    for _ in range(20):
+        for _ in range(parts):
+            instance.step(SAMPLE / parts)
+        efforts += instance.get("effort")
+    law = Law()
+    assert efforts == pytest.approx([law.effort(0.001) for _ in range(20)], abs=1e-12)
+
+
+def test_a_step_takes_all_samples_that_fall_due_in_it(controller: Callable[[], Instance]) -> None:
+    instance = controller().initialize(start_time=3.0, velocity_reference=0.001)
+    instance.step(20 * SAMPLE)
+    law = Law()
+    assert instance.get("effort")[0] == pytest.approx([law.effort(0.001) for _ in range(20)][-1])
+
+
+def test_a_replayed_state_gives_the_same_bits(controller: Callable[[], Instance]) -> None:
+    first, other = controller().initialize(velocity_reference=0.03), controller().initialize()
+    first.step(0.025)
+    other.restore(first.state())
+    other.time = first.time
+    for instance in (first, other):
+        instance.set(measured_velocity=0.0287)
+        instance.step(0.013)
+    assert first.state() == other.state()
+    assert first.get("phase", "effort") == other.get("phase", "effort")
+
+
+def test_damaged_states_are_refused(controller: Callable[[], Instance]) -> None:
+    instance = controller().initialize()
+    state = instance.state()
+    for place in (0, 45, len(state) - 1):
+        damaged = state[:place] + bytes([state[place] ^ 1]) + state[place + 1 :]
+        with instance.refuses("FMU state refused"):
+            instance.restore(damaged)
+    with instance.refuses("FMU state refused"):
+        instance.restore(state[:-8])
+
+
+def test_bad_values_and_steps_are_refused_and_change_nothing(
+    controller: Callable[[], Instance],
+) -> None:
+    instance = controller().initialize(velocity_reference=0.01)
+    instance.step(SAMPLE)
+    with instance.refuses("measured_velocity = nan refused: allowed is a finite number"):
+        instance.set(measured_velocity=nan)
+    with instance.refuses("effort_limit = 1.5 refused: allowed is a finite number from 0 to 1"):
+        instance.set(effort_limit=1.5)
+    with instance.refuses("sample_time = 0.02 refused: it is fixed"):
+        instance.set(sample_time=0.02)
+    with instance.refuses("phase = 0.1 refused: it is an output"):
+        instance.set(phase=0.1)
+    for size in (0.0, -1.0, nan):
+        with instance.refuses("communicationStepSize", "allowed is a finite number above 0"):
+            instance.step(size)
+        instance.time = SAMPLE
+    with instance.refuses("currentCommunicationPoint = 7.0 refused: allowed is the present time"):
+        instance.slave.doStep(currentCommunicationPoint=7.0, communicationStepSize=SAMPLE)
+    with instance.refuses("communicationStepSize = 1000000.0", "at most 1e+06 samples"):
+        instance.step(1e6)
+
+
+def test_calls_out_of_order_are_refused(controller: Callable[[], Instance]) -> None:
+    instance = controller()
+    with instance.refuses("doStep refused in state 'instantiated'"):
+        instance.step(SAMPLE)
+    with instance.refuses("reading phase refused in state 'instantiated'"):
+        instance.get("phase")
+    with instance.refuses("stopTime = -1.0 refused"):
+        instance.slave.setupExperiment(startTime=0.0, stopTime=-1.0)
+    with instance.refuses("tolerance = -1.0 refused"):
+        instance.slave.setupExperiment(startTime=0.0, tolerance=-1.0)
+
+
+def test_huge_values_make_no_nan(controller: Callable[[], Instance]) -> None:
+    instance = controller()
+    instance.initialize(
+        velocity_reference=1e308,
+        measured_velocity=-1e308,
+        proportional_gain=0.0,
+        integral_gain=1e12,
+    )
+    instance.step(SAMPLE)
+    instance.set(proportional_gain=1e12)
+    instance.step(SAMPLE)
+    assert instance.get("effort") == (1.0,)

@@ -1,0 +1,68 @@
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+from fmpy import read_model_description
+from fmpy.validation import validate_fmu
+
+from fmu_src.building.compiling import FLAGS
+from fmu_src.c_header import C_SOURCES, CONTROLLER_SOURCES
+from fmu_src.controller.variables import VARIABLES
+from tests.fmu_src.building.test_native_fmu import WARNINGS
+
+
+def test_fmpy_and_fmutool_find_no_problem(controller_fmu: Path) -> None:
+    assert validate_fmu(str(controller_fmu)) == []
+    fmutool = Path(sys.executable).with_name("fmutool")
+    done = subprocess.run(
+        [fmutool, "-input", controller_fmu, "-check"], capture_output=True, text=True, check=False
+    )
+    report = done.stdout + done.stderr
+    assert "compliant with FMI-2.0" in report
+    assert "No semantic error" in report
+
+
+def test_the_description_is_that_of_the_table(controller_fmu: Path) -> None:
+    description = read_model_description(str(controller_fmu))
+    found = [(v.name, v.causality, v.unit) for v in description.modelVariables]
+    assert found == [(v.name, v.causality, v.unit) for v in VARIABLES]
+    with zipfile.ZipFile(controller_fmu) as archive:
+        page = archive.read("documentation/index.html").decode()
+    for variable in VARIABLES:
+        assert page.count(f"<td><code>{variable.name}</code></td>") == 1, variable.name
+
+
+def test_what_speaks_fmi_is_shared_and_the_model_is_not(controller_fmu: Path) -> None:
+    with zipfile.ZipFile(controller_fmu) as archive:
+        inside = {
+            name.removeprefix("sources/"): archive.read(name)
+            for name in archive.namelist()
+            if name.startswith("sources/")
+        }
+    own = {path.name for path in CONTROLLER_SOURCES.glob("*.[ch]")}
+    assert own <= set(inside)
+    for name, data in inside.items():
+        if name not in own and name != "model_guid.h":
+            assert data == (C_SOURCES / name).read_bytes(), name
+    assert not {"coulomb.c", "law.c", "device.h"} & set(inside)
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
+def test_sources_compile_alone_without_a_warning(controller_fmu: Path, tmp_path: Path) -> None:
+    with zipfile.ZipFile(controller_fmu) as archive:
+        archive.extractall(tmp_path)
+    sources = tmp_path / "sources"
+    command = ["gcc", *FLAGS, *WARNINGS, "-o", "alone.so"]
+    done = subprocess.run(
+        [*command, *(path.name for path in sources.glob("*.c")), "-lm"],
+        cwd=sources,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr

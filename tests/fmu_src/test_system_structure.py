@@ -1,0 +1,61 @@
+from __future__ import annotations
+
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from fmu_src.python.slider_resonator.variables import Variable
+from fmu_src.system_structure import Connection, System, parameter_set, structure
+
+SSD = "{http://ssp-standard.org/SSP1/SystemStructureDescription}"
+SSC = "{http://ssp-standard.org/SSP1/SystemStructureCommon}"
+SSV = "{http://ssp-standard.org/SSP1/SystemStructureParameterValues}"
+
+FORCE = Variable("force", "", "Real", "input", "continuous", 0.0, "N")
+IDLE = Variable("idle", "", "Real", "input", "continuous", 0.0, "N")
+SPEED = Variable("speed", "", "Real", "output", "continuous", unit="m/s")
+STAGES = Variable("stages", "", "Integer", "parameter", "fixed", 1)
+GAIN = Variable("gain", "", "Real", "parameter", "fixed", 1.0)
+SYSTEM = System(
+    "Drive",
+    "A motor",
+    {"motor": "resources/Motor.fmu"},
+    {"motor": (FORCE, IDLE, SPEED, STAGES, GAIN)},
+    (Connection("push", "motor.force"), Connection("motor.speed", "speed")),
+    1.5,
+)
+
+
+def connectors(element: ET.Element) -> dict[str, tuple[str, str]]:
+    return {
+        c.attrib["name"]: (c.attrib["kind"], c.find(f"{SSC}Real").attrib["unit"])
+        for c in element.iterfind(f"{SSD}Connectors/{SSD}Connector")
+    }
+
+
+def test_connectors_of_the_system_have_the_units_of_what_they_stand_for() -> None:
+    system = ET.fromstring(structure(SYSTEM)).find(f"{SSD}System")
+    assert connectors(system) == {"push": ("input", "N"), "speed": ("output", "m/s")}
+    component = system.find(f"{SSD}Elements/{SSD}Component")
+    assert connectors(component) == {"force": ("input", "N"), "speed": ("output", "m/s")}, (
+        "an input that nothing is connected with is left alone"
+    )
+
+
+def test_without_connectors_of_the_system_its_connections_go_too() -> None:
+    system = ET.fromstring(structure(SYSTEM, connectors=False)).find(f"{SSD}System")
+    assert connectors(system) == {}
+    assert system.findall(f"{SSD}Connections/{SSD}Connection") == []
+
+
+def test_parameters_have_their_type_and_unit() -> None:
+    values = {"motor.stages": 2, "motor.gain": 0.1 + 0.2}
+    root = ET.fromstring(parameter_set(SYSTEM, "fast", values))
+    stages, gain = root.iterfind(f"{SSV}Parameters/{SSV}Parameter")
+    assert stages.find(f"{SSV}Integer").attrib == {"value": "2"}
+    assert gain.find(f"{SSV}Real").attrib == {"value": "0.30000000000000004", "unit": "1"}
+
+
+def test_a_connection_to_nothing_is_an_error() -> None:
+    with pytest.raises(KeyError, match="torque"):
+        parameter_set(SYSTEM, "fast", {"motor.torque": 1.0})
