@@ -13,6 +13,7 @@ import click
 from fmu_src import __version__
 from harness.commands.bench import bench_command
 from harness.commands.blocking import blocking_command
+from harness.commands.closed_loop import closed_loop_command
 from harness.commands.extremes import extremes_command
 from harness.commands.hosts import hosts_command
 from harness.commands.paper import paper_command
@@ -101,6 +102,7 @@ def main() -> None:
       python -m harness paper --out paper
       python -m harness extremes --out extremes
       python -m harness sweep grid.toml --out table.parquet
+      python -m harness closed-loop --out closed_loop
     """
 
 
@@ -116,5 +118,6 @@ for command in (
     hosts_command,
     extremes_command,
     sweep_command,
+    closed_loop_command,
 ):
     main.add_command(command)

@@ -22,12 +22,7 @@ def run(job: Job) -> Rows:
         raise RuntimeError("libcosim could not load the FMU")
     for name, value in job.first().items():
         (reference,) = description.refer([name])
-        if isinstance(value, int):
-            taken = execution.integer_initial_value(slave, reference, value)
-        else:
-            taken = execution.real_initial_value(slave, reference, value)
-        if not taken:
-            raise RuntimeError(f"libcosim did not take {name} = {value!r}")
+        set_initial(execution, slave, reference, name, value)
     observer, manipulator = CosimObserver.create_last_value(), CosimManipulator.create_override()
     execution.add_observer(observer)
     execution.add_manipulator(manipulator)
@@ -40,6 +35,18 @@ def run(job: Job) -> Rows:
             raise RuntimeError(f"libcosim could not take step {index + 1}")
         rows.append([float(value) for value in observer.last_real_values(slave, outputs)])
     return rows
+
+
+def set_initial(
+    execution: CosimExecution, slave: int, reference: int, name: str, value: float
+) -> None:
+    """Set a value before initialisation, an Integer where it is an int; RuntimeError if refused."""
+    if isinstance(value, int):
+        taken = execution.integer_initial_value(slave, reference, value)
+    else:
+        taken = execution.real_initial_value(slave, reference, value)
+    if not taken:
+        raise RuntimeError(f"libcosim did not take {name} = {value!r}")
 
 
 if __name__ == "__main__":

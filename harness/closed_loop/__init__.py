@@ -1,0 +1,1 @@
+"""The slider in a system: a controller holds its velocity under a changing load."""

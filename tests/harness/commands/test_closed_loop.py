@@ -1,0 +1,101 @@
+"""The loop in fmpy: what it shows, and that a loop that fails is rejected."""
+
+from __future__ import annotations
+
+import csv
+import json
+import zipfile
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from harness.cli import main
+
+
+def closed_loop(*arguments: object) -> Result:
+    return CliRunner().invoke(main, ["closed-loop", *(str(argument) for argument in arguments)])
+
+
+def changed(package: Path, target: Path, old: str, new: str) -> Path:
+    """The package with other texts in its parameter sets."""
+    with zipfile.ZipFile(package) as archive, zipfile.ZipFile(target, "w") as copy:
+        for name in archive.namelist():
+            data = archive.read(name)
+            if name.endswith(".ssv"):
+                assert old.encode() in data
+                data = data.replace(old.encode(), new.encode())
+            copy.writestr(name, data)
+    return target
+
+
+def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
+    closed_loop_package: Path, tmp_path: Path
+) -> None:
+    done = closed_loop(closed_loop_package, "--out", tmp_path, "--json")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert [entry["fidelity"] for entry in found["held"]] == [0] * 5 + [2] * 5
+    for entry in found["held"]:
+        assert entry["after_settling"] <= 0.02
+        assert entry["largest"] > 0.02, "each step of the load shows before the controller answers"
+    (agreement,) = found["agreements"]
+    assert 0.0 < agreement["difference"] <= agreement["predicted"]
+    assert (tmp_path / "closed_loop.png").read_bytes().startswith(b"\x89PNG")
+    with (tmp_path / "closed_loop.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 800
+    assert float(rows[-1]["fmpy fidelity 2 mean_velocity [m/s]"]) == pytest.approx(0.06, rel=1e-3)
+
+
+def test_a_controller_without_integral_does_not_hold(
+    closed_loop_package: Path, tmp_path: Path
+) -> None:
+    loose = changed(closed_loop_package, tmp_path / "loose.ssp", '"400.0"', '"0.0"')
+    done = closed_loop(loose, "--out", tmp_path)
+    assert done.exit_code == 1
+    assert "FAIL" in done.stdout
+    assert "never" in done.stdout
+
+
+def test_another_device_is_a_proof_that_disagrees(
+    closed_loop_package: Path, tmp_path: Path
+) -> None:
+    other = tmp_path / "other.ssp"
+    integer = '<ssv:Integer value="2" />\n    </ssv:Parameter>'
+    heavy = f'{integer}<ssv:Parameter name="slider.resonator_frequency"><ssv:Real value="100"/>'
+    with zipfile.ZipFile(closed_loop_package) as archive, zipfile.ZipFile(other, "w") as copy:
+        for name in archive.namelist():
+            data = archive.read(name)
+            if name.endswith("proof.ssv"):
+                data = data.replace(integer.encode(), f"{heavy}</ssv:Parameter>".encode())
+            copy.writestr(name, data)
+    done = closed_loop(other, "--out", tmp_path, "--json")
+    assert done.exit_code == 1
+    assert not json.loads(done.stdout)["agreements"][0]["passed"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("slider.fidelity", "slider.detail", "parameter set design lacks slider.fidelity"),
+        ("controller.force_phase", "controller.angle", "does not run in fmpy: KeyError: 'angle'"),
+    ],
+)
+def test_a_package_that_cannot_be_run_is_no_verdict(
+    closed_loop_package: Path, tmp_path: Path, old: str, new: str, said: str
+) -> None:
+    broken = changed(closed_loop_package, tmp_path / "broken.ssp", old, new)
+    done = closed_loop(broken, "--out", tmp_path)
+    assert done.exit_code == 2
+    assert said in done.stderr
+
+
+def test_what_is_no_package_is_said(tmp_path: Path) -> None:
+    done = closed_loop(tmp_path / "none.ssp", "--out", tmp_path)
+    assert done.exit_code == 2
+    assert "none.ssp: no such file; build it with: python build_fmu.py" in done.stderr
+    (tmp_path / "text.ssp").write_text("no zip")
+    done = closed_loop(tmp_path / "text.ssp", "--out", tmp_path)
+    assert done.exit_code == 2
+    assert "text.ssp: no parameter set design can be read" in done.stderr

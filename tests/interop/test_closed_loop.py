@@ -1,0 +1,31 @@
+"""The closed loop in another master, which hands values on without fmpy's delay of the inputs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness.closed_loop.course import HOSTS, run_loop
+from harness.closed_loop.duty import Duty
+from harness.closed_loop.judge import judge_agreement, judge_holds
+from harness.closed_loop.prediction import averaged_error
+from harness.references.device import Device
+
+pytestmark = pytest.mark.interop
+
+
+def test_libcosim_holds_the_velocity_and_gives_the_motion_of_fmpy(
+    closed_loop_package: Path,
+) -> None:
+    duty = Duty()
+    fmpy, libcosim = (run_loop(closed_loop_package, host, duty) for host in HOSTS)
+    for course in libcosim:
+        failed = [held for held in judge_holds(course, duty) if not held.passed]
+        assert failed == [], "the velocity has to come back after each step of the load"
+    assert judge_agreement(*libcosim, duty, averaged_error(Device())).passed
+    for theirs, ours in zip(libcosim, fmpy, strict=True):
+        ends = np.searchsorted(ours.times, [hold.end - 0.5 * duty.step for hold in duty.holds])
+        assert theirs.velocity[ends] == pytest.approx(ours.velocity[ends], rel=1e-3)
+        assert theirs.phase[ends] == pytest.approx(ours.phase[ends], abs=1e-3)
