@@ -14,6 +14,7 @@ from fmu_src import __version__
 from harness.commands.bench import bench_command
 from harness.commands.blocking import blocking_command
 from harness.commands.closed_loop import closed_loop_command
+from harness.commands.crosscheck import crosscheck_command
 from harness.commands.extremes import extremes_command
 from harness.commands.hosts import hosts_command
 from harness.commands.paper import paper_command
@@ -103,6 +104,7 @@ def main() -> None:
       python -m harness extremes --out extremes
       python -m harness sweep grid.toml --out table.parquet
       python -m harness closed-loop --out closed_loop
+      python -m harness crosscheck --out crosscheck
     """
 
 
@@ -119,5 +121,6 @@ for command in (
     extremes_command,
     sweep_command,
     closed_loop_command,
+    crosscheck_command,
 ):
     main.add_command(command)
