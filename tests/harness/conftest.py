@@ -10,9 +10,10 @@ from harness.fmu import Fmu, open_fmu
 
 
 @pytest.fixture(scope="session")
-def fmu(python_fmu: Path) -> Iterator[Fmu]:
-    """The Python FMU, opened."""
-    with open_fmu(python_fmu) as opened:
+def fmu(request: pytest.FixtureRequest) -> Iterator[Fmu]:
+    """The native FMU, opened; in tests marked with `fmus.both_fmus` the Python one as well."""
+    path: Path = request.getfixturevalue(f"{getattr(request, 'param', 'native')}_fmu")
+    with open_fmu(path) as opened:
         yield opened
 
 

@@ -30,8 +30,8 @@ why = "it is averaged motion that is expected"
 
 
 @pytest.mark.parametrize("scene", ["averaged_lugre_load_step", "averaged_lift_off", "slow_lugre"])
-def test_the_built_in_scenes_pass(python_fmu: Path, scene: str) -> None:
-    (result,) = validate([python_fmu], [find_scene(scene)])
+def test_the_built_in_scenes_pass(native_fmu: Path, scene: str) -> None:
+    (result,) = validate([native_fmu], [find_scene(scene)])
     assert not [(check.quantity, check.fmu) for check in result.checks if not check.passed]
 
 
@@ -47,9 +47,9 @@ def test_the_built_in_scenes_pass(python_fmu: Path, scene: str) -> None:
     ],
 )
 def test_resolved_motion_is_near_and_only_averaged_motion_is_equal(
-    python_fmu: Path, tmp_path: Path, fidelity: int, quantity: str, relative: float, passes: bool
+    native_fmu: Path, tmp_path: Path, fidelity: int, quantity: str, relative: float, passes: bool
 ) -> None:
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE.format(fidelity=fidelity, quantity=quantity, relative=relative))
-    ((check,),) = (v.checks for v in validate([python_fmu], [scene]))
+    ((check,),) = (v.checks for v in validate([native_fmu], [scene]))
     assert check.passed is passes, f"off by {check.deviation}"

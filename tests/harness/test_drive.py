@@ -11,6 +11,9 @@ from harness.drive import Instance, instantiate, run
 from harness.errors import FmuError, Refusal
 from harness.fmu import Fmu
 from harness.schedule import constant, schedule, steps
+from tests.fmus import both_fmus
+
+pytestmark = both_fmus
 
 PERIOD = 2.0 * pi / 3500.0
 

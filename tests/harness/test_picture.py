@@ -10,9 +10,9 @@ from harness.picture import draw_picture
 
 
 @pytest.mark.slow
-def test_the_picture_fits_a_readme(python_fmu: Path, tmp_path: Path) -> None:
+def test_the_picture_fits_a_readme(native_fmu: Path, tmp_path: Path) -> None:
     path = tmp_path / "picture.png"
-    draw_picture(python_fmu, path)
+    draw_picture(native_fmu, path)
     picture = imread(path)
     assert picture.shape[1] == 1200
     assert np.ptp(picture[..., :3]) > 0.5, "something must be drawn"

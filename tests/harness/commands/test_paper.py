@@ -9,8 +9,8 @@ from click.testing import CliRunner
 from harness.cli import main
 
 
-def test_figures_are_written_and_told_of_as_json(python_fmu: Path, tmp_path: Path) -> None:
-    arguments = ["--out", str(tmp_path), "--only", "figure_7", "--fmu", str(python_fmu), "--json"]
+def test_figures_are_written_and_told_of_as_json(native_fmu: Path, tmp_path: Path) -> None:
+    arguments = ["--out", str(tmp_path), "--only", "figure_7", "--fmu", str(native_fmu), "--json"]
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 0, result.output
     assert json.loads(result.stdout)["run"] == ["figure_7"]
@@ -27,7 +27,7 @@ def test_what_cannot_be_run_ends_with_2(arguments: list[str], tmp_path: Path) ->
 
 
 def test_a_claim_that_is_not_confirmed_ends_with_1(
-    python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from harness.paper import reproduce
     from harness.paper.claim import AGREES, Claim, ClaimGroup
@@ -35,14 +35,14 @@ def test_a_claim_that_is_not_confirmed_ends_with_1(
     claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, AGREES, "it does not", False)
     group = ClaimGroup("claims_x", "X", {}, lambda instance, progress: [claim])
     monkeypatch.setattr(reproduce, "GROUPS", (group,))
-    arguments = ["--out", str(tmp_path), "--only", "claims", "--fmu", str(python_fmu)]
+    arguments = ["--out", str(tmp_path), "--only", "claims", "--fmu", str(native_fmu)]
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 1
     assert "It flies" in result.output
 
 
 def test_a_table_that_deviates_ends_with_1(
-    python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from harness.paper import reproduce
     from harness.paper.table import PaperTable
@@ -53,7 +53,7 @@ def test_a_table_that_deviates_ends_with_1(
     name = "lugre_device"
     table = PaperTable(name, "Forces", "", {"error": "error"}, {"error": 0.1}, {}, measure)
     monkeypatch.setattr(reproduce, "TABLES", {name: table})
-    arguments = ["--out", str(tmp_path), "--only", name, "--fmu", str(python_fmu)]
+    arguments = ["--out", str(tmp_path), "--only", name, "--fmu", str(native_fmu)]
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 1
     assert "FAIL     lugre_device: error up to 0.3, allowed 0.1" in result.output

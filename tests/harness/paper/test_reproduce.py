@@ -21,52 +21,52 @@ def _quiet(label: str, share: float) -> None:
     """Take no notice of progress."""
 
 
-def test_only_what_is_missing_is_made(python_fmu: Path, tmp_path: Path) -> None:
-    first = reproduce(python_fmu, tmp_path, ("figure_3",), _quiet)
+def test_only_what_is_missing_is_made(native_fmu: Path, tmp_path: Path) -> None:
+    first = reproduce(native_fmu, tmp_path, ("figure_3",), _quiet)
     assert (first.run, first.kept) == (["figure_3"], [])
     drawn = (tmp_path / "figure_3.png").stat().st_mtime_ns
-    again = reproduce(python_fmu, tmp_path, ("figure_3",), _quiet)
+    again = reproduce(native_fmu, tmp_path, ("figure_3",), _quiet)
     assert (again.run, again.kept) == ([], ["figure_3"])
     assert (tmp_path / "figure_3.png").stat().st_mtime_ns == drawn
 
     (tmp_path / "figure_3.svg").unlink()
     results = (tmp_path / "results" / "figure_3.json").stat().st_mtime_ns
-    redrawn = reproduce(python_fmu, tmp_path, ("figure_3",), _quiet)
+    redrawn = reproduce(native_fmu, tmp_path, ("figure_3",), _quiet)
     assert redrawn.run == ["figure_3"]
     assert (tmp_path / "figure_3.svg").is_file()
     assert (tmp_path / "results" / "figure_3.json").stat().st_mtime_ns == results, "not measured"
 
 
-def test_results_of_another_fmu_are_replaced(python_fmu: Path, tmp_path: Path) -> None:
-    reproduce(python_fmu, tmp_path, ("figure_3",), _quiet)
+def test_results_of_another_fmu_are_replaced(native_fmu: Path, tmp_path: Path) -> None:
+    reproduce(native_fmu, tmp_path, ("figure_3",), _quiet)
     path = tmp_path / "results" / "figure_3.json"
     content = json.loads(path.read_text(encoding="utf-8"))
     path.write_text(json.dumps({**content, "key": "of another"}), encoding="utf-8")
-    assert reproduce(python_fmu, tmp_path, ("figure_3",), _quiet).run == ["figure_3"]
+    assert reproduce(native_fmu, tmp_path, ("figure_3",), _quiet).run == ["figure_3"]
 
 
-def test_an_unknown_name_is_refused(python_fmu: Path, tmp_path: Path) -> None:
+def test_an_unknown_name_is_refused(native_fmu: Path, tmp_path: Path) -> None:
     with pytest.raises(HarnessError, match="figure_6"):
-        reproduce(python_fmu, tmp_path, ("figure_6",), _quiet)
+        reproduce(native_fmu, tmp_path, ("figure_6",), _quiet)
 
 
-def test_tables_are_kept_too_and_judged(python_fmu: Path, tmp_path: Path) -> None:
-    first = reproduce(python_fmu, tmp_path, ("lugre_blocking",), _quiet)
+def test_tables_are_kept_too_and_judged(native_fmu: Path, tmp_path: Path) -> None:
+    first = reproduce(native_fmu, tmp_path, ("lugre_blocking",), _quiet)
     assert (first.run, first.kept) == (["lugre_blocking"], [])
-    again = reproduce(python_fmu, tmp_path, ("lugre_blocking",), _quiet)
+    again = reproduce(native_fmu, tmp_path, ("lugre_blocking",), _quiet)
     assert (again.run, again.kept) == ([], ["lugre_blocking"])
     (table,) = again.tables
     assert table.confirmed
     assert table.largest["uniform_deviation"] <= 2e-3
     assert again.confirmed
     assert "lugre_blocking" in (tmp_path / "TABLES.md").read_text(encoding="utf-8")
-    reproduce(python_fmu, tmp_path, ("figure_3",), _quiet)
+    reproduce(native_fmu, tmp_path, ("figure_3",), _quiet)
     assert "lugre_blocking" in (tmp_path / "TABLES.md").read_text(encoding="utf-8"), "still holds"
 
 
 @pytest.mark.slow
-def test_the_whole_paper_is_confirmed(python_fmu: Path, tmp_path: Path) -> None:
-    outcome = reproduce(python_fmu, tmp_path, (), _quiet)
+def test_the_whole_paper_is_confirmed(native_fmu: Path, tmp_path: Path) -> None:
+    outcome = reproduce(native_fmu, tmp_path, (), _quiet)
     assert [claim["name"] for claim in outcome.claims if not claim["confirmed"]] == []
     assert len(outcome.claims) >= 25
     for name in FIGURES:
