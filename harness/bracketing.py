@@ -10,7 +10,7 @@ a sign change.
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from harness.newton import Matrix, Vector, central_jacobian
 from harness.shooting import PeriodMap
@@ -56,7 +56,7 @@ class _Elimination:
             bound *= 2.0
         else:
             raise _NoBracket
-        slow = brentq(self.slow_change, -bound, bound, xtol=1e-14 * bound)
+        slow = scipy.optimize.brentq(self.slow_change, -bound, bound, xtol=1e-14 * bound)
         self.slow_change(slow)
         return self.state
 

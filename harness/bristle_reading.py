@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from math import asin, copysign, expm1, pi, sin, sqrt, tau
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import KroghInterpolator
-from scipy.optimize import brentq
 
 from harness.errors import FmuError
 
@@ -134,11 +133,12 @@ def _turn(times: Array, position: Array, velocity: Array, index: int) -> float:
     size = times[index + 1] - times[index]
     local = (times[near] - times[index]) / size
     data = np.column_stack([position[near] - position[index], velocity[near] * size])
-    course = KroghInterpolator(np.repeat(local, 2), data.ravel())
+    course = scipy.interpolate.KroghInterpolator(np.repeat(local, 2), data.ravel())
 
     def speed(time: float) -> float:
         return float(course.derivative(time))
 
     if speed(0.0) * speed(1.0) >= 0.0:  # rounding, of a reversal at one of the two times
         return float(position[index] if abs(speed(0.0)) < abs(speed(1.0)) else position[index + 1])
-    return float(position[index] + course(brentq(speed, 0.0, 1.0, xtol=1e-15)))
+    turn = scipy.optimize.brentq(speed, 0.0, 1.0, xtol=1e-15)
+    return float(position[index] + course(turn))

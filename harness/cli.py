@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 import traceback
 from collections.abc import Sequence
@@ -11,24 +12,28 @@ from typing import Any, NoReturn
 import click
 
 from fmu_src import __version__
-from harness.commands.bench import bench_command
-from harness.commands.blocking import blocking_command
-from harness.commands.closed_loop import closed_loop_command
-from harness.commands.crosscheck import crosscheck_command
-from harness.commands.extremes import extremes_command
-from harness.commands.hosts import hosts_command
-from harness.commands.paper import paper_command
-from harness.commands.picture import picture_command
-from harness.commands.run import run_command
-from harness.commands.scenes import scenes_command
-from harness.commands.steady import steady_command
-from harness.commands.sweep import sweep_command
-from harness.commands.validate import validate_command
 from harness.console import leave
 from harness.errors import HarnessError
 from harness.json_output import to_json
 
 COULD_NOT_RUN = 2
+COMMANDS = (
+    "bench",
+    "blocking",
+    "closed-loop",
+    "crosscheck",
+    "extremes",
+    "hosts",
+    "paper",
+    "picture",
+    "run",
+    "scenes",
+    "steady",
+    "sweep",
+    "validate",
+)
+"""Each is `<name>_command` in `harness.commands.<name>`, with _ for -. It is loaded when it is
+called for: all together take longer to load than most take to run."""
 
 
 class HarnessGroup(click.Group):
@@ -36,6 +41,19 @@ class HarnessGroup(click.Group):
 
     Python and click end with 1 on some errors; here 1 means that something was judged and failed.
     """
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return all names, in the order of the help."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Load a command; None for a name that there is not."""
+        if cmd_name not in COMMANDS:
+            return None
+        name = cmd_name.replace("-", "_")
+        module = importlib.import_module(f"harness.commands.{name}")
+        command: click.Command = getattr(module, f"{name}_command")
+        return command
 
     def main(
         self,
@@ -106,21 +124,3 @@ def main() -> None:
       python -m harness closed-loop --out closed_loop
       python -m harness crosscheck --out crosscheck
     """
-
-
-for command in (
-    validate_command,
-    run_command,
-    steady_command,
-    blocking_command,
-    scenes_command,
-    bench_command,
-    picture_command,
-    paper_command,
-    hosts_command,
-    extremes_command,
-    sweep_command,
-    closed_loop_command,
-    crosscheck_command,
-):
-    main.add_command(command)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,11 @@ from harness.measures.deviation import mismatch_share, peak, share_of
 from harness.measures.frequency import NoOscillation
 from harness.measures.tube import Tube, no_tube
 from harness.quantities import QUANTITIES, Quantity
-from harness.reference_side import ReferenceSide
-from harness.scene_model import ExpectTable
+
+if TYPE_CHECKING:
+    # The process that an FMU is measured in judges nothing, and needs no references.
+    from harness.reference_side import ReferenceSide
+    from harness.scene_model import ExpectTable
 
 Array = NDArray[np.float64]
 Value = float | str | None

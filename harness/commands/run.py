@@ -20,7 +20,6 @@ from harness.console import progress_bar
 from harness.drive import Record, instantiate, run
 from harness.fmu import open_fmu
 from harness.json_output import to_json
-from harness.plot import plot_run, schedule_to_plot
 from harness.readable import readable
 from harness.record_csv import write_csv
 from harness.scene import Scene, find_scene, read_scene
@@ -91,6 +90,9 @@ def run_command(
         if out is not None:
             write_csv(record, out)
         if plot is not None:
+            # Here, for drawing takes longer to load than the rest to run.
+            from harness.plot import plot_run, schedule_to_plot
+
             plot_run(run_in(schedule_to_plot(read)), read, plot)
     summary = _summary(fmu, read, record, out, plot)
     click.echo(to_json(summary) if as_json else _sentences(summary, read))

@@ -11,7 +11,6 @@ from harness.console import progress_bar
 from harness.json_output import to_json
 from harness.sweep.grid import read_grid
 from harness.sweep.local import available_cores
-from harness.sweep.picture import check_picture, draw_sweep
 from harness.sweep.sweeping import SweepResult, run_sweep
 from harness.sweep.table import SUFFIXES
 from harness.targets import PICTURE_SUFFIXES, distinct
@@ -68,6 +67,9 @@ def sweep_command(
     distinct({"--out": out, "--plot": plot}, sources)
     sweep = read_grid(grid)
     if plot is not None:
+        # Here, for drawing takes longer to load than many sweeps to run.
+        from harness.sweep.picture import check_picture, draw_sweep
+
         check_picture(sweep)
     with progress_bar() as progress:
         result = run_sweep(

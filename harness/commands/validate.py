@@ -12,7 +12,6 @@ import click
 from harness.commands.options import Target, default_fmus
 from harness.console import output, progress_bar
 from harness.errors import HarnessError, SceneError
-from harness.html_report import write_html
 from harness.json_report import validations_as_json, write_json
 from harness.junit import write_junit
 from harness.report import print_validation
@@ -53,6 +52,9 @@ class Reports:
         if self.summary is not None:
             append_summary(self.summary, validations, error)
         if self.html is not None:
+            # Here, for drawing takes longer to load than everything else.
+            from harness.html_report import write_html
+
             write_html(self.html, validations, error)
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 
 Array = NDArray[np.float64]
 
@@ -42,7 +42,9 @@ def dominant_frequency(times: Array, signal: Array) -> float:
         return float(rest[0]) if rest.size else np.inf
 
     bounds = ((line - 1.0 + 1e-3) * resolution, (line + 1.0) * resolution)
-    best = minimize_scalar(misfit, bounds=bounds, method="bounded", options={"xatol": 1e-10})
+    best = scipy.optimize.minimize_scalar(
+        misfit, bounds=bounds, method="bounded", options={"xatol": 1e-10}
+    )
     return float(best.x)
 
 
