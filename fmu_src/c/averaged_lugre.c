@@ -37,36 +37,63 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
  * `angle`. */
 typedef void (*Gather)(void *sum, double angle, double friction);
 
-/* What the quadrature is over: the slow velocity V [m/s], `waves` of the integrand over a turn, and
- * the load whose kinks it has (NULL for none). */
+/* What the quadrature is over: `waves` of the integrand over a turn, and the load whose kinks it has
+ * (NULL for none). */
 typedef struct {
     const Bristle *bristle;
     const FastMotion *fast;
-    double velocity, waves;
+    double waves;
     const VibratingLoad *load;
     Gather gather;
     void *sum;
 } Quadrature;
 
-/* A part of the turn with one direction of sliding, and the sine where it begins. `unbent` is what
- * the bristle friction there is beyond the limit `direction` mu. */
+/* A part of the turn with one direction of sliding, from the angle `begin` on for `length` [rad], and
+ * cosine and sine of where it begins. `unbent` is what the bristle friction there is beyond the limit
+ * `direction` mu. */
 typedef struct {
     int direction;
-    double begin, end, sine, unbent;
+    double begin, length, cosine, sine, unbent;
 } Arc;
 
-/* Path [m] from where the arc begins. */
-static double path(const Quadrature *over, const Arc *arc, double angle, double sine) {
-    const FastMotion *fast = over->fast;
-    double moved = over->velocity * (angle - arc->begin) - fast->velocity * (sine - arc->sine);
-    return arc->direction * moved / fast->frequency;
+/* Terms of the series of x - sin(x), good to rounding up to `SERIES` rad. */
+enum { SINE_TERMS = 8 };
+#define SERIES 1.0
+
+/* x - sin(x) for x >= 0, without cancellation. */
+static double beyond_sine(double x, double sine) {
+    if (x > SERIES) {
+        return x - sine;
+    }
+    double square = x * x, sum = 1.0;
+    for (int k = SINE_TERMS; k > 1; k--) {
+        sum = 1.0 - square / (2 * k * (2 * k + 1)) * sum;
+    }
+    return x * square / 6.0 * sum;
 }
 
-/* Angle in the arc from which the bristle is fully bent. */
+/* Speed over v_q, and path [m] in the direction of the arc, `ahead` [rad] of where it begins. The
+ * velocity is v_q (cos(begin) - cos(begin + ahead)); differences of nearly equal numbers are taken
+ * in closed form, for hard bristles see short paths. */
+typedef struct {
+    double speed, path;
+} Way;
+
+static Way way(const Quadrature *over, const Arc *arc, double ahead) {
+    double half_sine = sin(0.5 * ahead), half_cosine = cos(0.5 * ahead);
+    double turned = arc->sine * half_cosine + arc->cosine * half_sine;
+    double beyond = beyond_sine(ahead, 2.0 * half_sine * half_cosine);
+    double moved = arc->cosine * beyond + 2.0 * arc->sine * half_sine * half_sine;
+    double reach = over->fast->velocity / over->fast->frequency;
+    Way way = {arc->direction * 2.0 * half_sine * turned, arc->direction * reach * moved};
+    return way;
+}
+
+/* How far ahead in the arc [rad] the bristle is fully bent. */
 static double bent_at(const Quadrature *over, const Arc *arc) {
     double stiffness = over->bristle->stiffness, full = BENT * over->bristle->coefficient;
-    double low = arc->begin, high = arc->end;
-    if (stiffness * path(over, arc, high, sin(high)) <= full) {
+    double low = 0.0, high = arc->length;
+    if (stiffness * way(over, arc, high).path <= full) {
         return high;
     }
     for (int i = 0; i < MOST_BISECTIONS; i++) {
@@ -74,7 +101,7 @@ static double bent_at(const Quadrature *over, const Arc *arc) {
         if (middle <= low || middle >= high) {
             break;
         }
-        if (stiffness * path(over, arc, middle, sin(middle)) < full) {
+        if (stiffness * way(over, arc, middle).path < full) {
             low = middle;
         } else {
             high = middle;
@@ -87,12 +114,22 @@ static void integrate_panel(const Quadrature *over, const Arc *arc, double low, 
     const Bristle *bristle = over->bristle;
     double half = 0.5 * (high - low), mu = bristle->coefficient;
     for (int i = 0; i < NODES; i++) {
-        double angle = low + half * (1.0 + NODE[i]), sine = sin(angle), cosine = cos(angle);
-        double fade = exp(-bristle->stiffness * path(over, arc, angle, sine) / mu);
-        double drag = bristle->damping * (over->velocity - over->fast->velocity * cosine);
-        double friction = arc->unbent * fade * (1.0 - arc->direction * drag / mu);
-        over->gather(over->sum, angle, WEIGHT[i] * half * friction);
+        double ahead = low + half * (1.0 + NODE[i]);
+        Way gone = way(over, arc, ahead);
+        double fade = exp(-bristle->stiffness * gone.path / mu);
+        double drag = bristle->damping * over->fast->velocity * gone.speed;
+        double friction = arc->unbent * fade * (1.0 - drag / mu);
+        over->gather(over->sum, arc->begin + ahead, WEIGHT[i] * half * friction);
     }
+}
+
+/* The first kink of the load more than `ahead` of an angle `begin`, as far ahead of that [rad]. */
+static double next_kink(const VibratingLoad *load, double begin, double ahead) {
+    double kink = begin + ahead;
+    do {
+        kink = vibrating_load_next_kink(load, kink);
+    } while (kink - begin <= ahead);
+    return kink - begin;
 }
 
 /* Panels between edges and kinks, none wider than WIDEST of the normal load. */
@@ -100,13 +137,13 @@ static void integrate_arc(const Quadrature *over, const Arc *arc) {
     if (!(fabs(arc->unbent) > EPSILON * over->bristle->coefficient)) {
         return;
     }
-    double length = bent_at(over, arc) - arc->begin, low = arc->begin;
+    double length = bent_at(over, arc), low = 0.0;
     for (int edge = 1; edge < EDGES; edge++) {
-        double last = arc->begin + length * EDGE[edge];
+        double last = length * EDGE[edge];
         while (low < last) {
             double high = last;
             if (over->load) {
-                high = fmin(high, vibrating_load_next_kink(over->load, low));
+                high = fmin(high, next_kink(over->load, arc->begin, low));
             }
             double pieces = 1.0 + floor(fabs(over->waves) * (high - low) / WIDEST);
             double width = (high - low) / pieces;
@@ -122,12 +159,11 @@ static void integrate_arc(const Quadrature *over, const Arc *arc) {
  * periodic: sigma_0 z where the forward arc begins follows from the lengths of both. */
 static void integrate_turn(const Quadrature *over, double turning) {
     double stiffness = over->bristle->stiffness, mu = over->bristle->coefficient;
-    Arc forward = {1, turning, TAU - turning, sin(turning), 0.0};
-    Arc backward = {-1, -turning, turning, -forward.sine, 0.0};
-    double forward_length = path(over, &forward, forward.end, sin(forward.end));
-    double backward_length = path(over, &backward, backward.end, sin(backward.end));
-    double bent_forward = -expm1(-stiffness * forward_length / mu);
-    double bent_backward = -expm1(-stiffness * backward_length / mu);
+    double sine = sin(turning), cosine = cos(turning);
+    Arc forward = {1, turning, TAU - 2.0 * turning, cosine, sine, 0.0};
+    Arc backward = {-1, -turning, 2.0 * turning, cosine, -sine, 0.0};
+    double bent_forward = -expm1(-stiffness * way(over, &forward, forward.length).path / mu);
+    double bent_backward = -expm1(-stiffness * way(over, &backward, backward.length).path / mu);
     double bent = bent_forward + bent_backward - bent_forward * bent_backward;
     double at_forward = 0.0, at_backward = 0.0;
     if (bent != 0.0) {
@@ -158,7 +194,6 @@ double mean_friction(const Bristle *bristle, const FastMotion *fast, const Vibra
     }
     LoadedSum bent = {&counted, 0.0};
     Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted, .sum = &bent};
-    over.velocity = fast->velocity * cos(turning);
     over.waves = vibrating_load_waves(&counted);
     over.gather = gather_loaded;
     integrate_turn(&over, turning);
@@ -188,7 +223,6 @@ FrictionMeans friction_means(const Bristle *bristle, const FastMotion *fast, dou
         sum.means.cosine = -4.0 * mu * sin(n * turning) / n;
     }
     Quadrature over = {.bristle = bristle, .fast = fast, .waves = waves, .sum = &sum};
-    over.velocity = fast->velocity * cos(turning);
     over.gather = gather_wavy;
     integrate_turn(&over, turning);
     FrictionMeans means = {sum.means.plain / TAU, sum.means.sine / TAU, sum.means.cosine / TAU};

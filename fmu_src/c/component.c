@@ -33,6 +33,27 @@ static bool law_is_finite(const Law *law) {
     return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
 }
 
+/* Refuses values that together leave the range of floating point numbers: names the one that is most
+ * decades away from its start. */
+static bool refuse_extreme(const double values[SETTABLE_COUNT], Refusal *refusal) {
+    size_t most = 0;
+    double furthest = -1.0;
+    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
+        double start = VARIABLES[i].start != 0.0 ? VARIABLES[i].start : 1.0;
+        double distance = values[i] != 0.0 ? fabs(log10(fabs(values[i])) - log10(start)) : 0.0;
+        if (distance > furthest) {
+            furthest = distance;
+            most = i;
+        }
+    }
+    char value[NUMBER_SIZE], start[NUMBER_SIZE];
+    const Variable *variable = &VARIABLES[most];
+    return refuse(refusal, "%s = %s refused: together with the other values it leaves the range of "
+                  "floating point numbers; allowed is one nearer to %s", variable->name,
+                  value_text(variable, values[most], value),
+                  value_text(variable, variable->start, start));
+}
+
 /* Prepares the law of `values` beside the present one, and makes it the present one if it can. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
@@ -43,9 +64,7 @@ static bool prepare(Component *component, const double values[SETTABLE_COUNT], R
         return false;
     }
     if (!law_is_finite(&component->laws[next])) {
-        return refuse(refusal, "the parameters are refused: masses, frequencies and amplitudes "
-                      "together leave the range of floating point numbers; allowed are smaller "
-                      "ones");
+        return refuse_extreme(values, refusal);
     }
     component->present = next;
     component->prepared = true;

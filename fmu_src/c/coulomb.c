@@ -230,7 +230,7 @@ bool coulomb_advance(const Held *held, const Moment *moment, double duration, Mo
         leg_succeed(&leg, plant, &run, leg.t == switch_time);
         stalled = leg.t > STALLED * held->arc ? 0 : stalled + 1;
         if (stalled > MOST_STALLED) {
-            return refuse_stalling(refusal);
+            return refuse_stalling(refusal, duration, clock.elapsed);
         }
         remaining = leg.t == remaining ? 0.0 : clock_advance(&clock, leg.t);
     }

@@ -2,9 +2,6 @@
 
 #include <math.h>
 
-/* Accepted and rejected steps within one call: bounds the work. */
-enum { MOST_STEPS = 100000 };
-
 /* Change of velocity [m/s] and displacement [m] over a step, their error, and the slope at its
  * end. */
 typedef struct {
@@ -35,27 +32,21 @@ static Stage try_step(AccelerationFunction acceleration, const void *motion, dou
     return stage;
 }
 
-bool integrate(AccelerationFunction acceleration, const void *motion, double duration, double step,
-               double tolerance, double *velocity, double *displacement, Refusal *refusal) {
-    double t = 0.0, first = acceleration(motion, 0.0, *velocity);
-    *displacement = 0.0;
-    for (int count = 0; count < MOST_STEPS; count++) {
-        double h = fmin(step, duration - t);
-        Stage stage = try_step(acceleration, motion, t, *velocity, h, first);
+Passage integrate(AccelerationFunction acceleration, const void *motion, Passage from, double end,
+                  double tolerance, int most) {
+    Passage now = from;
+    double first = acceleration(motion, now.t, now.velocity);
+    for (int count = 0; count < most && now.t < end && isfinite(now.velocity); count++) {
+        double left = end - now.t, h = fmin(now.step, left);
+        Stage stage = try_step(acceleration, motion, now.t, now.velocity, h, first);
         if (!(stage.error > tolerance)) {
-            *displacement += stage.moved;
-            *velocity += stage.change;
-            t += h;
+            now.moved += stage.moved;
+            now.velocity += stage.change;
+            now.t = h < left ? now.t + h : end;
             first = stage.last;
-            if (!(t < duration) || !isfinite(*velocity)) {
-                return true;
-            }
         }
         double growth = stage.error > 0.0 ? 0.9 * pow(tolerance / stage.error, 0.2) : 5.0;
-        step = h * fmin(5.0, fmax(0.2, growth));
+        now.step = h * fmin(5.0, fmax(0.2, growth));
     }
-    return refuse(refusal,
-                  "doStep refused: averaged motion needs more than %d steps of its own; allowed "
-                  "is a shorter communication step or a stronger vibration, or fidelity 1 or 2",
-                  MOST_STEPS);
+    return now;
 }

@@ -2,17 +2,17 @@
 #ifndef SLIDER_DORMAND_PRINCE_H
 #define SLIDER_DORMAND_PRINCE_H
 
-#include <stdbool.h>
-
-#include "refusal.h"
-
 /* Acceleration [m/s^2] at time `t` [s] and velocity `v` [m/s]. */
 typedef double (*AccelerationFunction)(const void *motion, double t, double v);
 
-/* Takes `*velocity` [m/s] to its value `duration` [s] later and gives the `*displacement` [m] on
- * the way. `step` [s] is tried first and `tolerance` [m/s] allowed per step. Refuses after 100 000
- * accepted and rejected steps. */
-bool integrate(AccelerationFunction acceleration, const void *motion, double duration, double step,
-               double tolerance, double *velocity, double *displacement, Refusal *refusal);
+/* A motion on its way: time [s], velocity [m/s], displacement [m], and the `step` [s] to try next. */
+typedef struct {
+    double t, velocity, moved, step;
+} Passage;
+
+/* Carries the passage on to time `end` [s], or for `most` accepted and rejected steps if those do
+ * not suffice. `tolerance` [m/s] is allowed per step. */
+Passage integrate(AccelerationFunction acceleration, const void *motion, Passage from, double end,
+                  double tolerance, int most);
 
 #endif

@@ -20,9 +20,6 @@ bool held_prepare(Held *held, const Device *device, const Inputs *inputs, Refusa
     return true;
 }
 
-bool refuse_stalling(Refusal *refusal) {
-    return refuse(refusal,
-                  "doStep refused: more than %d events at one instant; allowed are parameters and "
-                  "inputs whose forces differ by more than rounding",
-                  MOST_STALLED);
+bool refuse_stalling(Refusal *refusal, double duration, double reached) {
+    return refuse_work(refusal, duration, reached, MOST_STALLED, "events at one instant");
 }

@@ -28,7 +28,8 @@ enum { MOST_STALLED = 1000 };
 /* Prepares motion of `device` under `inputs`. Refuses as plant_prepare does. */
 bool held_prepare(Held *held, const Device *device, const Inputs *inputs, Refusal *refusal);
 
-/* The refusal of a step in which time does not get on; returns false. */
-bool refuse_stalling(Refusal *refusal);
+/* The refusal of a step of `duration` [s] in which time does not get on after `reached` [s]; returns
+ * false. */
+bool refuse_stalling(Refusal *refusal, double duration, double reached);
 
 #endif

@@ -13,8 +13,9 @@
  * away from full when closed forms take over. */
 #define SHARE 0.01
 
-/* Series and closed forms in one step up to which its work is accepted. */
-enum { MOST_LEGS = 10000000 };
+/* Series and closed forms, for each turn of the fastest oscillation, up to which work is accepted:
+ * several times what presliding on the hardest bristles takes. */
+enum { MOST_LEGS = 20000 };
 
 /* A motion in one direction, and how far it may be followed [s]. */
 typedef struct {
@@ -76,9 +77,13 @@ static double leg_travel(const void *motion, double t) {
                       : slide_travel(&leg->motion.slide, t);
 }
 
-static State leg_state(const Leg *leg, double t) {
-    return leg->bends ? taylor_slide_state(&leg->motion.series, t)
-                      : slide_state(&leg->motion.slide, t);
+/* State after `t` [s], and the displacement [m] in `travel`. */
+static State leg_end(const Leg *leg, double t, double *travel) {
+    if (!leg->bends) {
+        return slide_end(&leg->motion.slide, t, travel);
+    }
+    *travel = taylor_slide_travel(&leg->motion.series, t);
+    return taylor_slide_state(&leg->motion.series, t);
 }
 
 /* The motion in the direction that the slider has, or at rest takes. */
@@ -140,12 +145,14 @@ bool lugre_advance(const Held *held, const Bristle *bristle, double tolerance, c
     }
     Clock clock = clock_of(duration);
     double remaining = duration;
-    int stalled = 0, legs = 0;
+    double turn = TAU / LONGEST_ARC * held->arc, legs = 0.0;
+    int stalled = 0;
     Leg leg;
     while (remaining > 0.0 && isfinite(now.state.velocity)) {
-        if (++legs > MOST_LEGS) {
-            return refuse(refusal, "doStep refused: the bristle needs more than %d series in one step; "
-                          "allowed are shorter steps, softer bristles or less normal load", MOST_LEGS);
+        legs += 1.0;
+        if (legs > MOST_LEGS * (1.0 + clock.elapsed / turn)) {
+            return refuse_work(refusal, duration, clock.elapsed, MOST_LEGS,
+                               "series in a turn of the fastest oscillation");
         }
         double chi = now.psi + plant->phase;
         leg_onward(&leg, held, bristle, lifted, &now.state, now.bristle, now.theta, chi, tolerance);
@@ -157,12 +164,12 @@ bool lugre_advance(const Held *held, const Bristle *bristle, double tolerance, c
         if (stops) {
             t = zero;
         }
-        double travelled = leg_travel(&leg, t);
+        double travelled;
+        now.state = leg_end(&leg, t, &travelled);
         now.theta =
             period_advance(&now.means, t, now.theta, w, false, leg_travel, &leg, travelled);
         now.position += travelled;
         now.psi = within_turn(now.psi + q * t);
-        now.state = leg_state(&leg, t);
         now.bristle = bristle_after(bristle, now.bristle, travelled);
         if (travelled != 0.0 && now.counts.sliding != leg.direction) {
             now.counts = counts_slid(now.counts, leg.direction);
@@ -177,7 +184,7 @@ bool lugre_advance(const Held *held, const Bristle *bristle, double tolerance, c
         }
         stalled = 1e12 * t < held->arc ? stalled + 1 : 0;
         if (stalled > MOST_STALLED) {
-            return refuse_stalling(refusal);
+            return refuse_stalling(refusal, duration, clock.elapsed);
         }
         remaining = t != remaining ? clock_advance(&clock, t) : 0.0;
     }

@@ -16,6 +16,16 @@ bool refuse(Refusal *refusal, const char *format, ...) {
     return false;
 }
 
+bool refuse_work(Refusal *refusal, double step_size, double reached, int most, const char *what) {
+    char size[NUMBER_SIZE], allowed[NUMBER_SIZE] = "one under other forces";
+    if (reached > 0.0) {
+        snprintf(allowed, sizeof allowed, "one of at most 1e%d s", (int)floor(log10(reached)));
+    }
+    return refuse(refusal,
+                  "doStep: communicationStepSize = %s refused: it takes more than %d %s; allowed is "
+                  "%s", number_text(step_size, size), most, what, allowed);
+}
+
 /* Writes the fewest digits that read back as `value` > 0, without a point; returns the exponent of
  * the first one. */
 static int shortest_digits(double value, char digits[MOST_DIGITS + 1]) {

@@ -5,6 +5,7 @@
 #include "angle.h"
 #include "dormand_prince.h"
 #include "lugre.h"
+#include "settling.h"
 #include "slow_friction.h"
 
 /* Error per step of the slow motion, relative to the fast velocity. */
@@ -13,15 +14,14 @@
 /* Step tried first, as a share of the time in which friction changes the fast velocity. */
 #define FIRST_STEP 0.1
 
-/* Slow velocity [m/s] and displacement of the centre [m]. */
-typedef struct {
-    double velocity, moved;
-} Passage;
+/* Steps of averaged motion in one communication step up to which its work is accepted: of those that
+ * cost a quadrature over flight fewer. After each BLOCK of them it may turn out to have settled. */
+enum { MOST_STEPS = 20000, MOST_STEPS_OVER_FLIGHT = 1000, BLOCK = 64 };
 
 /* A block without vibration, under constant forces, from `velocity` on. */
 static Passage block_after(double velocity, double friction, double load, double mass,
                            double duration) {
-    Passage passage = {0.0, 0.0};
+    Passage passage = {.t = duration};
     if (velocity != 0.0) {
         double deceleration = (copysign(friction, velocity) + load) / mass;
         double stop = deceleration * velocity > 0.0 ? velocity / deceleration : INFINITY;
@@ -48,7 +48,8 @@ static double slow_acceleration(const void *motion, double t, double velocity) {
     return -(slow_friction_at(friction, t, velocity) + plant->load) / plant->total_mass;
 }
 
-/* Carries the slow velocity in `passage` on over `duration` [s]. */
+/* Carries the slow velocity in `passage` on over `duration` [s]; one that settles takes few steps,
+ * for however long. */
 static bool pass(const SlowFriction *friction, double duration, Passage *passage,
                  Refusal *refusal) {
     const Plant *plant = &friction->law->held.plant;
@@ -58,10 +59,22 @@ static bool pass(const SlowFriction *friction, double duration, Passage *passage
         *passage = block_after(passage->velocity, full, load, total, duration);
         return true;
     }
-    double most = full + fabs(load);
-    double step = most > 0.0 ? FIRST_STEP * fast * total / most : duration;
-    return integrate(slow_acceleration, friction, duration, step, TOLERANCE * fast,
-                     &passage->velocity, &passage->moved, refusal);
+    double strongest = full + fabs(load);
+    double step = strongest > 0.0 ? FIRST_STEP * fast * total / strongest : duration;
+    int most = friction->form == SLOW_LUGRE_OVER_FLIGHT ? MOST_STEPS_OVER_FLIGHT : MOST_STEPS;
+    Passage now = {.velocity = passage->velocity, .step = step};
+    for (int count = 0; now.t < duration && isfinite(now.velocity); count += BLOCK) {
+        if (count >= most) {
+            return refuse_work(refusal, duration, now.t, most, "steps of averaged motion");
+        }
+        if (count > 0 && friction->drift == 0.0 &&
+            settle(slow_acceleration, friction, fast, duration, &now)) {
+            break;
+        }
+        now = integrate(slow_acceleration, friction, now, duration, TOLERANCE * fast, BLOCK);
+    }
+    *passage = now;
+    return true;
 }
 
 Moment slow_start(const Law *law, State state, double position) {
@@ -77,7 +90,7 @@ bool slow_advance(const Law *law, const Moment *moment, double duration, Moment 
     double share = device_mass_fraction(&law->device);
     double theta = moment->theta, psi = moment->psi;
     State state = moment->state;
-    Passage passage = {state.velocity + share * state.rate + drive * cos(theta), 0.0};
+    Passage passage = {.velocity = state.velocity + share * state.rate + drive * cos(theta)};
     double centre = moment->position + share * state.displacement + drive / w * sin(theta);
     SlowFriction friction = slow_friction_of(law, theta, psi);
     if (!pass(&friction, duration, &passage, refusal)) {

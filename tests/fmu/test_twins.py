@@ -159,6 +159,17 @@ def test_lugre_devices(
     assert_equal(native, python, tolerance)
 
 
+def test_bristles_far_harder_than_rounding_of_the_path(twins: Twins) -> None:
+    """Averaged friction needs the path to mu / sigma_0 = 1e-19 m, of an amplitude of 7e-5 m."""
+    values = {"fidelity": 0, "friction_law": 1, "bristle_stiffness": 1e18, "phase": 0.4}
+    native, python = both(twins, values, schedule(1.0, 0.1))
+    assert_equal(native, python, 1e-9)
+    coulomb, _ = both(twins, {"fidelity": 0, "phase": 0.4}, schedule(1.0, 0.1))
+    for name in ("steady_velocity", "mean_velocity"):
+        gap = np.abs(native[name] - coulomb[name]).max()
+        assert gap <= 1e-7 * np.abs(coulomb[name]).max(), f"{name}: hard bristles are Coulomb's"
+
+
 def refused(instance: Instance, values: Mapping[str, float]) -> str:
     with pytest.raises(Refusal) as refusal:
         run(instance, values, schedule(0.01, 0.001))
@@ -180,6 +191,9 @@ def refused(instance: Instance, values: Mapping[str, float]) -> str:
         {"slider_mass": 0.0},
         {"base_amplitude": math.nan},
         {"drive_frequency": 1e300, "base_amplitude": 1e300},
+        {"resonator_frequency": 1e170},
+        # A slider so light that bristles and damper turn it within 1e-11 s.
+        {"friction_law": 1, "slider_mass": 1.1e-9, "resonator_mass": 1.1},
         {"friction_faces": 3},
         {"tolerance": 0.5},
     ],

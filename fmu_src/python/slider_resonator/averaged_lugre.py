@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache
 from itertools import pairwise
 from math import cos, exp, expm1, pi, sin, tau
 from typing import NamedTuple
 
 from .bristle import Bristle
+from .motion import EPSILON
 from .vibrating_load import VibratingLoad
 
 NODES = 12
@@ -30,6 +31,12 @@ BENT = 40.0
 MOST_WAVES = 1000
 """Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
 add to the mean friction falls with their number, to less than 1e-3 of full friction."""
+
+
+SERIES = 1.0
+"""Angle [rad] up to which x - sin(x) is summed up as a series."""
+
+_DIVISORS = tuple(2 * k * (2 * k + 1) for k in range(8, 1, -1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +97,46 @@ def _no_kinks(begin: float, end: float) -> list[float]:
     return []
 
 
+class Arc:
+    """A part of the turn with one direction of sliding, from `begin` on for `length` [rad].
+
+    The velocity is v_q (cos(begin) - cos(begin + ahead)); differences of nearly equal numbers are
+    taken in closed form, for hard bristles see short paths.
+    """
+
+    __slots__ = ("_cosine", "_reach", "_sine", "begin", "direction", "length")
+
+    def __init__(self, fast: FastMotion, direction: int, begin: float, length: float) -> None:
+        self.direction, self.begin, self.length = direction, begin, length
+        self._cosine, self._sine = cos(begin), sin(begin)
+        self._reach = fast.velocity / fast.frequency
+
+    def way(self, ahead: float) -> tuple[float, float]:
+        """Speed over v_q, and path [m], `ahead` [rad] of where the arc begins."""
+        half_sine, half_cosine = sin(0.5 * ahead), cos(0.5 * ahead)
+        turned = self._sine * half_cosine + self._cosine * half_sine
+        beyond = _beyond_sine(ahead, 2.0 * half_sine * half_cosine)
+        moved = self._cosine * beyond + 2.0 * self._sine * half_sine * half_sine
+        return (
+            self.direction * 2.0 * half_sine * turned,
+            self.direction * self._reach * moved,
+        )
+
+    def path(self, ahead: float) -> float:
+        """Path [m], `ahead` [rad] of where the arc begins."""
+        return self.way(ahead)[1]
+
+
+def _beyond_sine(x: float, sine: float) -> float:
+    """x - sin(x) for x >= 0, without cancellation."""
+    if x > SERIES:
+        return x - sine
+    square, total = x * x, 1.0
+    for divisor in _DIVISORS:
+        total = 1.0 - square / divisor * total
+    return x * square / 6.0 * total
+
+
 def _bending(
     bristle: Bristle,
     fast: FastMotion,
@@ -101,28 +148,29 @@ def _bending(
 
     It serves integrands that vary as cos(wave_number tau), with kinks where `kinks` says.
     """
-    velocity = fast.velocity * cos(turning)
-    arcs = ((1, turning, tau - turning), (-1, -turning, turning))
-
-    def path(sign: int, begin: float, end: float) -> float:
-        moved = velocity * (end - begin) - fast.velocity * (sin(end) - sin(begin))
-        return sign * moved / fast.frequency
-
-    forward, backward = (path(*arc) for arc in arcs)
-    start = _periodic_friction(bristle, forward, backward)
+    mu = bristle.coefficient
+    forward = Arc(fast, 1, turning, tau - 2.0 * turning)
+    backward = Arc(fast, -1, -turning, 2.0 * turning)
+    start = _periodic_friction(
+        bristle, forward.path(forward.length), backward.path(backward.length)
+    )
     nodes = []
-    for sign, begin, end in arcs:
-        unbent = start[sign] - sign * bristle.coefficient
-        last = _bent_at(bristle, partial(path, sign, begin), begin, end)
-        edges = [begin + (last - begin) * share for share in PANELS]
-        for low, high in _panels(edges, kinks(begin, last), wave_number):
+    for arc in (forward, backward):
+        unbent = start[arc.direction] - arc.direction * mu
+        if not abs(unbent) > EPSILON * mu:
+            continue
+        last = _bent_at(bristle, arc)
+        edges = [last * share for share in PANELS]
+        inner = [kink - arc.begin for kink in kinks(arc.begin, arc.begin + last)]
+        for low, high in _panels(edges, inner, wave_number):
             half = 0.5 * (high - low)
             for node, weight in gauss_legendre(NODES):
-                angle = low + half * (1.0 + node)
-                fade = exp(-bristle.stiffness * path(sign, begin, angle) / bristle.coefficient)
-                drag = bristle.damping * (velocity - fast.velocity * cos(angle))
-                friction = unbent * fade * (1.0 - sign * drag / bristle.coefficient)
-                nodes.append(Bending(angle, weight * half * friction))
+                ahead = low + half * (1.0 + node)
+                speed, path = arc.way(ahead)
+                fade = exp(-bristle.stiffness * path / mu)
+                drag = bristle.damping * fast.velocity * speed
+                friction = unbent * fade * (1.0 - drag / mu)
+                nodes.append(Bending(arc.begin + ahead, weight * half * friction))
     return nodes
 
 
@@ -149,15 +197,15 @@ def _periodic_friction(bristle: Bristle, forward: float, backward: float) -> dic
     return {1: at_forward, -1: at_forward + (mu - at_forward) * bent_forward}
 
 
-def _bent_at(bristle: Bristle, path: Callable[[float], float], begin: float, end: float) -> float:
-    """Angle in [begin, end] from which the bristle is fully bent."""
+def _bent_at(bristle: Bristle, arc: Arc) -> float:
+    """How far ahead in the arc [rad] the bristle is fully bent."""
     full = BENT * bristle.coefficient
-    if bristle.stiffness * path(end) <= full:
-        return end
-    low, high = begin, end
+    if bristle.stiffness * arc.path(arc.length) <= full:
+        return arc.length
+    low, high = 0.0, arc.length
     for _ in range(60):
         middle = 0.5 * (low + high)
-        if bristle.stiffness * path(middle) < full:
+        if bristle.stiffness * arc.path(middle) < full:
             low = middle
         else:
             high = middle

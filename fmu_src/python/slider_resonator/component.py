@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import inf, isfinite, remainder, tau, ulp
+from math import inf, isfinite, log10, remainder, tau, ulp
 from typing import Any
 
 from .coulomb import LONGEST_ARC, Moment
@@ -16,6 +16,7 @@ from .plant import Plant
 from .refusal import Refusal
 from .snapshot import FORMAT, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, checked, number
+from .variables import Variable
 
 MOST_TURNS = 1e8
 """Turns of the fastest oscillation in one step up to which its work is accepted."""
@@ -213,6 +214,8 @@ class Component:
             state = moment.state
             travelled = (moment.position, state.velocity, state.displacement, state.rate)
             finite = all(map(isfinite, (*travelled, moment.psi, moment.theta)))
+        except Refusal:
+            raise
         except (ArithmeticError, ValueError):
             finite = False
         if not finite:
@@ -233,11 +236,25 @@ def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
     except ArithmeticError:
         finite = False
     if not finite:
-        raise Refusal(
-            "the parameters are refused: masses, frequencies and amplitudes together leave the "
-            "range of floating point numbers; allowed are smaller ones"
-        )
+        raise _extreme(values)
     return device, inputs, law
+
+
+def _extreme(values: Mapping[str, Any]) -> Refusal:
+    """The refusal of values that together leave the range of floating point numbers.
+
+    It names the one that is most decades away from its start.
+    """
+
+    def distance(variable: Variable) -> float:
+        value = values[variable.name]
+        return abs(log10(abs(value)) - log10(variable.start or 1.0)) if value else 0.0
+
+    furthest = max(SETTABLE, key=distance)
+    return Refusal(
+        f"{furthest.name} = {values[furthest.name]!r} refused: together with the other values it "
+        f"leaves the range of floating point numbers; allowed is one nearer to {furthest.start!r}"
+    )
 
 
 def _coefficients(plant: Plant) -> tuple[float, ...]:

@@ -18,7 +18,7 @@ from .first_zero import first_zero
 from .motion import EPSILON, Motion, State
 from .period import PeriodMeans
 from .plant import Plant, plant
-from .refusal import Refusal
+from .refusal import Refusal, too_much_work
 from .regular_slide import RegularSlide
 from .split_slide import Split, SplitSlide, split
 from .stick import Stick
@@ -178,7 +178,7 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
             mode = _mode_in_contact(plant, state, theta, psi) if mode == LIFTED else LIFTED
         stalled = 0 if t > STALLED * arc else stalled + 1
         if stalled > MOST_STALLED:
-            raise stalling()
+            raise stalling(duration, clock.elapsed)
         if mode != before:
             counts, age = counts.begun(mode), 0.0
         if t == remaining:
@@ -189,12 +189,9 @@ def advance(held: Held, moment: Moment, duration: float) -> Moment:
     return Moment(state, position, theta, psi, mode, counts, age, means, moment.bristle)
 
 
-def stalling() -> Refusal:
-    """The refusal of a step in which time does not get on."""
-    return Refusal(
-        f"doStep refused: more than {MOST_STALLED} events at one instant; allowed are parameters "
-        "and inputs whose forces differ by more than rounding"
-    )
+def stalling(duration: float, reached: float) -> Refusal:
+    """The refusal of a step of `duration` [s] in which time does not get on after `reached` [s]."""
+    return too_much_work(duration, reached, MOST_STALLED, "events at one instant")
 
 
 def _lifts_first(plant: Plant, chi: float) -> bool:

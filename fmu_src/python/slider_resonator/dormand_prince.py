@@ -3,30 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import isfinite
+from typing import NamedTuple
 
-from .refusal import Refusal
 
-MOST_STEPS = 100_000
-"""Accepted and rejected steps within one call: bounds the work."""
+class Passage(NamedTuple):
+    """A motion on its way: time [s], velocity [m/s], displacement [m], and the step [s] to try."""
+
+    t: float
+    velocity: float
+    moved: float
+    step: float
 
 
 def integrate(
     acceleration: Callable[[float, float], float],
-    velocity: float,
-    duration: float,
-    step: float,
+    now: Passage,
+    end: float,
     tolerance: float,
-) -> tuple[float, float]:
-    """Velocity [m/s] after `duration` [s] and the displacement [m] on the way.
+    most: int,
+) -> Passage:
+    """The passage at time `end` [s], or after `most` accepted and rejected steps if before.
 
-    `acceleration(t, v)` [m/s^2]; `step` [s] is tried first and `tolerance` [m/s] allowed per step.
-    Raises Refusal after MOST_STEPS steps.
+    `acceleration(t, v)` [m/s^2]; `tolerance` [m/s] is allowed per step.
     """
-    t = displacement = 0.0
-    first = acceleration(0.0, velocity)
-    for _ in range(MOST_STEPS):
-        step = min(step, duration - t)
-        v, h = velocity, step
+    t, velocity, displacement, step = now
+    first = acceleration(t, velocity)
+    for _ in range(most):
+        if not t < end or not isfinite(velocity):
+            break
+        left = end - t
+        v, h = velocity, min(step, left)
         k1 = first
         k2 = acceleration(t + h / 5, v + h * k1 / 5)
         k3 = acceleration(t + 3 * h / 10, v + h * (3 * k1 + 9 * k2) / 40)
@@ -59,17 +66,13 @@ def integrate(
             + 22 * k6 / 525
             - k7 / 40
         )
-        if error <= tolerance:
+        if not error > tolerance:
             # The weights of the pair, applied to the velocities at its stages.
             displacement += h * v + h * h * (
                 35 * k1 / 384 + 50 * k3 / 159 + 25 * k4 / 192 - 243 * k5 / 6784
             )
-            velocity, t, first = v + change, t + h, k7
-            if t >= duration:
-                return velocity, displacement
+            velocity, first = v + change, k7
+            t = t + h if h < left else end
         growth = 0.9 * (tolerance / error) ** 0.2 if error > 0.0 else 5.0
         step = h * min(5.0, max(0.2, growth))
-    raise Refusal(
-        f"doStep refused: averaged motion needs more than {MOST_STEPS} steps of its own; allowed "
-        "is a shorter communication step or a stronger vibration, or fidelity 1 or 2"
-    )
+    return Passage(t, velocity, displacement, step)

@@ -18,6 +18,7 @@ from .coulomb import (
     BACKWARD,
     FORWARD,
     LIFTED,
+    LONGEST_ARC,
     MOST_STALLED,
     STICK,
     Counts,
@@ -31,7 +32,7 @@ from .first_zero import Watch, first_zero
 from .motion import State
 from .period import PeriodMeans
 from .plant import Plant
-from .refusal import Refusal
+from .refusal import too_much_work
 from .regular_slide import RegularSlide
 from .split_slide import SplitSlide
 from .taylor_slide import TaylorSlide
@@ -40,8 +41,9 @@ SHARE = 0.01
 """Part of the tolerance that one series may use up, and that the bend of the bristle may still be
 away from full when closed forms take over."""
 
-MOST_LEGS = 10_000_000
-"""Series and closed forms in one step up to which its work is accepted."""
+MOST_LEGS = 20_000
+"""Series and closed forms, for each turn of the fastest oscillation, up to which work is accepted:
+several times what presliding on the hardest bristles takes."""
 
 
 def velocity_scale(plant: Plant, state: State) -> float:
@@ -93,13 +95,12 @@ def advance(
     clock = Clock(duration)
     remaining = duration
     stalled = legs = 0
+    turn = tau / LONGEST_ARC * held.arc
     while remaining > 0.0:
         legs += 1
-        if legs > MOST_LEGS:
-            raise Refusal(
-                f"doStep refused: the bristle needs more than {MOST_LEGS} series in one step; "
-                "allowed are shorter steps, softer bristles or less normal load"
-            )
+        if legs > MOST_LEGS * (1.0 + clock.elapsed / turn):
+            what = "series in a turn of the fastest oscillation"
+            raise too_much_work(duration, clock.elapsed, MOST_LEGS, what)
         chi = psi + plant.phase
         leg = _leg(held, bristle, lifted, state, bent, theta, chi, tolerance)
         switch = time_to_switch(window, chi, q, lifted)
@@ -122,7 +123,7 @@ def advance(
             lifted, age = not lifted, 0.0
         stalled = stalled + 1 if 1e12 * t < held.arc else 0
         if stalled > MOST_STALLED:
-            raise stalling()
+            raise stalling(duration, clock.elapsed)
         remaining = clock.advance(t) if t != remaining else 0.0
     mode = mode_of(held, state, psi) if not lifted else LIFTED
     return Moment(state, position, theta, psi, mode, counts, age, means, bent)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 from math import acos, cos, pi, sin, tau
+from typing import NamedTuple
 
 from .averaged_lugre import FastMotion, mean_friction
 from .bristle import Bristle, bristle_of
@@ -23,8 +24,20 @@ NEAR = 0.1
 """Distance of the frequency ratio from an integer up to which the phase counts as slow; under a
 lifting contact that of q times the ratio, times q, for q of a few turns."""
 
-SlowFriction = Callable[[float, float], float]
+Friction = Callable[[float, float], float]
 """Time t [s] from now and slow velocity [m/s] -> mean friction [N] of all faces."""
+
+
+class SlowFriction(NamedTuple):
+    """The mean friction `at` a time and velocity, which depends on time where `drift` is not 0.
+
+    `drift` [rad/s] is that of the phase of the normal load, and `over_flight` tells whether each
+    value costs a quadrature over flight.
+    """
+
+    at: Friction
+    drift: float
+    over_flight: bool = False
 
 
 def slow_friction(
@@ -42,18 +55,19 @@ def slow_friction(
     # Without vibration a slaved bristle is always fully bent, and its friction Coulomb's.
     if device.friction_law == 0 or fast.velocity == 0.0:
         if n != 0 and not lifts:
-            return _coulomb(device, fast.velocity, n, phase, drift)
-        return _coulomb_over_flight(device, fast.velocity, waves, phase, drift)
+            return SlowFriction(_coulomb(device, fast.velocity, n, phase, drift), drift)
+        coulomb = _coulomb_over_flight(device, fast.velocity, waves, phase, drift)
+        return SlowFriction(coulomb, drift)
     if turns is None or waves == 0.0:
-        return _lugre_under_mean_load(device, fast.velocity, waves, phase, drift)
+        mean = _lugre_under_mean_load(device, fast.velocity, waves, phase, drift)
+        return SlowFriction(mean, drift)
     if lifts or abs(n) > MOST_WAVES_TABULATED:
-        return _lugre_over_flight(device, fast.velocity, waves, phase, drift)
-    return _lugre(device, fast.velocity, n, phase, drift)
+        lugre = _lugre_over_flight(device, fast.velocity, waves, phase, drift)
+        return SlowFriction(lugre, drift, over_flight=True)
+    return SlowFriction(_lugre(device, fast.velocity, n, phase, drift), drift)
 
 
-def _coulomb(
-    device: Device, fast_velocity: float, n: int, phase: float, drift: float
-) -> SlowFriction:
+def _coulomb(device: Device, fast_velocity: float, n: int, phase: float, drift: float) -> Friction:
     scale = device.friction_faces * device.friction_coefficient
     preload = scale * device.normal_preload
     swing = 2.0 * scale * device.normal_amplitude / (n * pi)
@@ -68,7 +82,7 @@ def _coulomb(
 
 def _coulomb_over_flight(
     device: Device, fast_velocity: float, waves: float, phase: float, drift: float
-) -> SlowFriction:
+) -> Friction:
     scale = device.friction_faces * device.friction_coefficient / tau
 
     def friction(t: float, velocity: float) -> float:
@@ -80,9 +94,7 @@ def _coulomb_over_flight(
     return friction
 
 
-def _lugre(
-    device: Device, fast_velocity: float, n: int, phase: float, drift: float
-) -> SlowFriction:
+def _lugre(device: Device, fast_velocity: float, n: int, phase: float, drift: float) -> Friction:
     means_at = _table(device, fast_velocity, n).at
     preload = device.friction_faces * device.normal_preload
     swing = device.friction_faces * device.normal_amplitude
@@ -97,7 +109,7 @@ def _lugre(
 
 def _lugre_under_mean_load(
     device: Device, fast_velocity: float, waves: float, phase: float, drift: float
-) -> SlowFriction:
+) -> Friction:
     means_at = _table(device, fast_velocity, 1).at
     scale = device.friction_faces / tau
 
@@ -110,7 +122,7 @@ def _lugre_under_mean_load(
 
 def _lugre_over_flight(
     device: Device, fast_velocity: float, waves: float, phase: float, drift: float
-) -> SlowFriction:
+) -> Friction:
     bristle = bristle_of(device)
     fast = FastMotion(fast_velocity, device.drive_frequency)
 

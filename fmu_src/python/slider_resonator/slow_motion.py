@@ -11,16 +11,18 @@ A LuGre bristle is taken as slaved to the motion, so it has no state here.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import copysign, cos, inf, sin, tau
+from math import copysign, cos, inf, isfinite, sin, tau
 
 from .bristle import bristle_of
 from .coulomb import Counts, Held, Moment, hold
 from .device import Device, Inputs
-from .dormand_prince import integrate
+from .dormand_prince import Passage, integrate
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
 from .lugre import mode_of
 from .motion import State
 from .period import PeriodMeans
+from .refusal import too_much_work
+from .settling import settled
 from .slow_friction import slow_friction
 
 TOLERANCE = 1e-9
@@ -28,6 +30,15 @@ TOLERANCE = 1e-9
 
 FIRST_STEP = 0.1
 """Step tried first, as a share of the time in which friction changes the fast velocity."""
+
+MOST_STEPS = 20_000
+"""Steps of averaged motion in one communication step up to which its work is accepted."""
+
+MOST_STEPS_OVER_FLIGHT = 1000
+"""The same where each costs a quadrature over flight."""
+
+BLOCK = 64
+"""Steps after each of which it may turn out that the motion has settled."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,24 +57,13 @@ class SlowLaw:
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """See Law."""
-        device, fast, load = self.device, self.fast, self.inputs.load
+        device, fast = self.device, self.fast
         w, q = self.held.plant.drive_frequency, self.held.plant.normal_frequency
-        share, total, drive = device.mass_fraction, device.total_mass, fast.pair_velocity
+        share, drive = device.mass_fraction, fast.pair_velocity
         theta, psi, state = moment.theta, moment.psi, moment.state
         slow = state.velocity + share * state.rate + drive * cos(theta)
         centre = moment.position + share * state.displacement + drive / w * sin(theta)
-        friction = slow_friction(device, self.inputs, fast, theta, psi)
-        if fast.velocity == 0.0:
-            slow, moved = _block(slow, friction(0.0, inf), load, total, duration)
-        else:
-            full = friction(0.0, inf) + abs(load)
-            slow, moved = integrate(
-                lambda t, v: -(friction(t, v) + load) / total,
-                slow,
-                duration,
-                FIRST_STEP * fast.velocity * total / full if full > 0.0 else duration,
-                TOLERANCE * fast.velocity,
-            )
+        slow, moved = self._passed(slow, theta, psi, duration)
         theta = (theta + w * duration) % tau
         psi = (psi + q * duration) % tau
         displacement, rate = steady_swing(fast.resonator, theta, w)
@@ -72,6 +72,33 @@ class SlowLaw:
         means = PeriodMeans(complete=True, mean_velocity=slow)
         mode = mode_of(self.held, state, psi)
         return Moment(state, position, theta, psi, mode, moment.counts, inf, means)
+
+    def _passed(
+        self, velocity: float, theta: float, psi: float, duration: float
+    ) -> tuple[float, float]:
+        """Slow velocity and displacement after `duration` [s]; settled motion takes few steps."""
+        fast, load, total = self.fast.velocity, self.inputs.load, self.device.total_mass
+        friction = slow_friction(self.device, self.inputs, self.fast, theta, psi)
+        full = friction.at(0.0, inf)
+        if fast == 0.0:
+            return _block(velocity, full, load, total, duration)
+
+        def acceleration(t: float, v: float) -> float:
+            return -(friction.at(t, v) + load) / total
+
+        strongest = full + abs(load)
+        step = FIRST_STEP * fast * total / strongest if strongest > 0.0 else duration
+        most = MOST_STEPS_OVER_FLIGHT if friction.over_flight else MOST_STEPS
+        now = Passage(0.0, velocity, 0.0, step)
+        for count in range(0, most, BLOCK):
+            if count and friction.drift == 0.0:
+                now = settled(acceleration, fast, duration, now) or now
+            if not now.t < duration or not isfinite(now.velocity):
+                return now.velocity, now.moved
+            now = integrate(acceleration, now, duration, TOLERANCE * fast, BLOCK)
+        if now.t < duration and isfinite(now.velocity):
+            raise too_much_work(duration, now.t, most, "steps of averaged motion")
+        return now.velocity, now.moved
 
     def mode(self, moment: Moment) -> int:
         """See Law: by the sign of the velocity with its fast part."""
@@ -82,9 +109,9 @@ class SlowLaw:
         velocity = moment.means.present_mean_velocity(moment.state.velocity)
         friction = slow_friction(self.device, self.inputs, self.fast, moment.theta, moment.psi)
         if self.fast.velocity == 0.0 and velocity == 0.0:
-            full = friction(0.0, inf)
+            full = friction.at(0.0, inf)
             return max(-full, min(full, -self.inputs.load))
-        return friction(0.0, velocity)
+        return friction.at(0.0, velocity)
 
 
 def slow_law(device: Device, inputs: Inputs) -> SlowLaw:

@@ -1,0 +1,56 @@
+#include "settling.h"
+
+#include <math.h>
+
+/* Distance from balance, in fast velocities: well above the error of the steps before, and so short
+ * that forces are linear over it. */
+#define NEAR 1e-7
+
+/* Time constants of the approach that must fit into what is left. */
+#define SETTLED 20.0
+
+enum { MOST_SECANTS = 40 };
+
+/* Where the acceleration falls through 0 between `low` and `high` [m/s]: false position, in which an
+ * end that stays loses half of its weight (the Illinois rule). */
+static double balance_between(AccelerationFunction acceleration, const void *motion, double low,
+                              double at_low, double high, double at_high) {
+    double root = low, before;
+    int side = 0;
+    for (int i = 0; i < MOST_SECANTS; i++) {
+        before = root;
+        root = low + (high - low) * (at_low / (at_low - at_high));
+        double at_root = acceleration(motion, 0.0, root);
+        if (at_root == 0.0 || root == before || !(low < root && root < high)) {
+            break;
+        }
+        if (at_root > 0.0) {
+            low = root;
+            at_low = at_root;
+            at_high *= side > 0 ? 0.5 : 1.0;
+            side = 1;
+        } else {
+            high = root;
+            at_high = at_root;
+            at_low *= side < 0 ? 0.5 : 1.0;
+            side = -1;
+        }
+    }
+    return root;
+}
+
+bool settle(AccelerationFunction acceleration, const void *motion, double fast, double end,
+            Passage *now) {
+    double low = now->velocity - NEAR * fast, high = now->velocity + NEAR * fast;
+    double left = end - now->t;
+    double at_low = acceleration(motion, 0.0, low), at_high = acceleration(motion, 0.0, high);
+    double rate = (at_low - at_high) / (high - low);
+    if (!(at_low > 0.0 && at_high < 0.0 && rate * left > SETTLED)) {
+        return false;
+    }
+    double balance = balance_between(acceleration, motion, low, at_low, high, at_high);
+    now->moved += balance * left + (now->velocity - balance) / rate;
+    now->velocity = balance;
+    now->t = end;
+    return true;
+}

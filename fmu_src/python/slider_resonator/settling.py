@@ -1,0 +1,61 @@
+"""The end of averaged motion that is steady but for a last approach, without following it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .dormand_prince import Passage
+
+NEAR = 1e-7
+"""Distance from balance, in fast velocities: well above the error of the steps before, and so short
+that forces are linear over it."""
+
+SETTLED = 20.0
+"""Time constants of the approach that must fit into what is left."""
+
+MOST_SECANTS = 40
+
+Acceleration = Callable[[float, float], float]
+
+
+def settled(acceleration: Acceleration, fast: float, end: float, now: Passage) -> Passage | None:
+    """The passage at time `end` [s] if its velocity is drawn into a balance of forces before.
+
+    It must have come close to that, by the measure of the `fast` velocity [m/s]; None if not.
+    `acceleration(t, v)` [m/s^2] must not depend on time.
+    """
+    low, high = now.velocity - NEAR * fast, now.velocity + NEAR * fast
+    left = end - now.t
+    at_low, at_high = acceleration(0.0, low), acceleration(0.0, high)
+    if not at_low > 0.0 > at_high:
+        return None
+    rate = (at_low - at_high) / (high - low)
+    if not rate * left > SETTLED:
+        return None
+    balance = _balance_between(acceleration, low, at_low, high, at_high)
+    moved = now.moved + (balance * left + (now.velocity - balance) / rate)
+    return Passage(end, balance, moved, now.step)
+
+
+def _balance_between(
+    acceleration: Acceleration, low: float, at_low: float, high: float, at_high: float
+) -> float:
+    """Where the acceleration falls through 0 between two velocities [m/s].
+
+    False position, in which an end that stays loses half of its weight (the Illinois rule).
+    """
+    root, side = low, 0
+    for _ in range(MOST_SECANTS):
+        before, root = root, low + (high - low) * (at_low / (at_low - at_high))
+        at_root = acceleration(0.0, root)
+        if at_root == 0.0 or root == before or not low < root < high:
+            break
+        if at_root > 0.0:
+            low, at_low = root, at_root
+            at_high *= 0.5 if side > 0 else 1.0
+            side = 1
+        else:
+            high, at_high = root, at_root
+            at_low *= 0.5 if side < 0 else 1.0
+            side = -1
+    return root

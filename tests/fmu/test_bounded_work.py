@@ -1,0 +1,92 @@
+"""The work of one step is bounded: what settles costs little, and the rest is refused by name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import pytest
+
+from tests.fmu.host import Instance
+from tests.fmus import both_fmus
+
+pytestmark = both_fmus
+
+W = 3500.0
+PERIOD = math.tau / W
+WEAK = {"fidelity": 0, "base_amplitude": 1e-10}
+"""The drive is some millionth of friction: slow motion settles a million times in ten periods."""
+
+LIGHT = {"friction_law": 1, "slider_mass": 1.1e-9, "resonator_mass": 1.1}
+"""Damper and bristles turn a slider of next to no mass within 1e-11 s."""
+
+
+@pytest.mark.parametrize("law", [0, 1])
+@pytest.mark.parametrize("ratio", [1.0, 3.0, math.pi])
+def test_weak_vibration_settles(
+    instantiate: Callable[[], Instance], law: int, ratio: float
+) -> None:
+    values = {**WEAK, "friction_law": law, "phase": 0.4, "frequency_ratio": ratio}
+    whole = instantiate().initialize(**values)
+    whole.step(1000.0 * PERIOD)
+    mean, steady, far = whole.get("mean_velocity", "steady_velocity", "position")
+    fast = whole.get("resonator_velocity")[0]
+    assert mean == pytest.approx(steady, abs=1e-8 * abs(fast)), "it settles"
+    parts = instantiate().initialize(**values)
+    parts.run(10, 100.0 * PERIOD)
+    (near,) = parts.get("position")
+    assert near == pytest.approx(far, abs=1e-7 * abs(fast) * 1000.0 * PERIOD), "in any steps"
+
+
+def test_a_strongly_varying_load_settles(instantiate: Callable[[], Instance]) -> None:
+    """LuGre friction over flight costs a quadrature each time it is asked for."""
+    values = {"fidelity": 0, "friction_law": 1, "normal_amplitude": 1e9, "phase": 0.4}
+    instance = instantiate().initialize(**values)
+    instance.step(100.0 * PERIOD)
+    mean, steady = instance.get("mean_velocity", "steady_velocity")
+    assert mean == pytest.approx(steady, rel=1e-6)
+
+
+def test_a_beat_followed_too_long_is_refused(instantiate: Callable[[], Instance]) -> None:
+    """Near a whole ratio the slow velocity follows the phase, and never settles."""
+    instance = instantiate().initialize(**WEAK, frequency_ratio=1.05)
+    with instance.refuses(
+        "communicationStepSize = 10.0 refused",
+        "more than 20000 steps of averaged motion",
+        "allowed is one of at most 1e-",
+    ):
+        instance.step(10.0)
+    instance.step(1e-3)
+
+
+def test_a_slider_too_light_for_its_bristles_is_refused(
+    instantiate: Callable[[], Instance],
+) -> None:
+    instance = instantiate().initialize(**LIGHT)
+    size = PERIOD / 32.0
+    with instance.refuses(
+        f"communicationStepSize = {size!r} refused",
+        "more than 20000 series in a turn of the fastest oscillation",
+        "allowed is one of at most 1e-7 s",
+    ):
+        instance.step(size)
+    instance.step(1e-9)
+
+
+@pytest.mark.parametrize(
+    ("values", "named"),
+    [
+        ({"drive_frequency": 1e300, "base_amplitude": 1e300}, "base_amplitude = 1e+300 refused"),
+        ({"drive_frequency": 1e200, "frequency_ratio": 1e190}, "drive_frequency = 1e+200 refused"),
+        ({"resonator_frequency": 1e170}, "resonator_frequency = 1e+170 refused"),
+    ],
+)
+def test_values_that_leave_the_range_are_named(
+    instantiate: Callable[[], Instance], values: dict[str, float], named: str
+) -> None:
+    instance = instantiate()
+    instance.slave.setupExperiment(startTime=0.0)
+    instance.slave.enterInitializationMode()
+    instance.set(**values)
+    with instance.refuses(named, "allowed is one nearer to"):
+        instance.slave.exitInitializationMode()
