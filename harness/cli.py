@@ -24,6 +24,7 @@ COMMANDS = (
     "crosscheck",
     "extremes",
     "hosts",
+    "mutants",
     "paper",
     "picture",
     "run",
@@ -123,4 +124,5 @@ def main() -> None:
       python -m harness sweep grid.toml --out table.parquet
       python -m harness closed-loop --out closed_loop
       python -m harness crosscheck --out crosscheck
+      python -m harness mutants --sample 200
     """

@@ -1,0 +1,1 @@
+"""Faulty FMUs made from a correct one, to show that the validation can fail."""

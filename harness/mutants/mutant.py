@@ -1,0 +1,53 @@
+"""A faulty FMU: what is changed, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import unified_diff
+
+KINDS: Mapping[str, str] = {
+    "operator": "arithmetic operator or function replaced",
+    "constant": "constant changed",
+    "sign": "minus dropped",
+    "condition": "comparison, its boundary, and, or, not or a test changed",
+    "removed": "statement removed",
+    "event": "event dropped, miscounted or late",
+    "input": "phase jump, delay or loss at input changes",
+    "parameter": "parameter or input off by 1 %",
+    "unit": "unit mislabelled in the model description",
+}
+"""Kinds of mutants and what they change."""
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change to one file of an FMU.
+
+    `path` is that of the file in the archive, `old` and `new` are its texts. `line` and `column`
+    (from 1) are those of the change, `change` says what it is. Only where the statement that
+    begins in line `statement` is executed can the change have an effect; None stands for always.
+    """
+
+    file: str
+    path: str
+    line: int
+    column: int
+    kind: str
+    change: str
+    statement: int | None
+    old: str
+    new: str
+
+    @property
+    def name(self) -> str:
+        """Place and change, different for each mutant."""
+        return f"{self.file}:{self.line}:{self.column}: {self.change}"
+
+    @property
+    def diff(self) -> str:
+        """The change as a unified diff with a line of context."""
+        lines = unified_diff(
+            self.old.splitlines(), self.new.splitlines(), self.file, self.file, n=1, lineterm=""
+        )
+        return "\n".join(lines)

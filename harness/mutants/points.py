@@ -1,0 +1,52 @@
+"""What mutants are tried on: built-in scenes against references, probes against the original."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from harness.compare import wanted
+from harness.errors import FmuError, SceneError
+from harness.fmu_process import FmuProcess
+from harness.mutants.trial import Point
+from harness.reference_side import ReferenceSide
+from harness.scene import read_scene, sweep_points
+
+
+def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) -> list[Point]:
+    """Return every scene and point of a sweep, with what its references say.
+
+    Raises SceneError for a scene that cannot be read, referred to or expects nothing.
+    """
+    points = []
+    for index, file in enumerate(files):
+        scene = read_scene(file)
+        progress(f"references of {scene.name}", index / len(files))
+        if not scene.expect:
+            raise SceneError(f"{file}: scene {scene.name} expects nothing: [[expect]] is missing")
+        for at, point in sweep_points(scene, file):
+            reference = ReferenceSide(point)
+            told = tuple(wanted(expect, reference) for expect in point.expect)
+            points.append(Point(file, at, point, told))
+    return points
+
+
+def probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> list[Point]:
+    """Return the probes with what the original FMU gives; without those that it refuses."""
+    return list(_probe_points(fmu, files, time_limit))
+
+
+def _probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> Iterator[Point]:
+    process = FmuProcess(fmu, time_limit)
+    try:
+        for file in files:
+            process.ask(file, {})
+            try:
+                told = process.answer()
+            except FmuError:  # no mutant can be told from the original there
+                process.kill()
+                process = FmuProcess(fmu, time_limit)
+                continue
+            yield Point(file, {}, read_scene(file), tuple(m.value for m in told))
+    finally:
+        process.kill()
