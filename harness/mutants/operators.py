@@ -125,7 +125,7 @@ def edits(source: Source, node: ast.expr) -> Iterator[Edit]:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             yield _dropped(source, node, operand, "not", "condition")
         case ast.Constant(value=value):
-            for other in _other_constants(value):
+            for other in dict.fromkeys(_other_constants(value)):
                 where = source.begin(node), source.end(node)
                 yield _swap(*where, repr(value), other, "constant")
         case ast.Call(func=ast.Name(id=name) as function) if name in FUNCTIONS:

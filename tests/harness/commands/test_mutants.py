@@ -1,0 +1,54 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from harness.cli import main
+from tests.harness import faulty_fmus
+
+
+def invoke(*arguments: str) -> Result:
+    return CliRunner().invoke(main, ["mutants", *arguments])
+
+
+def test_the_list_shows_names_and_diffs(python_fmu: Path) -> None:
+    result = invoke(str(python_fmu), "--list", "--file", "clock.py", "--sample", "3")
+    assert result.exit_code == 0, result.output
+    assert result.output.count("--- clock.py") == 3
+    assert "3 mutants" in result.output
+
+
+def test_the_list_as_json(python_fmu: Path) -> None:
+    files = ("--file", "clock.py", "--file", "modelDescription.xml")
+    result = invoke(str(python_fmu), "--list", "--json", *files)
+    mutants = json.loads(result.output)["mutants"]
+    assert {m["file"] for m in mutants} == {"clock.py", "modelDescription.xml"}
+
+
+@pytest.mark.slow
+def test_rejected_mutants_pass_the_command(python_fmu: Path, tmp_path: Path) -> None:
+    scene = str(faulty_fmus.scene(tmp_path))
+    page = tmp_path / "page.html"
+    only = ("--file", "modelDescription.xml", "--sample", "2", "--seed", "1", "--probes", "1")
+    result = invoke(str(python_fmu), *only, "--scene", scene, "--html", str(page), "--json")
+    written = json.loads(result.output)
+    assert written["tried"] == 2
+    assert {m["kind"] for m in written["mutants"]} == {"unit"}
+    rejected = written["counts"]["rejected"]
+    assert written["rate"] == rejected / 2
+    assert result.exit_code == (0 if rejected == 2 else 1)
+    assert "<h1>Mutants</h1>" in page.read_text()
+
+
+def test_what_cannot_be_tried_is_refused(python_fmu: Path, tmp_path: Path) -> None:
+    for arguments, reason in (
+        ([str(tmp_path / "no.fmu")], "no such file"),
+        ([str(python_fmu), "--file", "clok.py"], "did you mean 'clock.py'"),
+        ([str(python_fmu), "--file", "refusal.py"], "has nothing to change"),
+    ):
+        result = invoke(*arguments)
+        assert result.exit_code == 2
+        assert reason in result.output
