@@ -10,6 +10,7 @@ from typing import Any
 from harness.compare import Check, check
 from harness.errors import FmuError
 from harness.fmu_process import FmuProcess
+from harness.natural_scale import smallest_reference
 from harness.scene import Scene
 from harness.verdict import place, sentence
 
@@ -70,7 +71,8 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
             ):
                 if measurement.value is None and wanted is None:
                     continue
-                verdict = check(expect, measurement, wanted, point.scene.name, point.at)
+                smallest = smallest_reference(expect.quantity, point.scene.device)
+                verdict = check(expect, measurement, wanted, point.scene.name, point.at, smallest)
                 if not verdict.passed:
                     return Rejection(point.name, verdict.quantity, sentence(verdict))
                 if nearest is None or verdict.severity > nearest.severity:

@@ -47,7 +47,7 @@ def test_what_cannot_be_tried_is_refused(python_fmu: Path, tmp_path: Path) -> No
     for arguments, reason in (
         ([str(tmp_path / "no.fmu")], "no such file"),
         ([str(python_fmu), "--file", "clok.py"], "did you mean 'clock.py'"),
-        ([str(python_fmu), "--file", "refusal.py"], "has nothing to change"),
+        ([str(python_fmu), "--file", "__init__.py"], "has nothing to change"),
     ):
         result = invoke(*arguments)
         assert result.exit_code == 2
