@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager, suppress
 from ctypes import c_double
 from dataclasses import dataclass
+from functools import partial
 from itertools import count
+from types import TracebackType
+from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2ValueReference
+from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
@@ -51,24 +54,67 @@ class Record:
         return float(self.outputs[name][-1])
 
 
+def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
+    """Call a function of an instance; FMICallException as fmpy, whose own way costs more than it.
+
+    Arguments are converted by the types that fmpy has given the functions of the library.
+    """
+    status = getattr(slave.dll, name)(slave.component, *arguments)
+    if status > fmi2Warning:
+        raise FMICallException(function=name, status=status)
+
+
 class Block:
     """A fixed set of Real variables that is read or written many times without allocation."""
 
     def __init__(self, slave: FMU2Slave, references: Sequence[int]) -> None:
-        self.slave = slave
-        self.size = len(references)
-        self.references = (fmi2ValueReference * self.size)(*references)
-        self.values = (c_double * self.size)()
+        size = len(references)
+        self.values = (c_double * size)()
+        arguments = (fmi2ValueReference * size)(*references), size, self.values
+        self._get = partial(call, slave, "fmi2GetReal", *arguments)
+        self._set = partial(call, slave, "fmi2SetReal", *arguments)
 
     def read(self) -> list[float]:
         """Return the present values."""
-        self.slave.fmi2GetReal(self.slave.component, self.references, self.size, self.values)
-        return list(self.values)
+        self._get()
+        return self.values[:]
 
     def write(self, values: Sequence[float]) -> None:
         """Set the variables."""
         self.values[:] = list(values)
-        self.slave.fmi2SetReal(self.slave.component, self.references, self.size, self.values)
+        self._set()
+
+
+class _Explained:
+    """A block in which a failed FMI call becomes a Refusal that says what the FMU logged."""
+
+    def __init__(self, instance: Instance) -> None:
+        self.instance = instance
+
+    def __enter__(self) -> None:
+        del self.instance.messages[:]
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if isinstance(error, FMICallException):
+            instance = self.instance
+            logged = "; ".join(dict.fromkeys(instance.messages))
+            said = logged or f"{error} The FMU logged no reason."
+            where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
+            raise Refusal(f"{where}: {said}") from error
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """How a set of variables is read and written: Integers one by one, Reals in one call."""
+
+    integers: Mapping[str, int]
+    reals: Sequence[str]
+    block: Block
 
 
 class Instance:
@@ -85,7 +131,9 @@ class Instance:
         self.time = 0.0
         self._used = False
         self._initialised = False
-        self._plans: dict[tuple[str, ...], tuple[Mapping[str, int], Block]] = {}
+        self._explained = _Explained(self)
+        self._settable: dict[tuple[str, ...], _Plan] = {}
+        self._readable: dict[tuple[str, ...], _Plan] = {}
         self._inputs = self.block(list(INPUTS))
 
     def block(self, names: Sequence[str]) -> Block:
@@ -106,13 +154,14 @@ class Instance:
         self.time = start_time
         with self.explained():
             if self._used:
-                self.slave.reset()
+                call(self.slave, "fmi2Reset")
             self._used = True
             self._initialised = False
-            self.slave.setupExperiment(startTime=start_time, stopTime=stop_time)
+            stop = (False, 0.0) if stop_time is None else (True, stop_time)
+            call(self.slave, "fmi2SetupExperiment", False, 0.0, start_time, *stop)
             self._set(values)
-            self.slave.enterInitializationMode()
-            self.slave.exitInitializationMode()
+            call(self.slave, "fmi2EnterInitializationMode")
+            call(self.slave, "fmi2ExitInitializationMode")
             self._initialised = True
 
     def check_steps(self, times: NDArray[np.float64]) -> None:
@@ -135,15 +184,20 @@ class Instance:
 
     def step_by(self, size: float) -> None:
         """Advance by `size` (s)."""
-        self.slave.fmi2DoStep(self.slave.component, self.time, size, True)
+        call(self.slave, "fmi2DoStep", self.time, size, True)
         self.time += size
 
     def value(self, name: str) -> float:
         """Return the present value of any variable; FmuError for an unknown name."""
-        variable = self._variable(name)
-        if variable.type == "Integer":
-            return float(self.slave.getInteger([variable.valueReference])[0])
-        return float(self.slave.getReal([variable.valueReference])[0])
+        return self.read([name])[name]
+
+    def read(self, names: Sequence[str]) -> dict[str, float]:
+        """Return the present values of variables; FmuError for an unknown name."""
+        plan = self._plan(self._readable, names, self._variable)
+        found = dict(zip(plan.reals, plan.block.read(), strict=True))
+        for name, reference in plan.integers.items():
+            found[name] = float(self.slave.getInteger([reference])[0])
+        return found
 
     def end(self) -> None:
         """Terminate, where the FMU is in a state that allows it, and free the instance."""
@@ -159,31 +213,34 @@ class Instance:
 
     def _set(self, values: Mapping[str, float]) -> None:
         """Set Integers one by one and all Reals in one call, each of which costs a drive period."""
-        names = tuple(values)
-        if names not in self._plans:
-            settable = {name: self.fmu.settable(name) for name in names}
-            references = {n: v.valueReference for n, v in settable.items() if v.type == "Integer"}
-            block = self.block([name for name in names if name not in references])
-            self._plans[names] = references, block
-        integers, reals = self._plans[names]
-        for name, reference in integers.items():
+        plan = self._plan(self._settable, values, self.fmu.settable)
+        for name, reference in plan.integers.items():
             try:
                 check_integer(name, values[name])
             except ValueError as error:
                 raise FmuError(str(error)) from error
             self.slave.setInteger([reference], [int(values[name])])
-        reals.write([value for name, value in values.items() if name not in integers])
+        plan.block.write([values[name] for name in plan.reals])
 
-    @contextmanager
-    def explained(self) -> Iterator[None]:
+    def _plan(
+        self,
+        plans: dict[tuple[str, ...], _Plan],
+        wanted: Iterable[str],
+        find: Callable[[str], ModelVariable],
+    ) -> _Plan:
+        """Return how variables are read or written, made at the first use of these names."""
+        names = tuple(wanted)
+        plan = plans.get(names)
+        if plan is None:
+            found = {name: find(name) for name in names}
+            integers = {n: v.valueReference for n, v in found.items() if v.type == "Integer"}
+            reals = [name for name in names if name not in integers]
+            plan = plans[names] = _Plan(integers, reals, self.block(reals))
+        return plan
+
+    def explained(self) -> AbstractContextManager[None]:
         """Turn a failed FMI call into a Refusal that carries what the FMU logged meanwhile."""
-        del self.messages[:]
-        try:
-            yield
-        except FMICallException as error:
-            said = "; ".join(dict.fromkeys(self.messages)) or f"{error} The FMU logged no reason."
-            where = f"{self.fmu.path.name} at t = {self.time:.9g} s"
-            raise Refusal(f"{where}: {said}") from error
+        return self._explained
 
 
 @contextmanager

@@ -79,11 +79,11 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
         *("normal_amplitude", "friction_faces", "friction_coefficient", "friction_law"),
         *("bristle_stiffness", "bristle_damping", "fidelity"),
         *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio"),
+        *("steady_velocity", "blocking_force"),
     )
     with instance.explained():
-        read = {name: instance.value(name) for name in names}
-        predictions = instance.value("steady_velocity"), instance.value("blocking_force")
-    return Facts(read, *predictions)
+        read = instance.read(names)
+    return Facts(read, read.pop("steady_velocity"), read.pop("blocking_force"))
 
 
 def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:
@@ -127,7 +127,10 @@ class FmuPeriodMap:
         self.stick_fraction = 0.0
         self.bristle = bristle_reading(facts.values)
         self.names = STATE if self.bristle is None else (*STATE, "bristle_deflection")
-        self._leads = (0.0,) if self.bristle is None else self.bristle.leads
+        self._initial = [f"initial_{name}" for name in self.names]
+        self._leads = np.array((0.0,) if self.bristle is None else self.bristle.leads)
+        self._times = self._times_before(self.period)
+        self._position = instance.block(["position"])
         self._read = instance.block(
             ["position", *STATE, "friction_force", "normal_force", "stick_fraction"]
         )
@@ -140,10 +143,9 @@ class FmuPeriodMap:
     def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
         """Run one common period."""
         before = self._start(state, load)
-        times = self._times_before(self.period)
-        readings = self._readings(times)
+        readings = self._readings(self._times)
         self.periods += self.drive_periods
-        return self._state(times, readings), float(readings[-1, 0]) - before
+        return self._state(self._times, readings), float(readings[-1, 0]) - before
 
     def warm_up(self, velocity: float, load: float) -> WarmedUp:
         """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
@@ -168,13 +170,13 @@ class FmuPeriodMap:
         return WarmedUp(state, scale, float(last[-1, 0] - last[0, 0]) / period)
 
     def _start(self, state: Vector, load: float) -> float:
-        initial = {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
+        initial = dict(zip(self._initial, state.tolist(), strict=True))
         self.instance.start({**self.values, **initial, "load": load})
-        return self._read.read()[0]
+        return self._position.read()[0]
 
     def _times_before(self, stop: float) -> Array:
         """Return the times (s) of the readings that give the state at `stop`."""
-        return np.maximum(0.0, stop - np.array(self._leads))
+        return np.maximum(0.0, stop - self._leads)
 
     def _readings(self, times: Array) -> Array:
         """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""

@@ -55,6 +55,21 @@ def test_integers_are_set_as_integers(instance: Instance) -> None:
             instance.start({"friction_law": bad})
 
 
+def test_variables_of_both_types_are_read_together(instance: Instance) -> None:
+    instance.start({"friction_faces": 1, "phase": 0.3})
+    read = instance.read(["phase", "friction_faces", "blocking_force"])
+    assert read["phase"] == 0.3
+    assert read["friction_faces"] == instance.value("friction_faces") == 1.0
+    assert read["blocking_force"] == instance.value("blocking_force") > 0.0
+
+
+def test_what_has_been_read_can_be_set_no_more_than_before(instance: Instance) -> None:
+    instance.start({})
+    instance.read(["position"])
+    with pytest.raises(FmuError, match="position"):
+        instance.start({"position": 1.0})
+
+
 def test_a_refusal_carries_the_words_of_the_fmu(instance: Instance) -> None:
     with pytest.raises(Refusal) as caught:
         instance.start({"slider_mass": -1.0})
