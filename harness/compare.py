@@ -90,6 +90,11 @@ def measure(expect: ExpectTable, fmu: FmuSide) -> Measurement:
     return Measurement(value, _note(expect, value, fmu))
 
 
+def measure_all(fmu: FmuSide) -> tuple[Measurement, ...]:
+    """Measure everything that the scene expects of the FMU; SceneError as `measure` raises it."""
+    return tuple(measure(expect, fmu) for expect in fmu.scene.expect)
+
+
 def wanted(expect: ExpectTable, reference: ReferenceSide) -> Any:
     """Return what the reference says: number, word, None, signal (n,) or a tube around one.
 

@@ -9,13 +9,14 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
-from harness.compare import Measurement
+from harness.compare import measure_all
 from harness.errors import FmuError
+from harness.fmu_side import FmuSide
 from harness.isolated import Answer, Request
 from harness.last_words import last_words
 from harness.process_group import end_group
@@ -33,7 +34,7 @@ class FmuDied(FmuError):
 
 
 class FmuProcess:
-    """A process that has instantiated an FMU and measures what scenes expect of it.
+    """A process that has instantiated an FMU and measures in scenes.
 
     Raises FmuError when the FMU cannot be used, and FmuDied when it ends the process. Each call
     of the FMU may take `time_limit` (s). Must be ended with `close` or `kill`.
@@ -72,18 +73,26 @@ class FmuProcess:
             self.kill()
             raise
 
-    def ask(self, scene: Path, at: Mapping[str, float]) -> None:
-        """Have what a scene expects measured, with some of its values replaced; do not wait."""
+    def ask(
+        self,
+        scene: Path,
+        at: Mapping[str, float],
+        measure: Callable[[FmuSide], Any] = measure_all,
+    ) -> None:
+        """Have a function of a module measure in a scene with some values replaced; do not wait.
+
+        By default that is what the scene expects, one measurement for each expectation.
+        """
         assert self._process.stdin is not None
         try:
-            pickle.dump(Request(scene, dict(at)), self._process.stdin)
+            pickle.dump(Request(scene, dict(at), measure), self._process.stdin)
             self._process.stdin.flush()
         except OSError as error:
             raise self._died() from error
 
-    def answer(self) -> tuple[Measurement, ...]:
-        """Wait for the measurements last asked for, one for each expectation."""
-        return self._receive(GRACE).measurements
+    def answer(self) -> Any:
+        """Wait for what was last asked for."""
+        return self._receive(GRACE).result
 
     def close(self) -> None:
         """Let the FMU be freed and the process end; FmuDied when it does not get that far."""

@@ -1,8 +1,9 @@
 """The process that an FMU is measured in: whatever the FMU does to it, the verdict survives.
 
-`python -m harness.isolated FMU SECONDS` reads pickled requests from its standard input, a scene
-file and what a sweep varies, and writes a pickled answer for each to its standard output. What the
-FMU prints goes to standard error. A call that takes longer than SECONDS ends the process.
+`python -m harness.isolated FMU SECONDS` reads pickled requests from its standard input (a scene
+file, what a sweep varies, what to measure) and writes a pickled answer for each to its standard
+output. What the FMU prints goes to standard error. A call that takes longer than SECONDS ends the
+process.
 """
 
 from __future__ import annotations
@@ -11,13 +12,12 @@ import faulthandler
 import os
 import pickle
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
-from harness.compare import Measurement, measure
 from harness.drive import Instance, instantiate
 from harness.errors import HarnessError
 from harness.fmu import open_fmu
@@ -27,20 +27,21 @@ from harness.scene import read_scene
 
 @dataclass(frozen=True)
 class Request:
-    """A scene file, and values that replace those in it."""
+    """A scene file, values that replace those in it, and the function that measures in it."""
 
     scene: Path
     at: Mapping[str, float]
+    measure: Callable[[FmuSide], Any]
 
 
 @dataclass(frozen=True)
 class Answer:
-    """One measurement for each expectation of the scene, or what went wrong.
+    """What was measured, or what went wrong.
 
     The first answer, before any request, has neither: the FMU has been instantiated.
     """
 
-    measurements: tuple[Measurement, ...] = ()
+    result: Any = None
     error: str = ""
 
 
@@ -85,8 +86,7 @@ def _requests() -> Iterator[Request]:
 def _answer(instance: Instance, request: Request) -> Answer:
     try:
         scene = read_scene(request.scene, request.at)
-        side = FmuSide(instance, scene)
-        return Answer(tuple(measure(expect, side) for expect in scene.expect))
+        return Answer(request.measure(FmuSide(instance, scene)))
     except HarnessError as error:
         return Answer(error=str(error))
 

@@ -104,6 +104,23 @@ def find_scene(name_or_file: str) -> Path:
     raise SceneError(unknown_name("scene", name_or_file, built_in))
 
 
+def scene_files(scene: str) -> list[Path]:
+    """Return a built-in scene's file, the file itself or those of a folder, in alphabetical order.
+
+    Raises SceneError for a folder without any, and as `find_scene` does.
+    """
+    folder = Path(scene)
+    if scene in built_in_scenes() or not folder.is_dir():
+        return [find_scene(scene)]
+    files = sorted(folder.glob("*.toml"))
+    if not files:
+        raise SceneError(
+            f"{folder}: is a directory; allowed is a scene file, a built-in scene or a directory "
+            "with scene files (*.toml)"
+        )
+    return files
+
+
 def sweep_points(scene: Scene, path: Path) -> Iterator[tuple[Mapping[str, float], Scene]]:
     """Yield what is varied and the scene with it, once with nothing varied without a sweep."""
     if scene.sweep is None:

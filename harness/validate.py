@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -12,19 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.compare import Check, check, wanted
-from harness.errors import FmuError, SceneError
-from harness.fmu_process import FmuDied, FmuProcess
+from harness.compare import Check, Measurement, check, measure_all, wanted
+from harness.errors import SceneError
+from harness.isolated_runs import TIME_LIMIT, isolated_runs
 from harness.measures.tube import Tube
 from harness.natural_scale import smallest_reference
 from harness.quantities import QUANTITIES
 from harness.reference_side import ReferenceSide
 from harness.scene import Scene, read_scene, sweep_points
-
-TIME_LIMIT = 120.0
-"""Seconds for an FMU and a scene or point of a sweep; the slowest built-in one takes a few."""
-MOST_DEATHS = 3
-"""After so many crashes or missed time limits the rest of the scenes is not run."""
+from harness.scene_model import ExpectTable
 
 Array = NDArray[np.float64]
 
@@ -121,23 +117,29 @@ class _Judge:
 
     def __init__(self, path: Path, time_limit: float) -> None:
         self.path = path
-        self.start = partial(FmuProcess, path, time_limit)
-        self.process: FmuProcess | None = None
+        self.time_limit = time_limit
         self.checks: list[Check] = []
         self.troubles: list[Trouble] = []
         self.curves: list[Curves] = []
-        self.deaths: list[Path] = []
 
     def validation(
         self, points: Sequence[_Point], told: Callable[[str, float], None]
     ) -> Validation:
-        """Judge all points; a scene that has ended the process is not gone on with."""
+        """Judge all points; the references are computed while the FMU is at work."""
         began = perf_counter()
-        try:
-            self._judge_all(points, told)
-        finally:
-            if self.process is not None:
-                self.process.kill()
+        references: dict[int, list[Any]] = {}
+
+        def meanwhile(point: _Point) -> None:
+            told(point.scene.name, len(references) / len(points))
+            references[id(point)] = [_wanted(e, point.reference) for e in point.scene.expect]
+
+        runs = isolated_runs(self.path, points, measure_all, self.time_limit, meanwhile)
+        with closing(runs):
+            for ran in runs:
+                if ran.error is not None:
+                    self._trouble(ran.error, ran.point)
+                elif ran.point is not None:
+                    self._judge(ran.point, ran.result, references[id(ran.point)])
         return Validation(
             str(self.path),
             tuple(self.checks),
@@ -146,45 +148,11 @@ class _Judge:
             tuple(self.curves),
         )
 
-    def _judge_all(self, points: Sequence[_Point], told: Callable[[str, float], None]) -> None:
-        for index, point in enumerate(points):
-            told(point.scene.name, index / len(points))
-            if point.file in self.deaths:
-                continue
-            if self.process is None:
-                try:
-                    self.process = self.start()
-                except FmuError as error:
-                    self._trouble(error)
-                    return
-            try:
-                self._judge(self.process, point)
-            except FmuError as error:
-                self._trouble(error, point)
-                self.process.kill()
-                self.process = None
-                if isinstance(error, FmuDied):
-                    self.deaths.append(point.file)
-            if len(self.deaths) == MOST_DEATHS:
-                self._give_up(points[index + 1 :])
-                return
-        if self.process is not None:
-            try:
-                self.process.close()
-            except FmuDied as error:
-                self._trouble(error)
-
-    def _judge(self, process: FmuProcess, point: _Point) -> None:
-        """Judge a point; the references are computed while the FMU is at work."""
-        process.ask(point.file, point.at)
-        references: list[Any] = []
-        for expect in point.scene.expect:
-            try:
-                references.append(wanted(expect, point.reference))
-            except SceneError as error:
-                references.append(error)
+    def _judge(
+        self, point: _Point, measurements: Sequence[Measurement], references: Sequence[Any]
+    ) -> None:
         for expect, measured, reference in zip(
-            point.scene.expect, process.answer(), references, strict=True
+            point.scene.expect, measurements, references, strict=True
         ):
             if isinstance(reference, SceneError):
                 self._trouble(reference, point)
@@ -192,24 +160,37 @@ class _Judge:
             smallest = smallest_reference(expect.quantity, point.scene.device)
             verdict = check(expect, measured, reference, point.scene.name, point.at, smallest)
             self.checks.append(verdict)
-            signal = QUANTITIES[expect.quantity].kind == "signal"
-            if signal and not verdict.passed and measured.times is not None:
-                middle = reference.middle if isinstance(reference, Tube) else reference
-                self.curves.append(Curves(verdict, measured.times, measured.value, middle))
+            curves = curves_of(verdict, measured, reference)
+            if curves is not None:
+                self.curves.append(curves)
 
-    def _trouble(self, error: Exception, point: _Point | None = None) -> None:
+    def _trouble(self, error: Exception, point: _Point | None) -> None:
         if point is None:
-            text = str(error)
-            told = text if text.startswith(f"{self.path}") else f"{self.path}: {text}"
-            self.troubles.append(Trouble("", told, {}))
+            self.troubles.append(trouble_of_fmu(self.path, error))
         else:
             self.troubles.append(Trouble(point.scene.name, str(error), point.at))
 
-    def _give_up(self, rest: Sequence[_Point]) -> None:
-        names = dict.fromkeys(p.scene.name for p in rest if p.file not in self.deaths)
-        if names:
-            reason = f"given up after {MOST_DEATHS} crashes or missed time limits; not run: "
-            self._trouble(FmuError(reason + ", ".join(names)))
+
+def _wanted(expect: ExpectTable, reference: ReferenceSide) -> Any:
+    try:
+        return wanted(expect, reference)
+    except SceneError as error:
+        return error
+
+
+def trouble_of_fmu(path: Path, error: Exception) -> Trouble:
+    """Return what is wrong with an FMU as a whole, with its file named."""
+    text = str(error)
+    return Trouble("", text if text.startswith(f"{path}") else f"{path}: {text}", {})
+
+
+def curves_of(verdict: Check, measured: Measurement, reference: Any) -> Curves | None:
+    """Return the signals behind a check that has failed, None for one that has none."""
+    signal = QUANTITIES[verdict.quantity].kind == "signal"
+    if not signal or verdict.passed or measured.times is None:
+        return None
+    middle = reference.middle if isinstance(reference, Tube) else reference
+    return Curves(verdict, measured.times, measured.value, middle)
 
 
 def worst_of_sweeps(checks: Sequence[Check]) -> list[tuple[Check, int]]:

@@ -11,14 +11,15 @@ import click
 
 from harness.commands.options import Target, default_fmus
 from harness.console import output, progress_bar
-from harness.errors import HarnessError, SceneError
+from harness.errors import HarnessError
+from harness.isolated_runs import TIME_LIMIT
 from harness.json_report import validations_as_json, write_json
 from harness.junit import write_junit
 from harness.report import print_validation
-from harness.scene import built_in_scenes, find_scene
+from harness.scene import built_in_scenes, scene_files
 from harness.step_summary import VARIABLE, append_summary
 from harness.targets import distinct
-from harness.validate import TIME_LIMIT, Validation, validate
+from harness.validate import Validation, validate
 
 PRINTED = Path("-")
 """What `--json` without a file stands for."""
@@ -120,7 +121,7 @@ def validate_command(
     summary = os.environ.get(VARIABLE)
     reports = Reports(junit, html, json, Path(summary) if summary else None)
     try:
-        files = [file for scene in scenes or built_in_scenes() for file in _scene_files(scene)]
+        files = [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
         paths = fmus or default_fmus()
         with progress_bar() as progress:
             validations = validate(paths, files, progress, time_limit=time_limit)
@@ -130,20 +131,6 @@ def validate_command(
     _print(validations, details, as_json=json == PRINTED)
     reports.write(validations)
     context.exit(max(validation.exit_code for validation in validations))
-
-
-def _scene_files(scene: str) -> list[Path]:
-    """Return the scene file, or those of a folder; SceneError for a folder without any."""
-    folder = Path(scene)
-    if scene in built_in_scenes() or not folder.is_dir():
-        return [find_scene(scene)]
-    files = sorted(folder.glob("*.toml"))
-    if not files:
-        raise SceneError(
-            f"{folder}: is a directory; allowed is a scene file, a built-in scene or a directory "
-            "with scene files (*.toml)"
-        )
-    return files
 
 
 def _print(validations: Sequence[Validation], details: bool, *, as_json: bool) -> None:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.validate import MOST_DEATHS, Validation, validate
+from harness.isolated_runs import MOST_DEATHS
+from harness.validate import Validation, validate
 from tests.harness import faulty_fmus
 from tests.harness.faulty_fmus import compiled
 
