@@ -18,6 +18,7 @@ from harness.json_output import to_json
 
 COULD_NOT_RUN = 2
 COMMANDS = (
+    "baseline",
     "bench",
     "blocking",
     "closed-loop",
@@ -125,4 +126,5 @@ def main() -> None:
       python -m harness closed-loop --out closed_loop
       python -m harness crosscheck --out crosscheck
       python -m harness mutants --sample 200
+      python -m harness baseline check my.fmu --dir baseline
     """

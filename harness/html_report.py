@@ -12,7 +12,7 @@ from harness.deviation_plot import deviation_png
 from harness.quantities import QUANTITIES
 from harness.readable import readable
 from harness.validate import Curves, Validation, worst_of_sweeps
-from harness.verdict import place, sentence, title
+from harness.verdict import TITLE, place, sentence, title
 
 MOST_PICTURES = 40
 """Pictures for each FMU, of the worst point of a sweep only: a hopeless FMU fails everywhere."""
@@ -30,7 +30,9 @@ td.n { text-align: right; white-space: nowrap }
 """
 
 
-def write_html(path: Path, validations: Sequence[Validation], error: str = "") -> None:
+def write_html(
+    path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
+) -> None:
     """Write the report; `error` is what kept the command from getting as far as an FMU.
 
     Raises HarnessError when the file cannot be written.
@@ -38,8 +40,8 @@ def write_html(path: Path, validations: Sequence[Validation], error: str = "") -
     parts = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width">',
-        f"<title>Slider-resonator validation</title><style>{_STYLE}</style></head><body>",
-        "<h1>Slider-resonator validation</h1>",
+        f"<title>{escape(title)}</title><style>{_STYLE}</style></head><body>",
+        f"<h1>{escape(title)}</h1>",
     ]
     if error:
         parts.append(f'<p class="fail">Could not run: {escape(error)}</p>')

@@ -9,23 +9,25 @@ from xml.etree import ElementTree as ET
 
 from harness.atomic import replacing
 from harness.validate import Trouble, Validation
-from harness.verdict import place, sentence, title
+from harness.verdict import TITLE, place, sentence, title
 
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML 1.0 cannot hold: an FMU may have printed them."""
 
 
-def write_junit(path: Path, validations: Sequence[Validation], error: str = "") -> None:
+def write_junit(
+    path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
+) -> None:
     """Write one test suite for each FMU, with a test case for each check or what could not be run.
 
     `error` is what kept the command from getting as far as an FMU. Raises HarnessError when the
     file cannot be written.
     """
-    root = ET.Element("testsuites", name="slider-resonator validate")
+    root = ET.Element("testsuites", name=title)
     for validation in validations:
         _suite(root, validation)
     if error:
-        _suite(root, Validation("validate", (), 0.0, (Trouble("", error, {}),)))
+        _suite(root, Validation(title, (), 0.0, (Trouble("", error, {}),)))
     counts = {"tests": 0, "failures": 0, "errors": 0}
     for suite in root:
         for name in counts:

@@ -18,17 +18,18 @@ DIGITS = 8
 SIGNAL = "*"
 
 
-def print_validation(console: Console, validation: Validation, *, details: bool = False) -> None:
+def print_validation(
+    console: Console, validation: Validation, *, details: bool = False, only_failed: bool = False
+) -> None:
     """Print the table of verdicts, the reasons of failures, and one line that sums up.
 
     Of a sweep the worst point is shown; with `details` every point, and why each thing is expected.
+    What has passed is left out with `only_failed`.
     """
-    rows = (
-        [(check, 1) for check in validation.checks]
-        if details
-        else worst_of_sweeps(validation.checks)
-    )
-    console.print(_table(rows, details))
+    checks = [check for check in validation.checks if not (only_failed and check.passed)]
+    rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
+    if rows:
+        console.print(_table(rows, details))
     if any(_of_peak(check) for check, _ in rows):
         console.print(f"{SIGNAL} the peak of a signal; off by and allowed are shares of it")
     for check, _ in rows:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from harness.errors import HarnessError
 from harness.validate import Validation
-from harness.verdict import place, sentence, title
+from harness.verdict import TITLE, place, sentence, title
 
 VARIABLE = "GITHUB_STEP_SUMMARY"
 """Environment variable with the file that the page is made of."""
@@ -15,9 +15,11 @@ MOST_ROWS = 50
 """Failures shown for each FMU: GitHub takes 1 MiB of summary."""
 
 
-def append_summary(path: Path, validations: Sequence[Validation], error: str = "") -> None:
+def append_summary(
+    path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
+) -> None:
     """Append a table of FMUs and one of what failed; HarnessError when that is impossible."""
-    text = _markdown(validations, error)
+    text = _markdown(validations, error, title)
     try:
         with path.open("a", encoding="utf-8") as file:
             file.write(text)
@@ -25,8 +27,8 @@ def append_summary(path: Path, validations: Sequence[Validation], error: str = "
         raise HarnessError(f"{VARIABLE} {path}: cannot be written: {failed.strerror}") from failed
 
 
-def _markdown(validations: Sequence[Validation], error: str) -> str:
-    lines = ["## Slider-resonator validation", ""]
+def _markdown(validations: Sequence[Validation], error: str, heading: str) -> str:
+    lines = [f"## {heading}", ""]
     if error:
         lines += [f"Could not run: {_cell(error)}", ""]
     if validations:

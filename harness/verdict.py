@@ -8,6 +8,8 @@ from harness.compare import Check, Value
 from harness.quantities import QUANTITIES
 from harness.readable import readable
 
+TITLE = "Slider-resonator validation"
+"""What a report is called unless its command calls it otherwise."""
 DIGITS = 9
 
 

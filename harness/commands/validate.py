@@ -2,61 +2,18 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
-from harness.commands.options import Target, default_fmus
-from harness.console import output, progress_bar
+from harness.commands.options import default_fmus
+from harness.commands.reports import Reports, print_verdicts, report_options
+from harness.console import progress_bar
 from harness.errors import HarnessError
 from harness.isolated_runs import TIME_LIMIT
-from harness.json_report import validations_as_json, write_json
-from harness.junit import write_junit
-from harness.report import print_validation
 from harness.scene import built_in_scenes, scene_files
-from harness.step_summary import VARIABLE, append_summary
-from harness.targets import distinct
-from harness.validate import Validation, validate
-
-PRINTED = Path("-")
-"""What `--json` without a file stands for."""
-
-
-class JsonTarget(Target):
-    """A JSON file to write, or standard output."""
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Path:
-        """Return the path, `PRINTED` as it is."""
-        return PRINTED if str(value) == str(PRINTED) else super().convert(value, param, ctx)
-
-
-@dataclass(frozen=True)
-class Reports:
-    """Where verdicts go, beside the terminal; None where a report was not asked for."""
-
-    junit: Path | None
-    html: Path | None
-    json: Path | None
-    summary: Path | None
-
-    def write(self, validations: Sequence[Validation], error: str = "") -> None:
-        """Write all that were asked for; HarnessError where one cannot be written."""
-        if self.json is not None and self.json != PRINTED:
-            write_json(self.json, validations, error)
-        if self.junit is not None:
-            write_junit(self.junit, validations, error)
-        if self.summary is not None:
-            append_summary(self.summary, validations, error)
-        if self.html is not None:
-            # Here, for drawing takes longer to load than everything else.
-            from harness.html_report import write_html
-
-            write_html(self.html, validations, error)
+from harness.validate import validate
+from harness.verdict import TITLE
 
 
 @click.command("validate")
@@ -78,16 +35,7 @@ class Reports:
     metavar="SECONDS",
     help="For each scene, or point of a sweep, on each FMU.",
 )
-@click.option("--junit", type=Target([".xml"]), help="JUnit XML for a CI server.")
-@click.option("--html", type=Target([".html"]), help="One page with pictures of what differs.")
-@click.option(
-    "--json",
-    type=JsonTarget([".json"]),
-    is_flag=False,
-    flag_value=str(PRINTED),
-    metavar="[FILE.json]",
-    help="Write one JSON document, or print it when no file is given.",
-)
+@report_options
 @click.pass_context
 def validate_command(
     context: click.Context,
@@ -116,10 +64,7 @@ def validate_command(
     """
     sources = {f"the FMU {path}": path for path in fmus}
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
-    written = None if json == PRINTED else json
-    distinct({"--junit": junit, "--html": html, "--json": written}, sources)
-    summary = os.environ.get(VARIABLE)
-    reports = Reports(junit, html, json, Path(summary) if summary else None)
+    reports = Reports.asked_for(TITLE, junit, html, json, sources)
     try:
         files = [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
         paths = fmus or default_fmus()
@@ -128,17 +73,6 @@ def validate_command(
     except HarnessError as error:
         reports.write([], str(error))
         raise
-    _print(validations, details, as_json=json == PRINTED)
+    print_verdicts(validations, details=details, as_json=reports.prints_json)
     reports.write(validations)
     context.exit(max(validation.exit_code for validation in validations))
-
-
-def _print(validations: Sequence[Validation], details: bool, *, as_json: bool) -> None:
-    if as_json:
-        click.echo(validations_as_json(validations))
-    for validation in validations:
-        if validation.checks and not as_json:
-            print_validation(output(), validation, details=details)
-        for trouble in validation.troubles:
-            scene = f"{validation.fmu}: scene {trouble.scene}: " * bool(trouble.scene)
-            click.echo(f"error: {scene}{trouble.reason}", err=True)

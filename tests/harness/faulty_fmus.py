@@ -59,6 +59,18 @@ def redescribed(fmu: Path, out: Path, old: bytes, new: bytes) -> Path:
     return altered(fmu, out, alter)
 
 
+def other_friction(python_fmu: Path, out: Path) -> Path:
+    """Copy the Python FMU with 0.1 % more friction than its description says."""
+
+    def alter(name: str, content: bytes) -> bytes:
+        if not (name.startswith("resources/") and name.endswith("/variables.py")):
+            return content
+        row, separator, rest = content.partition(b'"friction_coefficient",')
+        return row + separator + rest.replace(b"start=0.1,", b"start=0.1001,", 1)
+
+    return altered(python_fmu, out, alter)
+
+
 def cut(fmu: Path, out: Path) -> Path:
     """Copy the first half of an FMU: an archive whose end was lost on the way."""
     content = fmu.read_bytes()

@@ -6,13 +6,13 @@ import csv
 import json
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
 from harness.cli import main
+from tests.harness import faulty_fmus
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
@@ -242,22 +242,8 @@ def test_scenes_are_listed() -> None:
 
 
 def test_an_fmu_with_wrong_physics_is_rejected(python_fmu: Path, tmp_path: Path) -> None:
-    """The component with another coefficient of friction than its description says.
-
-    In a process of its own, for two FMUs with one package name would share their modules.
-    """
-    wrong = tmp_path / "wrong.fmu"
-    changed = 0
-    with zipfile.ZipFile(python_fmu) as old, zipfile.ZipFile(wrong, "w") as new:
-        for name in old.namelist():
-            content = old.read(name)
-            if name.startswith("resources/") and name.endswith("/variables.py"):
-                row, separator, rest = content.partition(b'"friction_coefficient",')
-                altered = row + separator + rest.replace(b"start=0.1,", b"start=0.1001,", 1)
-                changed += altered != content
-                content = altered
-            new.writestr(name, content)
-    assert changed == 1, "the alteration must alter something"
+    """In a process of its own, for two FMUs with one package name would share their modules."""
+    wrong = faulty_fmus.other_friction(python_fmu, tmp_path / "wrong.fmu")
     command = [sys.executable, "-m", "harness", "validate", str(wrong), "--scene", "table_1"]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert result.returncode == 1, result.stderr

@@ -1,0 +1,143 @@
+"""A baseline as its users meet it: recorded, checked, accepted."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+from click.testing import CliRunner, Result
+
+from harness.cli import main
+from tests.harness import faulty_fmus
+
+
+def call(verb: str, fmu: Path, folder: Path, *options: object) -> Result:
+    arguments = ["baseline", verb, str(fmu), "--dir", str(folder), *map(str, options)]
+    return CliRunner().invoke(main, arguments, env={"GITHUB_STEP_SUMMARY": ""})
+
+
+@pytest.fixture(scope="module")
+def scenes(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("scenes")
+    faulty_fmus.scene(folder, "one")
+    swept = faulty_fmus.scene(folder, "two")
+    swept.write_text(swept.read_text() + '[sweep]\nvariable = "phase"\nvalues = [0.0, 0.4]\n')
+    return folder
+
+
+@pytest.fixture(scope="module")
+def recorded(native_fmu: Path, scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("recorded") / "baseline"
+    result = call("record", native_fmu, folder, "--scene", scenes)
+    assert result.exit_code == 0, result.output
+    return folder
+
+
+@pytest.fixture(scope="module")
+def other_fmu(python_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return faulty_fmus.other_friction(python_fmu, tmp_path_factory.mktemp("other") / "other.fmu")
+
+
+@pytest.fixture
+def baseline(recorded: Path, scenes: Path, tmp_path: Path) -> Path:
+    """A copy of the baseline, as far from the scenes as the original."""
+    shutil.copytree(scenes, tmp_path / scenes.name)
+    return Path(shutil.copytree(recorded, tmp_path / recorded.parent.name / recorded.name))
+
+
+def content(folder: Path) -> dict[str, bytes]:
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*.csv")}
+
+
+def test_both_builds_give_the_same_golden_results(python_fmu: Path, baseline: Path) -> None:
+    result = call("check", python_fmu, baseline)
+    assert result.exit_code == 0, result.output
+    assert "checks passed" in result.stdout
+    assert "baseline" not in result.stdout, "nothing has changed, nothing is shown"
+
+
+def test_a_change_is_shown_kept_and_accepted(
+    native_fmu: Path, other_fmu: Path, baseline: Path, tmp_path: Path
+) -> None:
+    before = content(baseline)
+    reports = [tmp_path / name for name in ("report.json", "report.xml", "report.html")]
+    options = [*("--json", reports[0]), *("--junit", reports[1]), *("--html", reports[2])]
+    scene = baseline.parents[1] / "scenes0" / "one.toml"
+    changed = call("check", other_fmu, baseline, "--scene", scene, *options)
+    assert changed.exit_code == 1, changed.output
+    assert "one: blocking_force" in changed.stdout
+    assert "times the allowed" in changed.stdout
+    assert json.loads(reports[0].read_text())["exit_code"] == 1
+    assert int(ET.parse(reports[1]).getroot().get("failures", "0")) > 5
+    assert "<h1>Slider-resonator baseline</h1>" in reports[2].read_text(encoding="utf-8")
+    assert call("check", other_fmu, baseline).exit_code == 1
+    assert content(baseline).items() >= before.items(), "a check changes no golden result"
+    assert (baseline / ".changed" / ".gitignore").read_text() == "*\n"
+
+    refused = call("accept", native_fmu, baseline)
+    assert refused.exit_code == 2
+    assert "not the FMU that was last checked" in refused.stderr
+    unknown = call("accept", other_fmu, baseline, "--scene", "three")
+    assert unknown.exit_code == 2
+    assert "(allowed: one, two)" in unknown.stderr
+
+    accepted = call("accept", other_fmu, baseline, "--scene", "two")
+    assert (accepted.exit_code, accepted.stdout) == (0, "accepted two\n")
+    after = content(baseline)
+    assert after["one/numbers.csv"] == before["one/numbers.csv"]
+    assert after["two/numbers.csv"] != before["two/numbers.csv"]
+    assert call("accept", other_fmu, baseline).stdout == "accepted one\n"
+    assert call("accept", other_fmu, baseline).stdout.startswith("accepted nothing")
+    assert call("check", other_fmu, baseline).exit_code == 0
+    assert call("check", native_fmu, baseline).exit_code == 1
+
+
+def test_a_tolerance_may_be_wider(other_fmu: Path, baseline: Path) -> None:
+    assert call("check", other_fmu, baseline, "--tolerance", 0.1).exit_code == 0
+
+
+def test_nothing_is_replaced_unasked(native_fmu: Path, baseline: Path) -> None:
+    before = content(baseline)
+    scene = baseline.parents[1] / "scenes0" / "one.toml"
+    refused = call("record", native_fmu, baseline, "--scene", scene)
+    assert refused.exit_code == 2
+    assert "recorded already: one" in refused.stderr
+    assert call("record", native_fmu, baseline, "--scene", scene, "--replace").exit_code == 0
+    assert content(baseline) == before, "the same FMU gives the same bytes"
+
+
+def test_an_edited_scene_must_be_recorded_anew(native_fmu: Path, baseline: Path) -> None:
+    scene = baseline.parents[1] / "scenes0" / "one.toml"
+    text = scene.read_text()
+    scene.write_text(text.replace("the motion itself must agree", "it is what it was"))
+    assert call("check", native_fmu, baseline).exit_code == 0, "it still runs the same"
+    scene.write_text(text.replace("drive_periods = 2", "drive_periods = 3"))
+    result = call("check", native_fmu, baseline)
+    assert result.exit_code == 2
+    assert "record it again with --replace" in result.stderr
+
+
+def test_what_cannot_be_run_leaves_with_2(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
+    crash = faulty_fmus.compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
+    report = tmp_path / "report.json"
+    result = call("check", crash, baseline, "--json", report)
+    assert result.exit_code == 2
+    assert "crashed in fmi2DoStep" in result.stderr
+    assert len(json.loads(report.read_text())["errors"]) == 2
+    recording = call("record", crash, tmp_path / "new", "--scene", "table_1")
+    assert recording.exit_code == 2
+    assert recording.stdout.startswith("recorded 0 scenes")
+    assert not content(tmp_path / "new")
+
+
+def test_what_is_not_recorded_is_named(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
+    result = call("check", native_fmu, baseline, "--scene", "table_1")
+    assert result.exit_code == 2
+    assert "unknown recorded scene 'table_1'" in result.stderr
+    empty = call("check", native_fmu, tmp_path / "empty", "--json", tmp_path / "report.json")
+    assert empty.exit_code == 2
+    assert "nothing is recorded here" in empty.stderr
+    assert "nothing is recorded" in json.loads((tmp_path / "report.json").read_text())["error"]
