@@ -11,6 +11,7 @@ from harness.commands.reports import Reports, print_verdicts, report_options
 from harness.console import progress_bar
 from harness.errors import HarnessError
 from harness.isolated_runs import TIME_LIMIT
+from harness.repeated import repeated
 from harness.scene import built_in_scenes, scene_files
 from harness.validate import validate
 from harness.verdict import TITLE
@@ -35,6 +36,14 @@ from harness.verdict import TITLE
     metavar="SECONDS",
     help="For each scene, or point of a sweep, on each FMU.",
 )
+@click.option(
+    "--repeat",
+    type=click.IntRange(min=1),
+    default=1,
+    metavar="N",
+    help="Validate each FMU so often, and say whether that is the same each time; the worst run is "
+    "shown and reported.",
+)
 @report_options
 @click.pass_context
 def validate_command(
@@ -43,6 +52,7 @@ def validate_command(
     scenes: tuple[str, ...],
     details: bool,
     time_limit: float,
+    repeat: int,
     junit: Path | None,
     html: Path | None,
     json: Path | None,
@@ -61,6 +71,7 @@ def validate_command(
       python -m harness validate my.fmu --scene table_1 --details
       python -m harness validate my.fmu --scene scenes/mine.toml --json > report.json
       python -m harness validate my.fmu --scene my_scenes --junit report.xml --html report.html
+      python -m harness validate my.fmu --repeat 10
     """
     sources = {f"the FMU {path}": path for path in fmus}
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
@@ -69,10 +80,15 @@ def validate_command(
         files = [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
         paths = fmus or default_fmus()
         with progress_bar() as progress:
-            validations = validate(paths, files, progress, time_limit=time_limit)
+            again = [path for path in paths for _ in range(repeat)]
+            runs = validate(again, files, progress, time_limit=time_limit)
     except HarnessError as error:
         reports.write([], str(error))
         raise
+    found = [repeated(runs[i : i + repeat]) for i in range(0, len(runs), repeat)]
+    validations = [one.worst for one in found]
     print_verdicts(validations, details=details, as_json=reports.prints_json)
+    if repeat > 1:
+        click.echo("\n".join(one.sentence for one in found), err=reports.prints_json)
     reports.write(validations)
     context.exit(max(validation.exit_code for validation in validations))

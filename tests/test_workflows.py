@@ -1,0 +1,96 @@
+"""The workflows call commands that there are, with options that they take."""
+
+from __future__ import annotations
+
+import shlex
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import click
+import pytest
+import yaml
+
+from harness.cli import main
+
+ROOT = Path(__file__).resolve().parents[1]
+WORKFLOWS = (ROOT / ".github" / "workflows" / "ci.yml", ROOT / "examples" / "validate-fmu.yml")
+HARNESS = ["python", "-m", "harness"]
+
+
+def read(path: Path) -> dict[Any, Any]:
+    content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    assert isinstance(content, dict)
+    return content
+
+
+def steps(path: Path) -> Iterator[dict[str, Any]]:
+    for job in read(path)["jobs"].values():
+        yield from job["steps"]
+
+
+def harness_calls() -> list[Any]:
+    calls = []
+    for path in WORKFLOWS:
+        for step in steps(path):
+            for line in str(step.get("run", "")).splitlines():
+                words = shlex.split(line)
+                if words[:3] == HARNESS:
+                    calls.append(pytest.param(words[3:], id=f"{path.stem}: {step['name']}"))
+    return calls
+
+
+def parse(words: list[str]) -> None:
+    """Parse a command line as the harness does, without running the command."""
+    group: click.Command = main
+    context = click.Context(main)
+    while isinstance(group, click.Group):
+        command = group.get_command(context, words[0])
+        assert command is not None, f"no command {words[0]}"
+        group, words = command, words[1:]
+    group.make_context(str(group.name), words, parent=context)
+
+
+@pytest.mark.parametrize("words", harness_calls())
+def test_the_harness_takes_each_call(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "reports").mkdir()
+    monkeypatch.chdir(tmp_path)
+    parse(words)
+    with pytest.raises(click.UsageError):
+        parse([*words, "--no-such-option"])
+
+
+def test_there_are_calls_in_both_workflows() -> None:
+    names = {str(call.id).partition(":")[0] for call in harness_calls()}
+    assert names == {path.stem for path in WORKFLOWS}
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
+def test_a_workflow_is_whole(path: Path) -> None:
+    workflow = read(path)
+    assert workflow["permissions"] == {"contents": "read"}
+    assert True in workflow, "YAML 1.1 reads the key `on` as true"
+    for name, job in workflow["jobs"].items():
+        assert job["timeout-minutes"] <= 60, name
+        needed = job.get("needs", [])
+        assert set([needed] if isinstance(needed, str) else needed) <= set(workflow["jobs"])
+    for step in steps(path):
+        assert ("run" in step) != ("uses" in step), step
+        if "uses" in step:
+            assert step["uses"].startswith("actions/"), step
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
+def test_every_script_is_sound_shell(path: Path) -> None:
+    for step in steps(path):
+        if "run" in step:
+            subprocess.run(["bash", "-n"], input=step["run"], text=True, check=True)
+
+
+def test_what_the_project_runs_is_there() -> None:
+    scripts = [word for step in steps(WORKFLOWS[0]) for word in str(step.get("run", "")).split()]
+    assert ".ci/run" in scripts
+    assert (ROOT / ".ci" / "run").stat().st_mode & 0o100, "it must be executable"
