@@ -2,6 +2,12 @@
 
 #include <math.h>
 
+#include "state.h"
+
+/* Distance of the squares of two frequencies that is due to rounding: undamped, the steady force has
+ * no correct digit there. */
+#define AT_RESONANCE (8.0 * EPSILON)
+
 /* The resonator against a free slider (eq. 31 divided by 1 - r_m). */
 static Oscillator slip_oscillator(const Device *device) {
     double free_share = device->slider_mass / device_total_mass(device);
@@ -12,7 +18,7 @@ static Oscillator slip_oscillator(const Device *device) {
 bool steady_resonator(const Device *device, Complex *amplitude, Refusal *refusal) {
     double w = device->drive_frequency;
     Oscillator oscillator = slip_oscillator(device);
-    if (device->damping_ratio == 0.0 && oscillator.stiffness == w * w) {
+    if (device->damping_ratio == 0.0 && fabs(oscillator.stiffness - w * w) <= AT_RESONANCE * w * w) {
         char damping[NUMBER_SIZE], frequency[NUMBER_SIZE];
         return refuse(refusal,
                       "damping_ratio = %s refused: without damping the steady force of the "

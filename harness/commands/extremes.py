@@ -32,7 +32,11 @@ from harness.targets import make_folder
     help="Time in s in which a cell must be done; one that hangs has failed.",
 )
 @click.option(
-    "--long", is_flag=True, help="Add resolved runs of 1e8 drive periods; give them a --limit."
+    "--long",
+    is_flag=True,
+    help="Add resolved Coulomb runs of 1e8 drive periods, 20 minutes each in the native FMU; give "
+    "them a --limit. Without it those have 1e5, with LuGre friction 1e4; averaged motion always "
+    "has 1e8.",
 )
 @json_option
 @click.pass_context

@@ -26,7 +26,7 @@ def device_cells() -> Iterator[Cell]:
         ("mu", _frictions(), MODELS),
         ("r_m", _mass_ratios(), MODELS),
         ("xi", _dampings(), MODELS),
-        ("resonance", _resonances(), RESOLVED),
+        ("resonance", _resonances(), MODELS),
         ("critical damping", _critical(), RESOLVED),
         ("bristle stiffness", _decades("bristle_stiffness", -3, 14), LUGRE),
         ("bristle damping", [("0", {"bristle_damping": 0.0}), *_decades("bristle_damping", -2, 6)],
@@ -39,15 +39,10 @@ def device_cells() -> Iterator[Cell]:
 
 
 def usual_holds(model: Model, parameters: Mapping[str, float]) -> tuple[Hold, ...]:
-    """Return steps that show the motion: resolved 32 a period, averaged one in ten periods.
-
-    A slider of next to no mass swings thousands of times even in a part of a drive period.
-    """
+    """Return steps that show the motion: resolved 32 a period, averaged one in ten periods."""
     period = tau / parameters.get("drive_frequency", W)
     if model.fidelity == 0:
         return (Hold(10.0 * period, 100),)
-    if parameters.get("slider_mass", 1.0) < 1e-6:
-        return (Hold(period / 1024.0, 2),)
     return (Hold(period / 32.0, 160),)
 
 

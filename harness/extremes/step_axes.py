@@ -9,14 +9,15 @@ from math import tau
 from harness.extremes.cell import COULOMB_RESOLVED, MODELS, Cell, Hold, Limit, Model
 from harness.extremes.device_axes import AMPLITUDE, W
 
+STEP = "communication step"
 PERIOD = tau / W
 LATE = 1e12
 """A start time, s, at which time is known to 2^-13 s only."""
 SMALLEST = 5e-324
 
-PERIODS = {0: 1e8, 1: 1e6, 2: 1e6}
-"""Drive periods of the longest runs, by fidelity."""
-LUGRE_PERIODS = 1e4
+PERIODS = {0: 1e8, 1: 1e5, 2: 1e5}
+"""Drive periods of the longest runs with Coulomb friction, by fidelity."""
+LUGRE_PERIODS = {0: 1e8, 1: 1e4, 2: 1e4}
 ALL_PERIODS = 1e8
 STEADY = {2: 0.12666700, 1: 0.1266646, 0: 0.126731}
 """Steady velocity of table 1, m/s, by fidelity, found without long runs."""
@@ -36,20 +37,27 @@ def step_cells(*, long: bool) -> Iterator[Cell]:
 
 def _sizes(model: Model) -> Iterator[Cell]:
     draw = random.Random(3)
-    slow = {
-        "drive_frequency": W / 100.0,
-        "resonator_frequency": W / 100.0,
-        "base_amplitude": AMPLITUDE * 100.0,
-    }
     logarithmic = tuple(Hold(10.0 ** draw.uniform(-12.0, -2.0)) for _ in range(100))
     alternating = tuple(Hold(10.0 * PERIOD if i % 2 else 1e-15) for i in range(40))
     denormal = tuple(Hold(SMALLEST if i % 2 else PERIOD / 7.0) for i in range(60))
-    axis = "communication step"
-    yield Cell(axis, "1e-12 s", model, {}, (Hold(PERIOD / 3.0), Hold(1e-12, 1000)))
-    yield Cell(axis, "1e4 s", model, slow, (Hold(1e4),))
-    yield Cell(axis, "smallest denormal", model, {}, denormal)
-    yield Cell(axis, "random, 1e-12 to 1e-2 s", model, {}, logarithmic)
-    yield Cell(axis, "10 periods and 1e-15 s in turn", model, {}, alternating)
+    for decade in range(-12, 5):
+        yield _size(model, decade)
+    yield Cell(STEP, "smallest denormal", model, {}, denormal)
+    yield Cell(STEP, "random, 1e-12 to 1e-2 s", model, {}, logarithmic)
+    yield Cell(STEP, "10 periods and 1e-15 s in turn", model, {}, alternating)
+
+
+def _size(model: Model, decade: int) -> Cell:
+    """Steps of a power of ten, by a device so slow that they have 5600 periods at most."""
+    slower = 10.0 ** min(max(decade + 1, 0), 3)
+    slow = {
+        "drive_frequency": W / slower,
+        "resonator_frequency": W / slower,
+        "base_amplitude": AMPLITUDE * slower,
+    }
+    count = 300 if decade < -4 else 20 if decade < 0 else 2
+    holds = (Hold(PERIOD * slower / 3.0), Hold(float(f"1e{decade}"), count))
+    return Cell(STEP, f"1e{decade} s", model, slow if slower > 1.0 else {}, holds)
 
 
 def _late(model: Model) -> Cell:
@@ -67,7 +75,7 @@ def _restored(model: Model) -> Iterator[Cell]:
 
 
 def _periods(model: Model) -> float:
-    return LUGRE_PERIODS if model.friction_law and model.fidelity else PERIODS[model.fidelity]
+    return (LUGRE_PERIODS if model.friction_law else PERIODS)[model.fidelity]
 
 
 def _many_periods(model: Model, periods: float) -> Cell:

@@ -11,11 +11,15 @@ FAILED = "failed"
 
 @dataclass(frozen=True)
 class Check:
-    """One bound: the largest deviation that was found, in units of what is allowed."""
+    """One bound: the largest deviation that was found, in units of what is allowed.
+
+    `is_deviation` is false for what is counted or told apart, where nearness means nothing.
+    """
 
     name: str
     found: float
     words: str = ""
+    is_deviation: bool = True
 
     @property
     def passed(self) -> bool:

@@ -109,6 +109,24 @@ def test_output_set_from_outside(instance: Instance, variable: Variable) -> None
         instance.set(**{variable.name: 0.5})
 
 
+@pytest.mark.parametrize("fidelity", [0, 1])
+@pytest.mark.parametrize("ulps", [-2, -1, 0, 1, 2])
+def test_undamped_resonance_to_rounding(
+    instantiate: Callable[[], Instance], fidelity: int, ulps: int
+) -> None:
+    """Steady force and velocity would be numbers without a correct digit."""
+    frequency = 3500.0 * math.sqrt(1.0 / 1.1)
+    for _ in range(abs(ulps)):
+        frequency = math.nextafter(frequency, math.copysign(INF, ulps))
+    instance = in_initialization_mode(instantiate())
+    instance.set(damping_ratio=0.0, resonator_frequency=frequency, fidelity=fidelity)
+    with instance.refuses("damping_ratio = 0.0 refused", "drive_frequency = 3500.0", "allowed"):
+        instance.slave.exitInitializationMode()
+    instance.set(damping_ratio=1e-12)
+    instance.slave.exitInitializationMode()
+    instance.step(STEP)
+
+
 def test_values_that_do_not_fit_each_other(instantiate: Callable[[], Instance]) -> None:
     instance = in_initialization_mode(instantiate())
     instance.set(friction_law=1, friction_coefficient=0.0)

@@ -16,8 +16,13 @@ from dataclasses import dataclass
 from math import inf
 
 from .device import Device, Inputs
+from .motion import EPSILON
 from .oscillator import Oscillator, transfer
 from .refusal import Refusal
+
+AT_RESONANCE = 8.0 * EPSILON
+"""Distance of the squares of two frequencies that is due to rounding: undamped, the steady force
+has no correct digit there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +70,8 @@ def steady_resonator(device: Device) -> complex:
     """
     w = device.drive_frequency
     oscillator = _slip_oscillator(device)
-    if device.damping_ratio == 0.0 and oscillator.stiffness == w * w:
+    detuning = abs(oscillator.stiffness - w * w)
+    if device.damping_ratio == 0.0 and detuning <= AT_RESONANCE * w * w:
         raise Refusal(
             f"damping_ratio = {device.damping_ratio!r} refused: without damping the steady force "
             f"of the resonator is unbounded at drive_frequency = {w!r}; allowed there is a number "

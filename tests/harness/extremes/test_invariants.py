@@ -8,7 +8,7 @@ import pytest
 
 from harness.drive import instantiate
 from harness.extremes.cell import Cell, Hold, Model
-from harness.extremes.judge import judge
+from harness.extremes.judge import MOST_COST, judge
 from harness.extremes.observe import NAMES, Observation, observe
 from harness.extremes.verdict import FAILED, PASSED, REFUSED
 from harness.fmu import open_fmu
@@ -70,11 +70,48 @@ def test_a_replay_that_differs_fails(seen: Observation) -> None:
     assert "replay" in judge(TABLE_1, replace(seen, replayed=False)).reason
 
 
-def test_a_refusal_must_name_what_it_refuses(seen: Observation) -> None:
-    named = replace(seen, refusal="x.fmu: load = nan refused: allowed is a finite number")
-    assert judge(TABLE_1, named).verdict == REFUSED
-    unnamed = replace(seen, refusal="x.fmu: fmi2DoStep failed with status 3 (error).")
-    assert judge(TABLE_1, unnamed).verdict == FAILED
+@pytest.mark.parametrize(
+    "words",
+    [
+        "x.fmu: load = 0.0 refused: allowed is a finite number",
+        "x.fmu: base_amplitude = 0.0001 refused: allowed is a finite number of at least 0 m",
+        "doStep: communicationStepSize = 0.0001 refused: it takes more than 9; allowed is less",
+    ],
+)
+def test_a_refusal_names_thing_value_and_what_is_allowed(seen: Observation, words: str) -> None:
+    assert judge(TABLE_1, replace(seen, refusal=words)).verdict == REFUSED
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "x.fmu: fmi2DoStep failed with status 3 (error).",
+        "the parameters are refused: allowed are smaller ones",
+        "base_amplitude = 0.0001 refused",
+        "base_amplitude = 1.0 refused: allowed is a finite number of at least 0 m",
+        "doStep: communicationStepSize = 7.0 refused: allowed is a finite number above 0",
+        "a finer fidelity refused: allowed is 1 or 2",
+    ],
+)
+def test_any_other_refusal_fails(seen: Observation, words: str) -> None:
+    assert judge(TABLE_1, replace(seen, refusal=words)).verdict == FAILED
+
+
+def test_a_step_that_costs_too_much_fails(seen: Observation) -> None:
+    dear = replace(seen, worst_step=2.0 * MOST_COST * seen.period_cost)
+    assert "cost of a step" in judge(TABLE_1, dear).reason
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
+def test_a_tolerance_is_a_bound(native_fmu: Path, tolerance: float) -> None:
+    parameters = {"tolerance": tolerance}
+    cell = Cell("tolerance", "as it is", Model(2, 1), parameters, (Hold(1e-4, 60),))
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        rung = observe(instance, cell)
+    assert judge(cell, rung).verdict == PASSED
+    peak = float(np.abs(rung.signal("resonator_velocity")).max())
+    verdict = judge(cell, changed(rung, "resonator_velocity", 2.0 * tolerance * peak))
+    assert "referee" in verdict.reason, "twice the tolerance is too much"
 
 
 def test_the_phase_is_followed_through_changes_of_ratio(native_fmu: Path) -> None:
