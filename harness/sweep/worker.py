@@ -9,6 +9,7 @@ import threading
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack, suppress
+from dataclasses import dataclass
 from multiprocessing import parent_process
 from pathlib import Path
 
@@ -22,8 +23,19 @@ Point = tuple[int, tuple[float, ...]]
 Row = tuple[int, list[Cell], str | None]
 """Number of a point, the cells of its measures, and its error if it failed."""
 
+
+@dataclass(frozen=True, eq=False)
+class _Opened:
+    """The instance of a thread; `stack` frees it, which waits for the `lock` of a point at work."""
+
+    digest: str
+    instance: Instance
+    stack: ExitStack
+    lock: threading.Lock
+
+
 _files: dict[str, Path] = {}
-_open: list[ExitStack] = []
+_open: list[_Opened] = []
 _own = threading.local()
 
 
@@ -52,10 +64,11 @@ def run_chunk(task: Task, digest: str, points: Sequence[Point]) -> tuple[list[Ro
 
 
 def close() -> None:
-    """Free the instances of this process and what was unpacked for them."""
+    """Free the instances of all threads and what was unpacked for them."""
     while _open:
-        _open.pop().close()
-    _own.__dict__.clear()
+        opened = _open.pop()
+        with opened.lock:
+            opened.stack.close()
 
 
 def failed_row(task: Task, number: int, error: str) -> Row:
@@ -66,7 +79,11 @@ def failed_row(task: Task, number: int, error: str) -> Row:
 
 def _row(task: Task, digest: str, number: int, values: tuple[float, ...]) -> Row:
     try:
-        return number, measure(_instance(digest), task, values), None
+        opened = _opened(digest)
+        with opened.lock:
+            if opened not in _open:
+                raise HarnessError("this worker has been closed")
+            return number, measure(opened.instance, task, values), None
     except Exception as error:  # whatever goes wrong is the result of this point
         _forget_instance()
         path = _files.get(digest, Path())
@@ -76,29 +93,31 @@ def _row(task: Task, digest: str, number: int, values: tuple[float, ...]) -> Row
         return failed_row(task, number, text)
 
 
-def _instance(digest: str) -> Instance:
-    """Return the instance of this thread."""
-    if getattr(_own, "digest", None) != digest:
-        _forget_instance()
-        if digest not in _files:
-            raise HarnessError("this worker has not been given the FMU")
-        with ExitStack() as stack:
-            fmu = stack.enter_context(open_fmu(_files[digest]))
-            _own.instance = stack.enter_context(instantiate(fmu))
-            _own.stack = stack.pop_all()
-        _own.digest = digest
-        _open.append(_own.stack)
-    instance: Instance = _own.instance
-    return instance
+def _opened(digest: str) -> _Opened:
+    """Return the instance of this thread, which another thread may have closed meanwhile."""
+    opened: _Opened | None = getattr(_own, "opened", None)
+    if opened is not None and opened.digest == digest and opened in _open:
+        return opened
+    _forget_instance()
+    if digest not in _files:
+        raise HarnessError("this worker has not been given the FMU")
+    with ExitStack() as stack:
+        fmu = stack.enter_context(open_fmu(_files[digest]))
+        instance = stack.enter_context(instantiate(fmu))
+        opened = _Opened(digest, instance, stack.pop_all(), threading.Lock())
+    _own.opened = opened
+    _open.append(opened)
+    return opened
 
 
 def _forget_instance() -> None:
-    stack: ExitStack | None = getattr(_own, "stack", None)
+    opened: _Opened | None = getattr(_own, "opened", None)
     _own.__dict__.clear()
-    if stack is not None:
+    if opened is not None:
         with suppress(ValueError):
-            _open.remove(stack)
-        stack.close()
+            _open.remove(opened)
+        with opened.lock:
+            opened.stack.close()
 
 
 def _end_with_owner() -> None:

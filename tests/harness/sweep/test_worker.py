@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -32,6 +33,22 @@ def test_an_instance_is_reused_from_chunk_to_chunk(
     folder = made[0].folder
     worker.close()
     assert not folder.exists(), "what was unpacked is removed"
+
+
+def test_a_thread_whose_instance_another_has_freed_makes_a_new_one(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As on a cluster, where the end of a sweep is told in another thread than the points."""
+    made = []
+    original = worker.instantiate
+    monkeypatch.setattr(worker, "instantiate", lambda fmu: made.append(fmu) or original(fmu))
+    worker.register("digest", native_fmu)
+    with ThreadPoolExecutor(1) as thread:
+        before = thread.submit(worker.run_chunk, TASK, "digest", [(0, (0.1,))]).result()
+        worker.close()
+        after = thread.submit(worker.run_chunk, TASK, "digest", [(0, (0.1,))]).result()
+    assert len(made) == 2, "an instance that has been freed is not called again"
+    assert before[0] == after[0]
 
 
 def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(native_fmu: Path) -> None:
