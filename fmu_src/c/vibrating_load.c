@@ -46,9 +46,11 @@ VibratingLoad vibrating_load_of(const Device *device, double ratio, double delta
     load.cos_dip = cos(load.dip);
     load.per_turn = in_turn(&load, PI + 2.0 * load.dip);
     load.turns = turns_to_repeat(device, ratio, EXACT);
-    load.is_constant = ratio == 0.0 || load.turns == 0;
+    /* At a ratio of rounding the integral below would lose its digits to 1 / n. */
+    bool still = fabs(ratio) <= EXACT;
+    load.is_constant = still || load.turns == 0;
     if (load.is_constant) {
-        load.constant = ratio == 0.0 ? in_contact(&load, delta) : load.per_turn / TAU;
+        load.constant = still ? in_contact(&load, delta) : load.per_turn / TAU;
     }
     return load;
 }

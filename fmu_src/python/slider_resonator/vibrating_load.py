@@ -53,7 +53,7 @@ class VibratingLoad:
         self._dip = asin(self._preload / self._amplitude) if lifts else 0.5 * pi
         self._per_turn = self._in_turn(pi + 2.0 * self._dip)
         self._constant: float | None = None
-        if ratio == 0.0:
+        if abs(ratio) <= EXACT:  # the integral below would lose its digits to 1 / n
             self._constant = self._load(delta)
         turns = turns_to_repeat(device, ratio, EXACT)
         self._turns = turns or 1

@@ -32,6 +32,16 @@ def test_integral(ratio: float, amplitude: float, delta: float, begin: float, sp
     )
 
 
+@pytest.mark.parametrize("ratio", [1e-12, -1e-12, 1e-15, 1e-300])
+@pytest.mark.parametrize("amplitude", [0.0, 0.5, 2.5])
+def test_a_ratio_of_rounding_is_none(ratio: float, amplitude: float) -> None:
+    device = Device(normal_amplitude=amplitude)
+    near, still = (VibratingLoad(device, r, 0.4) for r in (ratio, 0.0))
+    assert near.integral(0.3, 6.0) == pytest.approx(still.integral(0.3, 6.0), rel=1e-11), (
+        "over a turn of the drive the normal load does not change"
+    )
+
+
 @pytest.mark.parametrize("amplitude", [0.5, 2.5])
 def test_between_integers_only_the_mean_counts(amplitude: float) -> None:
     angles = (np.arange(100_000) + 0.5) / 100_000 * math.tau
