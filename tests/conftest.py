@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import Phase, settings
+from hypothesis.internal.conjecture import providers
 
 from fmu_src.building.closed_loop_ssp import build_closed_loop
 from fmu_src.building.controller_fmu import build_controller
@@ -21,6 +22,9 @@ settings.register_profile(
     "explore", deadline=None, max_examples=1000, phases=[Phase.explicit, Phase.generate]
 )
 settings.load_profile("same")
+# Else examples change with every number in whatever modules happen to be loaded by then.
+if hasattr(providers, "_get_local_constants"):
+    providers._get_local_constants = lambda: providers._local_constants
 
 
 @pytest.fixture(scope="session")

@@ -139,8 +139,12 @@ def test_coulomb_devices(
     assert_equal(native, python, ROUNDING)
 
 
+# Over a weak vibration averages change so fast with the velocity that Python takes seconds for them.
+strong = parameters.filter(lambda values: values["fidelity"] > 0 or values["base_amplitude"] > 1e-4)
+
+
 @quick
-@given(parameters, courses, st.sampled_from([50.0, 1e3, 1e5, 1e8]), st.sampled_from([0.0, 10.0]))
+@given(strong, courses, st.sampled_from([50.0, 1e3, 1e5, 1e8]), st.sampled_from([0.0, 10.0]))
 def test_lugre_devices(
     twins: Twins,
     values: dict[str, float],
