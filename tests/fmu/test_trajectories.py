@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from harness.references.taylor import simulate
 from harness.references.trajectory import Trajectory
-from tests.fmu.host import Instance
+from tests.fmu.host import Instance, Unpacked
 from tests.fmu.native_layout import LAYOUT, numbers
 from tests.fmus import both_fmus
 from tests.problems import DURATION, PROBLEMS, Problem
@@ -128,15 +129,19 @@ def test_one_step_of_a_quarter_second(instantiate: Instantiate) -> None:
 @pytest.mark.parametrize(
     "name", ["table 1", "sticking every period", "undamped, slipping resonance"]
 )
-def test_steps_of_two_microseconds(instantiate: Instantiate, name: str) -> None:
+def test_steps_of_two_microseconds(instantiate: Instantiate, unpacked: Unpacked, name: str) -> None:
+    """A tenth of them with the Python FMU, whose steps take longer and round as the native ones."""
     problem = PROBLEMS[name]
-    times = np.arange(1, 100_001) * 2e-6
+    share = 1 if unpacked.description.modelName == "SliderResonator" else 10
+    times = np.arange(1, 100_000 // share + 1) * 2e-6
     instance = instantiate().initialize(**problem.parameters)
     rows = []
     for i, time in enumerate(times):
         instance.slave.doStep(currentCommunicationPoint=time - 2e-6, communicationStepSize=2e-6)
         if (i + 1) % 500 == 0:
             rows.append(instance.get(*SIGNALS))
-    referee = referee_of(name, 200)
+    referee = simulate(
+        problem.device, [replace(problem.held[0], stop=float(times[-1]))], times[499::500]
+    )
     assert_equal(np.array(rows), referee, ALLOWED)
     assert instance.get("reversals")[0] == referee.reversals

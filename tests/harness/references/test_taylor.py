@@ -210,7 +210,7 @@ def _between(least: float, greatest: float) -> st.SearchStrategy[float]:
 
 
 @pytest.mark.slow
-@settings(max_examples=30)
+@settings(max_examples=60)
 @given(
     parameters=st.fixed_dictionaries(
         {
