@@ -15,7 +15,7 @@ from harness.mutants.enumerate_fmu import fmu_mutants, sample
 from harness.mutants.listing import mutant_as_plain, print_mutants, print_run, run_as_plain
 from harness.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
 from harness.mutants.page import write_page
-from harness.scene import built_in_scenes, find_scene
+from harness.scene import built_in_scenes, scene_files
 from harness.sweep.local import available_cores
 from harness.targets import distinct
 
@@ -41,8 +41,9 @@ WANTED_RATE = 0.95
     "--scene",
     "scenes",
     multiple=True,
-    metavar="NAME|FILE",
-    help="Try them on this scene; may be given several times.  [default: all built-in]",
+    metavar="NAME|FILE|DIR",
+    help="Try them on this scene, or on those of a folder; may be given several times.  "
+    "[default: all built-in]",
 )
 @click.option(
     "--probes",
@@ -113,7 +114,7 @@ def mutants_command(
             path,
             original,
             chosen,
-            [find_scene(scene) for scene in scenes or built_in_scenes()],
+            [file for scene in scenes or built_in_scenes() for file in scene_files(scene)],
             made=len(made),
             jobs=jobs or available_cores(),
             probes=probes,

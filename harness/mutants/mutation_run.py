@@ -91,7 +91,7 @@ def run_mutants(
         _check_original(path, points, time_limit)
         probe_files = write_probes(folder, probes, seed)
         probing = probe_points(path, probe_files, time_limit)
-        reach = reaches(fmu, [(p.file, p.at) for p in (*points, *probing)], jobs)
+        reach = reaches(fmu, [*points, *probing], time_limit, jobs)
         bench = _Bench(
             fmu,
             Course.of(points, reach[: len(points)]),

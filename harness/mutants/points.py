@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from harness.compare import wanted
-from harness.errors import FmuError, SceneError
-from harness.fmu_process import FmuProcess
+from harness.compare import measure_all, wanted
+from harness.errors import SceneError
+from harness.isolated_runs import isolated_runs
 from harness.mutants.trial import Point
 from harness.reference_side import ReferenceSide
 from harness.scene import read_scene, sweep_points
@@ -32,21 +33,13 @@ def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) 
 
 
 def probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> list[Point]:
-    """Return the probes with what the original FMU gives; without those that it refuses."""
-    return list(_probe_points(fmu, files, time_limit))
+    """Return the probes with what the original FMU gives.
 
-
-def _probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> Iterator[Point]:
-    process = FmuProcess(fmu, time_limit)
-    try:
-        for file in files:
-            process.ask(file, {})
-            try:
-                told = process.answer()
-            except FmuError:  # no mutant can be told from the original there
-                process.kill()
-                process = FmuProcess(fmu, time_limit)
-                continue
-            yield Point(file, {}, read_scene(file), tuple(m.value for m in told))
-    finally:
-        process.kill()
+    Those that it refuses are left out: no mutant can be told from it there.
+    """
+    asked = [Point(file, {}, read_scene(file), ()) for file in files]
+    return [
+        replace(ran.point, wanted=tuple(m.value for m in ran.result))
+        for ran in isolated_runs(fmu, asked, measure_all, time_limit)
+        if ran.point is not None and ran.error is None
+    ]

@@ -1,37 +1,32 @@
 """Which statements of the component a scene executes, so that no mutant is run in vain.
 
-A copy of the FMU notes each statement as it comes by. It is run in a process of its own: two FMUs
-in one process share their modules.
+A copy of the FMU notes each statement as it comes by.
 """
 
 from __future__ import annotations
 
 import ast
-import multiprocessing
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path, PurePosixPath
-from types import ModuleType
+from pathlib import Path
 
-from harness.compare import measure
-from harness.drive import instantiate
-from harness.fmu import open_fmu
+from harness.compare import measure_all
 from harness.fmu_side import FmuSide
+from harness.isolated_runs import isolated_runs
 from harness.mutants.archive import PythonFmu
 from harness.mutants.enumerate_source import Function, blocks
-from harness.scene import read_scene
+from harness.mutants.trial import Point
 
 Place = tuple[str, int]
 """Module and line in which a statement begins."""
-Request = tuple[Path, Mapping[str, float]]
-"""Scene file, and values that replace some in it."""
 
 _NOTED = "_noted_lines"
+_LOADING = "_lines_noted_at_loading"
 _SHELL = "slave.py"
 """The module whose caches are no results: they say what is to be done when the process ends."""
 
@@ -44,23 +39,21 @@ class Reach:
     cost: float
 
 
-def reaches(fmu: PythonFmu, requests: Sequence[Request], processes: int) -> list[Reach]:
-    """Return what each scene, or point of a sweep, executes.
+def reaches(fmu: PythonFmu, points: Sequence[Point], time_limit: float, jobs: int) -> list[Reach]:
+    """Return what each scene, or point of a sweep, executes; `jobs` processes share the work.
 
     Raises FmuError when the FMU cannot run one of them.
     """
-    with tempfile.TemporaryDirectory(prefix="slider-resonator-") as folder:
+    with tempfile.TemporaryDirectory(prefix="slider-resonator-mutants-") as folder:
         noting = Path(folder) / "noting.fmu"
         noted = {fmu.path_of(name): noting_source(text) for name, text in fmu.modules.items()}
         fmu.write(noting, noted)
-        package = PurePosixPath(fmu.package).name
-        shares = [requests[i::processes] for i in range(processes)]
-        context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(processes, context) as pool:
-            parts = list(pool.map(partial(_observe, noting, package), shares))
-    found: list[Reach] = [Reach(frozenset(), 0.0)] * len(requests)
+        shares = [points[i::jobs] for i in range(jobs)]
+        with ThreadPoolExecutor(jobs) as pool:
+            parts = list(pool.map(partial(_observe, noting, time_limit), shares))
+    found: list[Reach] = [Reach(frozenset(), 0.0)] * len(points)
     for index, part in enumerate(parts):
-        found[index::processes] = part
+        found[index::jobs] = part
     return found
 
 
@@ -70,16 +63,14 @@ def noting_source(text: str) -> str:
     for node in ast.walk(tree):
         if isinstance(node, Function):
             _note(node.body)
-    last = max(
-        (i for i, s in enumerate(tree.body) if isinstance(s, ast.ImportFrom) and _future(s)),
-        default=-1,
-    )
+    last = max((i for i, s in enumerate(tree.body) if _is_future(s)), default=-1)
     tree.body[last + 1 : last + 1] = ast.parse(f"{_NOTED} = set()").body
+    tree.body += ast.parse(f"{_LOADING} = frozenset({_NOTED})").body
     return ast.unparse(ast.fix_missing_locations(tree))
 
 
-def _future(statement: ast.ImportFrom) -> bool:
-    return statement.module == "__future__"
+def _is_future(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.ImportFrom) and statement.module == "__future__"
 
 
 def _note(body: list[ast.stmt]) -> None:
@@ -92,32 +83,31 @@ def _note(body: list[ast.stmt]) -> None:
         body[index:index] = ast.parse(f"{_NOTED}.add({statement.lineno})").body
 
 
-def _observe(noting: Path, package: str, requests: Iterable[Request]) -> list[Reach]:
+def _observe(noting: Path, time_limit: float, points: Sequence[Point]) -> list[Reach]:
     found = []
-    with open_fmu(noting) as fmu, instantiate(fmu) as instance:
-        modules = {
-            f"{name.rpartition('.')[2]}.py": module
-            for name, module in sys.modules.items()
-            if name.startswith(f"{package}.")
-        }
-        loaded = _noted(modules)
-        for file, at in requests:
-            for name, module in modules.items():
-                vars(module)[_NOTED].clear()
-                if name != _SHELL:
-                    _forget_results(vars(module))
-            began = time.process_time()
-            scene = read_scene(file, at)
-            side = FmuSide(instance, scene)
-            for expect in scene.expect:
-                measure(expect, side)
-            cost = time.process_time() - began
-            found.append(Reach(loaded | _noted(modules), cost))
+    for ran in isolated_runs(noting, points, noted_while_measuring, time_limit):
+        if ran.error is not None:
+            raise ran.error
+        found.append(ran.result)
     return found
 
 
-def _noted(modules: Mapping[str, ModuleType]) -> frozenset[Place]:
-    return frozenset((name, line) for name, m in modules.items() for line in vars(m)[_NOTED])
+def noted_while_measuring(side: FmuSide) -> Reach:
+    """Measure what the scene expects, in the process of a noting FMU, and return its reach."""
+    modules = {
+        f"{name.rpartition('.')[2]}.py": vars(module)
+        for name, module in sys.modules.items()
+        if hasattr(module, _LOADING)
+    }
+    for name, module in modules.items():
+        module[_NOTED].clear()
+        if name != _SHELL:
+            _forget_results(module)
+    began = time.process_time()
+    measure_all(side)
+    cost = time.process_time() - began
+    places = ((n, line) for n, m in modules.items() for line in m[_NOTED] | m[_LOADING])
+    return Reach(frozenset(places), cost)
 
 
 def _forget_results(namespace: Mapping[str, object]) -> None:

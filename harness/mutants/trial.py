@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from harness.compare import Check, check
-from harness.errors import FmuError
-from harness.fmu_process import FmuProcess
+from harness.compare import Check, Measurement, check, measure_all
+from harness.isolated_runs import isolated_runs
 from harness.natural_scale import smallest_reference
 from harness.scene import Scene
 from harness.verdict import place, sentence
@@ -54,32 +54,23 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
 
     Where the FMU crashes, hangs or refuses, that is a rejection as well.
     """
-    try:
-        process = FmuProcess(fmu, time_limit)
-    except FmuError as error:
-        return Rejection("", "", str(error))
     nearest: Check | None = None
-    try:
-        for point in points:
-            try:
-                process.ask(point.file, point.at)
-                measured = process.answer()
-            except FmuError as error:
-                return Rejection(point.name, "", str(error))
-            for expect, measurement, wanted in zip(
-                point.scene.expect, measured, point.wanted, strict=True
-            ):
-                if measurement.value is None and wanted is None:
-                    continue
-                smallest = smallest_reference(expect.quantity, point.scene.device)
-                verdict = check(expect, measurement, wanted, point.scene.name, point.at, smallest)
+    runs = isolated_runs(fmu, points, measure_all, time_limit)
+    with closing(runs):
+        for ran in runs:
+            if ran.error is not None or ran.point is None:
+                return Rejection(ran.point.name if ran.point else "", "", str(ran.error))
+            for verdict in _checks(ran.point, ran.result):
                 if not verdict.passed:
-                    return Rejection(point.name, verdict.quantity, sentence(verdict))
+                    return Rejection(ran.point.name, verdict.quantity, sentence(verdict))
                 if nearest is None or verdict.severity > nearest.severity:
                     nearest = verdict
-        process.close()
-    except FmuError as error:
-        return Rejection("", "", str(error))
-    finally:
-        process.kill()
     return Passed(nearest)
+
+
+def _checks(point: Point, measured: Sequence[Measurement]) -> Iterator[Check]:
+    """Yield the verdicts on what exists in the FMU, or should."""
+    for expect, measurement, wanted in zip(point.scene.expect, measured, point.wanted, strict=True):
+        if measurement.value is not None or wanted is not None:
+            smallest = smallest_reference(expect.quantity, point.scene.device)
+            yield check(expect, measurement, wanted, point.scene.name, point.at, smallest)

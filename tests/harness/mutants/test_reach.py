@@ -4,6 +4,8 @@ from pathlib import Path
 
 from harness.mutants.archive import read_python_fmu
 from harness.mutants.reach import noting_source, reaches
+from harness.mutants.trial import Point
+from harness.scene import read_scene
 from tests.harness import faulty_fmus
 
 MODULE = '''"""A module."""
@@ -37,9 +39,13 @@ def test_a_scene_reaches_what_its_device_asks_for(python_fmu: Path, tmp_path: Pa
     sticking = faulty_fmus.scene(tmp_path, "sticking")
     text = sticking.read_text()
     sticking.write_text(text.replace("[run]", "[device]\nbase_amplitude = 0.0\n\n[run]"))
-    fmu = read_python_fmu(python_fmu)
-    requests = [(slipping, {}), (sticking, {}), (slipping, {"friction_law": 1.0})]
-    found = [{file for file, _ in reach.places} for reach in reaches(fmu, requests, 1)]
+    lugre = {"friction_law": 1.0}
+    points = [
+        Point(file, at, read_scene(file, at), ())
+        for file, at in ((slipping, {}), (sticking, {}), (slipping, lugre))
+    ]
+    reached = reaches(read_python_fmu(python_fmu), points, 60.0, jobs=1)
+    found = [{file for file, _ in reach.places} for reach in reached]
     assert "departure.py" in found[0]
     assert "departure.py" not in found[1]
     assert "stick.py" in found[1]
