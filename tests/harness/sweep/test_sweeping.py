@@ -23,6 +23,7 @@ from harness.sweep.sweeping import run_sweep
 
 DEADLINE = 120.0
 """Seconds after which a sweep of seconds counts as hanging."""
+KILLS = 20
 
 
 def test_one_and_two_workers_write_the_same_table(
@@ -104,31 +105,39 @@ def _children(process: subprocess.Popen[bytes]) -> list[int]:
     ]
 
 
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """Kill a sweep, and wait for its workers, which nobody told."""
+    workers = _children(process)
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait(DEADLINE)
+    until = time.monotonic() + 20.0
+    while any(Path(f"/proc/{worker}").exists() for worker in workers):
+        assert time.monotonic() < until, "workers end with the process that they worked for"
+        time.sleep(0.05)
+
+
 @pytest.mark.slow
-def test_a_sweep_killed_at_random_points_is_resumed_to_the_same_file(
-    wide_grid: Path, native_fmu: Path, tmp_path: Path
+def test_a_sweep_killed_20_times_at_random_is_resumed_to_the_same_file(
+    long_grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
     undisturbed, out = tmp_path / "undisturbed.parquet", tmp_path / "killed.parquet"
-    assert _start(wide_grid, native_fmu, undisturbed).wait(DEADLINE) == 0
-    generator = random.Random(1)
+    assert _start(long_grid, native_fmu, undisturbed).wait(DEADLINE) == 0
     kept = 0
-    for _ in range(4):
-        process = _start(wide_grid, native_fmu, out)
-        _wait_for_points(process, out, kept + generator.randrange(1, 200))
-        workers = _children(process)
-        os.kill(process.pid, signal.SIGKILL)
-        process.wait(DEADLINE)
+    for seed in range(KILLS):
+        process = _start(long_grid, native_fmu, out)
+        wanted = kept + random.Random(seed).randrange(150)
+        _wait_for_points(process, out, wanted)
+        assert process.poll() is None, f"seed {seed}: the sweep has come to its end before the kill"
+        _kill(process)
         before, kept = kept, journal_path(out).read_bytes().count(b"\n") - 1
-        assert kept > before, "what was finished stays"
-        until = time.monotonic() + 20.0
-        while any(Path(f"/proc/{worker}").exists() for worker in workers):
-            assert time.monotonic() < until, "workers end with the process that they worked for"
-            time.sleep(0.05)
+        print(f"seed {seed}: killed after {kept} points")
+        assert kept >= before, "what was finished stays"
     *lines, _cut_off = journal_path(out).read_bytes().split(b"\n")
     points = [line.partition(b",")[0] for line in lines[1:]]
     assert len(set(points)) == len(points), "no point is computed twice"
-    assert _start(wide_grid, native_fmu, out).wait(DEADLINE) == 0
+    assert _start(long_grid, native_fmu, out).wait(DEADLINE) == 0
     assert out.read_bytes() == undisturbed.read_bytes()
+    assert not journal_path(out).exists()
 
 
 @pytest.mark.slow
