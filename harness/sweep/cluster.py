@@ -12,6 +12,7 @@ from typing import Any
 
 from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlugin
 
+from fmu_src import __version__
 from harness.errors import HarnessError
 from harness.sweep.measures import Task
 from harness.sweep.running import Rows
@@ -21,16 +22,25 @@ CONNECT_SECONDS = 30
 
 
 class FmuPlugin(WorkerPlugin):
-    """Gives the FMU to every worker, also to one that joins later."""
+    """Gives the FMU to every worker, also to one that joins later.
+
+    Raises HarnessError on a worker with another version of this package: its rows could differ.
+    """
 
     def __init__(self, digest: str, file_name: str, content: bytes) -> None:
         self.name = f"slider-resonator-{digest}"
+        self.version = __version__
         self.digest = digest
         self.file_name = file_name
         self.content = content
 
     def setup(self, worker: Worker) -> None:
         """Write the FMU on the worker's machine, in the folder that goes with the worker."""
+        if __version__ != self.version:
+            raise HarnessError(
+                f"worker {worker.address} has slider-resonator {__version__}; allowed is "
+                f"{self.version}, as where the sweep was started"
+            )
         folder = tempfile.mkdtemp(prefix="fmu-", dir=worker.local_directory)
         fmu = Path(folder) / self.file_name
         fmu.write_bytes(self.content)

@@ -6,6 +6,7 @@ import os
 import signal
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from distributed import LocalCluster
@@ -56,6 +57,15 @@ def test_a_scheduler_that_is_not_there_is_named(
     for address in ("tcp://127.0.0.1:9", "no address"):
         with pytest.raises(HarnessError, match=f"--dask {address}: no scheduler answers"):
             run_sweep(read_grid(grid), native_fmu, tmp_path / "a.csv", workers=1, dask=address)
+
+
+def test_a_worker_of_another_version_refuses(native_fmu: Path, tmp_path: Path) -> None:
+    plugin = cluster.FmuPlugin("digest", native_fmu.name, native_fmu.read_bytes())
+    plugin.version = "0.0"
+    worker = SimpleNamespace(address="tcp://192.0.2.7:1", local_directory=str(tmp_path))
+    with pytest.raises(HarnessError, match=r"worker tcp://192\.0\.2\.7:1 has .*allowed is 0\.0"):
+        plugin.setup(worker)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_without_distributed_the_extra_is_named(

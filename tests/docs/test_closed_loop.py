@@ -1,0 +1,34 @@
+"""The code in the documentation, run as it stands there."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PAGE = Path(__file__).parents[2] / "docs" / "closed_loop.md"
+FMPY, LIBCOSIMPY = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        pytest.param(FMPY, id="fmpy"),
+        pytest.param(LIBCOSIMPY, id="libcosimpy", marks=pytest.mark.interop),
+    ],
+)
+def test_the_code_prints_what_is_written_below_it(
+    code: str, closed_loop_package: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "dist").mkdir()
+    shutil.copy(closed_loop_package, tmp_path / "dist")
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    (expected,) = re.findall(r"^# (.*)$", code, re.MULTILINE)
+    assert done.stdout.splitlines()[-1] == expected
