@@ -14,8 +14,9 @@ DIGITS = 9
 
 
 def title(check: Check) -> str:
-    """Return what is compared with what, at which point of a sweep."""
-    return f"{check.quantity} against {check.against}{place(check.at, ' at ')}"
+    """Return what is compared with what, in which tube and at which point of a sweep."""
+    tube = "" if check.tube is None else f" in a tube of {check.tube:g} periods"
+    return f"{check.quantity} against {check.against}{tube}{place(check.at, ' at ')}"
 
 
 def place(at: Mapping[str, float], before: str = "") -> str:

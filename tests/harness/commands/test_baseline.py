@@ -48,6 +48,12 @@ def baseline(recorded: Path, scenes: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(recorded, tmp_path / recorded.parent.name / recorded.name))
 
 
+@pytest.fixture
+def scene(baseline: Path, scenes: Path) -> Path:
+    """The copy of the first scene that belongs to that copy."""
+    return baseline.parents[1] / scenes.name / "one.toml"
+
+
 def content(folder: Path) -> dict[str, bytes]:
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*.csv")}
 
@@ -60,12 +66,11 @@ def test_both_builds_give_the_same_golden_results(python_fmu: Path, baseline: Pa
 
 
 def test_a_change_is_shown_kept_and_accepted(
-    native_fmu: Path, other_fmu: Path, baseline: Path, tmp_path: Path
+    native_fmu: Path, other_fmu: Path, baseline: Path, scene: Path, tmp_path: Path
 ) -> None:
     before = content(baseline)
     reports = [tmp_path / name for name in ("report.json", "report.xml", "report.html")]
     options = [*("--json", reports[0]), *("--junit", reports[1]), *("--html", reports[2])]
-    scene = baseline.parents[1] / "scenes0" / "one.toml"
     changed = call("check", other_fmu, baseline, "--scene", scene, *options)
     assert changed.exit_code == 1, changed.output
     assert "one: blocking_force" in changed.stdout
@@ -99,9 +104,8 @@ def test_a_tolerance_may_be_wider(other_fmu: Path, baseline: Path) -> None:
     assert call("check", other_fmu, baseline, "--tolerance", 0.1).exit_code == 0
 
 
-def test_nothing_is_replaced_unasked(native_fmu: Path, baseline: Path) -> None:
+def test_nothing_is_replaced_unasked(native_fmu: Path, baseline: Path, scene: Path) -> None:
     before = content(baseline)
-    scene = baseline.parents[1] / "scenes0" / "one.toml"
     refused = call("record", native_fmu, baseline, "--scene", scene)
     assert refused.exit_code == 2
     assert "recorded already: one" in refused.stderr
@@ -109,8 +113,9 @@ def test_nothing_is_replaced_unasked(native_fmu: Path, baseline: Path) -> None:
     assert content(baseline) == before, "the same FMU gives the same bytes"
 
 
-def test_an_edited_scene_must_be_recorded_anew(native_fmu: Path, baseline: Path) -> None:
-    scene = baseline.parents[1] / "scenes0" / "one.toml"
+def test_an_edited_scene_must_be_recorded_anew(
+    native_fmu: Path, baseline: Path, scene: Path
+) -> None:
     text = scene.read_text()
     scene.write_text(text.replace("the motion itself must agree", "it is what it was"))
     assert call("check", native_fmu, baseline).exit_code == 0, "it still runs the same"
