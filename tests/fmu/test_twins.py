@@ -139,7 +139,7 @@ def test_coulomb_devices(
     assert_equal(native, python, ROUNDING)
 
 
-# Over a weak vibration averages change so fast with the velocity that Python takes seconds for them.
+# Averages over a weak vibration change so fast with the velocity that Python takes seconds.
 strong = parameters.filter(lambda values: values["fidelity"] > 0 or values["base_amplitude"] > 1e-4)
 
 
