@@ -21,6 +21,7 @@ COMMANDS = (
     "baseline",
     "bench",
     "blocking",
+    "choose",
     "closed-loop",
     "crosscheck",
     "extremes",
@@ -120,6 +121,7 @@ def main() -> None:
       python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
       python -m harness steady my.fmu --set phase=0.4 --set load=0.05 --json
       python -m harness blocking my.fmu --json
+      python -m harness choose feed_forward --json
       python -m harness paper --out paper
       python -m harness extremes --out extremes
       python -m harness sweep grid.toml --out table.parquet

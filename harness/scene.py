@@ -17,7 +17,7 @@ from harness.interface import INPUTS
 from harness.names import unknown_name
 from harness.references.device import Device
 from harness.scene_errors import explanations
-from harness.scene_model import ExpectTable, InputTable, SceneTable, SweepTable
+from harness.scene_model import ExpectTable, InputTable, NeedTable, SceneTable, SweepTable
 from harness.schedule import Schedule, Signal, constant, ramp, schedule, step_count, steps
 
 
@@ -40,6 +40,7 @@ class Scene:
     step_size: float | None
     expect: tuple[ExpectTable, ...]
     sweep: SweepTable | None
+    need: NeedTable | None
     files: tuple[Path, ...]
 
     @property
@@ -160,6 +161,7 @@ def _scene(table: SceneTable, path: Path, overrides: Mapping[str, float]) -> Sce
         step_size=step_size,
         expect=table.expect,
         sweep=table.sweep,
+        need=table.need,
         files=(path, *(path.parent / read.csv for read in tables if read.csv is not None)),
     )
 

@@ -18,6 +18,11 @@ Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
 NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
 Point = tuple[Number, Number]
 
+STEADY_NEEDS = ("steady_velocity", "blocking_force")
+"""Needs that hold for ever under constant inputs."""
+RUN_NEEDS = ("mean_velocity", "position", "velocity", "event_times", "beat")
+"""Needs that are measured in a run."""
+
 
 class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -185,6 +190,59 @@ class SweepTable(_Table):
         return self
 
 
+class AllowedTable(_Table):
+    """How wrong a needed quantity may be: `abs + rel * size`, where either alone may be given.
+
+    `abs` is in the quantity's unit. The size is that of a number, the peak of a signal and the
+    drive period for the times of events.
+    """
+
+    abs: Positive | None = None
+    rel: Positive | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _a_table(cls, value: object) -> object:
+        if not isinstance(value, dict):
+            raise ValueError("allowed is a table with abs or rel, such as { rel = 0.01 }")
+        return value
+
+    @model_validator(mode="after")
+    def _some_tolerance(self) -> AllowedTable:
+        if self.abs is None and self.rel is None:
+            raise ValueError("needs a tolerance: abs, rel or both")
+        return self
+
+    def at(self, size: float) -> float:
+        """Return the allowed error for a quantity of this size, both in the quantity's unit."""
+        return (self.abs or 0.0) + (self.rel or 0.0) * abs(size)
+
+
+class NeedTable(_Table):
+    """What the scene needs to know and how well; `friction_law = "free"` allows either law."""
+
+    mean_velocity: AllowedTable | None = None
+    position: AllowedTable | None = None
+    velocity: AllowedTable | None = None
+    steady_velocity: AllowedTable | None = None
+    blocking_force: AllowedTable | None = None
+    event_times: AllowedTable | None = None
+    beat: AllowedTable | None = None
+    friction_law: Literal["given", "free"] = "given"
+
+    @model_validator(mode="after")
+    def _some_need(self) -> NeedTable:
+        if not self.needs:
+            raise ValueError(f"needs at least one of {', '.join((*STEADY_NEEDS, *RUN_NEEDS))}")
+        return self
+
+    @property
+    def needs(self) -> dict[str, AllowedTable]:
+        """The needed quantities by name."""
+        tables = {name: getattr(self, name) for name in (*STEADY_NEEDS, *RUN_NEEDS)}
+        return {name: table for name, table in tables.items() if table is not None}
+
+
 class SceneTable(_Table):
     """A whole scene file."""
 
@@ -196,6 +254,7 @@ class SceneTable(_Table):
     run: RunTable | None = None
     expect: tuple[ExpectTable, ...] = ()
     sweep: SweepTable | None = None
+    need: NeedTable | None = None
 
     @field_validator("device")
     @classmethod
@@ -214,6 +273,11 @@ class SceneTable(_Table):
                 raise ValueError(f"{expect.quantity} is measured in a run: [run] is missing")
             if not quantity.needs_run and not self._constant_inputs():
                 raise ValueError(f"{expect.quantity} needs constant inputs")
+        for need in self.need.needs if self.need else ():
+            if need in RUN_NEEDS and self.run is None:
+                raise ValueError(f"need.{need} is measured in a run: [run] is missing")
+            if need in STEADY_NEEDS and not self._constant_inputs():
+                raise ValueError(f"need.{need} needs constant inputs")
         return self
 
     def _constant_inputs(self) -> bool:

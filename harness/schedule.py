@@ -56,6 +56,19 @@ class Signal:
         share = (time - left) / (right - left)
         return self.values[index] + share * (self.values[index + 1] - self.values[index])
 
+    def over(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the values at ascending times (s), shape (n,), each as `at` gives it."""
+        points, values = np.asarray(self.times), np.asarray(self.values)
+        index = np.searchsorted(points, times, side="right") - 1
+        before = values[np.maximum(index, 0)]
+        if self.hold or len(points) == 1:
+            return before
+        left = np.clip(index, 0, len(points) - 2)
+        inside = np.clip(times, points[0], points[-1])
+        share = (inside - points[left]) / (points[left + 1] - points[left])
+        between = values[left] + share * (values[left + 1] - values[left])
+        return np.where((index < 0) | (index == len(points) - 1), before, between)
+
     @property
     def jumps(self) -> tuple[float, ...]:
         """Times (s) at which the value jumps."""
@@ -133,7 +146,7 @@ class Schedule:
     def sampled(self) -> NDArray[np.float64]:
         """Return phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
         signals = (self.phase, self.load, self.frequency_ratio)
-        return np.array([[s.at(float(t)) for s in signals] for t in self.times])
+        return np.column_stack([signal.over(self.times) for signal in signals])
 
     def refined(self, begin: float, step: float) -> Schedule:
         """Return the same held inputs with more points from `begin` (s) on.

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from math import pi
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -26,10 +27,16 @@ from harness.scene import Scene, find_scene, read_scene
 from harness.schedule import Schedule
 from harness.targets import PICTURE_SUFFIXES, distinct
 
+if TYPE_CHECKING:
+    from harness.choose import Choice
+
+CHOSEN = frozenset({"fidelity", "tolerance"})
+"""Parameters that --auto chooses."""
+
 
 @dataclass(frozen=True)
 class RunSummary:
-    """What was run and what it cost; times in s, velocities in m/s."""
+    """What was run and what it cost; times in s, velocities in m/s. `auto` is what --auto chose."""
 
     fmu: str
     scene: str
@@ -46,6 +53,7 @@ class RunSummary:
     microseconds_per_drive_period: float
     out: str | None
     plot: str | None
+    auto: Choice | None
 
 
 @click.command("run", cls=SettingsCommand)
@@ -57,30 +65,54 @@ class RunSummary:
     type=Target(PICTURE_SUFFIXES),
     help="PNG, SVG or PDF of the run, made from a second one with finer steps at the end.",
 )
+@click.option(
+    "--auto",
+    is_flag=True,
+    help="Run with the cheapest fidelity, tolerance and step that the scene's [need] allows, as "
+    "the command choose finds them.",
+)
 @set_option
 @json_option
+@click.pass_context
 def run_command(
+    context: click.Context,
     fmu: Path,
     scene: str,
     out: Path | None,
     plot: Path | None,
+    auto: bool,
     settings: dict[str, float],
     as_json: bool,
 ) -> None:
     """Run one scene, built in or from a file, and say what it cost.
 
     Of a scene with a sweep the unvaried device is run; --set varies it. Nothing is judged: leaves
-    with 0, or with 2 when it could not be run.
+    with 0, or with 2 when it could not be run; with --auto also with 1, and without a run, when no
+    model meets the scene's needs.
 
     \b
     Examples:
       python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
+      python -m harness run my.fmu feed_forward --auto
       python -m harness run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
     read = read_scene(find_scene(scene), settings)
     files = {f"the scene's file {file}": file for file in read.files}
     distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **files})
+    chosen_twice = sorted(CHOSEN & settings.keys()) if auto else []
+    if chosen_twice:
+        raise click.UsageError(f"--auto chooses {', '.join(chosen_twice)}; allowed is one of both")
+    choice = None
     with progress_bar() as progress, open_fmu(fmu) as opened, instantiate(opened) as instance:
+        if auto:
+            from harness.choose.choosing import choose_with  # here, for it loads scipy
+
+            read.schedule()
+            choice = choose_with(instance, read)
+            if not choice.meets:
+                click.echo(to_json(choice) if as_json else "\n".join(choice.sentences()))
+                context.exit(1)
+            read = choice.applied_to(read)
 
         def run_in(schedule: Schedule) -> Record:
             told = partial(progress, read.name)
@@ -94,12 +126,17 @@ def run_command(
             from harness.plot import plot_run, schedule_to_plot
 
             plot_run(run_in(schedule_to_plot(read)), read, plot)
-    summary = _summary(fmu, read, record, out, plot)
+    summary = _summary(fmu, read, record, out, plot, choice)
     click.echo(to_json(summary) if as_json else _sentences(summary, read))
 
 
 def _summary(
-    fmu: Path, scene: Scene, record: Record, out: Path | None, plot: Path | None
+    fmu: Path,
+    scene: Scene,
+    record: Record,
+    out: Path | None,
+    plot: Path | None,
+    choice: Choice | None,
 ) -> RunSummary:
     simulated = float(record.times[-1])
     periods = simulated * scene.device.drive_frequency / (2.0 * pi)
@@ -119,11 +156,13 @@ def _summary(
         microseconds_per_drive_period=1e6 * record.wall_time / periods,
         out=None if out is None else str(out),
         plot=None if plot is None else str(plot),
+        auto=choice,
     )
 
 
 def _sentences(summary: RunSummary, scene: Scene) -> str:
-    lines = [
+    lines = [] if summary.auto is None else summary.auto.sentences()
+    lines += [
         f"scene    {summary.scene}: {scene.title}",
         f"FMU      {summary.fmu}",
         f"run      {summary.simulated_time:.6g} s, {summary.drive_periods:.6g} drive periods in "

@@ -254,3 +254,43 @@ def test_a_sweep_varies_parameters_and_inputs(tmp_path: Path) -> None:
 def test_drive_periods_follow_the_drive_frequency_of_the_scene(tmp_path: Path) -> None:
     scene = read_scene(write(tmp_path, HEAD + "[device]\ndrive_frequency = 35000.0\n" + RUN))
     assert scene.stop_time == pytest.approx(10 * 2 * 3.141592653589793 / 35000)
+
+
+@pytest.mark.parametrize(
+    ("need", "parts"),
+    [
+        ("", ["need: needs at least one of", "steady_velocity", "event_times"]),
+        ("friction_law = 'free'", ["need: needs at least one of"]),
+        ("positon = { rel = 0.1 }", ["need.positon", "did you mean 'position'?"]),
+        ("position = {}", ["need.position", "needs a tolerance: abs, rel or both"]),
+        ("position = 0.1", ["need.position = 0.1", "such as { rel = 0.01 }"]),
+        ("position = { rel = 0.0 }", ["need.position.rel = 0.0", "allowed is a number above 0"]),
+        ("position = { abs = -1e-6 }", ["need.position.abs = -1e-06", "a number above 0"]),
+        ("position = { rel = nan }", ["need.position.rel = nan", "a finite number"]),
+        ("position = { relative = 0.1 }", ["need.position.relative", "did you mean 'rel'?"]),
+        ("position = { rel = 0.1 }\nfriction_law = 'any'", ["need.friction_law = 'any'", "'free'"]),
+    ],
+)
+def test_a_need_that_cannot_be_judged_is_refused(
+    tmp_path: Path, need: str, parts: list[str]
+) -> None:
+    message = refusal(tmp_path, HEAD + RUN + f"[need]\n{need}\n")
+    for part in parts:
+        assert part in message, f"{part!r} is missing in: {message}"
+
+
+def test_needs_are_measured_in_a_run_or_under_constant_inputs(tmp_path: Path) -> None:
+    said = refusal(tmp_path, HEAD + "[need]\nbeat = { rel = 0.1 }\n")
+    assert "need.beat is measured in a run: [run] is missing" in said
+    inputs = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
+    said = refusal(tmp_path, HEAD + inputs + "[need]\nblocking_force = { rel = 0.1 }\n")
+    assert "need.blocking_force needs constant inputs" in said
+
+
+def test_an_allowed_error_has_an_absolute_and_a_relative_part(tmp_path: Path) -> None:
+    text = HEAD + RUN + "[need]\nposition = { abs = 1e-6, rel = 0.1 }\nvelocity = { abs = 2.0 }\n"
+    scene = read_scene(write(tmp_path, text))
+    assert scene.need is not None
+    assert scene.need.friction_law == "given"
+    assert scene.need.needs["position"].at(-2.0) == 0.2 + 1e-6
+    assert scene.need.needs["velocity"].at(5.0) == 2.0

@@ -30,6 +30,20 @@ def test_ramp_is_a_polyline_without_jumps() -> None:
     assert signal.jumps == ()
 
 
+@given(
+    st.lists(st.tuples(st.floats(0, 10), st.floats(-1e3, 1e3)), min_size=1, max_size=6),
+    st.lists(st.floats(-1, 12), min_size=1, max_size=20),
+    st.booleans(),
+)
+def test_many_values_are_those_of_each_time_to_the_last_digit(
+    points: list[tuple[float, float]], times: list[float], hold: bool
+) -> None:
+    ascending = sorted(dict(points).items())
+    signal = steps(ascending) if hold else ramp(ascending)
+    asked = np.array(sorted([*times, *signal.times]))
+    assert signal.over(asked).tolist() == [signal.at(time) for time in asked.tolist()]
+
+
 @pytest.mark.parametrize(
     ("times", "values", "said"),
     [

@@ -1,0 +1,46 @@
+"""The coarsest of a row of ever finer choices that is good enough, by the law of its error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import ceil, floor, isfinite, log
+
+STALLED = 0.7
+"""A finer choice that leaves more than this share of the error shows that another error is left."""
+
+
+def coarsest(excess: Callable[[int], float], count: int, gain: float, first: int = 0) -> int | None:
+    """Return the smallest index below `count` with `excess(index)` <= 1, None where none has.
+
+    `excess` is error over allowed error, supposed to fall by `gain` from each index to the next:
+    that says where to look, and what is found there decides. Begins at `first`; gives up where
+    the error does not fall at all.
+    """
+    known: dict[int, float] = {}
+    index = first
+    while True:
+        known[index] = excess(index)
+        good = min((i for i, value in known.items() if value <= 1.0), default=count)
+        bad = max((i for i, value in known.items() if value > 1.0 and i < good), default=-1)
+        if good == bad + 1:
+            return good if good < count else None
+        if good == count and _stalled(known, gain):
+            return None
+        shift = _shift(known[index], gain, count)
+        index = min(max(index + shift, bad + 1), good - 1)
+
+
+def _shift(excess: float, gain: float, count: int) -> int:
+    if not isfinite(excess):
+        return max(1, count // 3)
+    if excess <= 1.0:
+        return -max(1, floor(-log(max(excess, 1e-300)) / log(gain)))
+    return max(1, ceil(log(excess) / log(gain)))
+
+
+def _stalled(known: dict[int, float], gain: float) -> bool:
+    """Whether the last two indices that were tried show an error that no longer falls."""
+    if len(known) < 2:
+        return False
+    (_, before), (_, last) = sorted(known.items())[-2:]
+    return isfinite(last) and last > STALLED * before

@@ -1,0 +1,85 @@
+"""`choose`: the cheapest model that a scene's needs allow, proved by a short probe."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from harness.choose import Choice, choose
+from harness.choose.candidate import Model
+from harness.commands.options import SettingsCommand, default_fmu, json_option, set_option
+from harness.console import output
+from harness.json_output import to_json
+from harness.scene import find_scene, read_scene
+
+UNITS = {
+    "mean_velocity": "m/s",
+    "position": "m",
+    "velocity": "m/s",
+    "steady_velocity": "m/s",
+    "blocking_force": "N",
+    "event_times": "s",
+    "beat": "Hz",
+}
+
+
+@click.command("choose", cls=SettingsCommand)
+@click.argument("scene")
+@click.option(
+    "--fmu",
+    type=click.Path(path_type=Path),
+    help="FMU to try it in; by default the native one in dist.",
+)
+@set_option
+@json_option
+@click.pass_context
+def choose_command(
+    context: click.Context,
+    scene: str,
+    fmu: Path | None,
+    settings: dict[str, float],
+    as_json: bool,
+) -> None:
+    """Choose fidelity, friction law, tolerance and communication step for what a scene needs.
+
+    The scene, built in or from a file, says it in [need]: any of mean_velocity, position, velocity,
+    steady_velocity, blocking_force, event_times and beat, each with abs or rel, and friction_law =
+    "free" where either law will do. Laws of the errors say where to look, and a short resolved run
+    in the FMU confirms the answer. Leaves with 0 when something suffices, with 1 when nothing does:
+    then what comes nearest is told.
+
+    \b
+    Examples:
+      python -m harness choose feed_forward
+      python -m harness choose scenes/mine.toml --json
+      python -m harness choose feed_forward --set friction_law=1 bristle_stiffness=1e6
+    """
+    read = read_scene(find_scene(scene), settings)
+    choice = choose(read, default_fmu(fmu))
+    if as_json:
+        click.echo(to_json(choice))
+    else:
+        _show(choice, output())
+    context.exit(0 if choice.meets else 1)
+
+
+def _show(choice: Choice, console: Console) -> None:
+    for line in choice.sentences():
+        console.print(line, soft_wrap=True)
+    needs = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for column in ("need", "predicted error", "allowed", "unit"):
+        needs.add_column(column)
+    for name, error in choice.error.items():
+        needs.add_row(name, f"{error:.3g}", f"{choice.allowed[name]:.3g}", UNITS[name])
+    console.print(needs)
+    if choice.ruled_out:
+        others = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+        for column in ("ruled out", "why"):
+            others.add_column(column)
+        for model in choice.ruled_out:
+            others.add_row(Model(model.fidelity, model.friction_law).name, model.why)
+        console.print(others)

@@ -1,0 +1,111 @@
+"""What `choose` and `run --auto` print and leave with."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from harness.cli import main
+
+SCENE = """
+name = "mine"
+title = "Mine"
+[run]
+drive_periods = 200
+steps_per_period = 2
+[need]
+"""
+LOOSE = "mean_velocity = { rel = 0.05 }"
+IMPOSSIBLE = "position = { rel = 1e-16 }"
+
+
+def written(folder: Path, need: str) -> Path:
+    path = folder / "mine.toml"
+    path.write_text(f"{SCENE}{need}\n")
+    return path
+
+
+def call(*arguments: object) -> Result:
+    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+def test_json_holds_the_answer(native_fmu: Path, tmp_path: Path) -> None:
+    scene = written(tmp_path, LOOSE)
+    result = call("choose", scene, "--fmu", native_fmu, "--json")
+    assert result.exit_code == 0
+    answer = json.loads(result.stdout)
+    keys = {"fidelity", "friction_law", "step", "tolerance", "meets", "error", "cost", "ruled_out"}
+    assert keys <= answer.keys()
+    assert (answer["fidelity"], answer["meets"]) == (0, True)
+    assert 0.0 < answer["error"]["mean_velocity"] < answer["allowed"]["mean_velocity"]
+    assert [other["fidelity"] for other in answer["ruled_out"]] == [1, 2]
+    assert all(other["why"] for other in answer["ruled_out"])
+
+
+def test_sentences_say_what_was_chosen_and_why_not_the_others(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    result = call("choose", written(tmp_path, LOOSE), "--fmu", native_fmu)
+    assert "chosen   fidelity 0, Coulomb friction" in result.stdout
+    assert "fidelity 2, Coulomb friction" in result.stdout
+    assert "m/s" in result.stdout
+
+
+def test_nothing_that_suffices_is_a_failure(native_fmu: Path, tmp_path: Path) -> None:
+    result = call("choose", written(tmp_path, IMPOSSIBLE), "--fmu", native_fmu)
+    assert result.exit_code == 1
+    assert "nearest  fidelity 2" in result.stdout
+    assert "none suffices: position is off by" in result.stdout
+
+
+def test_a_setting_changes_the_scene(native_fmu: Path, tmp_path: Path) -> None:
+    scene = written(tmp_path, "position = { rel = 1e-5 }")
+    law = ("--set", "friction_law=1", "bristle_stiffness=1e4")
+    answer = json.loads(call("choose", scene, "--fmu", native_fmu, "--json", *law).stdout)
+    assert (answer["friction_law"], answer["fidelity"]) == (1, 2)
+    assert answer["tolerance"] < 1e-3
+
+
+def test_a_scene_without_needs_cannot_be_chosen_for(native_fmu: Path) -> None:
+    result = call("choose", "lift_off", "--fmu", native_fmu)
+    assert result.exit_code == 2
+    assert "has no [need]" in result.stderr
+
+
+def test_the_built_in_example_needs_averaged_motion_only(native_fmu: Path) -> None:
+    answer = json.loads(call("choose", "feed_forward", "--fmu", native_fmu, "--json").stdout)
+    assert (answer["meets"], answer["fidelity"]) == (True, 0)
+
+
+def test_a_run_takes_what_is_chosen_and_says_so(native_fmu: Path, tmp_path: Path) -> None:
+    scene = written(tmp_path, LOOSE)
+    result = call("run", native_fmu, scene, "--auto", "--json")
+    assert result.exit_code == 0
+    summary = json.loads(result.stdout)
+    assert summary["auto"]["fidelity"] == 0
+    assert (summary["communication_steps"], summary["reversals"]) == (1, 0)
+    plain = json.loads(call("run", native_fmu, scene, "--json").stdout)
+    assert plain["auto"] is None
+    assert plain["communication_steps"] == 400
+    allowed = summary["auto"]["allowed"]["mean_velocity"]
+    assert abs(summary["mean_velocity"] - plain["mean_velocity"]) < allowed
+    assert "chosen   fidelity 0" in call("run", native_fmu, scene, "--auto").stdout
+
+
+def test_nothing_is_run_where_nothing_suffices(native_fmu: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run.csv"
+    result = call("run", native_fmu, written(tmp_path, IMPOSSIBLE), "--auto", "--out", out)
+    assert result.exit_code == 1
+    assert "none suffices" in result.stdout
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("setting", ["fidelity=1", "tolerance=1e-6"])
+def test_what_is_chosen_cannot_be_set_too(native_fmu: Path, tmp_path: Path, setting: str) -> None:
+    scene = written(tmp_path, LOOSE)
+    result = call("run", native_fmu, scene, "--auto", "--set", setting)
+    assert result.exit_code == 2
+    assert f"--auto chooses {setting.partition('=')[0]}" in result.stderr
