@@ -1,4 +1,4 @@
-"""`scenes`: what is built in."""
+"""`scenes`: what is built in, and what scenes can be made of."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ from rich.table import Table
 from harness.commands.options import json_option
 from harness.console import output
 from harness.json_output import to_json
+from harness.quantities import QUANTITIES
 from harness.scene import built_in_scenes, read_scene
 
 
 @click.command("scenes")
+@click.option("--quantities", is_flag=True, help="List what a scene can expect something of.")
 @json_option
-def scenes_command(as_json: bool) -> None:
-    """List the built-in scenes.
+def scenes_command(quantities: bool, as_json: bool) -> None:
+    """List the built-in scenes, or the quantities and references for scenes of your own.
 
     The command run takes those that have a length, in simulated seconds; validate takes all.
 
@@ -23,7 +25,39 @@ def scenes_command(as_json: bool) -> None:
     Examples:
       python -m harness scenes
       python -m harness scenes --json
+      python -m harness scenes --quantities
     """
+    if quantities:
+        _list_quantities(as_json)
+    else:
+        _list_scenes(as_json)
+
+
+def _list_quantities(as_json: bool) -> None:
+    rows = [
+        {
+            "name": name,
+            "kind": quantity.kind,
+            "unit": quantity.unit,
+            "meaning": quantity.meaning,
+            "references": list(quantity.references),
+            "needs_run": quantity.needs_run,
+        }
+        for name, quantity in QUANTITIES.items()
+    ]
+    if as_json:
+        click.echo(to_json(rows))
+        return
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for column in ("quantity", "kind", "unit", "meaning", "references"):
+        table.add_column(column, overflow="fold")
+    for name, quantity in QUANTITIES.items():
+        references = ", ".join(quantity.references) or "-"
+        table.add_row(name, quantity.kind, quantity.unit, quantity.meaning, references)
+    output().print(table)
+
+
+def _list_scenes(as_json: bool) -> None:
     scenes = [read_scene(path) for path in built_in_scenes().values()]
     if as_json:
         rows = [

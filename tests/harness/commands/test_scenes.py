@@ -5,6 +5,7 @@ import json
 from click.testing import CliRunner
 
 from harness.cli import main
+from harness.quantities import QUANTITIES
 
 
 def test_the_list_says_which_scenes_can_be_run() -> None:
@@ -17,3 +18,13 @@ def test_the_list_says_which_scenes_can_be_run() -> None:
     assert "0.1 s" in row
     (row,) = [line for line in lines if line.split()[:1] == ["load_speed"]]
     assert " - " in row, "it has no run"
+
+
+def test_what_scenes_can_expect_is_listed() -> None:
+    listed = json.loads(CliRunner().invoke(main, ["scenes", "--quantities", "--json"]).stdout)
+    assert [row["name"] for row in listed] == list(QUANTITIES)
+    (events,) = [row for row in listed if row["name"] == "event_times"]
+    assert events["references"] == ["located_events", "taylor"]
+    assert events["unit"] == "drive periods"
+    text = CliRunner().invoke(main, ["scenes", "--quantities"]).stdout
+    assert "mean velocity of the steady" in text
