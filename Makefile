@@ -4,6 +4,8 @@ PYTHON ?= python3
 VENV := .venv
 PY := $(VENV)/bin/python
 READY := $(VENV)/.ready
+READY_WITH_HOSTS := $(VENV)/.ready_with_hosts
+INSTALL := $(PY) -m pip install --quiet --disable-pip-version-check --editable
 
 .DEFAULT_GOAL := help
 .PHONY: help setup build validate test lint bench ci hosts interop clean
@@ -13,14 +15,20 @@ help: ## print this list
 
 setup: $(READY) ## create .venv and install everything into it (PYTHON=python3.12 picks another interpreter)
 
-$(READY): pyproject.toml
+$(PY):
 	@command -v $(PYTHON) >/dev/null || { \
 	  echo "make: no '$(PYTHON)' here; install Python 3.11 or newer, or name one: make $(MAKECMDGOALS) PYTHON=python3.12" >&2; exit 2; }
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
 	  echo "make: Python 3.11 or newer is needed, but $(PYTHON) is $$($(PYTHON) -V 2>&1); name a newer one: make $(MAKECMDGOALS) PYTHON=python3.12" >&2; exit 2; }
-	@test -x $(PY) || $(PYTHON) -m venv $(VENV)
-	$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@$(PYTHON) -m venv $(VENV)
+
+$(READY): pyproject.toml | $(PY)
+	$(INSTALL) '.[dev]'
 	@touch $@
+
+$(READY_WITH_HOSTS): pyproject.toml | $(PY)
+	$(INSTALL) '.[dev,hosts]'
+	@touch $(READY) $@
 
 build: $(READY) ## build both FMUs into dist
 	$(PY) build_fmu.py
@@ -31,12 +39,11 @@ validate: build ## build both FMUs, run every built-in scene and compare them wi
 test: lint ## lint, check types, run the tests that take seconds
 	$(PY) -m pytest -n 2 --dist loadfile
 
-ci: test ## make test, then the slow tests
-	$(PY) -m pytest -n 2 --dist worksteal -m slow
+ci: lint ## lint, check types, run the quick and the slow tests
+	$(PY) -m pytest -n 2 --dist worksteal -m "not interop"
 
-hosts: $(READY) .venv-hosts/.ready ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
+hosts: $(READY_WITH_HOSTS) .venv-hosts/.ready ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
 	.ci/install-tools.sh
-	$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[dev,hosts]'
 
 .venv-hosts/.ready:
 	@test -x .venv-hosts/bin/python || $(PYTHON) -m venv .venv-hosts
@@ -44,7 +51,7 @@ hosts: $(READY) .venv-hosts/.ready ## install the simulators that the FMUs are t
 	@touch $@
 
 interop: hosts ## run table 1 in all of them
-	$(PY) -m pytest -m interop
+	$(PY) -m pytest -n 2 --dist loadfile -m interop
 
 lint: $(READY) ## check style, formatting and types
 	$(PY) -m ruff check .
