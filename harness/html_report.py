@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
-from harness.atomic import replacing
 from harness.compare import Check, Value
 from harness.deviation_plot import deviation_png
+from harness.html_page import write_page
 from harness.quantities import QUANTITIES
 from harness.readable import readable
 from harness.validate import Curves, Validation, worst_of_sweeps
@@ -16,18 +16,6 @@ from harness.verdict import TITLE, place, sentence, title
 
 MOST_PICTURES = 40
 """Pictures for each FMU, of the worst point of a sweep only: a hopeless FMU fails everywhere."""
-
-_STYLE = """
-body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
-  color: #222 }
-table { border-collapse: collapse; width: 100%; font-size: 13px;
-  font-variant-numeric: tabular-nums }
-th, td { text-align: left; padding: .2rem .6rem; border-bottom: 1px solid #ddd }
-td.n { text-align: right; white-space: nowrap }
-.pass { color: #1a7f37 } .fail { color: #b3261e; font-weight: 600 }
-.wide { overflow-x: auto } img { max-width: 100% } summary { cursor: pointer; margin: 1rem 0 }
-.why { color: #666 }
-"""
 
 
 def write_html(
@@ -37,18 +25,9 @@ def write_html(
 
     Raises HarnessError when the file cannot be written.
     """
-    parts = [
-        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
-        '<meta name="viewport" content="width=device-width">',
-        f"<title>{escape(title)}</title><style>{_STYLE}</style></head><body>",
-        f"<h1>{escape(title)}</h1>",
-    ]
-    if error:
-        parts.append(f'<p class="fail">Could not run: {escape(error)}</p>')
+    parts = [f'<p class="fail">Could not run: {escape(error)}</p>'] if error else []
     parts += [part for validation in validations for part in _section(validation)]
-    parts.append("</body></html>")
-    with replacing(path) as temporary:
-        temporary.write_text("\n".join(parts) + "\n", encoding="utf-8", errors="replace")
+    write_page(path, title, parts)
 
 
 def _section(validation: Validation) -> list[str]:

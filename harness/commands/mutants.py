@@ -14,7 +14,7 @@ from harness.mutants.archive import read_python_fmu
 from harness.mutants.enumerate_fmu import fmu_mutants, sample
 from harness.mutants.listing import mutant_as_plain, print_mutants, print_run, run_as_plain
 from harness.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
-from harness.mutants.page import write_page
+from harness.mutants.page import write_mutants
 from harness.scene import built_in_scenes, scene_files
 from harness.sweep.local import available_cores
 from harness.targets import distinct
@@ -123,7 +123,7 @@ def mutants_command(
             progress=progress,
         )
     if html is not None:
-        write_page(html, run)
+        write_mutants(html, run)
     if as_json:
         click.echo(to_json(run_as_plain(run)))
     else:

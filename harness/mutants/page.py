@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
-from harness.atomic import replacing
+from harness.html_page import write_page
 from harness.mutants.listing import summary
 from harness.mutants.verdict import (
     EQUIVALENT,
@@ -17,27 +17,13 @@ from harness.mutants.verdict import (
     Verdict,
 )
 
-_STYLE = """
-body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
-  color: #222 }
-table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums;
-  margin: 1rem 0 }
-th, td { text-align: left; padding: .2rem .6rem; border-bottom: 1px solid #ddd }
-td.n { text-align: right } summary { cursor: pointer; margin: .4rem 0 }
-pre { background: #f6f6f6; padding: .6rem; overflow-x: auto; font-size: 12px }
-.added { color: #1a7f37 } .gone { color: #b3261e } .why { color: #666 }
-"""
 
-
-def write_page(path: Path, run: MutationRun) -> None:
+def write_mutants(path: Path, run: MutationRun) -> None:
     """Write tables, and every mutant that was not rejected with its diff and the reason.
 
     Raises HarnessError when the file cannot be written.
     """
     parts = [
-        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
-        '<meta name="viewport" content="width=device-width">',
-        f"<title>Mutants</title><style>{_STYLE}</style></head><body><h1>Mutants</h1>",
         f"<p>{escape(summary(run))}</p>",
         _legend(run),
         _tally("kind", run),
@@ -47,10 +33,8 @@ def write_page(path: Path, run: MutationRun) -> None:
         *(_mutant(verdict, opened=True) for verdict in run.having(SURVIVED)),
         *_group("Equivalent within the allowed deviation", run.having(EQUIVALENT)),
         *_group("Not reached", run.having(NOT_REACHED)),
-        "</body></html>",
     ]
-    with replacing(path) as temporary:
-        temporary.write_text("\n".join(parts) + "\n", encoding="utf-8")
+    write_page(path, "Mutants", parts)
 
 
 def _legend(run: MutationRun) -> str:
@@ -95,5 +79,5 @@ def _mutant(verdict: Verdict, *, opened: bool = False) -> str:
 
 
 def _line(text: str) -> str:
-    colour = {"+": "added", "-": "gone"}.get(text[:1])
+    colour = {"+": "pass", "-": "fail"}.get(text[:1])
     return f'<span class="{colour}">{escape(text)}</span>' if colour else escape(text)

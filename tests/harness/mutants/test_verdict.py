@@ -7,7 +7,7 @@ import pytest
 from harness.json_output import to_json
 from harness.mutants.enumerate_source import source_mutants
 from harness.mutants.listing import run_as_plain, summary
-from harness.mutants.page import write_page
+from harness.mutants.page import write_mutants
 from harness.mutants.verdict import (
     EQUIVALENT,
     NOT_REACHED,
@@ -53,10 +53,10 @@ def test_plain_data_can_be_written_as_json(run: MutationRun) -> None:
 def test_the_page_shows_each_survivor_with_diff_and_reason(
     run: MutationRun, tmp_path: Path
 ) -> None:
-    write_page(tmp_path / "page.html", run)
+    write_mutants(tmp_path / "page.html", run)
     page = (tmp_path / "page.html").read_text()
     (survivor,) = run.having(SURVIVED)
     assert f"<details open><summary>{survivor.mutant.name}".replace("> b", "&gt; b") in page
     assert page.count("because") == 3, "rejected ones are counted, not listed"
-    assert 'class="added">+    return' in page
+    assert 'class="pass">+    return' in page
     assert "http" not in page, "the page needs nothing beside it"
