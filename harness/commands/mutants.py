@@ -13,6 +13,7 @@ from harness.json_output import to_json
 from harness.mutants.archive import read_python_fmu
 from harness.mutants.enumerate_fmu import fmu_mutants, sample
 from harness.mutants.listing import mutant_as_plain, print_mutants, print_run, run_as_plain
+from harness.mutants.mutant import KINDS
 from harness.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
 from harness.mutants.page import write_mutants
 from harness.scene import built_in_scenes, scene_files
@@ -36,6 +37,13 @@ WANTED_RATE = 0.95
     metavar="MODULE",
     help="Only mutants of this file, such as coulomb.py or modelDescription.xml; may be given "
     "several times.",
+)
+@click.option(
+    "--kind",
+    "kinds",
+    multiple=True,
+    type=click.Choice(list(KINDS)),
+    help="Only mutants of this kind; may be given several times.",
 )
 @click.option(
     "--scene",
@@ -71,6 +79,7 @@ def mutants_command(
     count: int | None,
     seed: int,
     files: tuple[str, ...],
+    kinds: tuple[str, ...],
     scenes: tuple[str, ...],
     probes: int,
     jobs: int | None,
@@ -94,15 +103,17 @@ def mutants_command(
     Examples:
       python -m harness mutants --list --file coulomb.py
       python -m harness mutants --sample 200 --seed 1 --html mutants.html
-      python -m harness mutants --file modelDescription.xml --json > mutants.json
+      python -m harness mutants --kind event --kind input --kind parameter --kind unit
+      python -m harness mutants --file coulomb.py --json > mutants.json
     """
     path = fmu or _python_fmu()
     distinct({"--html": html}, {f"the FMU {path}": path})
     original = read_python_fmu(path)
-    made = fmu_mutants(original, files)
+    made = [m for m in fmu_mutants(original, files) if not kinds or m.kind in kinds]
     chosen = made if count is None else sample(made, count, seed)
     if not chosen:
-        raise HarnessError(f"{path}: {', '.join(files)} has nothing to change")
+        asked = ", ".join([*files, *kinds])
+        raise HarnessError(f"{path}: nothing to change: no mutant is of {asked}")
     if only_list:
         if as_json:
             click.echo(to_json({"mutants": [mutant_as_plain(mutant) for mutant in chosen]}))
