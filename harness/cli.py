@@ -33,6 +33,7 @@ COMMANDS = (
     "scenes",
     "steady",
     "sweep",
+    "trade",
     "validate",
 )
 """Each is `<name>_command` in `harness.commands.<name>`, with _ for -. It is loaded when it is
@@ -125,6 +126,7 @@ def main() -> None:
       python -m harness paper --out paper
       python -m harness extremes --out extremes
       python -m harness sweep grid.toml --out table.parquet
+      python -m harness trade table_1 --out trade
       python -m harness closed-loop --out closed_loop
       python -m harness crosscheck --out crosscheck
       python -m harness mutants --sample 200

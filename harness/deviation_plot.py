@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import base64
-import io
-
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from harness.plot_style import COLOURS, style
+from harness.plot_style import COLOURS, png_data_uri, style
 from harness.validate import Curves
 
 NEAR = "around the first deviation"
@@ -38,10 +34,7 @@ def deviation_png(curves: Curves) -> str:
         axes[0][0].set(ylabel=f"{curves.check.quantity} [{curves.check.unit}]")
         axes[1][0].set(ylabel="FMU - reference")
         axes[0][0].legend()
-        FigureCanvasAgg(figure)
-        buffer = io.BytesIO()
-        figure.savefig(buffer, format="png", dpi=100)
-    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
+        return png_data_uri(figure)
 
 
 def _draw(above: Axes, below: Axes, curves: Curves, part: slice, *, joined: bool) -> None:

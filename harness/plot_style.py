@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import io
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -64,6 +66,14 @@ def save(figure: Figure, path: Path, dots_per_inch: int = 150) -> None:
     """Write a figure without needing a display; the suffix of `path` chooses the format."""
     FigureCanvasAgg(figure)
     figure.savefig(path, dpi=dots_per_inch)
+
+
+def png_data_uri(figure: Figure, dots_per_inch: int = 100) -> str:
+    """Return a figure as a PNG that a page of HTML holds within itself."""
+    FigureCanvasAgg(figure)
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=dots_per_inch)
+    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
 
 
 def shade_directions(axes: Axes, abscissa: Array, modes: Array) -> list[Patch]:

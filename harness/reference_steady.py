@@ -6,7 +6,7 @@ one that integrates the bristle as a state.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import ceil, pi
 from typing import Any
@@ -29,34 +29,61 @@ TOLERANCE = 1e-9
 thousand periods that the slow velocity remembers."""
 
 
+Simulate = Callable[[Device, Sequence[HeldInputs], Vector], Trajectory]
+"""A reference: device, held inputs and times (n,) to its motion."""
+
+
+def simulator(device: Device) -> Simulate:
+    """Return the reference for the friction law of a device."""
+    return lugre_scipy.simulate_lugre if device.friction_law == 1 else located_events.simulate
+
+
 def reference_steady_velocity(
-    device: Device, phase: float, load: float, ratio: float, guess: float = 0.0
+    device: Device,
+    phase: float,
+    load: float,
+    ratio: float,
+    guess: float = 0.0,
+    *,
+    simulate: Simulate | None = None,
+    tolerance: float = TOLERANCE,
 ) -> float | None:
     """Return the mean velocity (m/s) of the steady motion, None where none is found.
 
-    `phase` in rad, `load` in N; `guess` (m/s) is where the search begins.
+    `phase` in rad, `load` in N; `guess` (m/s) is where the search begins. `simulate` is any
+    reference instead of that for the friction law, `tolerance` the accuracy wanted of the state in
+    units of its scale.
     """
     count = common_period(ratio)
     if count is None:
         return None
-    period_map = _ReferencePeriodMap(device, phase, ratio, count)
-    found = steady_point(period_map, guess, load, tolerance=TOLERANCE)
+    period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate or simulator(device))
+    found = steady_point(period_map, guess, load, tolerance=tolerance)
     return found.displacement / period_map.period if isinstance(found, FixedPoint) else None
 
 
 def reference_blocking_force(
-    device: Device, phase: float, ratio: float, guess: float = 0.0
+    device: Device,
+    phase: float,
+    ratio: float,
+    guess: float = 0.0,
+    *,
+    simulate: Simulate | None = None,
+    tolerance: float = TOLERANCE,
 ) -> float | None:
-    """Return the load (N) that makes the mean velocity zero, None where none is found."""
+    """Return the load (N) that makes the mean velocity zero, None where none is found.
+
+    The arguments are those of `reference_steady_velocity`.
+    """
     count = common_period(ratio)
     if count is None:
         return None
-    period_map = _ReferencePeriodMap(device, phase, ratio, count)
+    period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate or simulator(device))
     # Without preload the load varies alone and friction is of the order of its amplitude.
     normal = device.normal_preload + device.normal_amplitude
     friction = device.friction_faces * device.friction_coefficient * normal
     warm = period_map.warm_up(0.0, guess)
-    found = blocked_point(period_map, warm, guess, friction, tolerance=TOLERANCE)
+    found = blocked_point(period_map, warm, guess, friction, tolerance=tolerance)
     return found.load if isinstance(found, FixedPoint) else None
 
 
@@ -67,7 +94,10 @@ class _ReferencePeriodMap:
     force is given, and no bristle with Coulomb friction.
     """
 
-    def __init__(self, device: Device, phase: float, ratio: float, count: int) -> None:
+    def __init__(
+        self, device: Device, phase: float, ratio: float, count: int, simulate: Simulate
+    ) -> None:
+        self.simulate = simulate
         self.device = device
         self.phase = phase
         self.ratio = ratio
@@ -111,8 +141,5 @@ class _ReferencePeriodMap:
         initial |= {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
         device = replace(self.device, **initial)
         held = [HeldInputs(0.0, float(times[-1]), self.phase, load, self.ratio)]
-        simulate: Callable[..., Trajectory] = (
-            lugre_scipy.simulate_lugre if device.friction_law == 1 else located_events.simulate
-        )
-        run = simulate(device, held, times)
+        run = self.simulate(device, held, times)
         return np.column_stack([getattr(run, name) for name in self.names]), run.position

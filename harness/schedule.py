@@ -156,9 +156,21 @@ class Schedule:
         """
         begin, stop = max(0.0, begin), float(self.times[-1])
         fine = np.linspace(begin, stop, step_count(stop - begin, step) + 1)
-        times = _giving_way(fine, self.times, 0.01 * step)
-        points = [list(zip(self.times.tolist(), v, strict=True)) for v in self.sampled().T.tolist()]
-        return Schedule(times, *map(steps, points))
+        return self.read_at(fine, 0.01 * step)
+
+    def read_at(self, times: NDArray[np.float64], distance: float) -> Schedule:
+        """Return the same held inputs with more points, at `times` (s), shape (m,).
+
+        Those within `distance` (s) of a point of this schedule are left out.
+        """
+        merged = _giving_way(times, self.times, distance)
+        return Schedule(merged, *map(self._as_held, (self.phase, self.load, self.frequency_ratio)))
+
+    def _as_held(self, signal: Signal) -> Signal:
+        """Return a signal as it is held between the points of this schedule."""
+        if len(signal.times) == 1:
+            return signal
+        return Signal(tuple(self.times.tolist()), tuple(signal.over(self.times).tolist()))
 
     def held(self) -> list[HeldInputs]:
         """Return the inputs as the FMU sees them, equal neighbours merged into one interval."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from harness.benchmark.cost import Progress
+from harness.benchmark.in_turn import Progress
 from harness.hosts.driver_host import BINARY, converse, native_driver
 from harness.hosts.job import describe
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import pi
 from statistics import median
 from time import perf_counter
@@ -11,6 +12,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.benchmark.in_turn import Progress, Timed, in_turn
 from harness.measures.deviation import peak
 from harness.references.device import Device
 
@@ -18,7 +20,6 @@ REFEREE = "Taylor with located events"
 """The method that tells the errors of all others, and its name where it is timed too."""
 
 Array = NDArray[np.float64]
-Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
@@ -92,18 +93,21 @@ def measure(
     for index, method in enumerate(methods):
         progress(method.name, index / len(methods) / (repeats + 1))
         outcomes[method.name] = method.run()
-    seconds: dict[str, list[float]] = {method.name: [] for method in methods}
-    for repeat in range(1, repeats + 1):
-        for index, method in enumerate(methods):
-            progress(method.name, (repeat + index / len(methods)) / (repeats + 1))
-            began = perf_counter()
-            method.run()
-            seconds[method.name].append(perf_counter() - began)
+    seconds = in_turn(
+        [Timed(method.name, partial(_seconds, method), repeats) for method in methods],
+        lambda name, share: progress(name, (1.0 + repeats * share) / (repeats + 1)),
+    )
     progress("", 1.0)
     return tuple(
-        _cost(method, seconds[method.name], outcomes[method.name], referee, device)
-        for method in methods
+        _cost(method, taken, outcomes[method.name], referee, device)
+        for method, taken in zip(methods, seconds, strict=True)
     )
+
+
+def _seconds(method: Method) -> float:
+    began = perf_counter()
+    method.run()
+    return perf_counter() - began
 
 
 def ratio(cost: Cost, against: Cost) -> Ratio:

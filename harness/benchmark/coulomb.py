@@ -13,8 +13,9 @@ from math import pi
 
 import numpy as np
 
-from harness.benchmark.cost import REFEREE, Cost, Method, Outcome, Progress, Ratio, measure, ratio
+from harness.benchmark.cost import REFEREE, Cost, Method, Outcome, Ratio, measure, ratio
 from harness.benchmark.fmu_method import parameters, run_fmu
+from harness.benchmark.in_turn import Progress
 from harness.drive import Instance
 from harness.errors import HarnessError
 from harness.references import located_events, paper_method, switching_taylor, taylor

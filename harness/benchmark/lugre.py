@@ -14,7 +14,6 @@ from harness.benchmark.cost import (
     Cost,
     Method,
     Outcome,
-    Progress,
     Ratio,
     cheapest_within,
     measure,
@@ -22,6 +21,7 @@ from harness.benchmark.cost import (
 )
 from harness.benchmark.coulomb import PERIOD, switching_outcome
 from harness.benchmark.fmu_method import parameters, run_fmu
+from harness.benchmark.in_turn import Progress
 from harness.drive import Instance
 from harness.errors import HarnessError
 from harness.references.device import Device

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from harness.atomic import replacing
-from harness.errors import HarnessError
 from harness.hosts.runs import CASES, Comparison, HostResult
+from harness.marked_text import write_marked
 
 BEGIN, END = "<!-- hosts -->", "<!-- end of hosts -->"
 HEAD = ("host", "version", "FMU", *(case.title for case in CASES))
@@ -23,29 +22,8 @@ def host_table(results: Sequence[HostResult]) -> str:
 
 
 def write_table(path: Path, table: str) -> None:
-    """Write the table to `path`; between the marks, and nowhere else, where the file has them.
-
-    Raises HarnessError when the file cannot be read or written, or has only one of the marks.
-    """
-    text = table + "\n"
-    if path.exists():
-        try:
-            before = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise HarnessError(f"{path}: cannot be read: {error}") from error
-        if BEGIN in before or END in before:
-            text = embedded(before, table, path)
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-
-
-def embedded(text: str, table: str, path: Path) -> str:
-    """Return `text` with the table between the marks; HarnessError where they are no pair."""
-    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise HarnessError(f"{path}: allowed is one {BEGIN} and one {END} after it")
-    head, _, rest = text.partition(BEGIN)
-    _, _, tail = rest.partition(END)
-    return f"{head}{BEGIN}\n{table}\n{END}{tail}"
+    """Write the table to `path`, between the marks where the file has them, as `write_marked`."""
+    write_marked(path, table, BEGIN, END)
 
 
 def shown(comparison: Comparison) -> str:

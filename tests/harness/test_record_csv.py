@@ -15,6 +15,8 @@ def test_every_digit_is_written_under_quoted_names(tmp_path: Path) -> None:
         inputs=np.array([[0.4, 0.0, 1.0], [0.4, 0.0, 1.0]]),
         outputs={"position": np.array([0.0, 1.0 / 3.0])},
         wall_time=1.0,
+        start_cpu=0.4,
+        step_cpu=0.6,
     )
     path = tmp_path / "run.csv"
     write_csv(record, path)

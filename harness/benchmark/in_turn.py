@@ -1,0 +1,36 @@
+"""Timing several things in turn, so that a busy moment of the machine hits all of them alike."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class Timed:
+    """Something to be timed: `seconds` does it once and returns what it took, `repeats` times."""
+
+    name: str
+    seconds: Callable[[], float]
+    repeats: int
+
+
+def in_turn(
+    everything: Sequence[Timed], progress: Progress = lambda name, share: None
+) -> list[list[float]]:
+    """Return the seconds of each; round after round, each once as long as it has repeats left.
+
+    `progress` is told who is at work and the share of the repeats that is done.
+    """
+    seconds: list[list[float]] = [[] for _ in everything]
+    total = sum(timed.repeats for timed in everything)
+    done = 0
+    for turn in range(max((timed.repeats for timed in everything), default=0)):
+        for timed, taken in zip(everything, seconds, strict=True):
+            if turn < timed.repeats:
+                progress(timed.name, done / total)
+                taken.append(timed.seconds())
+                done += 1
+    return seconds

@@ -1,0 +1,146 @@
+"""`trade`: what accuracy costs, for our models and for others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+
+import click
+
+from harness.commands.options import Target, default_fmus, json_option
+from harness.console import progress_bar
+from harness.drive import instantiate
+from harness.fmu import open_fmu
+from harness.json_output import to_json
+from harness.scene import find_scene, read_scene, sweep_points
+from harness.targets import PICTURE_SUFFIXES, make_folder
+from harness.trade.files import write_omissions, write_rows
+from harness.trade.measure import BUDGET, REPEATS, measure_trade
+from harness.trade.needs import SUFFIXES, title
+from harness.trade.needs import write_page as write_choices
+from harness.trade.page import write_page
+from harness.trade.plots import draw_picture
+from harness.trade.result import Trade
+from harness.trade.summary import heading, sentence, standings
+from harness.trade.task import Task, task_of
+
+
+@click.command("trade")
+@click.argument("scenes", nargs=-1)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    required=True,
+    help="Folder for trade.csv, omissions.csv and index.html.",
+)
+@click.option(
+    "--fmu",
+    "fmus",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="FMU to measure; may be given more than once.  [default: those built in dist]",
+)
+@click.option("--repeats", type=click.IntRange(min=1), default=REPEATS, show_default=True)
+@click.option(
+    "--budget",
+    type=click.FloatRange(min=0.0, min_open=True),
+    default=BUDGET,
+    show_default=True,
+    help="CPU time in s for the longest run of a method, and as much again for its repeats.",
+)
+@click.option(
+    "--periods",
+    type=click.IntRange(min=1),
+    help="Cut runs short to so many drive periods.",
+)
+@click.option(
+    "--picture", type=Target(PICTURE_SUFFIXES), help="Picture of the first scene for the README."
+)
+@click.option(
+    "--page",
+    "pages",
+    type=Target(SUFFIXES),
+    multiple=True,
+    help="Markdown or HTML file for the tables from need to model to cost; in a file that has "
+    "them, they go between the lines <!-- trade --> and <!-- end of trade -->.",
+)
+@json_option
+def trade_command(
+    scenes: Sequence[str],
+    out: Path,
+    fmus: Sequence[Path],
+    repeats: int,
+    budget: float,
+    periods: int | None,
+    picture: Path | None,
+    pages: Sequence[Path],
+    as_json: bool,
+) -> None:
+    """Measure error and cost of every model of the FMUs and of other methods on scenes.
+
+    Rows are fidelities, friction laws, communication steps and tolerances, and peers on the same
+    equations; columns are the errors against Taylor integration with located events, CPU time and
+    counts. Scenes are names of built-in ones or files, without any table_1; of a sweep each point
+    is measured. Whatever fidelity a scene asks for, its full device is the truth. Scenes under
+    constant inputs run for at least 1000 drive periods. Needs heyoka, and for CVODE scikit-sundae
+    (pip install 'slider-resonator[peers]'). Leaves with 0, or with 2 when it could not be run.
+
+    \b
+    Examples:
+      python -m harness trade --out trade
+      python -m harness trade table_1 lugre detuned_beat --out trade --picture trade.png
+      python -m harness trade my.toml --out trade --fmu my.fmu --json
+    """
+    make_folder(out)
+    tasks = _tasks(scenes or ("table_1",), periods)
+    trades: list[Trade] = []
+    with ExitStack() as stack:
+        progress = stack.enter_context(progress_bar())
+        instances = {}
+        for path in fmus or default_fmus():
+            fmu = stack.enter_context(open_fmu(path))
+            build = "native" if fmu.runs_without_python else "Python"
+            name = build if build not in instances else f"{build} {fmu.path.name}"
+            instances[name] = stack.enter_context(instantiate(fmu))
+        for task in tasks:
+            trades.append(measure_trade(task, instances, progress, repeats=repeats, budget=budget))
+    write_rows(out / "trade.csv", trades)
+    write_omissions(out / "omissions.csv", trades)
+    write_page(out / "index.html", trades)
+    if picture is not None:
+        draw_picture(trades[0], picture)
+    for page in pages:
+        write_choices(page, trades)
+    if as_json:
+        click.echo(to_json([_entry(trade) for trade in trades]))
+    else:
+        for trade in trades:
+            _print(trade)
+        click.echo(f"written {out / 'index.html'}")
+
+
+def _tasks(scenes: Sequence[str], periods: int | None) -> list[Task]:
+    tasks = []
+    for path in map(find_scene, scenes):
+        scene = read_scene(path)
+        tasks += [task_of(point, at, periods) for at, point in sweep_points(scene, path)]
+    return tasks
+
+
+def _entry(trade: Trade) -> dict[str, object]:
+    return {"trade": trade, "standings": standings(trade)}
+
+
+def _print(trade: Trade) -> None:
+    say = partial(click.echo)
+    say(title(trade))
+    before = ""
+    for standing in standings(trade):
+        words = heading(standing.quantity, standing.error)
+        if words != before:
+            say(f"  {words}")
+            before = words
+        say(f"    {sentence(standing)}")
+    say(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")

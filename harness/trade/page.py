@@ -1,0 +1,112 @@
+"""The page to look at: ratios, plots, all rows and what is missing, in one file of HTML."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+from harness.atomic import replacing
+from harness.html_report import STYLE
+from harness.trade.motion import QUANTITIES
+from harness.trade.needs import title
+from harness.trade.plots import work_precision_png
+from harness.trade.result import Omission, Row, Trade
+from harness.trade.summary import duration, heading, sentence, standings
+
+_HEAD = ("method", "periods", "CPU time", "least to most", "steps", "evaluations", "events")
+
+
+def write_page(path: Path, trades: Sequence[Trade]) -> None:
+    """Write the page; HarnessError when that is impossible."""
+    parts = [
+        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
+        '<meta name="viewport" content="width=device-width">',
+        f"<title>What accuracy costs</title><style>{STYLE}</style></head><body>",
+        "<h1>What accuracy costs</h1>",
+    ]
+    for trade in trades:
+        parts += _ratios(trade)
+    parts.append(_explanation())
+    for trade in trades:
+        parts += _scene(trade)
+    parts.append("</body></html>")
+    with replacing(path) as temporary:
+        temporary.write_text("\n".join(parts) + "\n", encoding="utf-8")
+
+
+def _ratios(trade: Trade) -> list[str]:
+    parts = [f"<h2>{escape(title(trade))}</h2>", "<ul>"]
+    before = ""
+    for standing in standings(trade):
+        words = heading(standing.quantity, standing.error)
+        if words != before:
+            parts.append(f"</ul><p><strong>{escape(words)}</strong></p><ul>")
+            before = words
+        parts.append(f"<li>{escape(sentence(standing))}</li>")
+    return [*parts, "</ul>"]
+
+
+def _explanation() -> str:
+    return (
+        "<p>Errors are largest deviations from the referee, Taylor integration with located "
+        "events, over all points of windows of a drive period that end with the run, half of it, a "
+        "quarter and so on; those of steady velocity and blocking force are from shooting by the "
+        "referee. Times are CPU times, medians of repeats taken in turn: of stepping for the FMUs, "
+        "which start up once a run, of everything for the others. A method that would exceed its "
+        "budget is followed over fewer drive periods, which the column says. Peers hold inputs "
+        "that vary over the scene's own communication step, the FMUs over theirs.</p>"
+    )
+
+
+def _scene(trade: Trade) -> list[str]:
+    parts = [f"<h2>{escape(title(trade))}: in full</h2>"]
+    run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
+    if trade.uncertainty:
+        run += (
+            f" The referee holds inputs that vary in fine steps, which leaves an uncertainty of "
+            f"{trade.uncertainty:.0e} of the position: errors below it mean nothing."
+        )
+    parts.append(f"<p>{escape(run)}</p>")
+    for quantity, meaning in QUANTITIES.items():
+        if trade.having(quantity):
+            source = work_precision_png(trade, quantity)
+            parts.append(f"<h3>{escape(quantity)}</h3>")
+            parts.append(f'<img alt="{escape(meaning)} over CPU time" src="{source}">')
+    parts.append(_table(trade.rows))
+    parts.append(_omissions(trade.omissions))
+    return parts
+
+
+def _table(rows: Sequence[Row]) -> str:
+    head = "".join(f"<th>{escape(name)}</th>" for name in (*_HEAD, *QUANTITIES))
+    body = "\n".join(_row(row) for row in rows)
+    return (
+        f'<details><summary>All {len(rows)} rows</summary><div class="wide"><table>'
+        f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table></div></details>"
+    )
+
+
+def _row(row: Row) -> str:
+    numbers = [
+        str(row.periods),
+        duration(row.cost),
+        f"{duration(min(row.cpu))} to {duration(max(row.cpu))}",
+        *("" if n is None else str(n) for n in (row.steps, row.evaluations, row.events)),
+        *(f"{row.errors[q]:.1e}" if q in row.errors else "" for q in QUANTITIES),
+    ]
+    what = row.method if row.answer == "run" else f"{row.method}: {row.answer}"
+    cells = "".join(f'<td class="n">{escape(text)}</td>' for text in numbers)
+    return f"<tr><td>{escape(what)}</td>{cells}</tr>"
+
+
+def _omissions(omissions: Sequence[Omission]) -> str:
+    body = "\n".join(
+        f"<tr><td>{escape(o.method)}</td><td>{escape(o.quantity)}</td><td>{escape(o.reason)}</td>"
+        for o in omissions
+    )
+    return (
+        f"<details><summary>{len(omissions)} omissions: who or what is missing, and why</summary>"
+        "<table><thead><tr><th>method</th><th>quantity</th><th>reason</th></tr></thead>"
+        f"<tbody>\n{body}\n</tbody></table></details>"
+    )

@@ -1,0 +1,68 @@
+"""What every method is compared with: Taylor integration with located events, and its shooting."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from harness.errors import HarnessError
+from harness.reference_steady import Simulate
+from harness.references import taylor
+from harness.references.lugre_taylor import simulate_lugre
+from harness.references.trajectory import Trajectory
+from harness.trade.motion import Windows, windows
+from harness.trade.peers import motion_of, shoot
+from harness.trade.task import TRUTH_STEPS, Task
+
+SHOOTING = 1e-10
+"""Accuracy of the steady state in units of its scale."""
+
+
+@dataclass(frozen=True)
+class Referee:
+    """The truth about a task.
+
+    `windows` are its readings; `sticks` says whether the slider sticks after the first drive
+    period; `uncertainty` is how far the readings of the position depend on the steps in which
+    inputs that vary are held, as a share of its peak. The steady velocity (m/s) and the blocking
+    force (N) are None where there is none.
+    """
+
+    windows: Windows
+    sticks: bool
+    uncertainty: float
+    steady_velocity: float | None
+    blocking_force: float | None
+
+
+def referee(task: Task) -> Referee:
+    """Run and shoot the referee; HarnessError where that is impossible."""
+    simulate: Simulate = simulate_lugre if task.device.friction_law == 1 else taylor.simulate
+    try:
+        run = _run(task, simulate, TRUTH_STEPS)
+        found = windows(task, motion_of(run, located=True), task.periods)
+        uncertainty = 0.0
+        if not task.constant:
+            coarse = _run(task, simulate, TRUTH_STEPS // 2)
+            off = np.abs(coarse.position - run.position).max() / 3.0
+            uncertainty = float(off / np.abs(run.position).max())
+        first = simulate(task.device, task.truth(1), np.empty(0)).stick_time
+        answers = {}
+        for quantity in ("steady_velocity", "blocking_force"):
+            answers[quantity] = (
+                shoot(task, quantity, simulate, SHOOTING).value if task.steady else None
+            )
+    except (ModuleNotFoundError, ValueError, RuntimeError) as error:
+        raise HarnessError(f"scene {task.name}: the referee cannot follow it: {error}") from error
+    return Referee(
+        found,
+        run.stick_time > first + 1e-9 * task.period,
+        uncertainty,
+        answers["steady_velocity"],
+        answers["blocking_force"],
+    )
+
+
+def _run(task: Task, simulate: Simulate, steps: int) -> Trajectory:
+    return simulate(task.device, task.truth(task.periods, steps), task.readings(task.periods))

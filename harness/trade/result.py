@@ -1,0 +1,114 @@
+"""The data of a trade: rows, omissions, and who is cheapest at an error."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from statistics import median
+
+AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
+"""Kinds of method: our averaged motion, our resolved one, and everybody else."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One method at one setting on one scene.
+
+    `answer` is `run`, with the errors of a trajectory over `periods` drive periods, or
+    `steady_velocity` or `blocking_force`, with that error alone. `cpu` (s) holds every repeat, per
+    simulated second of a run and per answer otherwise, and `start_cpu` (s) what initialisation took
+    besides. `step` is the communication step in drive periods. What a method does not have or does
+    not tell is None.
+    """
+
+    scene: str
+    answer: str
+    kind: str
+    family: str
+    method: str
+    fidelity: int | None
+    friction_law: int
+    step: float | None
+    tolerance: float | None
+    periods: int
+    cpu: tuple[float, ...]
+    start_cpu: float | None
+    steps: int | None
+    evaluations: int | None
+    events: int | None
+    errors: Mapping[str, float]
+
+    @property
+    def cost(self) -> float:
+        """Median of the CPU times."""
+        return median(self.cpu)
+
+
+@dataclass(frozen=True)
+class Omission:
+    """What is not among the rows: a method, or a quantity of it, and why."""
+
+    scene: str
+    method: str
+    quantity: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Trade:
+    """Everything measured on one scene; `uncertainty` is the referee's own error of a position."""
+
+    scene: str
+    title: str
+    friction_law: int
+    periods: int
+    simulated: float
+    uncertainty: float
+    rows: tuple[Row, ...]
+    omissions: tuple[Omission, ...]
+
+    def having(self, quantity: str) -> list[Row]:
+        """Return the rows with an error of this quantity."""
+        return [row for row in self.rows if quantity in row.errors]
+
+
+ROUNDING = 1e-12
+"""Errors below this are luck: rounding over a thousand drive periods."""
+
+
+def front(rows: Iterable[Row], quantity: str) -> list[Row]:
+    """Return the Pareto front: rows, by cost, that no other beats in both error and cost.
+
+    Errors below ROUNDING count as equal.
+    """
+
+    def error(row: Row) -> float:
+        return max(row.errors[quantity], ROUNDING)
+
+    best: list[Row] = []
+    for row in sorted(rows, key=lambda row: (row.cost, error(row))):
+        if not best or error(row) < error(best[-1]):
+            best.append(row)
+    return best
+
+
+def cheapest(rows: Iterable[Row], quantity: str, error: float) -> Row | None:
+    """Return the cheapest row whose error of a quantity is at most so much, None without any."""
+    good = [row for row in rows if row.errors.get(quantity, float("inf")) <= error]
+    return min(good, key=lambda row: row.cost, default=None)
+
+
+def paired_ratio(row: Row, against: Row) -> tuple[float, float, float]:
+    """Return median, least and greatest ratio of the costs of two rows, repeat by repeat."""
+    ratios = [ours / theirs for ours, theirs in zip(row.cpu, against.cpu, strict=False)]
+    return median(ratios), min(ratios), max(ratios)
+
+
+def spread(row: Row) -> tuple[float, float]:
+    """Return the least and the greatest of the CPU times of a row."""
+    return min(row.cpu), max(row.cpu)
+
+
+def families(rows: Sequence[Row]) -> list[str]:
+    """Return the families in the order in which they appear."""
+    return list(dict.fromkeys(row.family for row in rows))

@@ -1,0 +1,68 @@
+"""The figures at the top: what averaged motion, resolved motion and peers cost at an error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from harness.trade.result import AVERAGED, PEER, RESOLVED, Row, Trade, cheapest, paired_ratio
+
+TARGETS = (("mean_velocity", 1e-2), ("position", 1e-9))
+"""Quantity, and the error at which costs are compared."""
+CLASSES = {AVERAGED: "averaged", RESOLVED: "resolved", PEER: "peers"}
+
+
+@dataclass(frozen=True)
+class Standing:
+    """The cheapest method of a class at an error, None where none reaches it.
+
+    `ratio` is its cost over that of the resolved one, repeat by repeat: median, least, greatest.
+    """
+
+    quantity: str
+    error: float
+    kind: str
+    row: Row | None
+    ratio: tuple[float, float, float] | None
+
+
+def standings(trade: Trade) -> list[Standing]:
+    """Return the standing of every class at every target."""
+    found = []
+    for quantity, error in TARGETS:
+        rows = trade.having(quantity)
+        best = {
+            kind: cheapest([row for row in rows if row.kind == kind], quantity, error)
+            for kind in CLASSES
+        }
+        for kind, row in best.items():
+            against = best[RESOLVED]
+            ratio = None if row is None or against is None else paired_ratio(row, against)
+            found.append(Standing(quantity, error, kind, row, ratio))
+    return found
+
+
+def sentence(standing: Standing) -> str:
+    """Return a standing in words."""
+    who = CLASSES[standing.kind]
+    if standing.row is None:
+        return f"{who}: not reached"
+    row = standing.row
+    words = f"{who}: {duration(row.cost)} a simulated second ({row.method})"
+    if standing.ratio is None or standing.kind == RESOLVED:
+        return words
+    middle, least, most = standing.ratio
+    return f"{words}, {middle:.3g} times the resolved ({least:.3g} to {most:.3g})"
+
+
+def heading(quantity: str, error: float) -> str:
+    """Return what is compared, in words."""
+    size = f"{100.0 * error:g} %" if error >= 1e-3 else f"{error:.0e}"
+    return f"at an error of {size} in {quantity.replace('_', ' ')}"
+
+
+def duration(seconds: float) -> str:
+    """Return a CPU time for people."""
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds / 1e-9:.3g} ns"

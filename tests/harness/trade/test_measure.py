@@ -1,0 +1,159 @@
+"""Measuring: everybody is in a row or among the omissions, whatever happens."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from harness.cli import main
+from harness.drive import Instance, instantiate
+from harness.fmu import open_fmu
+from harness.trade import measure
+from harness.trade.fmu_methods import FmuMethods
+from harness.trade.measure import measure_trade
+from harness.trade.method import Label, Method
+from harness.trade.motion import Motion
+from harness.trade.peers import peer_methods
+from harness.trade.result import PEER, Trade
+from harness.trade.task import Task
+from tests.harness.trade.scenes import HEAD, STICKING, TABLE_1, task
+
+
+@pytest.fixture(scope="module")
+def instance(native_fmu: Path) -> Iterator[Instance]:
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as made:
+        yield made
+
+
+def quiet(name: str, share: float) -> None:
+    assert 0.0 <= share <= 1.0
+
+
+def made_up(name: str, run: Callable[[int], tuple[Motion, None]], **fields: bool) -> Method:
+    def seconds(periods: int) -> float:
+        run(periods)
+        return 1e-3 * periods
+
+    return Method(Label(PEER, name, name, 0), run, seconds, **fields)  # type: ignore[arg-type]
+
+
+def only(monkeypatch: pytest.MonkeyPatch, *methods: Method) -> None:
+    monkeypatch.setattr(measure, "peer_methods", lambda task: list(methods))
+    monkeypatch.setattr(measure, "peer_answers", lambda task: [])
+
+
+def still(task: Task) -> Callable[[int], tuple[Motion, None]]:
+    def run(periods: int) -> tuple[Motion, None]:
+        times = task.readings(periods)
+        return Motion(times, 0.0 * times, 0.0 * times), None
+
+    return run
+
+
+def test_who_fails_is_told_with_the_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    short = task(tmp_path, TABLE_1, most_periods=4)
+
+    def fails(periods: int) -> tuple[Motion, None]:
+        raise RuntimeError("the solver gives up")
+
+    only(monkeypatch, made_up("failing", fails), made_up("standing", still(short)))
+    trade = measure_trade(short, {}, quiet, repeats=3)
+    (row,) = trade.rows
+    assert row.method == "standing"
+    assert row.cpu == pytest.approx((1e-3 / short.period,) * 3), "per simulated second"
+    assert row.errors["position"] == pytest.approx(1.0), "it misses the whole motion"
+    told = {(o.method, o.quantity): o.reason for o in trade.omissions}
+    assert told["failing", "all"] == "the solver gives up"
+    assert ("standing", "event_times") in told
+
+
+def test_a_method_stops_where_its_budget_ends(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    longer = task(tmp_path, TABLE_1, most_periods=64)
+    used = [0.0]
+    monkeypatch.setattr(measure, "process_time", lambda: used[0])
+
+    def works(cost: float) -> Callable[[int], tuple[Motion, None]]:
+        def run(periods: int) -> tuple[Motion, None]:
+            used[0] += cost * periods
+            return still(longer)(periods)
+
+        return run
+
+    only(monkeypatch, made_up("slow", works(0.1)), made_up("far too slow", works(10.0)))
+    trade = measure_trade(longer, {}, quiet, repeats=5, budget=1.0)
+    (row,) = trade.rows
+    assert row.periods == 8, "8 periods take 0.8 s, 16 would take 1.6 s of the 1 s"
+    assert len(row.cpu) == 1, "nor are there repeats beyond the budget"
+    told = {(o.method, o.quantity): o.reason for o in trade.omissions}
+    assert "followed over 8 of 64 drive periods" in told["slow", "length"]
+    assert "more than its budget of 1 s" in told["far too slow", "all"]
+
+
+def test_who_covers_no_sticking_is_left_out_where_it_sticks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sticking = task(tmp_path, STICKING, most_periods=4)
+    only(monkeypatch, made_up("sliding", still(sticking), sticks_not=True))
+    trade = measure_trade(sticking, {}, quiet, repeats=1)
+    assert [(o.method, o.quantity) for o in trade.omissions] == [("sliding", "all")]
+    assert "sticks" in trade.omissions[0].reason
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory, instance: Instance) -> tuple[Task, Trade]:
+    short = task(tmp_path_factory.mktemp("scene"), TABLE_1, most_periods=16)
+    return short, measure_trade(short, {"native": instance}, quiet, repeats=2, budget=0.2)
+
+
+@pytest.mark.slow
+def test_nobody_is_dropped_in_silence(whole: tuple[Task, Trade], instance: Instance) -> None:
+    short, trade = whole
+    methods = [*FmuMethods(short, "native", instance).methods(), *peer_methods(short)]
+    rows = {row.method for row in trade.rows if row.answer == "run"}
+    omitted = {o.method for o in trade.omissions if o.quantity == "all"}
+    assert {method.label.name for method in methods} == rows | omitted
+    assert not rows & omitted
+    resolved = [r for r in trade.rows if r.family == "native FMU, fidelity 2" and r.answer == "run"]
+    assert resolved
+    assert all(max(row.errors.values()) < 1e-10 for row in resolved)
+    assert all(row.events == 31 for row in resolved), "two reversals a period but for the first"
+
+
+@pytest.mark.slow
+def test_the_command_writes_what_can_be_looked_at(native_fmu: Path, tmp_path: Path) -> None:
+    scene = tmp_path / "mine.toml"
+    scene.write_text(HEAD + "[device]\nfriction_law = 1\n")
+    out, page, picture = tmp_path / "out", tmp_path / "page.md", tmp_path / "trade.png"
+    page.write_text("before\n<!-- trade -->\n<!-- end of trade -->\nafter\n")
+    arguments = [str(scene), "--out", str(out), "--fmu", str(native_fmu), "--repeats", "1"]
+    arguments += ["--budget", "0.1", "--periods", "8", "--page", str(page)]
+    result = CliRunner().invoke(main, ["trade", *arguments, "--picture", str(picture), "--json"])
+    assert result.exit_code == 0, result.output
+    (told,) = json.loads(result.stdout)
+    assert {s["kind"] for s in told["standings"]} == {"averaged", "resolved", "peer"}
+    rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
+    assert len(rows) == len(told["trade"]["rows"])
+    omissions = list(csv.DictReader((out / "omissions.csv").open(encoding="utf-8")))
+    assert len(omissions) == len(told["trade"]["omissions"])
+    html = (out / "index.html").read_text(encoding="utf-8")
+    assert "at an error of 1 % in mean velocity" in html
+    assert "data:image/png;base64," in html
+    assert 'src="http' not in html
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    text = page.read_text(encoding="utf-8")
+    assert text.startswith("before\n<!-- trade -->\n")
+    assert text.endswith("<!-- end of trade -->\nafter\n")
+    assert "| mean velocity | 1e-02 | fidelity" in text
+
+
+def test_a_scene_that_does_not_exist_is_told(tmp_path: Path) -> None:
+    result = CliRunner().invoke(main, ["trade", "tabel_1", "--out", str(tmp_path)])
+    assert result.exit_code == 2
+    assert "did you mean 'table_1'?" in result.stderr
