@@ -27,7 +27,10 @@ _TROUBLE = (ValueError, RuntimeError, ArithmeticError, ModuleNotFoundError, FmuE
 
 @dataclass(frozen=True)
 class _Candidate:
-    """A row without its times: `seconds` takes one, to be divided by `per`."""
+    """A row without its times: `seconds` takes one, to be divided by `per`.
+
+    `estimate` (s) is what the first run has taken, which stands where the budget has no other.
+    """
 
     label: Label
     answer: str
@@ -82,7 +85,7 @@ def _measured(
         candidates += _answer(truth, answer, notes)
     notes.answers_of(methods)
     timed = [
-        Timed(c.label.name, c.seconds, max(1, min(repeats, int(budget / max(c.estimate, 1e-9)))))
+        Timed(c.label.name, c.seconds, min(repeats, int(budget / max(c.estimate, 1e-9))))
         for c in candidates
     ]
     seconds = in_turn(
@@ -133,7 +136,7 @@ def _follow(
     if method.sticks_not and truth.sticks:
         notes.add(label, "all", "the slider sticks, which it does not cover")
         return []
-    horizons = [periods for periods in task.horizons if periods >= method.least_periods]
+    horizons = [periods for periods in task.lengths if periods >= method.least_periods]
     try:
         begun = _timed_run(method, method.least_periods)[0]  # compiles, fills caches
         taken = _timed_run(method, method.least_periods + 1)[0]
@@ -237,7 +240,7 @@ def _row(task: Task, candidate: _Candidate, seconds: Sequence[float]) -> Row:
         method=fields.pop("name"),
         **fields,
         periods=candidate.periods,
-        cpu=tuple(second / candidate.per for second in seconds),
+        cpu=tuple(second / candidate.per for second in seconds or [candidate.estimate]),
         start_cpu=candidate.start_cpu,
         steps=None if motion is None else motion.steps,
         evaluations=None if motion is None else motion.evaluations,

@@ -24,7 +24,8 @@ NEEDS = (
     ("mean_velocity", 1e-2),
     ("mean_velocity", 1e-6),
     ("position", 1e-2),
-    ("position", 1e-6),
+    ("position", 1e-4),
+    ("position", 1e-9),
     ("event_times", 1e-6),
 )
 """Quantity and error; those that a scene does not have are left out of its part of the table."""

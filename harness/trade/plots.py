@@ -77,8 +77,9 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
     for family in families(drawn):
         own = [row for row in drawn if row.family == family]
         look = looks[family]
-        # A communication step of ours is no precision: all of them are one line.
-        curve = front(own, quantity) if own[0].kind == PEER else sorted(own, key=lambda r: r.cost)
+        # Where only the communication step of ours varies, that is one line, however exact.
+        precise = own[0].kind == PEER or len({row.tolerance for row in own}) > 1
+        curve = front(own, quantity) if precise else sorted(own, key=lambda row: row.cost)
         axes.plot(
             [row.cost for row in curve],
             [_shown(row, quantity) for row in curve],

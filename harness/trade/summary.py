@@ -51,7 +51,10 @@ def sentence(standing: Standing) -> str:
     if standing.ratio is None or standing.kind == RESOLVED:
         return words
     middle, least, most = standing.ratio
-    return f"{words}, {middle:.3g} times the resolved ({least:.3g} to {most:.3g})"
+    if middle < 1.0:
+        shares = f"{1.0 / middle:.3g} times cheaper than resolved"
+        return f"{words}, {shares} ({1.0 / most:.3g} to {1.0 / least:.3g})"
+    return f"{words}, {middle:.3g} times the cost of resolved ({least:.3g} to {most:.3g})"
 
 
 def heading(quantity: str, error: float) -> str:

@@ -81,9 +81,14 @@ class Task:
 
     @property
     def horizons(self) -> tuple[int, ...]:
-        """The drive periods at whose ends the windows are; a method may stop at any of them."""
+        """The drive periods at whose ends the windows are."""
         halves = {self.periods // 2**halving for halving in range(HALVINGS + 1)}
         return tuple(sorted(halves - {0}))
+
+    @property
+    def lengths(self) -> tuple[int, ...]:
+        """The drive periods after which a method may stop; one that misses inputs is none."""
+        return self.horizons if self.constant else (self.periods,)
 
     def windows(self, periods: int) -> tuple[int, ...]:
         """Return those within a run of so many drive periods."""

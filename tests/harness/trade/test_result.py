@@ -83,7 +83,8 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
     assert sentence(told["position", AVERAGED]) == "averaged: not reached"
     assert sentence(told["position", PEER]) == "peers: not reached"
     assert sentence(told["position", RESOLVED]).startswith("resolved: 300 us a simulated second")
-    assert "20 times the resolved" in sentence(told["mean_velocity", PEER])
+    assert "20 times the cost of resolved" in sentence(told["mean_velocity", PEER])
+    assert "30 times cheaper than resolved" in sentence(told["mean_velocity", AVERAGED])
     assert heading("mean_velocity", 1e-2) == "at an error of 1 % in mean velocity"
     assert heading("position", 1e-9) == "at an error of 1e-09 in position"
 

@@ -50,6 +50,7 @@ def test_inputs_that_vary_allow_no_steady_motion(tmp_path: Path) -> None:
     assert not found.constant
     assert not found.steady
     assert found.periods == 16, "the scene says how long its inputs are meant for"
+    assert found.lengths == (16,), "who stops earlier has not seen all of them"
 
 
 def test_jumps_are_exact_for_everybody(tmp_path: Path) -> None:
