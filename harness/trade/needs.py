@@ -70,7 +70,8 @@ def write_page(path: Path, trades: Sequence[Trade]) -> None:
     Raises HarnessError when the file cannot be written, or has marks that are no pair.
     """
     if path.suffix not in SUFFIXES:
-        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; allowed is {SUFFIXES}")
+        allowed = " or ".join(SUFFIXES)
+        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; allowed is {allowed}")
     table = _markdown if path.suffix == ".md" else _html
     write_marked(path, "\n".join(table(trade) for trade in trades), BEGIN, END)
 

@@ -63,6 +63,9 @@ def draw_picture(trade: Trade, path: Path) -> None:
 
 def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look]) -> None:
     drawn = [row for row in rows if row.errors[quantity] < float("inf")]
+    if not drawn:
+        axes.text(0.5, 0.5, "nobody has any", ha="center", transform=axes.transAxes)
+        return
     best = front(drawn, quantity)
     axes.step(
         [row.cost for row in best],
@@ -104,7 +107,7 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
             label=family,
             zorder=3,
         )
-    answers = all(row.answer != "run" for row in drawn) and bool(drawn)
+    answers = all(row.answer != "run" for row in drawn)
     per = "answer" if answers else "simulated second"
     axes.set(xscale="log", yscale="log", xlabel=f"CPU time per {per} [s]")
 

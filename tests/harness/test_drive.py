@@ -25,6 +25,8 @@ def test_a_run_records_every_output_at_every_point(instance: Instance) -> None:
     assert record["position"][0] == 0.0
     assert record.final("reversals") == 19.0, "two reversals in each period but the first"
     assert record.wall_time > 0.0
+    assert record.start_cpu > 0.0
+    assert record.step_cpu > 0.0
 
 
 def test_a_second_run_starts_afresh(instance: Instance) -> None:

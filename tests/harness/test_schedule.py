@@ -136,3 +136,11 @@ def test_a_ramp_is_sampled_and_held_over_each_step() -> None:
     held = made.held()
     check_contiguous(held)
     assert [inputs.frequency_ratio for inputs in held] == pytest.approx([1.0, 1.25, 1.5, 1.75])
+
+
+def test_more_readings_leave_the_held_inputs_alone() -> None:
+    plan = schedule(1.0, 0.25, load=ramp([(0.0, 0.0), (1.0, 4.0)]))
+    more = plan.read_at(np.array([0.1, 0.25 + 1e-12, 0.6]), 1e-9)
+    assert more.times.tolist() == [0.0, 0.1, 0.25, 0.5, 0.6, 0.75, 1.0]
+    assert more.held() == plan.held()
+    assert more.phase is plan.phase, "what is constant stays so"
