@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.measures.deviation import peak_deviation
+from harness.measures.deviation import peak, share_of
 from harness.measures.frequency import NoOscillation, dominant_frequency
 from harness.measures.slow import slow_displacement
 from harness.trade.task import Task
@@ -90,10 +90,10 @@ def errors(task: Task, motion: Motion, referee: Windows, periods: int) -> dict[s
     """Return the error of each quantity that the motion tells, infinite where it is not finite."""
     found = windows(task, motion, periods)
     count = len(found.mean_velocity)
-    told = {
-        name: peak_deviation(getattr(found, name), getattr(referee, name)[:count])
-        for name in ("mean_velocity", "slow_displacement", "position", "velocity")
-    }
+    told = {}
+    for name in ("mean_velocity", "slow_displacement", "position", "velocity"):
+        expected = getattr(referee, name)[:count]
+        told[name] = share_of(peak(getattr(found, name) - expected), peak(expected))
     if found.last_event is not None and referee.last_event is not None:
         late = np.abs(found.last_event - referee.last_event[:count]).max()
         told["event_times"] = float(late) / task.period
