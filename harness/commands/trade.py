@@ -18,9 +18,8 @@ from harness.scene import find_scene, read_scene, sweep_points
 from harness.targets import PICTURE_SUFFIXES, make_folder
 from harness.trade.files import write_omissions, write_rows
 from harness.trade.measure import BUDGET, REPEATS, measure_trade
-from harness.trade.needs import SUFFIXES, title
-from harness.trade.needs import write_page as write_choices
-from harness.trade.page import write_page
+from harness.trade.needs import SUFFIXES, title, write_choices
+from harness.trade.page import write_trades
 from harness.trade.plots import draw_picture
 from harness.trade.result import Trade
 from harness.trade.summary import heading, sentence, standings
@@ -108,7 +107,7 @@ def trade_command(
             trades.append(measure_trade(task, instances, progress, repeats=repeats, budget=budget))
     write_rows(out / "trade.csv", trades)
     write_omissions(out / "omissions.csv", trades)
-    write_page(out / "index.html", trades)
+    write_trades(out / "index.html", trades)
     if picture is not None:
         draw_picture(trades[0], picture)
     for page in pages:

@@ -64,7 +64,7 @@ def choices(trade: Trade) -> list[Choice]:
     return found
 
 
-def write_page(path: Path, trades: Sequence[Trade]) -> None:
+def write_choices(path: Path, trades: Sequence[Trade]) -> None:
     """Write the tables of all scenes between the marks of a page, Markdown or HTML by its suffix.
 
     Raises HarnessError when the file cannot be written, or has marks that are no pair.

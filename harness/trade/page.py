@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
-from harness.atomic import replacing
-from harness.html_report import STYLE
+from harness.html_page import write_page
 from harness.trade.motion import QUANTITIES
 from harness.trade.needs import title
 from harness.trade.plots import work_precision_png
@@ -17,22 +16,12 @@ from harness.trade.summary import duration, heading, sentence, standings
 _HEAD = ("method", "periods", "CPU time", "least to most", "steps", "evaluations", "events")
 
 
-def write_page(path: Path, trades: Sequence[Trade]) -> None:
+def write_trades(path: Path, trades: Sequence[Trade]) -> None:
     """Write the page; HarnessError when that is impossible."""
-    parts = [
-        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
-        '<meta name="viewport" content="width=device-width">',
-        f"<title>What accuracy costs</title><style>{STYLE}</style></head><body>",
-        "<h1>What accuracy costs</h1>",
-    ]
-    for trade in trades:
-        parts += _ratios(trade)
+    parts = [part for trade in trades for part in _ratios(trade)]
     parts.append(_explanation())
-    for trade in trades:
-        parts += _scene(trade)
-    parts.append("</body></html>")
-    with replacing(path) as temporary:
-        temporary.write_text("\n".join(parts) + "\n", encoding="utf-8")
+    parts += [part for trade in trades for part in _scene(trade)]
+    write_page(path, "What accuracy costs", parts)
 
 
 def _ratios(trade: Trade) -> list[str]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from harness.errors import HarnessError
-from harness.trade.needs import BEGIN, END, HEAD, cells, choices, write_page
+from harness.trade.needs import BEGIN, END, HEAD, cells, choices, write_choices
 from harness.trade.result import AVERAGED, PEER, RESOLVED, Row, Trade
 from tests.harness.trade.test_result import row
 
@@ -60,11 +60,11 @@ def test_markdown_and_html_hold_the_same(tmp_path: Path) -> None:
     paths = [tmp_path / "page.md", tmp_path / "page.html"]
     for path in paths:
         path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n")
-        write_page(path, [TRADE])
+        write_choices(path, [TRADE])
     assert tables(paths[0]) == tables(paths[1])
     assert all("old" not in path.read_text() for path in paths)
     with pytest.raises(HarnessError, match=r"the suffix is '\.txt'; allowed is \.md or \.html"):
-        write_page(tmp_path / "page.txt", [TRADE])
+        write_choices(tmp_path / "page.txt", [TRADE])
 
 
 def tables(path: Path) -> list[list[str]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from harness.trade.page import write_page
+from harness.trade.page import write_trades
 from harness.trade.plots import draw_picture
 from harness.trade.result import Omission
 from tests.harness.trade.test_needs import TRADE
@@ -14,7 +14,7 @@ from tests.harness.trade.test_needs import TRADE
 def test_a_page_stands_alone(tmp_path: Path) -> None:
     gone = Omission("s", "slow <method>", "all", "more than its budget")
     trade = replace(TRADE, title="A & B", uncertainty=2e-7, omissions=(gone,))
-    write_page(tmp_path / "index.html", [trade])
+    write_trades(tmp_path / "index.html", [trade])
     text = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert "http" not in text.replace("http-equiv", ""), "nothing is fetched"
     assert text.index("at an error of 1e-09 in position") < text.index("data:image/png")
@@ -25,7 +25,7 @@ def test_a_page_stands_alone(tmp_path: Path) -> None:
 
 
 def test_a_quantity_that_nobody_has_gets_no_plot(tmp_path: Path) -> None:
-    write_page(tmp_path / "index.html", [TRADE])
+    write_trades(tmp_path / "index.html", [TRADE])
     assert (tmp_path / "index.html").read_text(encoding="utf-8").count("<img") == 1
 
 
