@@ -27,12 +27,16 @@ HOSTS = (
     Host("libcosimpy", "libcosim_ssp_host", lambda: package_version("libcosimpy")),
 )
 
+INPUT_DELAY = {"fmpy": 1, "libcosimpy": 0}
+"""Communication steps after which inputs of the system reach the components."""
+
 
 @dataclass(frozen=True)
 class Course:
     """Mean velocity (m/s) and phase (rad) at the ends of the communication steps, shapes (n,).
 
-    The phase is the one that the controller puts out: the slider has it in the step after.
+    The phase is the one that the controller puts out: the slider has it in the step after. `load`
+    (N) is what the slider had in the step.
     """
 
     host: str
@@ -40,6 +44,7 @@ class Course:
     times: Array
     velocity: Array
     phase: Array
+    load: Array
 
 
 def run_loop(package: Path, host: Host, duty: Duty) -> tuple[Course, Course]:
@@ -61,14 +66,16 @@ def run_loop(package: Path, host: Host, duty: Duty) -> tuple[Course, Course]:
             )
         times = duty.step * np.arange(1.0, job.steps + 1.0)
         fidelity = int(job.start[FIDELITY])
-        courses.append(Course(host.name, fidelity, times, rows[:, 0], rows[:, 1]))
+        late = INPUT_DELAY[host.name] * duty.step
+        load = np.array([duty.load(time - late) for time in duty.times])
+        courses.append(Course(host.name, fidelity, times, rows[:, 0], rows[:, 1], load))
     return courses[0], courses[1]
 
 
 def _job(package: Path, name: str, duty: Duty) -> Job:
     return Job(
         fmu=str(package.resolve()),
-        start=_parameters(package, name),
+        start=parameters(package, name),
         inputs={
             "velocity_reference": [duty.reference] * len(duty.times),
             "load": [duty.load(time) for time in duty.times],
@@ -78,8 +85,11 @@ def _job(package: Path, name: str, duty: Duty) -> Job:
     )
 
 
-def _parameters(package: Path, name: str) -> dict[str, float]:
-    """Return the values of a parameter set in the package, Integers as int."""
+def parameters(package: Path, name: str) -> dict[str, float]:
+    """Return the values of a parameter set in the package, Integers as int.
+
+    Raises HarnessError where there is no such set, or it says nothing of the fidelity.
+    """
     try:
         found = read_ssv(str(package), resource=f"resources/{name}.ssv").parameters
     except Exception as error:  # zipfile, lxml and fmpy each raise their own

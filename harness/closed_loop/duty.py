@@ -45,6 +45,11 @@ class Duty:
         return [Hold(a[0], b[0], a[1]) for a, b in pairwise(ends)]
 
     @property
+    def load_steps(self) -> list[Hold]:
+        """The stretches that begin with a step of the load: all but the start from rest."""
+        return self.holds[1:]
+
+    @property
     def times(self) -> list[float]:
         """Begin of each step (s)."""
         return [index * self.step for index in range(round(self.end / self.step))]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.closed_loop.course import Array, Course
 from harness.closed_loop.duty import Duty, Hold
@@ -31,15 +33,17 @@ class Held:
 
 @dataclass(frozen=True)
 class Agreement:
-    """Largest difference (m/s) between design and proof, when (s), and the error predicted (m/s).
+    """Largest difference (m/s) of the mean velocities after a step to a load (N), and when (s).
 
-    Counted from the first settling on.
+    `predicted` (m/s) is None where averaged motion was predicted not to do.
     """
 
     host: str
+    start: float
+    load: float
     difference: float
     time: float
-    predicted: float
+    predicted: float | None
     passed: bool
 
 
@@ -49,13 +53,12 @@ def judge_holds(course: Course, duty: Duty) -> list[Held]:
 
 
 def _held(course: Course, duty: Duty, hold: Hold) -> Held:
-    slack = 1e-6 * duty.step
-    inside = (course.times > hold.start + slack) & (course.times < hold.end + slack)
+    inside = _inside(course.times, duty, hold)
     since = course.times[inside] - hold.start
     deviation = np.abs(course.velocity[inside] / duty.reference - 1.0)
     outside = np.flatnonzero(deviation > duty.band)
     first = int(outside[-1]) + 1 if outside.size else 0
-    after = float(deviation[since > duty.settling - slack].max())
+    after = float(deviation[since > duty.settling - 1e-6 * duty.step].max())
     return Held(
         host=course.host,
         fidelity=course.fidelity,
@@ -68,15 +71,26 @@ def _held(course: Course, duty: Duty, hold: Hold) -> Held:
     )
 
 
-def differences(design: Course, proof: Course, duty: Duty) -> tuple[Array, Array]:
-    """Return times (s) and |velocity of design - of proof| (m/s) from the first settling on."""
-    settled = design.times > duty.settling - 1e-6 * duty.step
-    return design.times[settled], np.abs(design.velocity - proof.velocity)[settled]
+def judge_agreement(
+    design: Course, proof: Course, duty: Duty, predicted: Sequence[float | None]
+) -> list[Agreement]:
+    """Compare the two courses of a host from each step of the load on, with what is predicted.
+
+    `predicted` has the error (m/s) of averaged motion for each of the duty's load steps. The whole
+    answer of the loop counts, not only what it settles to: that is the reference in any case.
+    """
+    difference = np.abs(design.velocity - proof.velocity)
+    found = []
+    for hold, error in zip(duty.load_steps, predicted, strict=True):
+        inside = np.flatnonzero(_inside(design.times, duty, hold))
+        worst = inside[np.argmax(difference[inside])]
+        largest, time = float(difference[worst]), float(design.times[worst])
+        passed = error is not None and largest <= error
+        found.append(Agreement(design.host, hold.start, hold.load, largest, time, error, passed))
+    return found
 
 
-def judge_agreement(design: Course, proof: Course, duty: Duty, predicted: float) -> Agreement:
-    """Compare the two courses of a host; `predicted` (m/s) is the error of the design's model."""
-    times, difference = differences(design, proof, duty)
-    worst = int(np.argmax(difference))
-    largest = float(difference[worst])
-    return Agreement(design.host, largest, float(times[worst]), predicted, largest <= predicted)
+def _inside(times: Array, duty: Duty, hold: Hold) -> NDArray[np.bool_]:
+    """Return which times are under a load: from the end of its first step on."""
+    slack = 1e-6 * duty.step
+    return (times > hold.start + slack) & (times < hold.end + slack)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from harness.atomic import replacing
 from harness.closed_loop.course import Course
 from harness.closed_loop.duty import Duty
-from harness.closed_loop.judge import differences
+from harness.closed_loop.judge import Agreement
 from harness.plot_style import COLOURS, save, style
 
 DESIGN_COLOUR, PROOF_COLOUR = COLOURS["theory"], COLOURS["slow"]
@@ -18,9 +20,14 @@ BAND_COLOUR = "#d8e6ee"
 
 
 def draw_loop(
-    design: Course, proof: Course, duty: Duty, predicted: float, path: Path, title: str
+    design: Course,
+    proof: Course,
+    duty: Duty,
+    agreements: Sequence[Agreement],
+    path: Path,
+    title: str,
 ) -> None:
-    """Draw both courses of a host; `predicted` (m/s) is the error expected of the design."""
+    """Draw both courses of a host, and how far they differ, with the errors that are predicted."""
     with style():
         figure = Figure(figsize=(8.0, 6.2), layout="constrained")
         figure.suptitle(title, fontsize=11)
@@ -29,7 +36,7 @@ def draw_loop(
         _draw_load(load, duty)
         _draw_velocity(velocity, design, proof, duty)
         _draw_phase(phase, design, proof)
-        _draw_difference(difference, design, proof, duty, predicted)
+        _draw_difference(difference, design, proof, duty, agreements)
         difference.set(xlabel="time [s]", xlim=(0.0, duty.end))
         with replacing(path) as temporary:
             save(figure, temporary)
@@ -71,10 +78,17 @@ def _draw_phase(axes: Axes, design: Course, proof: Course) -> None:
 
 
 def _draw_difference(
-    axes: Axes, design: Course, proof: Course, duty: Duty, predicted: float
+    axes: Axes, design: Course, proof: Course, duty: Duty, agreements: Sequence[Agreement]
 ) -> None:
-    times, difference = differences(design, proof, duty)
-    axes.plot(times, 1e3 * difference, color="0.25", label="between the fidelities")
-    axes.axhline(1e3 * predicted, color=DESIGN_COLOUR, linewidth=1.0, label="predicted")
-    axes.set(ylabel="difference [mm/s]", ylim=(0.0, 1.6e3 * max(predicted, difference.max())))
+    counts = design.times > duty.load_steps[0].start
+    difference = 1e3 * np.abs(design.velocity - proof.velocity)[counts]
+    axes.plot(design.times[counts], difference, color="0.25", label="between the fidelities")
+    label = "predicted by choose"
+    for hold, agreement in zip(duty.load_steps, agreements, strict=True):
+        if agreement.predicted is not None:
+            since, error = (hold.start, hold.end), 1e3 * agreement.predicted
+            axes.plot(since, (error, error), color=DESIGN_COLOUR, linewidth=1.0, label=label)
+            label = ""
+    axes.set(ylabel="difference [mm/s]")
+    axes.set_ylim(0.0, 1.45 * axes.get_ylim()[1])
     axes.legend(loc="upper right", ncols=2)

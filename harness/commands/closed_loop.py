@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 import click
+import numpy as np
 from rich.table import Table
 
 from harness.atomic import replacing
@@ -14,12 +16,11 @@ from harness.closed_loop.course import HOSTS, Course, run_loop
 from harness.closed_loop.duty import Duty
 from harness.closed_loop.judge import Agreement, Held, judge_agreement, judge_holds
 from harness.closed_loop.picture import draw_loop
-from harness.closed_loop.prediction import averaged_error
+from harness.closed_loop.prediction import predicted_errors
 from harness.commands.options import REPOSITORY, json_option
 from harness.console import output, progress_bar
 from harness.errors import HarnessError
 from harness.json_output import to_json
-from harness.references.device import Device
 from harness.targets import make_folder
 
 PACKAGE = Path("dist") / "ClosedLoop.ssp"
@@ -51,8 +52,9 @@ def closed_loop_command(
 
     PACKAGE is an SSP package such as dist/ClosedLoop.ssp, the one that is run without it. A
     controller FMU moves the phase; the load steps four times. After each step, and 0.6 s to settle,
-    the velocity has to stay within 2 %, and both fidelities have to agree within the error that is
-    predicted for averaged motion. Leaves with 0 when all of this holds, 1 when not, 2 when the
+    the velocity has to stay within 2 %. From each step on, also while the loop answers, both
+    fidelities have to agree within the error that `choose` predicts for averaged motion under what
+    the controller did. Leaves with 0 when all of this holds, 1 when not, 2 when the
     package could not be run. Writes closed_loop.png and closed_loop.csv.
 
     \b
@@ -64,20 +66,22 @@ def closed_loop_command(
     if not package.is_file():
         raise HarnessError(f"{package}: no such file; build it with: python build_fmu.py")
     make_folder(out)
-    predicted = averaged_error(Device())
     held: list[Held] = []
     agreements: list[Agreement] = []
     courses: list[Course] = []
     hosts = [host for host in HOSTS if host.name in (chosen or NAMES[:1])]
     with progress_bar() as progress:
         for index, host in enumerate(hosts):
-            progress(host.name, index / len(hosts))
+            share = partial(_shared, progress, host.name, index, len(hosts))
+            share(0.0)
             design, proof = run_loop(package, host, duty)
             courses += [design, proof]
             held += [*judge_holds(design, duty), *judge_holds(proof, duty)]
-            agreements.append(judge_agreement(design, proof, duty, predicted))
+            predicted = predicted_errors(package, design, duty, share)
+            agreements += judge_agreement(design, proof, duty, predicted)
     title = f"Velocity held by moving the phase: {package.name} in {hosts[0].name}"
-    draw_loop(courses[0], courses[1], duty, predicted, out / "closed_loop.png", title)
+    first = agreements[: len(duty.load_steps)]
+    draw_loop(courses[0], courses[1], duty, first, out / "closed_loop.png", title)
     _write_csv(out / "closed_loop.csv", courses, duty)
     passed = all(h.passed for h in held) and all(a.passed for a in agreements)
     if as_json:
@@ -89,26 +93,29 @@ def closed_loop_command(
     context.exit(0 if passed else 1)
 
 
+def _shared(
+    progress: Callable[[str, float], None], label: str, index: int, count: int, share: float
+) -> None:
+    """Tell the progress of one host among `count`."""
+    progress(label, (index + share) / count)
+
+
 def _built() -> Path:
     return PACKAGE if PACKAGE.is_file() else REPOSITORY / PACKAGE
 
 
 def _write_csv(path: Path, courses: Sequence[Course], duty: Duty) -> None:
     """Write the ends of the steps with what was held over them and what came out."""
-    header = ["time [s]", "velocity_reference [m/s]", "load [N]"]
-    columns = [
-        courses[0].times.tolist(),
-        [duty.reference] * len(duty.times),
-        [duty.load(time) for time in duty.times],
-    ]
+    header = ["time [s]", "velocity_reference [m/s]"]
+    columns = [courses[0].times, np.full(len(duty.times), duty.reference)]
     for course in courses:
         run = f"{course.host} fidelity {course.fidelity}"
-        header += [f"{run} mean_velocity [m/s]", f"{run} phase [rad]"]
-        columns += [course.velocity.tolist(), course.phase.tolist()]
+        header += [f"{run} {name}" for name in ("load [N]", "mean_velocity [m/s]", "phase [rad]")]
+        columns += [course.load, course.velocity, course.phase]
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
-        writer.writerows(zip(*columns, strict=True))
+        writer.writerows(zip(*(column.tolist() for column in columns), strict=True))
 
 
 def _show(held: Sequence[Held], agreements: Sequence[Agreement]) -> None:
@@ -127,12 +134,20 @@ def _show(held: Sequence[Held], agreements: Sequence[Agreement]) -> None:
         )
     console = output()
     console.print(table)
+    console.print()
+    table = Table("host", "at", "load", "fidelities differ by", "at", "predicted", "", box=None)
     for agreement in agreements:
-        console.print(
-            f"{agreement.host}: the fidelities differ by at most {agreement.difference:.2g} m/s, "
-            f"at {agreement.time:.2f} s; predicted {agreement.predicted:.2g} m/s "
-            f"{_verdict(agreement.passed)}"
+        predicted = agreement.predicted
+        table.add_row(
+            agreement.host,
+            f"{agreement.start:g} s",
+            f"{1e3 * agreement.load:g} mN",
+            f"{1e6 * agreement.difference:.1f} um/s",
+            f"{agreement.time:.2f} s",
+            "fidelity 0 rejected" if predicted is None else f"{1e6 * predicted:.1f} um/s",
+            _verdict(agreement.passed),
         )
+    console.print(table)
 
 
 def _verdict(passed: bool) -> str:

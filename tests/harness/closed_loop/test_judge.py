@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -14,7 +12,8 @@ TIMES = (np.arange(200) + 1.0) * 0.01
 
 
 def course(velocity: np.ndarray, fidelity: int = 0) -> Course:
-    return Course("a host", fidelity, TIMES, velocity, np.zeros_like(TIMES))
+    idle = np.zeros_like(TIMES)
+    return Course("a host", fidelity, TIMES, velocity, idle, idle)
 
 
 def decaying(rate: float) -> np.ndarray:
@@ -51,15 +50,21 @@ def test_a_velocity_that_never_settles_has_no_settling_time() -> None:
     assert [entry.settled for entry in held] == [None, None]
 
 
-def test_design_and_proof_are_compared_from_the_first_settling_on() -> None:
+def test_design_and_proof_are_compared_from_the_step_of_the_load_on() -> None:
     design = course(np.full_like(TIMES, 0.1))
     velocity = np.full_like(TIMES, 0.1)
-    velocity[:40] = 0.0
+    velocity[:99] = 0.0
     velocity[150] += 2e-4
     proof = course(velocity, 2)
-    found = judge_agreement(design, proof, DUTY, predicted=3e-4)
+    (found,) = judge_agreement(design, proof, DUTY, [3e-4])
     assert found.passed
+    assert (found.start, found.load) == (1.0, 0.05)
     assert (found.difference, found.time) == (pytest.approx(2e-4), pytest.approx(1.51))
-    assert not judge_agreement(design, proof, DUTY, predicted=1e-4).passed
-    late = replace(DUTY, settling=0.3)
-    assert not judge_agreement(design, proof, late, predicted=3e-4).passed
+    (found,) = judge_agreement(design, proof, DUTY, [1e-4])
+    assert not found.passed
+
+
+def test_no_prediction_for_averaged_motion_is_no_agreement() -> None:
+    same = course(np.full_like(TIMES, 0.1))
+    (found,) = judge_agreement(same, same, DUTY, [None])
+    assert (found.difference, found.predicted, found.passed) == (0.0, None, False)
