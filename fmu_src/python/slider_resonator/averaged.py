@@ -12,11 +12,13 @@ from __future__ import annotations
 from cmath import phase as argument
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import copysign, cos, pi, tau
+from math import copysign, cos, pi, sin, tau
 
 from .averaged_lugre import FastMotion, mean_friction
+from .balance import Balance, Point, balanced_turning
 from .bristle import bristle_of
 from .device import Device, Inputs
+from .motion import EPSILON
 from .plant import equivalent_force
 from .refusal import Refusal
 from .vibrating_load import VibratingLoad
@@ -30,7 +32,8 @@ class Averaged:
     blocking_force: float
 
 
-ITERATIONS = 52
+ROUNDING = 8.0
+"""Rounding error of a mean friction, in units of the last place of the largest friction."""
 
 NO_VIBRATION = Averaged(0.0, 0.0)
 
@@ -54,17 +57,43 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
     delta = inputs.phase + normal_lead - inputs.frequency_ratio * argument(force)
     load = VibratingLoad(device, inputs.frequency_ratio, delta)
     friction = _lugre(device, fast, load) if device.friction_law else _coulomb(device, load)
-    if friction(0.0) == friction(pi):
+    first, middle, last = friction(0.0), friction(0.5 * pi), friction(pi)
+    if first == last:
         # Nothing holds the slider back: every velocity is steady, or with a load none.
         return Averaged(-copysign(fast.velocity, inputs.load) if inputs.load else 0.0, 0.0)
-    low, high = 0.0, pi
-    for _ in range(ITERATIONS):
-        middle = 0.5 * (low + high)
-        if friction(middle) + inputs.load > 0.0:
-            low = middle
-        else:
-            high = middle
-    return Averaged(fast.velocity * cos(0.5 * (low + high)), -friction(0.5 * pi))
+    opposing = inputs.load
+
+    def excess(turning: float) -> float:
+        return friction(turning) + opposing
+
+    near: Callable[[float], float] = excess
+    if not device.friction_law and load.wave_number and not load.lifts:
+        near = _closed(device, inputs, delta)
+    damping = device.bristle_damping * fast.velocity if device.friction_law else 0.0
+    largest = device.friction_coefficient + damping
+    normal = device.normal_preload + device.normal_amplitude
+    noise = ROUNDING * EPSILON * device.friction_faces * largest * normal
+    balance = Balance(excess, near, noise, rises=damping > device.friction_coefficient)
+    turning = balanced_turning(
+        balance,
+        Point(0.0, first + opposing),
+        Point(0.5 * pi, middle + opposing),
+        Point(pi, last + opposing),
+    )
+    return Averaged(fast.velocity * cos(turning), -middle)
+
+
+def _closed(device: Device, inputs: Inputs, delta: float) -> Callable[[float], float]:
+    """Coulomb friction and load [N] without flight, as (20) has it."""
+    scale = device.friction_faces * device.friction_coefficient
+    ratio, opposing = inputs.frequency_ratio, inputs.load
+    preload = scale * device.normal_preload
+    swing = 2.0 * scale * device.normal_amplitude / (ratio * pi) * sin(delta)
+
+    def excess(turning: float) -> float:
+        return preload * (1.0 - 2.0 / pi * turning) - swing * sin(ratio * turning) + opposing
+
+    return excess
 
 
 def _coulomb(device: Device, load: VibratingLoad) -> Callable[[float], float]:

@@ -49,8 +49,7 @@ class VibratingLoad:
     def __init__(self, device: Device, ratio: float, delta: float) -> None:
         self._preload, self._amplitude = device.normal_preload, device.normal_amplitude
         self._ratio, self._delta = ratio, delta
-        lifts = self._amplitude > self._preload
-        self._dip = asin(self._preload / self._amplitude) if lifts else 0.5 * pi
+        self._dip = asin(self._preload / self._amplitude) if self.lifts else 0.5 * pi
         self._per_turn = self._in_turn(pi + 2.0 * self._dip)
         self._constant: float | None = None
         if abs(ratio) <= EXACT:  # the integral below would lose its digits to 1 / n
@@ -70,6 +69,11 @@ class VibratingLoad:
     def wave_number(self) -> float:
         """Waves of the load over a turn of the drive; 0 for a constant load."""
         return 0.0 if self._constant is not None else self._ratio
+
+    @property
+    def lifts(self) -> bool:
+        """Whether the contact lifts at times."""
+        return self._amplitude > self._preload
 
     def kinks(self, begin: float, end: float) -> list[float]:
         """Drive angles in (begin, end) [rad] at which the contact lifts or touches down."""
