@@ -34,9 +34,9 @@ from harness.targets import make_folder
 @click.option(
     "--long",
     is_flag=True,
-    help="Add resolved Coulomb runs of 1e8 drive periods, 20 minutes each in the native FMU; give "
-    "them a --limit. Without it those have 1e5, with LuGre friction 1e4; averaged motion always "
-    "has 1e8.",
+    help="Add resolved runs of 1e8 drive periods, with LuGre friction of 1e5: up to 20 minutes "
+    "each in the native FMU, so give them a --limit. Without it they have 1e5 and 1e3; averaged "
+    "motion always has 1e8.",
 )
 @json_option
 @click.pass_context

@@ -12,5 +12,5 @@ from harness.extremes.step_axes import step_cells
 
 
 def all_cells(*, long: bool = False) -> list[Cell]:
-    """Return every cell; `long` adds resolved runs of 1e8 periods, a minute or more each."""
+    """Return every cell; `long` adds resolved runs of up to 1e8 periods, some minutes each."""
     return list(chain(device_cells(), input_cells(), step_cells(long=long), event_cells()))

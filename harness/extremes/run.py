@@ -12,7 +12,7 @@ from harness.extremes.judge import MOST_COST, broken, judge
 from harness.extremes.verdict import FAILED, PASSED, REFUSED, Verdict
 from harness.extremes.worker import Broken, Worker, working
 
-LIMIT = 120.0
+LIMIT = 300.0
 """Time, s, in which a cell must be done."""
 
 

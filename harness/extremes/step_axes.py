@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterator
 from math import tau
 
-from harness.extremes.cell import COULOMB_RESOLVED, MODELS, Cell, Hold, Limit, Model
+from harness.extremes.cell import MODELS, RESOLVED, Cell, Hold, Limit, Model
 from harness.extremes.device_axes import AMPLITUDE, W
 
 STEP = "communication step"
@@ -17,22 +17,24 @@ SMALLEST = 5e-324
 
 PERIODS = {0: 1e8, 1: 1e5, 2: 1e5}
 """Drive periods of the longest runs with Coulomb friction, by fidelity."""
-LUGRE_PERIODS = {0: 1e8, 1: 1e4, 2: 1e4}
-ALL_PERIODS = 1e8
+LUGRE_PERIODS = {0: 1e8, 1: 1e3, 2: 1e3}
+"""The same with LuGre friction."""
+LONG_PERIODS = {0: 1e8, 1: 1e5}
+"""Those of the resolved runs that have to be asked for, by friction law."""
 STEADY = {2: 0.12666700, 1: 0.1266646, 0: 0.126731}
 """Steady velocity of table 1, m/s, by fidelity, found without long runs."""
 
 
 def step_cells(*, long: bool) -> Iterator[Cell]:
-    """Yield the cells of all axes that are steps; `long` adds resolved runs of 1e8 periods."""
+    """Yield the cells of all axes that are steps; `long` adds resolved runs of LONG_PERIODS."""
     for model in MODELS:
         yield from _sizes(model)
         yield _late(model)
         yield from _restored(model)
         yield _many_periods(model, _periods(model))
     if long:
-        for model in COULOMB_RESOLVED:
-            yield _many_periods(model, ALL_PERIODS)
+        for model in RESOLVED:
+            yield _many_periods(model, LONG_PERIODS[model.friction_law])
 
 
 def _sizes(model: Model) -> Iterator[Cell]:
@@ -55,7 +57,7 @@ def _size(model: Model, decade: int) -> Cell:
         "resonator_frequency": W / slower,
         "base_amplitude": AMPLITUDE * slower,
     }
-    count = 300 if decade < -4 else 20 if decade < 0 else 2
+    count = 300 if decade < -4 else 20 if decade < 0 else 2 if decade < 4 else 1
     holds = (Hold(PERIOD * slower / 3.0), Hold(float(f"1e{decade}"), count))
     return Cell(STEP, f"1e{decade} s", model, slow if slower > 1.0 else {}, holds)
 

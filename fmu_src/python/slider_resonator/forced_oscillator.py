@@ -23,16 +23,21 @@ from .oscillator import (
     transfer,
 )
 
+AHEAD = 5.0
+"""Angle [rad] of the highest frequency for which bounds of responses from rest hold: more than what
+most slides last."""
+
 Response = Callable[[Oscillator, float, float], tuple[complex, complex]]
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """Displacement y [m] and derivatives, with bounds on |y''| and |y'''| over the horizon."""
+    """Displacement y [m] and derivatives, with bounds on |y'| to |y'''| over the horizon."""
 
     displacement: float
     rate: float
     acceleration: float
+    rate_bound: float
     acceleration_bound: float
     jerk_bound: float
 
@@ -88,7 +93,7 @@ class ForcedOscillator:
         self._from_rest = tuple(from_rest)
         self._free = (y0, u0)
         rates = [oscillator.frequency, *(abs(f) for f, _, _ in from_rest)]
-        self.horizon = 1.0 / max(rates) if from_rest else inf
+        self.horizon = AHEAD / max(rates) if from_rest else inf
 
     def sample(self, t: float) -> Sample:
         """Motion at `t` >= 0 [s]. The free part loses energy, so its present energy bounds it."""
@@ -98,10 +103,12 @@ class ForcedOscillator:
         acceleration = self._constant - 2.0 * decay * u - stiffness * y
         jerk_bound = hypot(2.0 * decay * acceleration + stiffness * u, frequency * acceleration)
         acceleration_bound = jerk_bound / frequency
+        rate_bound = hypot(u, acceleration / frequency)
         for f, response in self._steady:
             turned = response * rect(1.0, f * t)
             y += turned.real
             u -= f * turned.imag
+            rate_bound += abs(f * response)
             size = abs(response) * f * f
             acceleration_bound += size
             jerk_bound += size * abs(f)
@@ -111,6 +118,7 @@ class ForcedOscillator:
             u += (amplitude * rate).real
             ahead = t + self.horizon
             size = abs(amplitude) * (abs(f) + 2.0 * decay + frequency + ahead * f * f)
+            rate_bound += abs(amplitude) * ahead
             acceleration_bound += size / frequency
             jerk_bound += size
         acceleration = -2.0 * decay * u - stiffness * y
@@ -119,7 +127,7 @@ class ForcedOscillator:
         for f, amplitude in self._forcing:
             if f != 0.0:
                 acceleration += (amplitude * rect(1.0, f * t)).real
-        return Sample(y, u, acceleration, acceleration_bound, jerk_bound)
+        return Sample(y, u, acceleration, rate_bound, acceleration_bound, jerk_bound)
 
     def reach(self) -> tuple[float, float]:
         """Bounds on |displacement| and |rate| for all time; infinite without a steady response."""

@@ -10,7 +10,7 @@ from cmath import rect
 from math import inf
 
 from .first_zero import Watch
-from .forced_oscillator import ForcedOscillator
+from .forced_oscillator import ForcedOscillator, Sample
 from .motion import EPSILON, State
 from .oscillator import double_integral, integral
 from .plant import Plant
@@ -26,7 +26,9 @@ class RegularSlide:
         "_deceleration",
         "_direction",
         "_fraction",
+        "_own_bound",
         "_pair",
+        "_pair_bound",
         "_plant",
         "_resonator",
         "_start",
@@ -45,6 +47,9 @@ class RegularSlide:
         self._fraction = plant.mass_fraction
         self._deceleration = resisting / plant.total_mass
         self._pair = ((w, plant.drive * drive_turn), (q, -friction / plant.total_mass))
+        self._pair_bound = sum(abs(a * f) for f, a in self._pair)
+        own = abs(plant.holding_drive) * w + plant.friction_amplitude * abs(q)
+        self._own_bound = own / plant.slider_mass
         self._resonator = ForcedOscillator(
             plant.slip,
             resisting / plant.slider_mass,
@@ -92,13 +97,23 @@ class RegularSlide:
         return velocity - self._fraction * (rate - start.rate)
 
     def _velocity_ahead(self, t: float) -> tuple[float, float, float]:
-        acceleration, bound, rate = -self._deceleration, 0.0, 0.0
+        acceleration, bound, rate = -self._deceleration, self._pair_bound, 0.0
         for f, a in self._pair:
             acceleration += (a * rect(1.0, f * t)).real
-            bound += abs(a * f)
         if self._fraction:
             sample = self._resonator.sample(t)
             rate = sample.rate
             acceleration -= self._fraction * sample.acceleration
-            bound += self._fraction * sample.jerk_bound
+            bound = self._bound(sample)
         return self._direction * self._velocity(t, rate), self._direction * acceleration, bound
+
+    def _bound(self, sample: Sample) -> float:
+        """Bound on the second derivative of the velocity [m/s^3].
+
+        By the momentum of the pair, or for a slider that hardly feels its resonator by the force
+        between them.
+        """
+        plant = self._plant
+        by_pair = self._pair_bound + self._fraction * sample.jerk_bound
+        between = plant.spring * sample.rate_bound + plant.damper * sample.acceleration_bound
+        return min(by_pair, self._own_bound + between / plant.slider_mass)
