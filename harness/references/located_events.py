@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import DOP853, OdeSolver
+from scipy.integrate import OdeSolver
 
 from harness.references.contact import LIFTED, STICK
 from harness.references.device import Device
@@ -57,28 +57,6 @@ def simulate(
     equations = equations_of(device)
     follow = _follow_with(equations, scipy_method(method), rtol, atol, steps_per_period)
     return ModeSequence(equations, follow, initial_state(device), times).run(held)
-
-
-def advance(
-    device: Device,
-    inputs: HeldInputs,
-    state: tuple[float, float, float],
-    *,
-    rtol: float = 1e-11,
-    atol: float = 1e-13,
-) -> tuple[tuple[float, float, float], float]:
-    """Return the state after the held inputs, and the displacement of the slider in m.
-
-    ``state`` is (velocity, resonator displacement, resonator velocity) in m/s, m, m/s at
-    ``inputs.start``, where theta = psi = 0. Over a whole number of periods of both angles its fixed
-    point is the steady motion. ``rtol``, ``atol`` and the errors raised are those of ``simulate``.
-    """
-    equations = equations_of(device)
-    follow = _follow_with(equations, DOP853, rtol, atol, STEPS_PER_FASTEST_PERIOD)
-    sequence = ModeSequence(equations, follow, (0.0, *state), np.empty(0))
-    sequence.run([inputs])
-    displacement, *end = sequence.state
-    return (end[0], end[1], end[2]), displacement
 
 
 def _follow_with(

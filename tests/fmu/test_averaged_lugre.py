@@ -10,8 +10,9 @@ from collections.abc import Callable
 
 import pytest
 
-from harness.references import lugre_steady
+from harness.reference_steady import reference_blocking_force, reference_steady_velocity
 from harness.references.device import Device
+from harness.references.lugre_taylor import simulate_lugre
 from tests.fmu.host import Instance
 
 Instantiate = Callable[[], Instance]
@@ -50,12 +51,13 @@ def test_predictions_err_by_the_inverse_frequency(
         instance = instantiate().initialize(**values, phase=PHASE)
         velocity, force = instance.get("steady_velocity", "blocking_force")
         device = Device.from_mapping({**values, "fidelity": 1})
-        errors.append(
-            (
-                velocity - lugre_steady.steady_velocity(device, PHASE, guess=velocity),
-                force - lugre_steady.blocking_force(device, PHASE, guess=force),
-            )
+        steady = reference_steady_velocity(
+            device, PHASE, 0.0, 1.0, velocity, simulate=simulate_lugre
         )
+        blocking = reference_blocking_force(device, PHASE, 1.0, force, simulate=simulate_lugre)
+        assert steady is not None, "the resolved device has a steady motion"
+        assert blocking is not None, "a load stops the resolved device"
+        errors.append((velocity - steady, force - blocking))
     for quantity, coarse, fine in zip(("velocity", "blocking"), *errors, strict=True):
         assert abs(coarse) <= 2e-3, f"{quantity} at Omega = 1000, in units of v_q and N0"
         assert coarse / fine == pytest.approx(4.0, rel=0.05), f"{quantity}: slope 1 in 1 / Omega"
@@ -69,7 +71,7 @@ def test_averaged_motion_settles_at_the_prediction(instantiate: Instantiate, kap
     mean, steady = instance.get("mean_velocity", "steady_velocity")
     assert mean == pytest.approx(steady, abs=1e-6), "averaged motion and averaged theory are one"
     device = Device.from_mapping({**values, "fidelity": 1})
-    direct = lugre_steady.steady_velocity(device, PHASE, guess=steady)
+    direct = reference_steady_velocity(device, PHASE, 0.0, 1.0, steady, simulate=simulate_lugre)
     assert mean == pytest.approx(direct, abs=2e-3), "within 2e-3 of v_q of the resolved motion"
 
 

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
+from harness.reference_steady import reference_steady_velocity
 from harness.references import averaged_coulomb as coulomb
 from harness.references.closed_forms import (
     device_blocking_force,
@@ -15,7 +15,7 @@ from harness.references.closed_forms import (
 )
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
-from harness.references.located_events import advance, simulate
+from harness.references.located_events import simulate
 from harness.references.slow_course import slow_course
 from harness.references.vibrating_contact import mean_load
 
@@ -72,18 +72,10 @@ def test_blocking_force_of_the_device_is_that_of_the_paper_for_equal_frequencies
 
 def steady_by_shooting(device: Device, phase: float, load: float, ratio: int) -> float:
     """Mean velocity in m/s of the motion that repeats, by the integrator with located events."""
-    period = 2.0 * math.pi / device.drive_frequency
-    inputs = HeldInputs(0.0, period, phase, load, float(ratio))
-    force = equivalent_force(device)
-    fast = force.velocity_amplitude
-
-    def change(velocity: float) -> float:
-        return advance(device, inputs, (velocity, 0.0, 0.0))[0][0] - velocity
-
     guess = coulomb.device_steady_velocity_at_ratio(device, phase, float(ratio), load)
-    start = guess - fast * math.cos(force.angle)
-    found = brentq(change, start - 0.1 * fast, start + 0.1 * fast, xtol=1e-9 * fast)
-    return advance(device, inputs, (found, 0.0, 0.0))[1] / period
+    found = reference_steady_velocity(device, phase, load, float(ratio), guess)
+    assert found is not None, "the device slides steadily"
+    return found
 
 
 @pytest.mark.parametrize(

@@ -1,19 +1,16 @@
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
-from scipy.optimize import brentq, root
+from scipy.optimize import brentq
 
-from harness.references.closed_forms import equivalent_force
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
-from harness.references.located_events import advance, simulate
+from harness.references.located_events import simulate
 from harness.references.trajectory import Trajectory
 from tests.problems import PROBLEMS
 
@@ -198,51 +195,6 @@ def test_the_error_falls_with_the_tolerance() -> None:
     assert error(1e-4) < 1e-8, "the bound on steps alone gives this, since no event costs an order"
     assert error(1e-11) < 0.05 * error(1e-4), "below that the tolerance decides"
     assert error(1e-12) < 1e-11
-
-
-def test_advance_ends_where_simulate_ends() -> None:
-    device = replace(TABLE_1, initial_velocity=0.12, initial_resonator_velocity=1.6)
-    inputs = HeldInputs(0.0, PERIOD, phase=0.4, load=0.05)
-    run = simulate(device, [inputs], np.array([PERIOD]))
-    end, displacement = advance(device, inputs, (0.12, 0.0, 1.6), rtol=1e-12, atol=1e-14)
-    assert end == (run.velocity[0], run.resonator_displacement[0], run.resonator_velocity[0])
-    assert displacement == run.position[0]
-
-
-@pytest.mark.parametrize(
-    ("inputs", "velocity"),
-    [
-        ({}, 0.12666700),
-        ({"phase": 0.4, "load": 0.05}, 0.0986951),
-        ({"phase": 0.4, "frequency_ratio": 3.0}, -0.0362968),
-        ({"load": 0.0851861}, 0.0),
-    ],
-)
-def test_the_fixed_point_of_advance_is_the_measured_steady_motion(
-    inputs: dict[str, float], velocity: float
-) -> None:
-    held = HeldInputs(0.0, PERIOD, **inputs)
-    force = equivalent_force(TABLE_1)
-    fast = cmath.rect(force.resonator_amplitude, -force.resonator_angle)
-    start = np.array(
-        [
-            velocity - force.velocity_amplitude * math.cos(force.angle),
-            fast.imag,
-            3500.0 * fast.real,
-        ]
-    )
-    scale = abs(start)
-
-    def change(scaled: NDArray[np.float64]) -> list[float]:
-        state = (scaled * scale).tolist()
-        end, _ = advance(TABLE_1, held, (state[0], state[1], state[2]))
-        return [(e - s) / size for e, s, size in zip(end, state, scale, strict=True)]
-
-    found = root(change, start / scale, tol=1e-10, options={"eps": 1e-8})
-    state = (found.x * scale).tolist()
-    _, displacement = advance(TABLE_1, held, (state[0], state[1], state[2]))
-    assert abs(found.fun).max() < 1e-8, "the motion repeats after one period"
-    assert displacement / PERIOD == pytest.approx(velocity, abs=2e-7), "mean velocity in m/s"
 
 
 @pytest.mark.parametrize(
