@@ -47,7 +47,8 @@ from harness.trade.task import Task, task_of
     type=click.FloatRange(min=0.0, min_open=True),
     default=BUDGET,
     show_default=True,
-    help="CPU time in s for the longest run of a method, and as much again for its repeats.",
+    help="CPU time in s for the longest run of a method or its search for steady motion, and as "
+    "much again for repeats.",
 )
 @click.option(
     "--periods",

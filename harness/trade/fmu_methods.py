@@ -121,7 +121,7 @@ class FmuMethods:
     def _search(self, quantity: str, fidelity: int, law: int) -> Answer:
         values = {**self._values(fidelity, law, USUAL_TOLERANCE), **self.task.inputs}
 
-        def find() -> Found:
+        def find(_: float) -> Found:
             if quantity == "steady_velocity":
                 steady = find_steady(self.instance, values)
                 return Found(steady.steady_velocity, steady.reason, steady.periods)
@@ -137,7 +137,7 @@ class FmuMethods:
         values = {**self._values(2, law, USUAL_TOLERANCE), **self.task.inputs}
         family = f"{self.build} FMU, output {quantity}"
 
-        def find() -> Found:
+        def find(_: float) -> Found:
             self.instance.start(values)
             return Found(self.instance.value(quantity), "", 0)
 

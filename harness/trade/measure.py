@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from math import inf
 from time import process_time
 
 from harness.benchmark.in_turn import Progress, Timed, in_turn
@@ -19,7 +20,7 @@ from harness.trade.result import Omission, Row, Trade
 from harness.trade.task import Task
 
 BUDGET = 1.0
-"""CPU time (s) for the longest run of a method, and as much again for its repeats."""
+"""CPU time (s) for the longest run or search of a method, and as much again for repeats."""
 REPEATS = 5
 
 _TROUBLE = (ValueError, RuntimeError, ArithmeticError, ModuleNotFoundError, FmuError)
@@ -82,7 +83,7 @@ def _measured(
         candidates += _follow(task, truth, method, budget, notes)
     for index, answer in enumerate(answers):
         progress(f"{task.name}: {answer.label.name}", 0.4 + 0.2 * index / len(answers))
-        candidates += _answer(truth, answer, notes)
+        candidates += _answer(truth, answer, budget, notes)
     notes.answers_of(methods)
     timed = [
         Timed(c.label.name, c.seconds, min(repeats, int(budget / max(c.estimate, 1e-9))))
@@ -199,7 +200,7 @@ def _timed_run(method: Method, periods: int) -> tuple[float, Motion, float | Non
     return process_time() - began, motion, start
 
 
-def _answer(truth: Referee, answer: Answer, notes: _Notes) -> list[_Candidate]:
+def _answer(truth: Referee, answer: Answer, budget: float, notes: _Notes) -> list[_Candidate]:
     """Find an answer once; empty where there is none."""
     expected: float | None = getattr(truth, answer.quantity)
     if not expected:
@@ -208,7 +209,7 @@ def _answer(truth: Referee, answer: Answer, notes: _Notes) -> list[_Candidate]:
         return []
     try:
         began = process_time()
-        found = answer.find()
+        found = answer.find(budget)
         taken = process_time() - began
     except _TROUBLE as error:
         notes.add(answer.label, answer.quantity, str(error))
@@ -222,7 +223,7 @@ def _answer(truth: Referee, answer: Answer, notes: _Notes) -> list[_Candidate]:
             answer=answer.quantity,
             periods=found.periods,
             per=1.0,
-            seconds=lambda: cpu_seconds(answer.find),
+            seconds=lambda: cpu_seconds(lambda: answer.find(inf)),
             estimate=taken,
             start_cpu=None,
             motion=None,

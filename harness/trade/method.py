@@ -51,11 +51,14 @@ class Found:
 
 @dataclass(frozen=True)
 class Answer:
-    """A way to a steady velocity (m/s) or a blocking force (N), named by `quantity`."""
+    """A way to a steady velocity (m/s) or a blocking force (N), named by `quantity`.
+
+    `find` gives up, with a RuntimeError, when it has taken so much CPU time (s).
+    """
 
     label: Label
     quantity: str
-    find: Callable[[], Found]
+    find: Callable[[float], Found]
 
 
 def cpu_seconds(work: Callable[[], object]) -> float:

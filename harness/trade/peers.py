@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from time import process_time
 from typing import Literal
 
 import numpy as np
@@ -95,11 +96,19 @@ def peer_answers(task: Task) -> Iterator[Answer]:
                 yield Answer(_label(task, peer), quantity, find)
 
 
-def shoot(task: Task, quantity: str, simulate: Simulate, tolerance: float) -> Found:
-    """Return a steady velocity or blocking force by shooting with any integrator."""
+def shoot(task: Task, quantity: str, simulate: Simulate, tolerance: float, budget: float) -> Found:
+    """Return a steady velocity or blocking force by shooting with any integrator.
+
+    Raises RuntimeError when that takes more CPU time (s) than its budget.
+    """
     turns: list[float] = []
+    began = process_time()
 
     def counted(device: Device, held: Sequence[HeldInputs], times: Array) -> Trajectory:
+        if process_time() - began > budget:
+            raise RuntimeError(
+                f"the search by shooting takes more than its budget of {budget:g} s of CPU time"
+            )
         turns.append((held[-1].stop - held[0].start) / task.period)
         return simulate(device, held, times)
 

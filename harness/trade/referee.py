@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
@@ -51,7 +52,7 @@ def referee(task: Task) -> Referee:
         answers = {}
         for quantity in ("steady_velocity", "blocking_force"):
             answers[quantity] = (
-                shoot(task, quantity, simulate, SHOOTING).value if task.steady else None
+                shoot(task, quantity, simulate, SHOOTING, inf).value if task.steady else None
             )
     except (ModuleNotFoundError, ValueError, RuntimeError) as error:
         raise HarnessError(f"scene {task.name}: the referee cannot follow it: {error}") from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -57,9 +58,11 @@ def test_every_setting_has_a_name_of_its_own(tmp_path: Path) -> None:
 
 def test_any_integrator_can_be_shot_with(tmp_path: Path) -> None:
     table_1 = task(tmp_path, TABLE_1)
-    found = shoot(table_1, "steady_velocity", taylor.simulate, 1e-9)
+    found = shoot(table_1, "steady_velocity", taylor.simulate, 1e-9, inf)
     assert found.value == pytest.approx(0.12666700, rel=1e-7)
     assert 30 <= found.periods <= 100, "a long run needs thousands"
+    with pytest.raises(RuntimeError, match="more than its budget of 0 s"):
+        shoot(table_1, "steady_velocity", taylor.simulate, 1e-9, 0.0)
     answers = {answer.label.family for answer in peer_answers(table_1)}
     assert "Moreau-Jean" in answers
     assert not any("at its fastest" in family for family in answers)
