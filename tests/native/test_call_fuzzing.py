@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from fmu_src.c_header import C_SOURCES
+from fmu_src.controller.variables import VARIABLES
 from harness.hosts.compiler import compile_program, native_compiler
-from tests.native.toolchain import PROGRAMS, UNBUILT_GUID, Binary, program, run
+from tests.native.toolchain import PROGRAMS, UNBUILT_GUID, Binary, program, run, unpacked_binary
 
 CALLS = 300_000
 
@@ -31,6 +32,18 @@ def test_no_call_crashes_hangs_or_is_refused_in_silence(
     calls = {name: (int(n), int(k)) for name, n, k in re.findall(r"(\w+) (\d+) (\d+)", done.stdout)}
     never = [name for name, (number, _) in calls.items() if number < 500]
     assert never == [], "every function is called hundreds of times"
+    for name in ("fmi2DoStep", "fmi2SetReal", "fmi2SetFMUstate", "fmi2DeSerializeFMUstate"):
+        number, carried_out = calls[name]
+        assert 1000 < carried_out < number, f"{name} is both carried out and refused"
+
+
+@pytest.mark.slow
+def test_the_controller_stands_the_same(fuzzer: Path, controller_fmu: Path, tmp_path: Path) -> None:
+    controller = unpacked_binary(controller_fmu, tmp_path)
+    settable = sum(variable.causality != "output" for variable in VARIABLES)
+    done = run([fuzzer, controller.library, controller.guid, 1, CALLS, settable])
+    assert done.returncode == 0, f"{done.stdout}{done.stderr}"
+    calls = {name: (int(n), int(k)) for name, n, k in re.findall(r"(\w+) (\d+) (\d+)", done.stdout)}
     for name in ("fmi2DoStep", "fmi2SetReal", "fmi2SetFMUstate", "fmi2DeSerializeFMUstate"):
         number, carried_out = calls[name]
         assert 1000 < carried_out < number, f"{name} is both carried out and refused"

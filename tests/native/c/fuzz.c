@@ -1,6 +1,8 @@
 /* Calls all functions of an FMU in random order with good, bad and absurd arguments.
  *
- *     fuzz LIBRARY GUID SEED CALLS
+ *     fuzz LIBRARY GUID SEED CALLS [SETTABLE]
+ *
+ * SETTABLE is the number of variables that can be set, that of the slider unless it is given.
  *
  * Fails (1) when a call that is not carried out goes unlogged, is logged with another status, changes
  * the state, or answers a status that no host should see there; when the longest call exceeds a
@@ -8,10 +10,11 @@
  * was done. */
 #include "fuzz_host.h"
 
-enum { INSTANCES = 4, STATES = 6, MOST_BYTES = 8192, SECONDS = 60, SETTABLE = 24 };
+enum { INSTANCES = 4, STATES = 6, MOST_BYTES = 8192, SECONDS = 60, FIRST_CHOICE = 13 };
 
 static FmuLibrary fmu;
 static const char *guid;
+static unsigned settable = 24;
 static fmi2Component instances[INSTANCES];
 static fmi2FMUstate states[STATES];
 static fmi2Byte stored[MOST_BYTES];
@@ -24,16 +27,16 @@ static fmi2Real reals[ROOM];
 static fmi2Integer integers[ROOM];
 static fmi2String strings[ROOM];
 
-/* The Integers of the interface; the other references below SETTABLE are Reals that can be set. */
+/* The Integers of the slider; the other references below `settable` are Reals that can be set. */
 static int is_choice(unsigned reference) {
-    return reference == 13 || reference == 14 || reference == 17;
+    return reference == FIRST_CHOICE || reference == 14 || reference == 17;
 }
 
 /* Half of the calls get arguments that may well be carried out. */
 static void draw_arguments(int for_integers) {
-    int i, plain = one_in(2);
+    int i, plain = one_in(2) && (!for_integers || settable > FIRST_CHOICE);
     for (i = 0; i < ROOM; i++) {
-        do references[i] = plain ? below(SETTABLE) : random_reference();
+        do references[i] = plain ? below(settable) : random_reference();
         while (plain && is_choice(references[i]) != for_integers);
         reals[i] = plain ? 2.0 * random_share() : random_real();
         integers[i] = plain ? (int)below(3) : random_integer();
@@ -242,10 +245,11 @@ static void put_in_order(void) {
 int main(int count, char **arguments) {
     unsigned long wanted;
     unsigned i;
-    if (count != 5 || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
+    if ((count != 5 && count != 6) || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
     guid = arguments[2];
     random_state = 2 * strtoull(arguments[3], NULL, 10) + 1;
     wanted = strtoul(arguments[4], NULL, 10);
+    if (count == 6) settable = (unsigned)strtoul(arguments[5], NULL, 10);
     for (calls = 0; calls < wanted; calls++) {
         memory_is_scarce = one_in(20);
         if (one_in(500) || !instances[0]) instantiate();
