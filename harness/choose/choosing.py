@@ -193,14 +193,16 @@ class _Choosing:
         tight = tolerances[-1]
         at = first_step(tight)
         if at is None:
-            return None, refused or self._why_not(model)
+            return None, self._why_not(model, refused)
         step = self.ladder[at]
         index = coarsest(lambda i: excess(tolerances[i], step), len(tolerances), 10.0, first)
         if index is None:
-            return None, refused or self._why_not(model)
+            return None, self._why_not(model, refused)
         return self._try(Candidate(model, tolerances[index], step)), ""
 
-    def _why_not(self, model: Model) -> str:
+    def _why_not(self, model: Model, refused: str) -> str:
+        if all(candidate.model != model for candidate in self._tried):
+            return refused
         return "; ".join(filter(None, (self._nearest(model).why, self._law_of(model))))
 
     def _nearest(self, model: Model | None = None) -> Tried:

@@ -22,22 +22,17 @@ class HeldGrid:
     times: Array
     values: Array
 
-    def turned(self, time: float, drive_frequency: float) -> float:
-        """Return psi (rad, one turn at most) at a time (s)."""
-        count = int(np.searchsorted(self.times, time))
-        lengths = np.diff(np.append(self.times[:count], time))
-        return float(drive_frequency * (lengths @ self.values[:count, 2])) % tau
-
     def stretch(self, start: float, stop: float, points: Array, drive_frequency: float) -> Schedule:
         """Return the schedule from `start` on, at a whole drive period, with more points.
 
-        Its times begin at 0; what psi has turned by then is added to the phase.
+        Its times begin at 0. What psi has turned by then is added to the phase: a stretch that does
+        not begin with the scene is for a frequency ratio that does not change.
         """
         inside = self.times[(self.times > start) & (self.times < stop)]
         times = np.unique(np.concatenate([[start, stop], inside, points]))
         rows = self.values[np.searchsorted(self.times, times, side="right") - 1]
         if start > 0.0:
-            rows[:, 0] += self.turned(start, drive_frequency)
+            rows[:, 0] += (drive_frequency * start * rows[0, 2]) % tau
         changes = np.flatnonzero(np.any(np.diff(rows, axis=0, prepend=np.nan) != 0.0, axis=1))
         shifted = times - start
         at = shifted[changes].tolist()
@@ -45,23 +40,23 @@ class HeldGrid:
         return Schedule(shifted, *signals)
 
 
-def as_run(scene: Scene, duration: float, step: float) -> HeldGrid:
-    """Return the inputs as a run in this communication step (s) samples and holds them."""
+def as_run(scene: Scene, stop: float, step: float) -> HeldGrid:
+    """Return the inputs as a run in this step (s) samples and holds them up to `stop` (s)."""
     signals = [scene.signals[name] for name in INPUTS]
     jumps = [time for signal in signals for time in signal.jumps]
-    times = communication_points(duration, step, jumps)
+    times = communication_points(stop, step, jumps)
     return HeldGrid(times, np.column_stack([signal.over(times) for signal in signals]))
 
 
-def as_meant(scene: Scene, duration: float, step: float) -> HeldGrid:
+def as_meant(scene: Scene, stop: float, step: float, start: float = 0.0) -> HeldGrid:
     """Return the inputs nearly as they vary, held at their mean over each small step (s).
 
     The impulse of the load and what psi turns are then exact at the points: the error left is of
     second order in the step, that of `as_run` is of first.
     """
     signals = [scene.signals[name] for name in INPUTS]
-    corners = [time for signal in signals for time in signal.times]
-    times = communication_points(duration, step, corners)
+    corners = [time - start for signal in signals for time in signal.times]
+    times = start + communication_points(stop - start, step, corners)
     middles = times + 0.5 * np.diff(times, append=times[-1])
     return HeldGrid(times, np.column_stack([signal.over(middles) for signal in signals]))
 

@@ -52,6 +52,8 @@ HEAD_PERIODS, FEWEST_PERIODS = 1000.0, 100.0
 """Drive periods that are resolved at the beginning of a longer scene."""
 CHEAP_PERIOD = 3e-6
 """Seconds of a drive period up to which those numbers hold; of dearer ones there are fewer."""
+CAUTION = 3.0
+"""By which errors seen in the beginning are enlarged beside their growth with time."""
 MOST_SLOWNESS = 0.05
 """Friction over vibration with which averaged motion can say what happens between windows."""
 MOST_CORNERS = 2 * WINDOWS
@@ -130,33 +132,32 @@ class Probe:
         step = candidate.step or self.duration
         if self.covers == "windows":
             return with_holding(self._carried(candidate, step), self._holding(step))
-        held = as_run(self.scene, self.duration, step)
-        course, truth = self._follow(candidate, held, self._head), self._truth(step, self._head)
+        course = self._follow(candidate, self._as_run(step), self._head)
+        seen = self._seen(course, self._truth(step, self._head))
+        return seen if self.covers == "whole" else self._grown(candidate, seen)
+
+    def _seen(self, course: Course, truth: Course) -> dict[str, Wrong]:
         law = self.truth_model.friction_law
         seen = errors(self.run_needs, course, truth, self.scales.period, law)
-        if self.no_beat:
-            seen["beat"] = Wrong(inf, 0.0, self.no_beat)
-        return seen if self.covers == "whole" else self._grown(candidate, seen)
+        return {**seen, "beat": Wrong(inf, 0.0, self.no_beat)} if self.no_beat else seen
 
     def _carried(self, candidate: Candidate, step: float) -> dict[str, Wrong]:
         """Return the errors of a candidate with inputs as they vary, from head and windows."""
         key = replace(candidate, step=None if self.varying else step)
         if key not in self._carried_errors:
-            held = self._as_they_vary(step)
-            head, truth = self._follow(candidate, held, self._head), self._truth(step, self._head)
-            law = self.truth_model.friction_law
-            seen = errors(self.run_needs, head, truth, self.scales.period, law)
-            if self.no_beat:
-                seen["beat"] = Wrong(inf, 0.0, self.no_beat)
-            defects = []
-            for window in self._windows.windows:
-                course = self._follow(candidate, held, window.stretch)
-                there = self._truth(step, window.stretch)
-                defects.append(defect(window, course, there, self.scales))
-            self._carried_errors[key] = carried(
-                defects, self._windows.sizes, head, truth, seen, self.duration
-            )
+            head, truth = self._alike(candidate, step, self._head)
+            defects = [
+                defect(window, *self._alike(candidate, step, window.stretch), self.scales)
+                for window in self._windows.windows
+            ]
+            seen, sizes = self._seen(head, truth), self._windows.sizes
+            self._carried_errors[key] = carried(defects, sizes, head, truth, seen, self.duration)
         return self._carried_errors[key]
+
+    def _alike(self, candidate: Candidate, step: float, stretch: Stretch) -> tuple[Course, Course]:
+        """Return candidate and resolved device under the same inputs."""
+        held = self._as_they_vary(step, stretch)
+        return self._follow(candidate, held, stretch), self._truth(step, stretch)
 
     def _holding(self, step: float) -> dict[str, float]:
         """Return what holding the inputs over a step (s) adds to the errors.
@@ -176,7 +177,7 @@ class Probe:
         if candidate.model != self.truth_model:
             reason = "the scene is too long, and changes too often, for a short probe to confirm it"
             return {name: Wrong(inf, wrong.size, reason) for name, wrong in seen.items()}
-        growth = self.duration / self.probed_duration
+        growth = CAUTION * self.duration / self.probed_duration
         return {
             name: wrong if name == "beat" else Wrong(growth * wrong.error, wrong.size)
             for name, wrong in seen.items()
@@ -213,10 +214,10 @@ class Probe:
 
     @cached_property
     def _head(self) -> Stretch:
-        points = self.scene.schedule().times
-        if not SIGNAL_NEEDS & set(self.run_needs):
-            points = points[:0]
         stop = self.probed_duration
+        points: Array = np.empty(0)
+        if SIGNAL_NEEDS & set(self.run_needs):
+            points = as_run(self.scene, stop, self.scene.step_size or stop).times
         return Stretch(0.0, stop, looks_between(points, 0.0, stop))
 
     @cached_property
@@ -229,25 +230,32 @@ class Probe:
         if self.varying and self.covers == "windows":
             key = 0.0, stretch.start
         if key not in self._truths:
-            held = self._as_they_vary(step)
+            held = self._as_they_vary(step, stretch)
             finest = Candidate(self.truth_model, FINEST_TOLERANCE, step)
             self._truths[key] = self._follow(finest, held, stretch)
         return self._truths[key]
 
-    def _as_they_vary(self, step: float) -> HeldGrid:
+    def _as_run(self, step: float) -> HeldGrid:
+        """Return the inputs of the first stretch as a run in this step (s) holds them.
+
+        Where they do not vary other than by jumps, points between these would not change them.
+        """
+        stop = self._head.stop
+        return as_run(self.scene, stop, step if self.varying else stop)
+
+    def _as_they_vary(self, step: float, stretch: Stretch) -> HeldGrid:
         """Return the inputs without an error of holding them, for a candidate with this step (s).
 
         Within a window a few steps in a drive period serve; else there are some in its own step.
         """
+        length, fine = stretch.stop - stretch.start, step / TRUTH_STEPS
         if not self.varying:
-            return as_run(self.scene, self.duration, step)
-        fine = step / TRUTH_STEPS
-        if self.covers == "windows":
+            fine = length
+        elif self.covers == "windows":
             fine = self.scales.period / WINDOW_STEPS
-        else:
-            while self.probed_duration / fine > MOST_POINTS and fine < 0.5 * step:
-                fine *= 2.0
-        return as_meant(self.scene, self.duration, fine)
+        while self.varying and length / fine > MOST_POINTS and fine < 0.5 * step:
+            fine *= 2.0
+        return as_meant(self.scene, stretch.stop, fine, stretch.start)
 
     def _follow(self, candidate: Candidate, held: HeldGrid, stretch: Stretch) -> Course:
         if candidate.model.fidelity > 0:

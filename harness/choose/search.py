@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from math import ceil, floor, isfinite, log
 
 STALLED = 0.7
 """A finer choice that leaves more than this share of the error shows that another error is left."""
+PATIENCE = 2
+"""Finer choices that must show so: the coarsest can be too coarse for any law."""
 
 
 def coarsest(excess: Callable[[int], float], count: int, gain: float, first: int = 0) -> int | None:
@@ -24,7 +27,7 @@ def coarsest(excess: Callable[[int], float], count: int, gain: float, first: int
         bad = max((i for i, value in known.items() if value > 1.0 and i < good), default=-1)
         if good == bad + 1:
             return good if good < count else None
-        if good == count and _stalled(known, gain):
+        if good == count and _stalled(known):
             return None
         shift = _shift(known[index], gain, count)
         index = min(max(index + shift, bad + 1), good - 1)
@@ -38,9 +41,8 @@ def _shift(excess: float, gain: float, count: int) -> int:
     return max(1, ceil(log(excess) / log(gain)))
 
 
-def _stalled(known: dict[int, float], gain: float) -> bool:
-    """Whether the last two indices that were tried show an error that no longer falls."""
-    if len(known) < 2:
-        return False
-    (_, before), (_, last) = sorted(known.items())[-2:]
-    return isfinite(last) and last > STALLED * before
+def _stalled(known: dict[int, float]) -> bool:
+    """Whether the finest indices that were tried show an error that no longer falls."""
+    last = [known[index] for index in sorted(known)[-PATIENCE - 1 :]]
+    falls = [isfinite(fine) and fine > STALLED * coarse for coarse, fine in pairwise(last)]
+    return len(falls) == PATIENCE and all(falls)

@@ -55,7 +55,7 @@ def generated_scene(seed: int, folder: Path) -> Scene:
         per_period = min(draw.one_of(1.0, 4.0, 16.0), MOST_LOOKS / periods)
         lines += ["[run]", f"stop_time = {duration!r}", f"steps_per_period = {per_period!r}"]
     beats = _beats(inputs)
-    tightest = 1e-4 if any("ramp" in given for given in inputs.values()) else 3e-6
+    tightest = 1e-4 if any("ramp" in given for given in inputs.values()) else 1e-5
     fast = equivalent_force(Device.from_mapping(device)).velocity_amplitude
     lines += ["[need]", *_needs(draw, steady, beats, tightest, fast)]
     if law == 1 and draw.chance(0.5):
@@ -86,7 +86,7 @@ def _device(draw: Draw) -> dict[str, float]:
         "friction_law": int(draw.chance(0.45)),
     }
     force = equivalent_force(Device.from_mapping(device))
-    strength = draw.log(10.0, 1e5) if draw.chance(0.7) else draw.log(0.5, 30.0)
+    strength = draw.log(30.0, 1e5) if draw.chance(0.7) else draw.log(0.5, 30.0)
     wanted = strength * faces * coefficient * preload
     device["base_amplitude"] *= wanted / force.amplitude
     fast = force.velocity_amplitude * wanted / force.amplitude
@@ -140,7 +140,7 @@ def _needs(draw: Draw, steady: bool, beats: bool, tightest: float, fast: float) 
     if steady:
         names = ["steady_velocity", "blocking_force"]
     else:
-        names = ["mean_velocity"] * 3 + ["position"] * 2 + ["velocity", "event_times"]
+        names = ["mean_velocity"] * 4 + ["position"] * 2 + ["velocity", "event_times"]
         names += ["beat"] * 3 * beats
     chosen = {names[int(draw.rng.integers(len(names)))] for _ in range(ceil(draw.uniform(0, 1.5)))}
     scale = {"event_times": 1e-2, "beat": 1e-1}

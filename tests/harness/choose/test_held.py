@@ -12,7 +12,8 @@ from tests.harness.choose.scene_text import scene_of
 RAMP = (
     "[inputs]\nload = { ramp = [[0, 0], [0.03, 0.3], [0.1, 0]] }\n"
     "phase = { steps = [[0, 0.2], [0.051, 0.7]] }\n"
-    "frequency_ratio = { ramp = [[0, 1], [0.1, 1.5]] }\n[run]\nstop_time = 0.1\nstep_size = 0.007\n"
+    "frequency_ratio = { ramp = [[0, 1], [0.05, 1.5]] }\n"
+    "[run]\nstop_time = 0.1\nstep_size = 0.007\n"
 )
 
 
@@ -33,17 +34,18 @@ def test_inputs_as_meant_give_their_impulse_exactly(scene: Scene, step: float) -
     lengths = np.diff(held.times)
     load, _, ratio = (lengths @ held.values[:-1, column] for column in (1, 0, 2))
     assert load == pytest.approx(0.5 * 0.3 * 0.1, rel=1e-12)
-    assert ratio == pytest.approx(0.1 * 1.25, rel=1e-12)
+    assert ratio == pytest.approx(0.05 * 1.25 + 0.05 * 1.5, rel=1e-12)
 
 
 def test_a_stretch_carries_the_turns_before_it_in_its_phase(scene: Scene) -> None:
-    held = as_meant(scene, 0.1, 0.001)
+    held = as_meant(scene, 0.08, 0.001, 0.06)
     stretch = held.stretch(0.06, 0.08, np.array([0.0651]), 100.0)
     assert stretch.times[0] == 0.0
     assert stretch.times[-1] == pytest.approx(0.02)
     assert np.abs(stretch.times - 0.0051).min() < 1e-15
-    turned = 100.0 * (0.06 + 2.5 * 0.06**2)
-    assert stretch.phase.at(0.0) == pytest.approx((0.7 + turned) % (2.0 * np.pi), rel=1e-6)
+    assert stretch.frequency_ratio.at(0.0) == 1.5
+    assert stretch.phase.at(0.0) == pytest.approx(0.7 + (100.0 * 0.06 * 1.5) % (2.0 * np.pi))
+    assert stretch.load.at(0.0201) == pytest.approx(0.3 * 2.0 / 7.0, abs=0.003)
 
 
 def test_only_what_changes_within_the_run_other_than_by_jumps_varies(tmp_path: Path) -> None:

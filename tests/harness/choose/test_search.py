@@ -42,7 +42,7 @@ def test_an_error_that_does_not_fall_is_given_up_at_once() -> None:
         return 50.0
 
     assert coarsest(excess, 100, 2.0) is None
-    assert len(tried) == 2
+    assert len(tried) == 3
 
 
 def test_what_cannot_be_run_coarsely_is_tried_finer() -> None:
