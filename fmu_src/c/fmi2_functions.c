@@ -53,7 +53,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
             memset(instance, 0, sizeof *instance);
             memcpy(instance->name, name, length + 1);
             instance->host = *functions;
-            want_all_messages(instance, loggingOn != fmi2False);
+            want_first_messages(instance, loggingOn != fmi2False);
             component_reset(&instance->component);
             return instance;
         }

@@ -28,6 +28,11 @@ void want_all_messages(Instance *instance, bool wanted) {
     }
 }
 
+void want_first_messages(Instance *instance, bool debugging) {
+    want_all_messages(instance, debugging);
+    instance->wanted[STATUS_ERROR] = instance->wanted[STATUS_FATAL] = true;
+}
+
 bool want_messages(Instance *instance, const char *category, Refusal *refusal) {
     for (int known = 0; category != NULL && known < CATEGORY_COUNT; known++) {
         if (strcmp(category, CATEGORIES[known]) == 0) {

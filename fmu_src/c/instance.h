@@ -35,6 +35,10 @@ void host_free(const fmi2CallbackFunctions *host, void *memory);
 /* Has all messages sent, or none. */
 void want_all_messages(Instance *instance, bool wanted);
 
+/* Has messages sent as a host wants them that has `debugging` on or not: errors in any case, as they
+ * are all that tells why a call failed. */
+void want_first_messages(Instance *instance, bool debugging);
+
 /* Has messages of one more category sent. Refuses a category that is not known. */
 bool want_messages(Instance *instance, const char *category, Refusal *refusal);
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
+from fmpy import simulate_fmu
+from fmpy.fmi1 import FMICallException
 
 from fmu_src.model_description import LOG_CATEGORIES
 from tests.fmu.host import Instance, Unpacked
@@ -84,17 +87,32 @@ def test_more_categories_than_there_are_and_no_categories_are_refused(instance: 
     assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 0, null) == OK
 
 
-def test_nothing_is_sent_or_written_without_logging(
+def test_errors_are_sent_without_debug_logging(
     unpacked: Unpacked, capfd: pytest.CaptureFixture[str]
 ) -> None:
     instance = Instance(unpacked, logging_on=False).initialize()
     assert provoke_error(instance) == ERROR
-    assert instance.log == []
-    assert debug_logging(instance, True, "logStatusError") == OK
-    assert provoke_error(instance) == ERROR
-    assert len(instance.log) == 1, "a host may turn logging on later"
+    assert provoke_discard(instance) == DISCARD
+    assert [entry.category for entry in instance.entries] == ["logStatusError"]
+    assert "communicationStepSize = nan refused" in instance.log[0]
     instance.free()
     assert capfd.readouterr() == ("", ""), "the streams belong to the host"
+
+
+def test_a_host_may_turn_errors_off(unpacked: Unpacked) -> None:
+    instance = Instance(unpacked, logging_on=False).initialize()
+    assert debug_logging(instance, False) == OK
+    assert messages_of(instance) == 0
+    assert debug_logging(instance, True, "logStatusError") == OK
+    assert messages_of(instance) == 1
+    instance.free()
+
+
+def test_fmpy_says_why_a_run_failed(fmu: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """With all defaults: its own logger prints what the FMU sends."""
+    with pytest.raises(FMICallException):
+        simulate_fmu(str(fmu), start_values={"load": math.nan}, stop_time=0.1)
+    assert "load = nan refused: allowed is a finite number" in capfd.readouterr().out
 
 
 def test_status_category_and_name_go_with_the_text(
