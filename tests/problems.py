@@ -8,6 +8,16 @@ from dataclasses import dataclass, field
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
 
+SIGNALS = (
+    "position",
+    "velocity",
+    "resonator_displacement",
+    "resonator_velocity",
+    "normal_force",
+    "friction_force",
+)
+"""What is compared with a referee."""
+
 DURATION = 0.2
 MASS_FRACTION = 0.1 / 1.1
 

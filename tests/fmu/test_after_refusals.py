@@ -63,14 +63,17 @@ def test_a_refused_initialization_can_be_mended(instantiate: Callable[[], Instan
     with pytest.raises(FMICallException):
         mended.set(slider_mass=-1.0)
     mended.slave.exitInitializationMode()
-    assert mended.run(5, STEP) == plain.run(5, STEP)
+    assert mended.run(5, STEP) == plain.run(5, STEP), (
+        "a refused value leaves no trace in the motion"
+    )
 
 
 def test_reset_after_refusals(instance: Instance, instantiate: Callable[[], Instance]) -> None:
     maltreat(instance)
     instance.slave.reset()
     instance.initialize()
-    assert instance.run(5, STEP) == instantiate().initialize().run(5, STEP)
+    fresh = instantiate().initialize()
+    assert instance.run(5, STEP) == fresh.run(5, STEP), "a reset instance moves as a new one"
 
 
 STORM = """

@@ -92,14 +92,14 @@ def test_two_instances_do_not_share_anything(instantiate: Callable[[], Instance]
         for instance, collected in zip(together, rows, strict=True):
             collected += instance.run(1, STEP)
     alone = [instantiate().initialize(**v).run(20, STEP) for v in values]
-    assert rows == alone
+    assert rows == alone, "two devices stepped in turn move as each does alone"
 
 
 def test_each_instance_logs_to_its_own_host(instantiate: Callable[[], Instance]) -> None:
     first, second = instantiate().initialize(), instantiate().initialize()
     with first.refuses("load"):
         first.set(load=float("nan"))
-    assert second.log == []
+    assert second.log == [], "what one instance refuses is not told to the host of another"
 
 
 def test_reset_gives_back_a_new_instance(instantiate: Callable[[], Instance]) -> None:
@@ -108,7 +108,7 @@ def test_reset_gives_back_a_new_instance(instantiate: Callable[[], Instance]) ->
     used.run(10, STEP)
     used.slave.reset()
     used.initialize()
-    assert used.run(10, STEP) == fresh.run(10, STEP)
+    assert used.run(10, STEP) == fresh.run(10, STEP), "parameters, inputs and motion are forgotten"
 
 
 def test_reset_after_terminate(instance: Instance, instantiate: Callable[[], Instance]) -> None:
@@ -117,7 +117,7 @@ def test_reset_after_terminate(instance: Instance, instantiate: Callable[[], Ins
     assert instance.get(*OUTPUTS) == first[-1], "results can be read after the end"
     instance.slave.reset()
     instance.initialize()
-    assert instance.run(10, STEP) == first
+    assert instance.run(10, STEP) == first, "the same run again gives the same motion"
 
 
 def test_a_run_that_starts_later_is_the_same_motion(
@@ -137,9 +137,9 @@ def test_the_folder_of_an_earlier_instance_may_be_gone(fmu: Path, tmp_path: Path
         rows.append(instance.run(3, STEP))
         instance.free()
         shutil.rmtree(folder)
-    assert rows[0] == rows[1]
+    assert rows[0] == rows[1], "the motion does not depend on the folder"
 
 
 def test_simulate_fmu_twice(fmu: Path) -> None:
     first, second = (simulate_fmu(str(fmu), stop_time=0.05) for _ in range(2))
-    assert first.tolist() == second.tolist()
+    assert first.tolist() == second.tolist(), "a second run gives the same motion"

@@ -62,5 +62,5 @@ def test_one_long_step_keeps_the_phase(instantiate: Callable[[], Instance]) -> N
     instance = instantiate().initialize(frequency_ratio=RATIO)
     instance.step(20.0)
     theta, psi = phases(instance)
-    assert apart(theta, Fraction(W * 20)) < 1e-9
-    assert apart(psi, Fraction(RATIO) * W * 20) < 1e-9
+    assert apart(theta, Fraction(W * 20)) < 1e-9, "the drive phase is w t modulo a turn"
+    assert apart(psi, Fraction(RATIO) * W * 20) < 1e-9, "that of the normal load is ratio w t"

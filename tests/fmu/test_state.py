@@ -75,7 +75,7 @@ def test_replay_in_another_instance(
     other.restore(on_its_way.state())
     other.time = on_its_way.time
     assert other.state() == on_its_way.state(), "serializing again gives the same bytes"
-    assert other.run(30, STEP) == on_its_way.run(30, STEP)
+    assert other.run(30, STEP) == on_its_way.run(30, STEP), "it goes on with the same bits"
 
 
 REPLAY = """
@@ -112,7 +112,7 @@ def test_state_of_an_initializing_instance(instantiate: Callable[[], Instance]) 
     other.restore(instance.state())
     for i in (instance, other):
         i.slave.exitInitializationMode()
-    assert other.run(5, STEP) == instance.run(5, STEP)
+    assert other.run(5, STEP) == instance.run(5, STEP), "values set before the start are kept"
 
 
 def _foreign(data: bytes) -> dict[str, bytes]:

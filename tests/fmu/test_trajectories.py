@@ -16,18 +16,10 @@ from harness.references.trajectory import Trajectory
 from tests.fmu.host import Instance, Unpacked
 from tests.fmu.native_layout import LAYOUT, numbers
 from tests.fmus import both_fmus
-from tests.problems import DURATION, PROBLEMS, Problem
+from tests.problems import DURATION, PROBLEMS, SIGNALS, Problem
 
 pytestmark = both_fmus
 
-SIGNALS = (
-    "position",
-    "velocity",
-    "resonator_displacement",
-    "resonator_velocity",
-    "normal_force",
-    "friction_force",
-)
 ALLOWED = 1e-9
 """Deviation allowed, as a fraction of the peak of each signal."""
 
@@ -95,9 +87,9 @@ def test_against_the_referee(instantiate: Instantiate, name: str) -> None:
     signals, ends = fmu_run(instantiate, problem, grid(problem, 230))
     referee = referee_of(name, 230)
     assert_equal(signals, referee, ALLOWED)
-    assert ends["reversals"] == referee.reversals
-    assert ends["sticks"] == referee.sticks
-    assert ends["contact_mode"] == referee.contact_mode[-1]
+    assert ends["reversals"] == referee.reversals, "reversals seen by the referee"
+    assert ends["sticks"] == referee.sticks, "sticks seen by the referee"
+    assert ends["contact_mode"] == referee.contact_mode[-1], "the contact at the end"
     if referee.event_times.size:
         assert ends["last_event_time"] == pytest.approx(referee.event_times[-1], abs=1e-12)
 
@@ -111,7 +103,7 @@ def test_independent_of_the_partition(instantiate: Instantiate, name: str, count
     for column, signal in enumerate(SIGNALS[:4]):
         expected = getattr(referee, signal)[-1]
         assert signals[-1, column] == pytest.approx(expected, rel=1e-9, abs=1e-13)
-    assert ends["reversals"] == referee.reversals
+    assert ends["reversals"] == referee.reversals, "no partition hides or adds a reversal"
 
 
 def test_one_step_of_a_quarter_second(instantiate: Instantiate) -> None:
@@ -122,7 +114,7 @@ def test_one_step_of_a_quarter_second(instantiate: Instantiate) -> None:
         fine.step(1e-3)
     for one, other in zip(whole.get(*SIGNALS), fine.get(*SIGNALS), strict=True):
         assert one == pytest.approx(other, rel=1e-9)
-    assert whole.get("reversals") == fine.get("reversals")
+    assert whole.get("reversals") == fine.get("reversals"), "no step hides a reversal"
 
 
 @pytest.mark.slow
@@ -144,4 +136,4 @@ def test_steps_of_two_microseconds(instantiate: Instantiate, unpacked: Unpacked,
         problem.device, [replace(problem.held[0], stop=float(times[-1]))], times[499::500]
     )
     assert_equal(np.array(rows), referee, ALLOWED)
-    assert instance.get("reversals")[0] == referee.reversals
+    assert instance.get("reversals")[0] == referee.reversals, "reversals seen by the referee"

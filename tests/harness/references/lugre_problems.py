@@ -7,18 +7,11 @@ import numpy as np
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
 from harness.references.lugre_trajectory import LugreTrajectory
+from tests import problems
 
 DURATION = 0.012
 TIMES = np.linspace(0.0, DURATION, 121)
-SIGNALS = (
-    "position",
-    "velocity",
-    "resonator_displacement",
-    "resonator_velocity",
-    "normal_force",
-    "friction_force",
-    "bristle_deflection",
-)
+SIGNALS = (*problems.SIGNALS, "bristle_deflection")
 
 
 def constant(**inputs: float) -> list[HeldInputs]:

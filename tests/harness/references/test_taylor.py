@@ -17,16 +17,8 @@ from harness.references.averaged_coulomb import slow_start
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
 from harness.references.trajectory import Trajectory
-from tests.problems import DURATION, PROBLEMS
+from tests.problems import DURATION, PROBLEMS, SIGNALS
 
-SIGNALS = (
-    "position",
-    "velocity",
-    "resonator_displacement",
-    "resonator_velocity",
-    "normal_force",
-    "friction_force",
-)
 PERIOD = 2.0 * np.pi / 3500.0
 TIMES = np.linspace(0.0, DURATION, 1501)
 QUICK = ("table 1", "lift-off with sticking", "undamped, sticking resonance", "schedule")
