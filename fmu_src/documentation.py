@@ -1,4 +1,8 @@
-"""The documentation page inside the FMU: fixed text around a table of the variables."""
+"""The documentation page inside the FMU: fixed text around a table of the variables.
+
+The table that helps to choose a model is measured, by the command trade of the harness, and
+committed, so that a build gives the same bytes.
+"""
 
 from __future__ import annotations
 
@@ -37,13 +41,18 @@ def documentation_page(
     """
     template = Template((ASSETS / page).read_text(encoding="utf-8"))
     page = template.substitute(
-        host=(ASSETS / f"{host}_host.html").read_text(encoding="utf-8").rstrip("\n"),
+        choosing=_asset("choosing.html"),
+        host=_asset(f"{host}_host.html"),
         model=escape(model),
         description=escape(about),
         generation_tool=escape(generation_tool),
         variables=_variable_tables(variables),
     )
     return page.encode()
+
+
+def _asset(name: str) -> str:
+    return (ASSETS / name).read_text(encoding="utf-8").rstrip("\n")
 
 
 def _variable_tables(variables: Sequence[Variable]) -> str:

@@ -106,6 +106,8 @@ def errors(task: Task, motion: Motion, referee: Windows, periods: int) -> dict[s
 
 def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
     """Return the frequency (Hz) in the later half, None where it is sampled too thinly."""
+    if len(times) < 32:
+        return None
     steps = np.diff(times)
     if abs(steps[-1] - steps[0]) > 1e-6 * steps[0]:
         times, mean_velocity = times[:-1], mean_velocity[:-1]

@@ -50,7 +50,7 @@ def choices(trade: Trade) -> list[Choice]:
     """Return the cheapest method for every need of a scene; the native FMU decides the model."""
     found = []
     for quantity, error in NEEDS:
-        rows = trade.having(quantity)
+        rows = trade.candidates(quantity)
         if not rows:
             continue
         native = cheapest([r for r in rows if r.family.startswith("native")], quantity, error)

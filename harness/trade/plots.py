@@ -51,7 +51,7 @@ def draw_picture(trade: Trade, path: Path) -> None:
     with style():
         figure = Figure(figsize=(8.0, 5.4), layout="constrained")
         for axes, quantity in zip(figure.subplots(1, len(PANELS)), PANELS, strict=True):
-            rows = [row for row in trade.having(quantity) if "instead" not in row.family]
+            rows = trade.candidates(quantity)
             _draw(axes, rows, quantity, looks)
             axes.set_title(f"error of the {quantity.replace('_', ' ')}")
             _name_ours(axes, rows, quantity)
@@ -119,7 +119,7 @@ def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
         axes.annotate(
             family.replace(" FMU, fidelity ", " "),
             (cheapest.cost, _shown(cheapest, quantity)),
-            xytext=(0, 7) if family.startswith("native") else (0, -14),
+            xytext=(0, 7) if family.startswith("native") else (0, -16),
             textcoords="offset points",
             fontsize=8,
             color=next((c for build, c in OURS.items() if family.startswith(build)), "black"),

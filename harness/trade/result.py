@@ -71,6 +71,10 @@ class Trade:
         """Return the rows with an error of this quantity."""
         return [row for row in self.rows if quantity in row.errors]
 
+    def candidates(self, quantity: str) -> list[Row]:
+        """Return those under the friction law of the scene: another one is near by luck only."""
+        return [row for row in self.having(quantity) if row.friction_law == self.friction_law]
+
 
 ROUNDING = 1e-12
 """Errors below this are luck: rounding over a thousand drive periods."""

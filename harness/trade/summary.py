@@ -29,7 +29,7 @@ def standings(trade: Trade) -> list[Standing]:
     """Return the standing of every class at every target."""
     found = []
     for quantity, error in TARGETS:
-        rows = trade.having(quantity)
+        rows = trade.candidates(quantity)
         best = {
             kind: cheapest([row for row in rows if row.kind == kind], quantity, error)
             for kind in CLASSES

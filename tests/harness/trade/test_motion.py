@@ -95,5 +95,7 @@ def test_a_beat_is_told_by_who_samples_it(tmp_path: Path, step: int, told: bool)
     motion = Motion(times, times, np.ones_like(times), course=course)
     found = errors(beating, motion, windows(beating, motion, 1600), 1600)
     assert ("beat_frequency" in found) == told, "twenty periods are a beat"
+    early = replace(motion, course=tuple(part[:1] for part in course))
+    assert "beat_frequency" not in errors(beating, early, windows(beating, motion, 1600), 1600)
     if told:
         assert found["beat_frequency"] == pytest.approx(1e-3, rel=1e-3)

@@ -10,9 +10,13 @@ from pathlib import Path
 import pytest
 
 from harness.errors import HarnessError
-from harness.trade.needs import BEGIN, END, HEAD, cells, choices, write_choices
+from harness.trade.needs import BEGIN, END, HEAD, NEEDS, cells, choices, write_choices
 from harness.trade.result import AVERAGED, PEER, RESOLVED, Row, Trade
 from tests.harness.trade.test_result import row
+
+REPOSITORY = Path(__file__).parents[3]
+PAGE = REPOSITORY / "docs" / "how-to-choose.md"
+DOCUMENTATION = REPOSITORY / "fmu_src" / "assets" / "choosing.html"
 
 
 def named(row: Row, family: str, setting: str) -> Row:
@@ -79,3 +83,11 @@ def tables(path: Path) -> list[list[str]]:
             [unescape(cell) for cell in re.findall(r"<t[hd]>(.*?)</t[hd]>", line)] for line in lines
         ]
     return [row for row in rows if tuple(row) != HEAD and row[0] != "---"]
+
+
+def test_what_is_committed_was_written_by_this_code() -> None:
+    rows = tables(PAGE)
+    assert rows == tables(DOCUMENTATION), "the page and the FMU's documentation tell the same"
+    needs = {(quantity.replace("_", " "), f"{error:.0e}") for quantity, error in NEEDS}
+    assert needs == {(row[0], row[1]) for row in rows}, "each need is met in some scene, or not"
+    assert all(len(row) == len(HEAD) for row in rows)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -87,6 +89,14 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
     assert "30 times cheaper than resolved" in sentence(told["mean_velocity", AVERAGED])
     assert heading("mean_velocity", 1e-2) == "at an error of 1 % in mean velocity"
     assert heading("position", 1e-9) == "at an error of 1e-09 in position"
+
+
+def test_another_friction_law_is_no_candidate() -> None:
+    lucky = replace(row(1e-6, 1e-12), friction_law=1)
+    trade = Trade("s", "S", 0, 10, 1.0, 0.0, (row(3e-4, 1e-13), lucky), ())
+    (found,) = [s.row for s in standings(trade) if s.quantity == "position" and s.row is not None]
+    assert found.friction_law == 0
+    assert lucky in trade.having("position"), "its error is shown all the same"
 
 
 @pytest.mark.parametrize(
