@@ -5,12 +5,19 @@ from pathlib import Path
 
 import pytest
 
+from harness.closed_loop import prediction
 from harness.closed_loop.course import HOSTS, run_loop
 from harness.closed_loop.duty import Duty
 from harness.closed_loop.prediction import predicted_errors
 from harness.errors import HarnessError
 
 DUTY = Duty(loads=((0.0, 0.0), (0.8, 0.03)), end=1.6, settling=0.5)
+
+
+@pytest.fixture
+def brief(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Fewer predictions, where one tells as much."""
+    monkeypatch.setattr(prediction, "FIRST", 1)
 
 
 def test_the_error_is_of_the_order_of_what_friction_does_in_a_radian_of_the_drive(
@@ -25,6 +32,7 @@ def test_the_error_is_of_the_order_of_what_friction_does_in_a_radian_of_the_driv
     assert shares == [1.0]
 
 
+@pytest.mark.usefixtures("brief")
 def test_the_device_is_that_of_the_package(closed_loop_package: Path, tmp_path: Path) -> None:
     design, _ = run_loop(closed_loop_package, HOSTS[0], DUTY)
     slow = tmp_path / "slow.ssp"

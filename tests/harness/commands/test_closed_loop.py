@@ -11,6 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from harness.cli import main
+from harness.closed_loop import prediction
 
 
 def closed_loop(*arguments: object) -> Result:
@@ -49,6 +50,13 @@ def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
     assert float(rows[-1]["fmpy fidelity 2 mean_velocity [m/s]"]) == pytest.approx(0.06, rel=1e-3)
 
 
+@pytest.fixture
+def brief(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Fewer predictions, where they do not matter."""
+    monkeypatch.setattr(prediction, "FIRST", 1)
+
+
+@pytest.mark.usefixtures("brief")
 def test_a_controller_without_integral_does_not_hold(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
@@ -59,6 +67,7 @@ def test_a_controller_without_integral_does_not_hold(
     assert "never" in done.stdout
 
 
+@pytest.mark.usefixtures("brief")
 def test_another_device_is_a_proof_that_disagrees(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:

@@ -105,6 +105,16 @@ def _children(process: subprocess.Popen[bytes]) -> list[int]:
     ]
 
 
+@pytest.fixture(scope="module")
+def undisturbed(
+    long_grid: Path, native_fmu: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Path:
+    """The table of the long grid, from a sweep that nothing has happened to."""
+    table = tmp_path_factory.mktemp("undisturbed") / "undisturbed.parquet"
+    assert _start(long_grid, native_fmu, table).wait(DEADLINE) == 0
+    return table
+
+
 def _kill(process: subprocess.Popen[bytes]) -> None:
     """Kill a sweep, and wait for its workers, which nobody told."""
     workers = _children(process)
@@ -118,10 +128,9 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
 
 @pytest.mark.slow
 def test_a_sweep_killed_20_times_at_random_is_resumed_to_the_same_file(
-    long_grid: Path, native_fmu: Path, tmp_path: Path
+    long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
-    undisturbed, out = tmp_path / "undisturbed.parquet", tmp_path / "killed.parquet"
-    assert _start(long_grid, native_fmu, undisturbed).wait(DEADLINE) == 0
+    out = tmp_path / "killed.parquet"
     kept = 0
     for seed in range(KILLS):
         process = _start(long_grid, native_fmu, out)
@@ -141,10 +150,11 @@ def test_a_sweep_killed_20_times_at_random_is_resumed_to_the_same_file(
 
 
 @pytest.mark.slow
-def test_a_killed_worker_is_replaced(wide_grid: Path, native_fmu: Path, tmp_path: Path) -> None:
-    undisturbed, out = tmp_path / "undisturbed.csv", tmp_path / "killed.csv"
-    assert _start(wide_grid, native_fmu, undisturbed).wait(DEADLINE) == 0
-    process = _start(wide_grid, native_fmu, out)
+def test_a_killed_worker_is_replaced(
+    long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "killed.parquet"
+    process = _start(long_grid, native_fmu, out)
     _wait_for_points(process, out, 300)
     os.kill(_children(process)[0], signal.SIGKILL)
     assert process.wait(DEADLINE) == 0
