@@ -11,7 +11,13 @@ from rich.table import Table
 
 from harness.choose import Choice, choose
 from harness.choose.candidate import Model
-from harness.commands.options import SettingsCommand, default_fmu, json_option, set_option
+from harness.commands.options import (
+    SettingsCommand,
+    check_left_to_choose,
+    default_fmu,
+    json_option,
+    set_option,
+)
 from harness.console import output
 from harness.json_output import to_json
 from harness.scene import find_scene, read_scene
@@ -49,8 +55,9 @@ def choose_command(
     The scene, built in or from a file, says it in [need]: any of mean_velocity, position, velocity,
     steady_velocity, blocking_force, event_times and beat, each with abs or rel, and friction_law =
     "free" where either law will do. Laws of the errors say where to look, and a short resolved run
-    in the FMU confirms the answer. Leaves with 0 when something suffices, with 1 when nothing does:
-    then what comes nearest is told.
+    in the FMU confirms the answer. Fidelity and tolerance of the scene itself do not matter, its
+    step is how often it looks at signals; of a scene with a sweep the unvaried device is taken.
+    Leaves with 0 when something suffices, with 1 when nothing does: then the nearest is told.
 
     \b
     Examples:
@@ -58,6 +65,7 @@ def choose_command(
       python -m harness choose scenes/mine.toml --json
       python -m harness choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
+    check_left_to_choose(settings)
     read = read_scene(find_scene(scene), settings)
     choice = choose(read, default_fmu(fmu))
     if as_json:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import click
@@ -100,6 +100,17 @@ def _each_once(
             )
         given[name] = value
     return given
+
+
+def check_left_to_choose(settings: Mapping[str, float]) -> None:
+    """Raise UsageError for a setting of what is to be chosen."""
+    given = [
+        f"{name} = {settings[name]:g}" for name in ("fidelity", "tolerance") if name in settings
+    ]
+    if given:
+        raise click.UsageError(
+            f"'--set': {', '.join(given)}: it is chosen; allowed are other parameters and inputs"
+        )
 
 
 fmu_argument = click.argument("fmu", type=click.Path(path_type=Path))

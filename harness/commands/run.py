@@ -13,6 +13,7 @@ import click
 from harness.commands.options import (
     SettingsCommand,
     Target,
+    check_left_to_choose,
     fmu_argument,
     json_option,
     set_option,
@@ -29,9 +30,6 @@ from harness.targets import PICTURE_SUFFIXES, distinct
 
 if TYPE_CHECKING:
     from harness.choose import Choice
-
-CHOSEN = frozenset({"fidelity", "tolerance"})
-"""Parameters that --auto chooses."""
 
 
 @dataclass(frozen=True)
@@ -99,9 +97,8 @@ def run_command(
     read = read_scene(find_scene(scene), settings)
     files = {f"the scene's file {file}": file for file in read.files}
     distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **files})
-    chosen_twice = sorted(CHOSEN & settings.keys()) if auto else []
-    if chosen_twice:
-        raise click.UsageError(f"--auto chooses {', '.join(chosen_twice)}; allowed is one of both")
+    if auto:
+        check_left_to_choose(settings)
     choice = None
     with progress_bar() as progress, open_fmu(fmu) as opened, instantiate(opened) as instance:
         if auto:
