@@ -48,6 +48,8 @@ def _of_definitions(text: str) -> Iterator[_Change]:
         yield match.end(2), match.end(2), ' factor="1000.0"', f"unit {unit} gets factor 1000"
         for exponent in _EXPONENT.finditer(match.group(2)):
             base, power = exponent.group(1), int(exponent.group(2))
+            if base == "rad":  # to the SI it is 1, whatever its exponent
+                continue
             start, end = begin + exponent.start(2), begin + exponent.end(2)
             yield start, end, str(power + 1), f"unit {unit}: {base}^{power} becomes ^{power + 1}"
     for match in _DISPLAY.finditer(text):

@@ -8,7 +8,7 @@ DESCRIPTION = """<fmiModelDescription>
       <BaseUnit />
     </Unit>
     <Unit name="N">
-      <BaseUnit kg="1" s="-2" />
+      <BaseUnit kg="1" rad="1" s="-2" />
       <DisplayUnit name="mN" factor="1000.0" />
     </Unit>
   </UnitDefinitions>
@@ -24,9 +24,9 @@ def test_every_unit_is_mislabelled_in_each_way() -> None:
     lines = {change: m.diff.splitlines()[-2].strip("+ ") for change, m in found.items()}
     assert lines == {
         "unit 1 gets factor 1000": '<BaseUnit factor="1000.0" />',
-        "unit N gets factor 1000": '<BaseUnit kg="1" s="-2" factor="1000.0" />',
-        "unit N: kg^1 becomes ^2": '<BaseUnit kg="2" s="-2" />',
-        "unit N: s^-2 becomes ^-1": '<BaseUnit kg="1" s="-1" />',
+        "unit N gets factor 1000": '<BaseUnit kg="1" rad="1" s="-2" factor="1000.0" />',
+        "unit N: kg^1 becomes ^2": '<BaseUnit kg="2" rad="1" s="-2" />',
+        "unit N: s^-2 becomes ^-1": '<BaseUnit kg="1" rad="1" s="-1" />',
         "display unit mN: factor is 1 % too large": '<DisplayUnit name="mN" factor="1010.0" />',
         "unit of load becomes 1": '<Real unit="1" start="0.0" />',
         "unit of load is left out": '<Real start="0.0" />',
