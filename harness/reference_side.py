@@ -161,6 +161,23 @@ class ReferenceSide:
         return averaged_coulomb.device_blocking_force_at_ratio(self.device, phase, ratio)
 
     @property
+    def at_the_end(self) -> ReferenceSide:
+        """The same device under the inputs at the end of the run.
+
+        What earlier frequency ratios have left of the normal phase is part of its phase (rad).
+        """
+        held = self.scene.schedule().held()
+        ratio = held[-1].frequency_ratio
+        lead = sum((h.frequency_ratio - ratio) * (h.stop - h.start) for h in held)
+        end = ReferenceSide(self.scene)
+        end.inputs = {
+            "phase": held[-1].phase + lead * self.device.drive_frequency,
+            "load": held[-1].load,
+            "frequency_ratio": ratio,
+        }
+        return end
+
+    @property
     def averaged_velocity(self) -> float:
         """Steady velocity (m/s) of averaged theory, (5) and (20); for equal frequencies only."""
         self._require_equal_frequencies()

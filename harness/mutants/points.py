@@ -6,10 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from harness.compare import measure_all, wanted
+from harness.compare import wanted
 from harness.errors import SceneError
 from harness.isolated_runs import isolated_runs
-from harness.mutants.trial import Point
+from harness.mutants.probes import allowed_share
+from harness.mutants.trial import Point, see
 from harness.reference_side import ReferenceSide
 from harness.scene import read_scene, sweep_points
 
@@ -39,7 +40,12 @@ def probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> list[Po
     """
     asked = [Point(file, {}, read_scene(file), ()) for file in files]
     return [
-        replace(ran.point, wanted=tuple(m.value for m in ran.result))
-        for ran in isolated_runs(fmu, asked, measure_all, time_limit)
+        replace(
+            ran.point,
+            wanted=tuple(measurement.value for measurement in ran.result.measured),
+            course=ran.result.course,
+            share=allowed_share(ran.point.scene.device),
+        )
+        for ran in isolated_runs(fmu, asked, see, time_limit)
         if ran.point is not None and ran.error is None
     ]

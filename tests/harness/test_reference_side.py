@@ -123,3 +123,18 @@ def test_event_times_are_in_drive_periods_and_open_where_they_coincide(tmp_path:
     assert np.array_equal(tube.lower, tube.upper), "no event falls on a communication point here"
     rest = side(tmp_path, "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n" + RUN)
     assert not rest.event_times("located_events").upper.any()
+
+
+def test_at_the_end_of_a_run_the_inputs_are_the_last_and_the_phase_has_its_lead(
+    tmp_path: Path,
+) -> None:
+    inputs = (
+        "[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.02]] }\n"
+        "frequency_ratio = { steps = [[0.0, 1.0], [0.002, 1.5], [0.003, 1.0]] }\n"
+    )
+    end = side(tmp_path, inputs + RUN).at_the_end
+    lead = 0.5 * 3500.0 * 0.001  # rad: half the drive frequency for a millisecond
+    assert end.inputs == pytest.approx({"phase": lead, "load": 0.02, "frequency_ratio": 1.0})
+    there = side(tmp_path, f"[inputs]\nphase = {lead}\nload = 0.02\n" + RUN)
+    assert end.predicted_velocity == pytest.approx(there.predicted_velocity, rel=1e-9)
+    assert end.predicted_blocking_force == pytest.approx(there.predicted_blocking_force, rel=1e-9)

@@ -11,7 +11,7 @@ def test_probes_are_sound_scenes_of_every_model(tmp_path: Path) -> None:
     models = [(scene.device.fidelity, scene.device.friction_law) for scene in scenes]
     assert set(models) == {(2, 0), (1, 0), (0, 0), (2, 1), (1, 1), (0, 1)}
     quantities = {expect.quantity for scene in scenes for expect in scene.expect}
-    assert {"position", "contact_mode", "reversals", "steady_velocity"} <= quantities
+    assert {"position", "contact_mode", "steady_velocity"} <= quantities
 
 
 def test_probes_are_drawn_by_their_seed(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from harness.mutants.archive import PythonFmu, read_python_fmu
-from harness.mutants.points import scene_points
+from harness.mutants.points import probe_points, scene_points
 from harness.mutants.trial import Passed, Point, Rejection, trial
 from tests.harness import faulty_fmus
 
@@ -69,3 +69,19 @@ def test_an_fmu_that_cannot_be_loaded_is_rejected(faulty: Faulty, points: list[P
     outcome = trial(faulty("clock.py", "class Clock", "1 / 0\nclass Clock"), points, 60.0)
     assert isinstance(outcome, Rejection)
     assert not outcome.scene
+
+
+def test_a_probe_sees_an_output_that_is_wrong_in_the_run_only(
+    faulty: Faulty, python_fmu: Path, tmp_path: Path
+) -> None:
+    probe = tmp_path / "probe.toml"
+    probe.write_text(
+        'name = "probe"\ntitle = "Nothing but its outputs"\n'
+        "[run]\ndrive_periods = 2\nsteps_per_period = 8\n"
+    )
+    points = probe_points(python_fmu, [probe], 60.0)
+    assert isinstance(trial(python_fmu, points, 60.0), Passed)
+    wrong = faulty("outputs.py", "view.moment.psi - ratio", "view.moment.psi + ratio")
+    outcome = trial(wrong, points, 60.0)
+    assert isinstance(outcome, Rejection)
+    assert outcome.quantity in ("steady_velocity", "blocking_force")
