@@ -136,9 +136,7 @@ class _Choosing:
             return None
         if "event_times" in self.needs:
             return "averaged motion has no events"
-        law = self.scales.averaging_error
-        if law is None:
-            return "there is no steady vibration to average over, or no friction"
+        law = self.scales.averaging_error or 0.0
         for name in ("mean_velocity", "velocity") if self.law == COULOMB else ():
             need = self.needs.get(name)
             if need and need.rel is None and law > HOPELESS * (need.abs or inf):

@@ -11,6 +11,8 @@ from harness.references.device import Device
 from harness.scene import Scene
 from harness.schedule import Signal
 
+LONG_MEMORY = 100.0
+"""Drive periods beyond which the memory of a resonator says nothing of how near resonance it is."""
 BREAKS_LOOSE = 0.3
 """Friction over vibration below which the slider slides nearly all the time."""
 NEAR_AN_INTEGER = 0.1
@@ -63,7 +65,7 @@ class Scales:
         """
         if self.slowness is None or self.fast_velocity is None:
             return None
-        disturbed = 1.0 + self.mass_ratio * pi * self.memory
+        disturbed = 1.0 + self.mass_ratio * pi * min(self.memory, LONG_MEMORY)
         return self.slowness * self.fast_velocity * disturbed
 
 

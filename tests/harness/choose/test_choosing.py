@@ -169,6 +169,26 @@ def test_a_long_scene_is_not_resolved_as_a_whole(instance: Instance, tmp_path: P
     assert choice.error["mean_velocity"] == pytest.approx(6.4e-5, rel=0.3)
 
 
+@pytest.mark.parametrize(
+    ("device", "fidelity"),
+    [
+        ("friction_coefficient = 0.0", 0),
+        ("base_amplitude = 0.0\ninitial_velocity = 0.3", 0),
+        ("normal_preload = 0.0", 0),
+        ("damping_ratio = 0.0\nresonator_mass = 1.0\nresonator_frequency = 2474.8737341529163", 2),
+    ],
+)
+def test_without_friction_or_vibration_averaged_motion_serves_but_not_in_undamped_resonance(
+    instance: Instance, tmp_path: Path, device: str, fidelity: int
+) -> None:
+    run = "[run]\ndrive_periods = 500\nsteps_per_period = 1\n"
+    text = f"[device]\n{device}\n{run}[need]\nmean_velocity = {{ rel = 0.05 }}\n"
+    choice = choose_with(instance, scene_of(tmp_path, text))
+    assert (choice.meets, choice.fidelity) == (True, fidelity)
+    if fidelity:
+        assert "damping_ratio = 0.0 refused" in choice.ruled_out[0].why
+
+
 def test_a_scene_without_needs_says_so(instance: Instance, tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"no \[need\].*mean_velocity = \{ rel = 0.01 \}"):
         choose_with(instance, scene_of(tmp_path, ""))
