@@ -79,7 +79,7 @@ class FmuMethods:
         values = self._values(fidelity, law, tolerance)
         size = step * self.task.period
 
-        def follow(periods: int) -> tuple[Motion, float]:
+        def follow(periods: int) -> Motion:
             return self._follow(values, periods, size, resolved=fidelity > 0)
 
         def seconds(periods: int) -> float:
@@ -99,14 +99,14 @@ class FmuMethods:
 
     def _follow(
         self, values: Mapping[str, float], periods: int, size: float, *, resolved: bool
-    ) -> tuple[Motion, float]:
+    ) -> Motion:
         own = self.task.schedule(periods, size)
         readings = self.task.readings(periods)
         closest = 1e-9 * min(size, self.task.period)
         outputs = (*OUTPUTS, "last_event_time", "reversals")
         record = run(self.instance, values, own.read_at(readings, closest), outputs=outputs)
         at = np.searchsorted(record.times, own.times)
-        motion = Motion(
+        return Motion(
             times=record.times,
             position=record["position"],
             velocity=record["velocity"],
@@ -115,8 +115,8 @@ class FmuMethods:
             course=(own.times, record["mean_velocity"][at]),
             steps=len(own.times) - 1,
             events=round(record.final("reversals")) if resolved else None,
+            start_cpu=record.start_cpu,
         )
-        return motion, record.start_cpu
 
     def _search(self, quantity: str, fidelity: int, law: int) -> Answer:
         values = {**self._values(fidelity, law, USUAL_TOLERANCE), **self.task.inputs}

@@ -39,7 +39,6 @@ class _Candidate:
     per: float
     seconds: Callable[[], float]
     estimate: float
-    start_cpu: float | None
     motion: Motion | None
     errors: Mapping[str, float]
 
@@ -151,7 +150,7 @@ def _follow(
             return []
         for here, further in zip(horizons, [*horizons[1:], 0], strict=True):
             periods = here
-            taken, motion, start = _timed_run(method, periods)
+            taken, motion = _timed_run(method, periods)
             if further / here * taken > budget:
                 break
         found = errors(task, motion, truth.windows, periods)
@@ -176,7 +175,6 @@ def _follow(
             per=periods * task.period,
             seconds=lambda: method.seconds(periods),
             estimate=taken,
-            start_cpu=start,
             motion=motion,
             errors=found,
         )
@@ -194,10 +192,10 @@ def _expected(task: Task, truth: Referee) -> list[str]:
     ]
 
 
-def _timed_run(method: Method, periods: int) -> tuple[float, Motion, float | None]:
+def _timed_run(method: Method, periods: int) -> tuple[float, Motion]:
     began = process_time()
-    motion, start = method.run(periods)
-    return process_time() - began, motion, start
+    motion = method.run(periods)
+    return process_time() - began, motion
 
 
 def _answer(truth: Referee, answer: Answer, budget: float, notes: _Notes) -> list[_Candidate]:
@@ -225,7 +223,6 @@ def _answer(truth: Referee, answer: Answer, budget: float, notes: _Notes) -> lis
             per=1.0,
             seconds=lambda: cpu_seconds(lambda: answer.find(inf)),
             estimate=taken,
-            start_cpu=None,
             motion=None,
             errors={answer.quantity: abs(found.value - expected) / abs(expected)},
         )
@@ -242,7 +239,7 @@ def _row(task: Task, candidate: _Candidate, seconds: Sequence[float]) -> Row:
         **fields,
         periods=candidate.periods,
         cpu=tuple(second / candidate.per for second in seconds or [candidate.estimate]),
-        start_cpu=candidate.start_cpu,
+        start_cpu=None if motion is None else motion.start_cpu,
         steps=None if motion is None else motion.steps,
         evaluations=None if motion is None else motion.evaluations,
         events=None if motion is None else motion.events,

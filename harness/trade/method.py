@@ -26,14 +26,14 @@ class Label:
 class Method:
     """A way to follow a motion.
 
-    `run` follows it over so many drive periods and returns it with the CPU time (s) of
-    initialisation, None where that is not apart; `seconds` does the same without what only the
-    comparison needs and returns the CPU time (s) of the rest. A run has at least `least_periods`;
-    one that `sticks_not` covers no sticking. `missing` says of quantities why there is none.
+    `run` follows it over so many drive periods; `seconds` does the same without what only the
+    comparison needs and returns the CPU time (s) of that, without getting started. A run has at
+    least `least_periods`; one that `sticks_not` covers no sticking. `missing` says of quantities
+    why there is none.
     """
 
     label: Label
-    run: Callable[[int], tuple[Motion, float | None]]
+    run: Callable[[int], Motion]
     seconds: Callable[[int], float]
     least_periods: int = 1
     sticks_not: bool = False

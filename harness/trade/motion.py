@@ -34,7 +34,8 @@ class Motion:
 
     `position` (m) and `velocity` (m/s) have the shape (n,) of the times, `mean_velocity` (m/s) too
     where the method has one of its own, `last_event` (s) where it locates events. `course` are the
-    times and mean velocities of its own steps, for the beat.
+    times and mean velocities of its own steps, for the beat. `start_cpu` is the CPU time (s) of
+    getting started, which is no part of following the motion.
     """
 
     times: Array
@@ -46,6 +47,7 @@ class Motion:
     steps: int | None = None
     evaluations: int | None = None
     events: int | None = None
+    start_cpu: float | None = None
 
 
 @dataclass(frozen=True)

@@ -41,10 +41,11 @@ def _explanation() -> str:
         "<p>Errors are largest deviations from the referee, Taylor integration with located "
         "events, over all points of windows of a drive period that end with the run, half of it, a "
         "quarter and so on; those of steady velocity and blocking force are from shooting by the "
-        "referee. Times are CPU times, medians of repeats taken in turn: of stepping for the FMUs, "
-        "which start up once a run, of everything for the others. A method that would exceed its "
-        "budget is followed over fewer drive periods, which the column says. Peers hold inputs "
-        "that vary over the scene's own communication step, the FMUs over theirs.</p>"
+        "referee. Times are CPU times, medians of repeats taken in turn, of following the motion: "
+        "not of the start of an FMU, nor of the first drive period that heyoka in one call is led "
+        "through by located Taylor steps, since it cannot begin at rest. A method that would "
+        "exceed its budget is followed over fewer drive periods, which the column says. Peers hold "
+        "inputs that vary over the scene's own communication step, the FMUs over theirs.</p>"
     )
 
 

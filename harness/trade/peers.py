@@ -33,7 +33,7 @@ from harness.references.lugre_cvode import simulate_lugre_cvode
 from harness.references.lugre_taylor import simulate_lugre
 from harness.references.switching_taylor import SlidingEnd, simulate_sliding
 from harness.references.trajectory import Trajectory
-from harness.trade.method import Answer, Found, Label, Method, cpu_seconds
+from harness.trade.method import Answer, Found, Label, Method
 from harness.trade.motion import Motion, last_events
 from harness.trade.result import PEER
 from harness.trade.task import Task
@@ -75,16 +75,19 @@ def peers(task: Task) -> list[Peer]:
 def peer_methods(task: Task) -> Iterator[Method]:
     """Yield the peers as methods."""
     for peer in peers(task):
-        follow = partial(_run, task, peer)
         yield Method(
             _label(task, peer),
-            lambda periods, follow=follow: (follow(periods), None),  # type: ignore[misc]
-            lambda periods, follow=follow: cpu_seconds(  # type: ignore[misc]
-                partial(follow, periods)
-            ),
+            partial(_run, task, peer),
+            partial(_seconds, task, peer),
             sticks_not=peer.sticks_not,
             missing=peer.missing,
         )
+
+
+def _seconds(task: Task, peer: Peer, periods: int) -> float:
+    began = process_time()
+    motion = _run(task, peer, periods)
+    return process_time() - began - (motion.start_cpu or 0.0)
 
 
 def peer_answers(task: Task) -> Iterator[Answer]:
@@ -269,7 +272,9 @@ def _sliding(
         inputs = _single(held)
         begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
         early = times[times <= begin]
+        began = process_time()
         start = first(device, [replace(inputs, stop=begin)], np.append(early, begin))
+        started = process_time() - began
         if begin == inputs.stop:
             return replace(
                 motion_of(start, located=False),
@@ -297,6 +302,7 @@ def _sliding(
             times=times,
             position=np.concatenate([start.position[:-1], rest.position]),
             velocity=np.concatenate([start.velocity[:-1], rest.velocity]),
+            start_cpu=started,
         )
 
     missing = {"event_times": "it does not tell when it reverses", **NOT_SHOT}

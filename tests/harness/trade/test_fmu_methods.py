@@ -30,7 +30,7 @@ def instance(native_fmu: Path) -> Iterator[Instance]:
 def followed(task: Task, method: Method) -> dict[str, float]:
     run = taylor.simulate(task.device, task.truth(task.periods), task.readings(task.periods))
     truth = windows(task, motion_of(run, located=True), task.periods)
-    motion, _ = method.run(task.periods)
+    motion = method.run(task.periods)
     return errors(task, motion, truth, task.periods)
 
 
@@ -95,6 +95,6 @@ def test_answers_are_those_of_the_commands(tmp_path: Path, instance: Instance) -
 def test_a_run_is_timed_without_its_readings(tmp_path: Path, instance: Instance) -> None:
     table_1 = task(tmp_path, TABLE_1, most_periods=10)
     assert pick(table_1, instance, 0, 10.0).seconds(10) > 0.0
-    motion, start = pick(table_1, instance, 2, 10.0).run(10)
+    motion = pick(table_1, instance, 2, 10.0).run(10)
     assert motion.steps == 1, "readings are no steps"
-    assert start is not None
+    assert motion.start_cpu is not None

@@ -34,7 +34,7 @@ def quiet(name: str, share: float) -> None:
     assert 0.0 <= share <= 1.0
 
 
-def made_up(name: str, run: Callable[[int], tuple[Motion, None]], **fields: bool) -> Method:
+def made_up(name: str, run: Callable[[int], Motion], **fields: bool) -> Method:
     def seconds(periods: int) -> float:
         run(periods)
         return 1e-3 * periods
@@ -47,10 +47,10 @@ def only(monkeypatch: pytest.MonkeyPatch, *methods: Method) -> None:
     monkeypatch.setattr(measure, "peer_answers", lambda task: [])
 
 
-def still(task: Task) -> Callable[[int], tuple[Motion, None]]:
-    def run(periods: int) -> tuple[Motion, None]:
+def still(task: Task) -> Callable[[int], Motion]:
+    def run(periods: int) -> Motion:
         times = task.readings(periods)
-        return Motion(times, 0.0 * times, 0.0 * times), None
+        return Motion(times, 0.0 * times, 0.0 * times)
 
     return run
 
@@ -58,7 +58,7 @@ def still(task: Task) -> Callable[[int], tuple[Motion, None]]:
 def test_who_fails_is_told_with_the_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     short = task(tmp_path, TABLE_1, most_periods=4)
 
-    def fails(periods: int) -> tuple[Motion, None]:
+    def fails(periods: int) -> Motion:
         raise RuntimeError("the solver gives up")
 
     only(monkeypatch, made_up("failing", fails), made_up("standing", still(short)))
@@ -79,8 +79,8 @@ def test_a_method_stops_where_its_budget_ends(
     used = [0.0]
     monkeypatch.setattr(measure, "process_time", lambda: used[0])
 
-    def works(cost: float) -> Callable[[int], tuple[Motion, None]]:
-        def run(periods: int) -> tuple[Motion, None]:
+    def works(cost: float) -> Callable[[int], Motion]:
+        def run(periods: int) -> Motion:
             used[0] += cost * periods
             return still(longer)(periods)
 

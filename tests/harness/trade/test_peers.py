@@ -50,6 +50,15 @@ def test_one_call_of_heyoka_covers_no_inputs_that_vary(tmp_path: Path) -> None:
         peer.follow(ramp.device, ramp.held(4), ramp.readings(4))
 
 
+def test_being_led_into_motion_is_not_charged(tmp_path: Path) -> None:
+    short = task(tmp_path, TABLE_1, most_periods=PERIODS)
+    by_family = {method.label.family: method for method in peer_methods(short)}
+    led = by_family["heyoka at its fastest"].run(PERIODS)
+    assert led.start_cpu is not None
+    assert led.start_cpu > 0.0
+    assert by_family["Moreau-Jean"].run(PERIODS).start_cpu is None, "it starts by itself"
+
+
 def test_every_setting_has_a_name_of_its_own(tmp_path: Path) -> None:
     for text in (TABLE_1, LUGRE):
         names = [method.label.name for method in peer_methods(task(tmp_path, text))]
