@@ -9,9 +9,6 @@
 /* Turns of the fastest oscillation in one step up to which its work is accepted. */
 #define MOST_TURNS 1e8
 
-/* Share of a step by which hosts may round their own time. */
-#define TIME_SLACK 1e-6
-
 static bool all_finite(const double *numbers, size_t count) {
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(numbers[i])) {
@@ -92,26 +89,12 @@ void component_reset(Component *component) {
 
 bool component_setup_experiment(Component *component, const Experiment *experiment,
                                 Refusal *refusal) {
-    char text[NUMBER_SIZE], start[NUMBER_SIZE];
-    double stop_time = experiment->stop_time_defined ? experiment->stop_time : INFINITY;
-    if (!require("setupExperiment", component->now.lifecycle, INSTANTIATED, refusal)) {
+    if (!require("setupExperiment", component->now.lifecycle, INSTANTIATED, refusal)
+        || !experiment_check(experiment, refusal)) {
         return false;
     }
-    if (!isfinite(experiment->start_time)) {
-        return refuse(refusal, "startTime = %s refused: allowed is a finite number",
-                      number_text(experiment->start_time, text));
-    }
-    if (!(stop_time >= experiment->start_time)) {
-        return refuse(refusal, "stopTime = %s refused: allowed is a number from startTime = %s on",
-                      number_text(stop_time, text), number_text(experiment->start_time, start));
-    }
-    if (experiment->tolerance_defined
-        && !(isfinite(experiment->tolerance) && experiment->tolerance > 0.0)) {
-        return refuse(refusal, "tolerance = %s refused: allowed is a finite number above 0",
-                      number_text(experiment->tolerance, text));
-    }
     component->now.time = component->now.last_event_time = experiment->start_time;
-    component->now.stop_time = stop_time;
+    component->now.stop_time = experiment_end(experiment);
     return true;
 }
 
@@ -142,22 +125,6 @@ bool component_terminate(Component *component, Refusal *refusal) {
     return true;
 }
 
-/* Refuses outputs, fixed parameters while running, and values out of bounds. */
-static bool setting_check(const Component *component, unsigned reference, double value,
-                          Refusal *refusal) {
-    const Variable *variable = &VARIABLES[reference];
-    char text[NUMBER_SIZE];
-    if (reference >= SETTABLE_COUNT) {
-        return refuse(refusal, "%s = %s refused: it is an output and cannot be set",
-                      variable->name, value_text(variable, value, text));
-    }
-    if (variable->fixed && component->now.lifecycle == STEP_COMPLETE) {
-        return refuse(refusal, "%s = %s refused: it is fixed and can be set only before "
-                      "initialization ends", variable->name, value_text(variable, value, text));
-    }
-    return value_check(variable, value, refusal);
-}
-
 static bool same_values(const double *a, const double *b) {
     for (size_t i = 0; i < SETTABLE_COUNT; i++) {
         if (a[i] != b[i]) {
@@ -172,12 +139,7 @@ bool component_set(Component *component, const unsigned *references, const doubl
     double changed[SETTABLE_COUNT];
     memcpy(changed, component->now.values, sizeof changed);
     for (size_t i = 0; i < count; i++) {
-        const char *name = VARIABLES[references[i]].name;
-        if (component->now.lifecycle == TERMINATED) {
-            return refuse(refusal, "setting %s refused in state '%s': allowed in '%s'", name,
-                          lifecycle_name(TERMINATED), lifecycle_name(STEP_COMPLETE));
-        }
-        if (!setting_check(component, references[i], values[i], refusal)) {
+        if (!setting_check(component->now.lifecycle, references[i], values[i], refusal)) {
             return false;
         }
         changed[references[i]] = values[i];
@@ -243,35 +205,13 @@ static bool bounded_work_check(const Law *law, double step_size, Refusal *refusa
                   number_text(step_size, size), number_text(frequency, fastest), MOST_TURNS);
 }
 
-/* Refuses a step that is none, does not continue from the present time, or goes beyond the end. */
-static bool step_check(const Snapshot *now, double time, double step_size, Refusal *refusal) {
-    char given[NUMBER_SIZE], allowed[NUMBER_SIZE];
-    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)) {
-        return false;
-    }
-    if (!(isfinite(step_size) && step_size > 0.0)) {
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a finite "
-                      "number above 0", number_text(step_size, given));
-    }
-    double spacing = nextafter(fabs(now->time), INFINITY) - fabs(now->time);
-    double slack = TIME_SLACK * step_size + 4.0 * spacing;
-    if (!(fabs(time - now->time) <= slack)) {
-        return refuse(refusal, "doStep: currentCommunicationPoint = %s refused: allowed is the "
-                      "present time %s", number_text(time, given), number_text(now->time, allowed));
-    }
-    if (time + step_size > now->stop_time + slack + 1e-9 * fabs(now->stop_time)) {
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a step up "
-                      "to stopTime = %s", number_text(step_size, given),
-                      number_text(now->stop_time, allowed));
-    }
-    return true;
-}
-
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
     Snapshot *now = &component->now;
     const Law *law = present_law(component);
     Moment after;
-    if (!step_check(now, time, step_size, refusal) || !bounded_work_check(law, step_size, refusal)
+    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
+        || !step_check(now->time, now->stop_time, time, step_size, refusal)
+        || !bounded_work_check(law, step_size, refusal)
         || !law_advance(law, &now->moment, step_size, &after, refusal)) {
         return false;
     }

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "experiment.h"
 #include "friction_table.h"
 #include "law.h"
 #include "outputs.h"
@@ -24,15 +25,6 @@ typedef struct {
     FrictionTable table;
     Theory theory;
 } Component;
-
-/* Start and stop time [s] and tolerance of an experiment, as far as they are defined. */
-typedef struct {
-    double start_time;
-    bool stop_time_defined;
-    double stop_time;
-    bool tolerance_defined;
-    double tolerance;
-} Experiment;
 
 /* Makes a new component of zeroed memory, or of one that was used. */
 void component_reset(Component *component);

@@ -30,6 +30,24 @@ bool value_check(const Variable *variable, double value, Refusal *refusal) {
                   value_text(variable, value, text), variable->allowed);
 }
 
+bool setting_check(Lifecycle lifecycle, unsigned reference, double value, Refusal *refusal) {
+    const Variable *variable = &VARIABLES[reference];
+    char text[NUMBER_SIZE];
+    if (lifecycle == TERMINATED) {
+        return refuse(refusal, "setting %s refused in state '%s': allowed in '%s'", variable->name,
+                      lifecycle_name(TERMINATED), lifecycle_name(STEP_COMPLETE));
+    }
+    if (reference >= SETTABLE_COUNT) {
+        return refuse(refusal, "%s = %s refused: it is an output and cannot be set",
+                      variable->name, value_text(variable, value, text));
+    }
+    if (variable->fixed && lifecycle == STEP_COMPLETE) {
+        return refuse(refusal, "%s = %s refused: it is fixed and can be set only before "
+                      "initialization ends", variable->name, value_text(variable, value, text));
+    }
+    return value_check(variable, value, refusal);
+}
+
 const char *value_text(const Variable *variable, double value, char text[NUMBER_SIZE]) {
     if (variable->integer && value == floor(value) && fabs(value) < 1e15) {
         snprintf(text, NUMBER_SIZE, "%.0f", value);

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "lifecycle.h"
 #include "refusal.h"
 #include "variables.h"
 
@@ -14,6 +15,10 @@ bool reference_check(unsigned reference, ValueType type, Refusal *refusal);
 
 /* Refuses a value that the table does not allow. */
 bool value_check(const Variable *variable, double value, Refusal *refusal);
+
+/* Refuses to set outputs, fixed parameters while running, anything after the end, and values that
+ * the table does not allow. */
+bool setting_check(Lifecycle lifecycle, unsigned reference, double value, Refusal *refusal);
 
 /* The value as it is shown in messages: integers without a point. Returns `text`. */
 const char *value_text(const Variable *variable, double value, char text[NUMBER_SIZE]);

@@ -9,7 +9,7 @@
 /* Samples in one step up to which its work is accepted. */
 #define MOST_SAMPLES 1e6
 
-/* Share of a step, and of the time between two samples, by which hosts may round their own time. */
+/* Share of the time between two samples by which hosts may round their own time. */
 #define TIME_SLACK 1e-6
 
 void component_reset(Component *component) {
@@ -22,26 +22,12 @@ void component_reset(Component *component) {
 bool component_setup_experiment(Component *component, const Experiment *experiment,
                                 Refusal *refusal) {
     Snapshot *now = &component->now;
-    char text[NUMBER_SIZE], start[NUMBER_SIZE];
-    double stop_time = experiment->stop_time_defined ? experiment->stop_time : INFINITY;
-    if (!require("setupExperiment", now->lifecycle, INSTANTIATED, refusal)) {
+    if (!require("setupExperiment", now->lifecycle, INSTANTIATED, refusal)
+        || !experiment_check(experiment, refusal)) {
         return false;
     }
-    if (!isfinite(experiment->start_time)) {
-        return refuse(refusal, "startTime = %s refused: allowed is a finite number",
-                      number_text(experiment->start_time, text));
-    }
-    if (!(stop_time >= experiment->start_time)) {
-        return refuse(refusal, "stopTime = %s refused: allowed is a number from startTime = %s on",
-                      number_text(stop_time, text), number_text(experiment->start_time, start));
-    }
-    if (experiment->tolerance_defined
-        && !(isfinite(experiment->tolerance) && experiment->tolerance > 0.0)) {
-        return refuse(refusal, "tolerance = %s refused: allowed is a finite number above 0",
-                      number_text(experiment->tolerance, text));
-    }
     now->start_time = now->time = experiment->start_time;
-    now->stop_time = stop_time;
+    now->stop_time = experiment_end(experiment);
     return true;
 }
 
@@ -66,26 +52,6 @@ bool component_exit_initialization(Component *component, Refusal *refusal) {
 
 bool component_terminate(Component *component, Refusal *refusal) {
     return change_lifecycle(component, "terminate", STEP_COMPLETE, TERMINATED, refusal);
-}
-
-/* Refuses outputs, fixed parameters while running, and values out of bounds. */
-static bool setting_check(Lifecycle lifecycle, unsigned reference, double value,
-                          Refusal *refusal) {
-    const Variable *variable = &VARIABLES[reference];
-    char text[NUMBER_SIZE];
-    if (lifecycle == TERMINATED) {
-        return refuse(refusal, "setting %s refused in state '%s': allowed in '%s'", variable->name,
-                      lifecycle_name(TERMINATED), lifecycle_name(STEP_COMPLETE));
-    }
-    if (reference >= SETTABLE_COUNT) {
-        return refuse(refusal, "%s = %s refused: it is an output and cannot be set",
-                      variable->name, value_text(variable, value, text));
-    }
-    if (variable->fixed && lifecycle == STEP_COMPLETE) {
-        return refuse(refusal, "%s = %s refused: it is fixed and can be set only before "
-                      "initialization ends", variable->name, value_text(variable, value, text));
-    }
-    return value_check(variable, value, refusal);
 }
 
 bool component_set(Component *component, const unsigned *references, const double *values,
@@ -124,34 +90,10 @@ bool component_get(Component *component, const unsigned *references, double *val
     return true;
 }
 
-/* Refuses a step that is none, does not continue from the present time, or goes beyond the end. */
-static bool step_check(const Snapshot *now, double time, double step_size, Refusal *refusal) {
-    char given[NUMBER_SIZE], allowed[NUMBER_SIZE];
-    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)) {
-        return false;
-    }
-    if (!(isfinite(step_size) && step_size > 0.0)) {
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a finite "
-                      "number above 0", number_text(step_size, given));
-    }
-    double spacing = nextafter(fabs(now->time), INFINITY) - fabs(now->time);
-    double slack = TIME_SLACK * step_size + 4.0 * spacing;
-    if (!(fabs(time - now->time) <= slack)) {
-        return refuse(refusal, "doStep: currentCommunicationPoint = %s refused: allowed is the "
-                      "present time %s", number_text(time, given), number_text(now->time, allowed));
-    }
-    if (!isfinite(time + step_size)
-        || time + step_size > now->stop_time + slack + 1e-9 * fabs(now->stop_time)) {
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a step up "
-                      "to stopTime = %s", number_text(step_size, given),
-                      number_text(now->stop_time, allowed));
-    }
-    return true;
-}
-
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
     Snapshot *now = &component->now;
-    if (!step_check(now, time, step_size, refusal)) {
+    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
+        || !step_check(now->time, now->stop_time, time, step_size, refusal)) {
         return false;
     }
     const double *values = now->values;

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "experiment.h"
 #include "refusal.h"
 #include "snapshot.h"
 
@@ -15,15 +16,6 @@
 typedef struct {
     Snapshot now;
 } Component;
-
-/* Start and stop time [s] and tolerance of an experiment, as far as they are defined. */
-typedef struct {
-    double start_time;
-    bool stop_time_defined;
-    double stop_time;
-    bool tolerance_defined;
-    double tolerance;
-} Experiment;
 
 /* Makes a new component of any memory. */
 void component_reset(Component *component);
