@@ -14,9 +14,12 @@
 /* Step tried first, as a share of the time in which friction changes the fast velocity. */
 #define FIRST_STEP 0.1
 
+/* What must be left, in first steps, for the motion to settle. */
+#define SETTLING 100.0
+
 /* Steps of averaged motion in one communication step up to which its work is accepted: of those that
- * cost a quadrature over flight fewer. After each BLOCK of them it may turn out to have settled. */
-enum { MOST_STEPS = 20000, MOST_STEPS_OVER_FLIGHT = 1000, BLOCK = 64 };
+ * cost a quadrature over flight fewer. Before each BLOCK of them it may turn out to have settled. */
+enum { MOST_STEPS = 20000, MOST_STEPS_OVER_FLIGHT = 1000, BLOCK = 16 };
 
 /* A block without vibration, under constant forces, from `velocity` on. */
 static Passage block_after(double velocity, double friction, double load, double mass,
@@ -67,8 +70,8 @@ static bool pass(const SlowFriction *friction, double duration, Passage *passage
         if (count >= most) {
             return refuse_work(refusal, duration, now.t, most, "steps of averaged motion");
         }
-        if (count > 0 && friction->drift == 0.0 &&
-            settle(slow_acceleration, friction, fast, duration, &now)) {
+        bool may_settle = friction->drift == 0.0 && duration - now.t > SETTLING * step;
+        if (may_settle && settle(slow_acceleration, friction, fast, duration, &now)) {
             break;
         }
         now = integrate(slow_acceleration, friction, now, duration, TOLERANCE * fast, BLOCK);

@@ -37,8 +37,11 @@ MOST_STEPS = 20_000
 MOST_STEPS_OVER_FLIGHT = 1000
 """The same where each costs a quadrature over flight."""
 
-BLOCK = 64
-"""Steps after each of which it may turn out that the motion has settled."""
+SETTLING = 100.0
+"""What must be left, in first steps, for the motion to settle."""
+
+BLOCK = 16
+"""Steps before each of which it may turn out that the motion has settled."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,8 +93,8 @@ class SlowLaw:
         step = FIRST_STEP * fast * total / strongest if strongest > 0.0 else duration
         most = MOST_STEPS_OVER_FLIGHT if friction.over_flight else MOST_STEPS
         now = Passage(0.0, velocity, 0.0, step)
-        for count in range(0, most, BLOCK):
-            if count and friction.drift == 0.0:
+        for _ in range(0, most, BLOCK):
+            if friction.drift == 0.0 and duration - now.t > SETTLING * step:
                 now = settled(acceleration, fast, duration, now) or now
             if not now.t < duration or not isfinite(now.velocity):
                 return now.velocity, now.moved
