@@ -20,7 +20,7 @@ PANELS = ("position", "mean_velocity")
 """What the picture shows."""
 OURS = {"native": "#1f5f8b", "Python": "#6fa8d0"}
 FIDELITY_MARKERS = {2: "o", 1: "s", 0: "^"}
-PEER_MARKERS = "DvPX*<>ph8d1"
+PEER_MARKERS = "DvPX*<>ph8dH"
 PEER_COLOURS = (
     *("#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"),
     *("#17becf", "#333333", "#b8860b", "#7a0177"),
@@ -141,6 +141,6 @@ def _looks(trade: Trade) -> dict[str, _Look]:
         if row.kind != PEER:
             colour = next((c for build, c in OURS.items() if row.family.startswith(build)), "black")
             other = "instead" in row.family or "output" in row.family
-            marker = "x" if other else FIDELITY_MARKERS[row.fidelity or 0]
+            marker = "X" if other else FIDELITY_MARKERS[row.fidelity or 0]
             looks[row.family] = _Look(colour, marker, 0.8 if row.kind == AVERAGED else 2.0)
     return looks
