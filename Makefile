@@ -36,11 +36,11 @@ build: $(READY) ## build both FMUs into dist
 validate: build ## build both FMUs, run every built-in scene and compare them with the references
 	$(PY) -m harness validate
 
-test: lint ## lint, check types, run the tests that take seconds
-	$(PY) -m pytest -n 2 --dist loadfile
+test: lint ## lint, check types, run the tests that take seconds; SLOW=1 runs the slow ones too
+	$(PY) -m pytest -n 2 $(if $(SLOW),--dist worksteal -m "not interop",--dist loadfile)
 
-ci: lint ## lint, check types, run the quick and the slow tests
-	$(PY) -m pytest -n 2 --dist worksteal -m "not interop"
+ci: SLOW := 1
+ci: test ## make test SLOW=1
 
 hosts: $(READY_WITH_HOSTS) .venv-hosts/.ready ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
 	.ci/install-tools.sh
