@@ -64,7 +64,7 @@ class Choice:
             f"{'chosen' if self.meets else 'nearest':<9}{self.model.name}",
             f"step     {self._step}",
             f"why      {self.reason}",
-            f"cost     {self.cost:.3g} s of CPU time, counted",
+            f"cost     {self.cost:.3g} s of CPU time, by counts of steps and periods",
             f"probe    {self.probe_drive_periods:.0f} drive periods resolved ({self.probe})",
         ]
 

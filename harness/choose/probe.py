@@ -14,7 +14,7 @@ from harness.choose.cost import period_cost
 from harness.choose.course import Course, Stretch, follow, looks_between
 from harness.choose.errors import Wrong, errors
 from harness.choose.held import HeldGrid, as_meant, as_run, vary
-from harness.choose.scales import scales_of
+from harness.choose.scales import NEAR_AN_INTEGER, scales_of
 from harness.choose.windows import (
     MOST_SETTLING,
     WINDOW_PERIODS,
@@ -204,9 +204,10 @@ class Probe:
         if len(set(ratio.values)) > 1:
             return "the frequency ratio changes, and the beat with it"
         if self.scales.beat == 0.0:
-            return (
-                f"no beat at frequency_ratio = {ratio.values[0]:.9g}: it is not next to an integer"
-            )
+            where = f"no beat at frequency_ratio = {ratio.values[0]:.9g}"
+            if self.scales.detuning == 0.0:
+                return f"{where}: at an integer the two phases stand still to each other"
+            return f"{where}: it is farther than {NEAR_AN_INTEGER:g} from an integer"
         beats = 0.5 * self.duration * self.scales.beat
         if beats < FEWEST_BEATS:
             return f"the later half of the run has {beats:.2g} beats; {FEWEST_BEATS:g} show one"

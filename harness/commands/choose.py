@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
 
 import click
@@ -82,7 +83,8 @@ def _show(choice: Choice, console: Console) -> None:
     for column in ("need", "predicted error", "allowed", "unit"):
         needs.add_column(column)
     for name, error in choice.error.items():
-        needs.add_row(name, f"{error:.3g}", f"{choice.allowed[name]:.3g}", UNITS[name])
+        told = f"{error:.3g}" if isfinite(error) else "no bound"
+        needs.add_row(name, told, f"{choice.allowed[name]:.3g}", UNITS[name])
     console.print(needs)
     if choice.ruled_out:
         others = Table(box=box.SIMPLE_HEAD, pad_edge=False)
