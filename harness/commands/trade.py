@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import ExitStack
-from functools import partial
 from pathlib import Path
 
 import click
@@ -22,7 +21,7 @@ from harness.trade.needs import SUFFIXES, title, write_choices
 from harness.trade.page import write_trades
 from harness.trade.plots import draw_picture
 from harness.trade.result import Trade
-from harness.trade.summary import heading, sentence, standings
+from harness.trade.summary import comparisons, standings
 from harness.trade.task import Task, task_of
 
 
@@ -41,7 +40,13 @@ from harness.trade.task import Task, task_of
     multiple=True,
     help="FMU to measure; may be given more than once.  [default: those built in dist]",
 )
-@click.option("--repeats", type=click.IntRange(min=1), default=REPEATS, show_default=True)
+@click.option(
+    "--repeats",
+    type=click.IntRange(min=1),
+    default=REPEATS,
+    show_default=True,
+    help="Times that each method is timed, in turn with the others; fewer where its budget ends.",
+)
 @click.option(
     "--budget",
     type=click.FloatRange(min=0.0, min_open=True),
@@ -93,8 +98,8 @@ def trade_command(
       python -m harness trade table_1 lugre detuned_beat --out trade --picture trade.png
       python -m harness trade my.toml --out trade --fmu my.fmu --json
     """
-    make_folder(out)
     tasks = _tasks(scenes or ("table_1",), periods)
+    make_folder(out)
     trades: list[Trade] = []
     with ExitStack() as stack:
         progress = stack.enter_context(progress_bar())
@@ -106,8 +111,9 @@ def trade_command(
             instances[name] = stack.enter_context(instantiate(fmu))
         for task in tasks:
             trades.append(measure_trade(task, instances, progress, repeats=repeats, budget=budget))
-    write_rows(out / "trade.csv", trades)
-    write_omissions(out / "omissions.csv", trades)
+            # After each scene: what took minutes to measure outlives a later one that fails.
+            write_rows(out / "trade.csv", trades)
+            write_omissions(out / "omissions.csv", trades)
     write_trades(out / "index.html", trades)
     if picture is not None:
         draw_picture(trades[0], picture)
@@ -134,13 +140,9 @@ def _entry(trade: Trade) -> dict[str, object]:
 
 
 def _print(trade: Trade) -> None:
-    say = partial(click.echo)
-    say(title(trade))
-    before = ""
-    for standing in standings(trade):
-        words = heading(standing.quantity, standing.error)
-        if words != before:
-            say(f"  {words}")
-            before = words
-        say(f"    {sentence(standing)}")
-    say(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")
+    click.echo(title(trade))
+    for target, sentences in comparisons(trade):
+        click.echo(f"  {target}")
+        for words in sentences:
+            click.echo(f"    {words}")
+    click.echo(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")

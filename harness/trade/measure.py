@@ -127,7 +127,7 @@ class _Notes:
 def _follow(
     task: Task, truth: Referee, method: Method, budget: float, notes: _Notes
 ) -> list[_Candidate]:
-    """Run a method as far as a third of its budget takes it; empty where that is nowhere."""
+    """Run a method as far as its budget (s of CPU time) takes it; empty where that is nowhere."""
     label = method.label
     if method.least_periods > task.periods:
         reason = f"a step is longer than the run of {task.periods} drive periods"
@@ -143,8 +143,8 @@ def _follow(
         first = taken + (horizons[0] - method.least_periods - 1) * max(0.0, taken - begun)
         if first > 2.0 * budget:
             reason = (
-                f"{horizons[0]} drive periods would take {first:.1f} s of CPU time, more than its "
-                f"budget of {budget:g} s"
+                f"the shortest run, {horizons[0]} of {task.periods} drive periods, would take "
+                f"{first:.1f} s of CPU time, more than its budget of {budget:g} s"
             )
             notes.add(label, "all", reason)
             return []

@@ -11,7 +11,7 @@ from harness.trade.motion import QUANTITIES
 from harness.trade.needs import title
 from harness.trade.plots import work_precision_png
 from harness.trade.result import Omission, Row, Trade
-from harness.trade.summary import duration, heading, sentence, standings
+from harness.trade.summary import comparisons, duration
 
 _HEAD = ("method", "periods", "CPU time", "least to most", "steps", "evaluations", "events")
 
@@ -25,15 +25,11 @@ def write_trades(path: Path, trades: Sequence[Trade]) -> None:
 
 
 def _ratios(trade: Trade) -> list[str]:
-    parts = [f"<h2>{escape(title(trade))}</h2>", "<ul>"]
-    before = ""
-    for standing in standings(trade):
-        words = heading(standing.quantity, standing.error)
-        if words != before:
-            parts.append(f"</ul><p><strong>{escape(words)}</strong></p><ul>")
-            before = words
-        parts.append(f"<li>{escape(sentence(standing))}</li>")
-    return [*parts, "</ul>"]
+    parts = [f"<h2>{escape(title(trade))}</h2>"]
+    for target, sentences in comparisons(trade):
+        items = "".join(f"<li>{escape(words)}</li>" for words in sentences)
+        parts.append(f"<p><strong>{escape(target)}</strong></p><ul>{items}</ul>")
+    return parts
 
 
 def _explanation() -> str:
@@ -93,6 +89,7 @@ def _row(row: Row) -> str:
 def _omissions(omissions: Sequence[Omission]) -> str:
     body = "\n".join(
         f"<tr><td>{escape(o.method)}</td><td>{escape(o.quantity)}</td><td>{escape(o.reason)}</td>"
+        "</tr>"
         for o in omissions
     )
     return (

@@ -108,11 +108,6 @@ def paired_ratio(row: Row, against: Row) -> tuple[float, float, float]:
     return median(ratios), min(ratios), max(ratios)
 
 
-def spread(row: Row) -> tuple[float, float]:
-    """Return the least and the greatest of the CPU times of a row."""
-    return min(row.cpu), max(row.cpu)
-
-
 def families(rows: Sequence[Row]) -> list[str]:
     """Return the families in the order in which they appear."""
     return list(dict.fromkeys(row.family for row in rows))

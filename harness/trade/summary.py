@@ -8,6 +8,8 @@ from harness.trade.result import AVERAGED, PEER, RESOLVED, Row, Trade, cheapest,
 
 TARGETS = (("mean_velocity", 1e-2), ("position", 1e-9))
 """Quantity, and the error at which costs are compared."""
+ROUNDS_UP = 0.9995
+"""Share of a unit that three digits show as all of it."""
 CLASSES = {AVERAGED: "averaged", RESOLVED: "resolved", PEER: "peers"}
 
 
@@ -57,6 +59,15 @@ def sentence(standing: Standing) -> str:
     return f"{words}, {middle:.3g} times the cost of resolved ({least:.3g} to {most:.3g})"
 
 
+def comparisons(trade: Trade) -> list[tuple[str, list[str]]]:
+    """Return the standings in words: what is compared, and a sentence for each class."""
+    by_target: dict[str, list[str]] = {}
+    for standing in standings(trade):
+        words = heading(standing.quantity, standing.error)
+        by_target.setdefault(words, []).append(sentence(standing))
+    return list(by_target.items())
+
+
 def heading(quantity: str, error: float) -> str:
     """Return what is compared, in words."""
     size = f"{100.0 * error:g} %" if error >= 1e-3 else f"{error:.0e}"
@@ -64,8 +75,8 @@ def heading(quantity: str, error: float) -> str:
 
 
 def duration(seconds: float) -> str:
-    """Return a CPU time for people."""
+    """Return a CPU time for people, in three digits."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
-        if seconds >= size:
+        if seconds >= ROUNDS_UP * size:
             return f"{seconds / size:.3g} {unit}"
     return f"{seconds / 1e-9:.3g} ns"

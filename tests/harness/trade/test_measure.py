@@ -2,32 +2,18 @@
 
 from __future__ import annotations
 
-import csv
-import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from harness.cli import main
-from harness.drive import Instance, instantiate
-from harness.fmu import open_fmu
 from harness.trade import measure
-from harness.trade.fmu_methods import FmuMethods
 from harness.trade.measure import measure_trade
 from harness.trade.method import Label, Method
 from harness.trade.motion import Motion
-from harness.trade.peers import peer_methods
 from harness.trade.result import PEER
 from harness.trade.task import Task
-from tests.harness.trade.scenes import HEAD, STICKING, TABLE_1, task
-
-
-@pytest.fixture(scope="module")
-def instance(native_fmu: Path) -> Iterator[Instance]:
-    with open_fmu(native_fmu) as fmu, instantiate(fmu) as made:
-        yield made
+from tests.harness.trade.scenes import STICKING, TABLE_1, task
 
 
 def quiet(name: str, share: float) -> None:
@@ -104,54 +90,3 @@ def test_who_covers_no_sticking_is_left_out_where_it_sticks(
     trade = measure_trade(sticking, {}, quiet, repeats=1)
     assert [(o.method, o.quantity) for o in trade.omissions] == [("sliding", "all")]
     assert "sticks" in trade.omissions[0].reason
-
-
-@pytest.mark.slow
-def test_the_command_drops_nobody_and_writes_what_can_be_looked_at(
-    native_fmu: Path, tmp_path: Path, instance: Instance
-) -> None:
-    scene = tmp_path / "mine.toml"
-    scene.write_text(HEAD)
-    out, page, picture = tmp_path / "out", tmp_path / "page.md", tmp_path / "trade.png"
-    page.write_text("before\n<!-- trade -->\n<!-- end of trade -->\nafter\n")
-    arguments = [str(scene), "--out", str(out), "--fmu", str(native_fmu), "--repeats", "1"]
-    arguments += ["--budget", "0.05", "--periods", "8", "--page", str(page)]
-    result = CliRunner().invoke(main, ["trade", *arguments, "--picture", str(picture), "--json"])
-    assert result.exit_code == 0, result.output
-    (told,) = json.loads(result.stdout)
-    assert {s["kind"] for s in told["standings"]} == {"averaged", "resolved", "peer"}
-
-    rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
-    assert len(rows) == len(told["trade"]["rows"])
-    omissions = list(csv.DictReader((out / "omissions.csv").open(encoding="utf-8")))
-    assert len(omissions) == len(told["trade"]["omissions"])
-    short = task(tmp_path, TABLE_1, most_periods=8)
-    methods = [*FmuMethods(short, "native", instance).methods(), *peer_methods(short)]
-    followed = {row["method"] for row in rows if row["answer"] == "run"}
-    omitted = {o["method"] for o in omissions if o["quantity"] == "all"}
-    assert {method.label.name for method in methods} == followed | omitted
-    assert not followed & omitted
-
-    resolved = [
-        row for row in rows if row["family"] == "native FMU, fidelity 2" and row["answer"] == "run"
-    ]
-    assert resolved
-    for row in resolved:
-        assert float(row["error_position"]) < 1e-10
-        assert int(row["events"]) == 2 * int(row["periods"]) - 1, "two reversals but for the first"
-
-    html = (out / "index.html").read_text(encoding="utf-8")
-    assert "at an error of 1 % in mean velocity" in html
-    assert "data:image/png;base64," in html
-    assert 'src="http' not in html
-    assert picture.read_bytes().startswith(b"\x89PNG")
-    text = page.read_text(encoding="utf-8")
-    assert text.startswith("before\n<!-- trade -->\n")
-    assert text.endswith("<!-- end of trade -->\nafter\n")
-    assert "| position | 1e-09 | fidelity 2, steps of" in text
-
-
-def test_a_scene_that_does_not_exist_is_told(tmp_path: Path) -> None:
-    result = CliRunner().invoke(main, ["trade", "tabel_1", "--out", str(tmp_path)])
-    assert result.exit_code == 2
-    assert "did you mean 'table_1'?" in result.stderr

@@ -1,0 +1,94 @@
+"""What `trade` writes and leaves with."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from harness.cli import main
+from harness.commands import trade as command
+from harness.drive import instantiate
+from harness.errors import HarnessError
+from harness.fmu import open_fmu
+from harness.trade.fmu_methods import FmuMethods
+from harness.trade.peers import peer_methods
+from harness.trade.result import Trade
+from harness.trade.task import Task
+from tests.harness.trade.scenes import HEAD, TABLE_1, task
+from tests.harness.trade.test_needs import TRADE
+
+
+@pytest.mark.slow
+def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    scene = tmp_path / "mine.toml"
+    scene.write_text(HEAD)
+    out, page, picture = tmp_path / "out", tmp_path / "page.md", tmp_path / "trade.png"
+    page.write_text("before\n<!-- trade -->\n<!-- end of trade -->\nafter\n")
+    arguments = [str(scene), "--out", str(out), "--fmu", str(native_fmu), "--repeats", "1"]
+    arguments += ["--budget", "0.05", "--periods", "8", "--page", str(page)]
+    result = CliRunner().invoke(main, ["trade", *arguments, "--picture", str(picture), "--json"])
+    assert result.exit_code == 0, result.output
+    (told,) = json.loads(result.stdout)
+    assert {s["kind"] for s in told["standings"]} == {"averaged", "resolved", "peer"}
+
+    rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
+    assert len(rows) == len(told["trade"]["rows"])
+    omissions = list(csv.DictReader((out / "omissions.csv").open(encoding="utf-8")))
+    assert len(omissions) == len(told["trade"]["omissions"])
+    short = task(tmp_path, TABLE_1, most_periods=8)
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        methods = [*FmuMethods(short, "native", instance).methods(), *peer_methods(short)]
+    followed = {row["method"] for row in rows if row["answer"] == "run"}
+    omitted = {o["method"] for o in omissions if o["quantity"] == "all"}
+    assert {method.label.name for method in methods} == followed | omitted
+    assert not followed & omitted
+
+    resolved = [
+        row for row in rows if row["family"] == "native FMU, fidelity 2" and row["answer"] == "run"
+    ]
+    assert resolved
+    for row in resolved:
+        assert float(row["error_position"]) < 1e-10
+        assert int(row["events"]) == 2 * int(row["periods"]) - 1, "two reversals but for the first"
+
+    html = (out / "index.html").read_text(encoding="utf-8")
+    assert "at an error of 1 % in mean velocity" in html
+    assert "data:image/png;base64," in html
+    assert 'src="http' not in html
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    text = page.read_text(encoding="utf-8")
+    assert text.startswith("before\n<!-- trade -->\n")
+    assert text.endswith("<!-- end of trade -->\nafter\n")
+    assert "| position | 1e-09 | fidelity 2, steps of" in text
+
+
+def test_a_scene_that_does_not_exist_is_told_and_leaves_nothing(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    result = CliRunner().invoke(main, ["trade", "tabel_1", "--out", str(out)])
+    assert result.exit_code == 2
+    assert "did you mean 'table_1'?" in result.stderr
+    assert not out.exists()
+
+
+def test_what_was_measured_before_a_scene_that_fails_is_kept(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def measure(task: Task, *_: object, **__: object) -> Trade:
+        if task.name == "lugre":
+            raise HarnessError("the referee cannot follow it")
+        return TRADE
+
+    monkeypatch.setattr(command, "measure_trade", measure)
+    out = tmp_path / "out"
+    arguments = ["trade", "table_1", "lugre", "--out", str(out), "--fmu", str(native_fmu)]
+    result = CliRunner().invoke(main, arguments)
+    assert result.exit_code == 2
+    assert "the referee cannot follow it" in result.stderr
+    rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
+    assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
