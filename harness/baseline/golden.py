@@ -30,6 +30,8 @@ OF_CONSTANT_INPUTS = (
     *("blocking_status", "blocking_force", "predicted_blocking_force"),
 )
 """Found by shooting, and predicted by the FMU."""
+NUMBERS_AND_WORDS = (*OF_CONSTANT_INPUTS, *OF_A_RUN)
+"""All that is kept beside the signals, in the order of the files."""
 
 Golden = Mapping[str, Measurement]
 """Quantity to its measurement; signals at few points."""
@@ -73,7 +75,7 @@ def _decimated(measured: Measurement) -> Measurement:
 
 def order(name: str) -> int:
     """Return the place of a quantity in files and tables."""
-    return (*OF_CONSTANT_INPUTS, *OF_A_RUN, *SIGNALS).index(name)
+    return (*NUMBERS_AND_WORDS, *SIGNALS).index(name)
 
 
 def unit(name: str) -> str:

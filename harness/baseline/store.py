@@ -5,22 +5,31 @@ from __future__ import annotations
 import csv
 import shutil
 import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from harness.baseline.golden import SIGNALS, Golden, order, unit
+from harness.baseline.golden import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
 from harness.baseline.provenance import Provenance
 from harness.compare import Measurement, Value
 from harness.errors import HarnessError
+from harness.names import unknown_name
+from harness.quantities import QUANTITIES
 
 NUMBERS, TRAJECTORY, PROVENANCE = "numbers.csv", "trajectory.csv", "provenance.csv"
 DIGITS = 13
 """Significant digits in the files: what differs beyond them hangs on the platform's sine."""
 NONE = "none"
 """Written for a quantity that does not exist there, such as the velocity of a slow beat."""
+HEADERS: Mapping[str, Sequence[str]] = {
+    NUMBERS: ("at", "quantity", "unit", "value"),
+    TRAJECTORY: ("at", "time", *SIGNALS),
+    PROVENANCE: ("what", "value"),
+}
+"""First line of each file."""
 
 At = tuple[tuple[str, float], ...]
 """What a sweep has varied, () without a sweep."""
@@ -48,10 +57,10 @@ def write_recorded(folder: Path, recorded: Recorded) -> None:
         folder.parent.mkdir(parents=True, exist_ok=True)
         fresh = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
         try:
-            _write(fresh / NUMBERS, ["at", "quantity", "unit", "value"], _number_rows(recorded))
+            _write(fresh / NUMBERS, _number_rows(recorded))
             if any(name in SIGNALS for golden in recorded.points.values() for name in golden):
-                _write(fresh / TRAJECTORY, ["at", "time", *SIGNALS], _signal_rows(recorded))
-            _write(fresh / PROVENANCE, ["what", "value"], recorded.provenance.items())
+                _write(fresh / TRAJECTORY, _signal_rows(recorded))
+            _write(fresh / PROVENANCE, recorded.provenance.items())
             fresh.chmod(0o755)
             replace_folder(fresh, folder)
         finally:
@@ -73,20 +82,22 @@ def replace_folder(fresh: Path, folder: Path) -> None:
 def read_recorded(folder: Path) -> Recorded:
     """Read the files of a scene; HarnessError names the file and the line that is no record."""
     points: dict[At, dict[str, Measurement]] = {}
-    for place, name, _, value in _read(folder / NUMBERS, 4):
-        points.setdefault(_at(place), {})[name] = Measurement(_value(value))
-    columns: dict[At, list[list[str]]] = {}
+    for line, (place, name, _, value) in _read(folder / NUMBERS):
+        with _naming(folder / NUMBERS, line):
+            points.setdefault(_at(place), {})[name] = Measurement(_value(name, value))
+    columns: dict[At, list[list[float]]] = {}
     if (folder / TRAJECTORY).exists():
-        for place, *row in _read(folder / TRAJECTORY, 2 + len(SIGNALS)):
-            columns.setdefault(_at(place), []).append(row)
+        for line, (place, *row) in _read(folder / TRAJECTORY):
+            with _naming(folder / TRAJECTORY, line):
+                columns.setdefault(_at(place), []).append([_number(text) for text in row])
     for at, rows in columns.items():
-        table = np.array(rows, dtype=np.float64).T
+        table = np.array(rows).T
         signals = {
             name: Measurement(column, times=table[0])
             for name, column in zip(SIGNALS, table[1:], strict=True)
         }
         points.setdefault(at, {}).update(signals)
-    return Recorded(points, {what: value for what, value in _read(folder / PROVENANCE, 2)})
+    return Recorded(points, {what: value for _, (what, value) in _read(folder / PROVENANCE)})
 
 
 def recorded_scenes(folder: Path) -> list[Path]:
@@ -111,21 +122,36 @@ def _signal_rows(recorded: Recorded) -> Iterable[Sequence[str]]:
                 yield _place(at), *(_text(float(number)) for number in row)
 
 
-def _write(path: Path, header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+def _write(path: Path, rows: Iterable[Sequence[str]]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows([header, *rows])
+        csv.writer(file, lineterminator="\n").writerows([HEADERS[path.name], *rows])
 
 
-def _read(path: Path, width: int) -> list[list[str]]:
+def _read(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Yield the number and the cells of each line after the header."""
     try:
         with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))[1:]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+            found, *rows = list(csv.reader(file)) or [[]]
+    except OSError as error:
+        raise HarnessError(f"{path}: cannot be read: {error.strerror}") from error
+    except (UnicodeDecodeError, csv.Error) as error:
         raise HarnessError(f"{path}: cannot be read: {error}") from error
+    header = list(HEADERS[path.name])
+    if found != header:
+        raise HarnessError(f"{path} line 1: {','.join(found)!r}; allowed is {','.join(header)!r}")
     for line, row in enumerate(rows, start=2):
-        if len(row) != width:
-            raise HarnessError(f"{path} line {line}: {len(row)} cells; allowed are {width}")
-    return rows
+        if len(row) != len(header):
+            raise HarnessError(f"{path} line {line}: {len(row)} cells; allowed are {len(header)}")
+        yield line, row
+
+
+@contextmanager
+def _naming(path: Path, line: int) -> Iterator[None]:
+    """Turn a ValueError into a HarnessError with file and line."""
+    try:
+        yield
+    except ValueError as error:
+        raise HarnessError(f"{path} line {line}: {error}") from error
 
 
 def _text(value: Value) -> str:
@@ -134,13 +160,19 @@ def _text(value: Value) -> str:
     return value if isinstance(value, str) else f"{value + 0.0:.{DIGITS}g}"  # no minus zero
 
 
-def _value(text: str) -> Value:
+def _value(name: str, text: str) -> Value:
+    if name not in NUMBERS_AND_WORDS:
+        raise ValueError(unknown_name("quantity", name, NUMBERS_AND_WORDS))
     if text == NONE:
         return None
+    return text if QUANTITIES[name].kind == "word" else _number(text)
+
+
+def _number(text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        return text
+        raise ValueError(f"{text!r}: allowed is a number") from None
 
 
 def _place(at: At) -> str:
@@ -149,4 +181,4 @@ def _place(at: At) -> str:
 
 def _at(text: str) -> At:
     pairs = (part.partition("=") for part in text.split())
-    return tuple((name, float(value)) for name, _, value in pairs)
+    return tuple((name, _number(value)) for name, _, value in pairs)

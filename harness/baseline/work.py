@@ -28,7 +28,8 @@ from harness.errors import HarnessError, SceneError
 from harness.fmu import open_fmu
 from harness.isolated_runs import TIME_LIMIT
 from harness.names import unknown_name
-from harness.scene import Scene, find_scene, read_scene
+from harness.scene import Scene, built_in_scenes, read_scene
+from harness.targets import make_folder
 from harness.validate import Curves, Trouble, Validation, curves_of
 
 CHANGED = ".changed"
@@ -47,7 +48,8 @@ def record(
     """Record scenes; return the names of those written and what could not be run.
 
     Raises HarnessError, before anything is run, where a scene is recorded already and `replace` is
-    not set, and where two scenes have one name; FmuError for a file that is no FMU.
+    not set, where two scenes have one name, and for a folder that cannot be made; FmuError for a
+    file that is no FMU.
     """
     scenes = [read_scene(file) for file in files]
     names = [scene.name for scene in scenes]
@@ -60,6 +62,9 @@ def record(
             f"{folder}: recorded already: {', '.join(there)}; check and accept show and take over "
             "what has changed, --replace records anew"
         )
+    with open_fmu(fmu):
+        pass  # nothing is made in `folder` for a file that is no FMU
+    make_folder(folder)
     measured = measure_scenes(fmu, files, folder, progress, time_limit)
     for scene, file in zip(scenes, files, strict=True):
         if file in measured.scenes:
@@ -158,7 +163,15 @@ def recorded_files(folder: Path) -> list[Path]:
 def _scene_file(path: Path) -> Path:
     """Return the scene's file: a built-in one by its name, others where they were."""
     file = read_recorded(path).provenance.get(SCENE_FILE, BUILT_IN)
-    return find_scene(path.name) if file == BUILT_IN else path.parent / file
+    if file != BUILT_IN:
+        return path.parent / file
+    try:
+        return built_in_scenes()[path.name]
+    except KeyError:
+        raise SceneError(
+            f"{path}: recorded of a built-in scene that this version does not have; remove the "
+            "folder, or name with --scene what to check"
+        ) from None
 
 
 def _recorded(folder: Path, scene: Scene) -> Recorded:

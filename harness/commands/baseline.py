@@ -15,7 +15,6 @@ from harness.console import progress_bar
 from harness.errors import HarnessError
 from harness.isolated_runs import TIME_LIMIT
 from harness.scene import built_in_scenes, scene_files
-from harness.targets import make_folder
 from harness.validate import Trouble
 
 dir_option = click.option(
@@ -84,12 +83,11 @@ def record_command(
       python -m harness baseline record my.fmu --dir baseline --scene scenes/mine.toml --replace
     """
     files = [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
-    make_folder(folder)
     with progress_bar() as progress:
         names, troubles = record(
             fmu, files, folder, progress, replace=replace, time_limit=time_limit
         )
-    click.echo(f"recorded {len(names)} scenes in {folder}")
+    click.echo(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {folder}")
     _tell(fmu, troubles)
     context.exit(2 if troubles else 0)
 

@@ -12,7 +12,6 @@ from harness.crosscheck.importer import Imported, imported
 from harness.drive import instantiate
 from harness.fmu import open_fmu
 from harness.json_output import to_json
-from harness.targets import make_folder
 
 TOOL = "slider-resonator"
 
@@ -57,7 +56,6 @@ def crosscheck_command(
       python -m harness crosscheck --out crosscheck
       python -m harness crosscheck my.fmu --out crosscheck --tool MyTool --json
     """
-    make_folder(out)
     with open_fmu(default_fmu(fmu)) as opened, instantiate(opened) as instance:
         folders = export(instance, out, tool)
     results = [imported(folder) for folder in folders]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -146,3 +147,39 @@ def test_what_is_not_recorded_is_named(native_fmu: Path, baseline: Path, tmp_pat
     assert empty.exit_code == 2
     assert "nothing is recorded here" in empty.stderr
     assert "nothing is recorded" in json.loads((tmp_path / "report.json").read_text())["error"]
+
+
+def test_a_damaged_record_is_named_and_the_report_is_written(
+    native_fmu: Path, baseline: Path, tmp_path: Path
+) -> None:
+    numbers, report = baseline / "one" / "numbers.csv", tmp_path / "report.json"
+    numbers.write_text(numbers.read_text() + ",reversals,1,many\n")
+    result = call("check", native_fmu, baseline, "--json", report)
+    assert result.exit_code == 2
+    assert "'many': allowed is a number" in result.stderr
+    assert str(numbers) in json.loads(report.read_text())["error"]
+
+
+def test_a_built_in_scene_that_is_gone_is_named_with_its_folder(
+    native_fmu: Path, baseline: Path
+) -> None:
+    provenance = baseline / "one" / "provenance.csv"
+    provenance.write_text(
+        re.sub("(?m)^scene_file,.*$", "scene_file,built in", provenance.read_text())
+    )
+    result = call("check", native_fmu, baseline)
+    assert result.exit_code == 2
+    assert f"{baseline / 'one'}: recorded of a built-in scene" in result.stderr
+
+
+def test_nothing_is_made_for_a_file_that_is_no_fmu(scenes: Path, tmp_path: Path) -> None:
+    result = call("record", tmp_path / "no.fmu", tmp_path / "new", "--scene", scenes)
+    assert result.exit_code == 2
+    assert "no such file" in result.stderr
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_folder_that_cannot_be_made_is_refused(native_fmu: Path, scenes: Path) -> None:
+    result = call("record", native_fmu, native_fmu / "inside", "--scene", scenes)
+    assert result.exit_code == 2
+    assert "cannot be made a folder" in result.stderr

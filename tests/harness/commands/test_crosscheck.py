@@ -29,3 +29,18 @@ def test_a_tool_is_the_name_of_a_folder(native_fmu: Path, tmp_path: Path) -> Non
     result = call(native_fmu, "--out", tmp_path, "--tool", "../up")
     assert result.exit_code == 2
     assert "allowed are letters" in result.stderr
+
+
+def test_nothing_is_made_for_what_cannot_be_exported(python_fmu: Path, tmp_path: Path) -> None:
+    out = tmp_path / "tree"
+    for fmu, reason in ((tmp_path / "no.fmu", "no such file"), (python_fmu, "needs a Python")):
+        result = call(fmu, "--out", out)
+        assert result.exit_code == 2
+        assert reason in result.stderr
+        assert not out.exists()
+
+
+def test_a_folder_that_cannot_be_made_is_refused(native_fmu: Path) -> None:
+    result = call(native_fmu, "--out", native_fmu / "inside")
+    assert result.exit_code == 2
+    assert "cannot be made a folder" in result.stderr
