@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from math import pi
@@ -120,6 +120,11 @@ def scene_files(scene: str) -> list[Path]:
             "with scene files (*.toml)"
         )
     return files
+
+
+def files_of_scenes(scenes: Sequence[str]) -> list[Path]:
+    """Return the files of scenes, each as for `scene_files`; of all built-in ones without any."""
+    return [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
 
 
 def sweep_points(scene: Scene, path: Path) -> Iterator[tuple[Mapping[str, float], Scene]]:

@@ -20,7 +20,7 @@ def check_folder(dest: Path) -> None:
 
 
 def write_fmu(dest: Path, model: str, files: Mapping[str, bytes], suffix: str = ".fmu") -> Path:
-    """Write `dest`/`model`.fmu and return its path; it appears at once or not at all."""
+    """Write `dest`/`model` with `suffix` and return its path; it appears at once or not at all."""
     dest.mkdir(parents=True, exist_ok=True)
     target = dest / f"{model}{suffix}"
     partial = target.with_suffix(f".{os.getpid()}.partial")

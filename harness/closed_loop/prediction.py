@@ -60,7 +60,7 @@ def _device(package: Path) -> str:
     values = {
         name: value for name, value in parameters(package, DESIGN).items() if name != FIDELITY
     }
-    own = {name.partition(".")[2]: value for name, value in values.items() if "slider." in name}
+    own = {n.removeprefix("slider."): v for n, v in values.items() if n.startswith("slider.")}
     return "".join(f"{name} = {value!r}\n" for name, value in own.items())
 
 

@@ -9,12 +9,12 @@ import click
 
 from harness.baseline.judge import TOLERANCE
 from harness.baseline.work import accept, check, record
-from harness.commands.options import fmu_argument
+from harness.commands.options import fmu_argument, scenes_option, time_limit_option
 from harness.commands.reports import Reports, print_verdicts, report_options
 from harness.console import progress_bar
 from harness.errors import HarnessError
 from harness.isolated_runs import TIME_LIMIT
-from harness.scene import built_in_scenes, scene_files
+from harness.scene import files_of_scenes
 from harness.validate import Trouble
 
 dir_option = click.option(
@@ -24,21 +24,7 @@ dir_option = click.option(
     required=True,
     help="Folder of the baseline: CSV files to be kept under version control.",
 )
-time_limit_option = click.option(
-    "--time-limit",
-    type=click.FloatRange(min=0.0, min_open=True),
-    default=TIME_LIMIT,
-    show_default=True,
-    metavar="SECONDS",
-    help="For each scene, or point of a sweep.",
-)
-scene_option = click.option(
-    "--scene",
-    "scenes",
-    multiple=True,
-    metavar="NAME|FILE|DIR",
-    help="A built-in scene, a scene file or a folder of scene files; may be given several times.",
-)
+limited = time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep.")
 
 
 @click.group("baseline")
@@ -60,9 +46,9 @@ def baseline_command() -> None:
 @baseline_command.command("record")
 @fmu_argument
 @dir_option
-@scene_option
+@scenes_option("all built-in")
 @click.option("--replace", is_flag=True, help="Record anew what is recorded already.")
-@time_limit_option
+@limited
 @click.pass_context
 def record_command(
     context: click.Context,
@@ -82,7 +68,7 @@ def record_command(
       python -m harness baseline record my.fmu --dir baseline
       python -m harness baseline record my.fmu --dir baseline --scene scenes/mine.toml --replace
     """
-    files = [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
+    files = files_of_scenes(scenes)
     with progress_bar() as progress:
         names, troubles = record(
             fmu, files, folder, progress, replace=replace, time_limit=time_limit
@@ -95,7 +81,7 @@ def record_command(
 @baseline_command.command("check")
 @fmu_argument
 @dir_option
-@scene_option
+@scenes_option("all that are recorded")
 @click.option(
     "--tolerance",
     type=click.FloatRange(min=0.0),
@@ -105,7 +91,7 @@ def record_command(
     "events of the drive period.",
 )
 @click.option("--details", is_flag=True, help="Show what has not changed as well.")
-@time_limit_option
+@limited
 @report_options
 @click.pass_context
 def check_command(
@@ -134,7 +120,7 @@ def check_command(
     """
     reports = Reports.asked_for("Slider-resonator baseline", junit, html, json, {"the FMU": fmu})
     try:
-        files = [file for scene in scenes for file in scene_files(scene)]
+        files = files_of_scenes(scenes) if scenes else []
         with progress_bar() as progress:
             result = check(fmu, files, folder, progress, tolerance=tolerance, time_limit=time_limit)
     except HarnessError as error:

@@ -6,7 +6,14 @@ from pathlib import Path
 
 import click
 
-from harness.commands.options import BUILT_FMUS, Target, default_fmus, json_option
+from harness.commands.options import (
+    BUILT_FMUS,
+    Target,
+    default_fmus,
+    json_option,
+    scenes_option,
+    time_limit_option,
+)
 from harness.console import output, progress_bar
 from harness.errors import FmuError, HarnessError
 from harness.json_output import to_json
@@ -16,7 +23,7 @@ from harness.mutants.listing import mutant_as_plain, print_mutants, print_run, r
 from harness.mutants.mutant import KINDS
 from harness.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
 from harness.mutants.page import write_mutants
-from harness.scene import built_in_scenes, scene_files
+from harness.scene import files_of_scenes
 from harness.sweep.local import available_cores
 from harness.targets import distinct
 
@@ -45,14 +52,7 @@ WANTED_RATE = 0.95
     type=click.Choice(list(KINDS)),
     help="Only mutants of this kind; may be given several times.",
 )
-@click.option(
-    "--scene",
-    "scenes",
-    multiple=True,
-    metavar="NAME|FILE|DIR",
-    help="Try them on this scene, or on those of a folder; may be given several times.  "
-    "[default: all built-in]",
-)
+@scenes_option("all built-in")
 @click.option(
     "--probes",
     type=click.IntRange(min=0),
@@ -61,13 +61,8 @@ WANTED_RATE = 0.95
     help="Random scenes that tell whether a survivor changes a result.",
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
-@click.option(
-    "--time-limit",
-    type=click.FloatRange(min=0.0, min_open=True),
-    default=TIME_LIMIT,
-    show_default=True,
-    metavar="SECONDS",
-    help="For a mutant and each scene, or point of a sweep; beyond, it is rejected.",
+@time_limit_option(
+    TIME_LIMIT, "For a mutant and each scene, or point of a sweep; beyond, it is rejected."
 )
 @click.option("--html", type=Target([".html"]), help="One page with all that was not rejected.")
 @json_option
@@ -125,7 +120,7 @@ def mutants_command(
             path,
             original,
             chosen,
-            [file for scene in scenes or built_in_scenes() for file in scene_files(scene)],
+            files_of_scenes(scenes),
             made=len(made),
             jobs=jobs or available_cores(),
             probes=probes,

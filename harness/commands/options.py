@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any, TypeVar
 
 import click
 
@@ -17,6 +18,8 @@ from harness.values import check_value
 BUILT_FMUS = (Path("dist") / "SliderResonator.fmu", Path("dist") / "SliderResonatorPy.fmu")
 REPOSITORY = Path(__file__).resolve().parents[2]
 SET = "--set"
+FC = TypeVar("FC", bound=Callable[..., Any])
+"""A command, or the function that becomes one."""
 _SETTING = re.compile(r"[A-Za-z_]\w*=")
 
 
@@ -134,6 +137,30 @@ max_denominator_option = click.option(
     show_default=True,
     help="Largest q for which a frequency ratio p/q counts as having a common period.",
 )
+
+
+def scenes_option(default: str) -> Callable[[FC], FC]:
+    """Return the option --scene, given any number of times; `default` says what is without it."""
+    return click.option(
+        "--scene",
+        "scenes",
+        multiple=True,
+        metavar="NAME|FILE|DIR",
+        help="A built-in scene, a scene file or a folder of scene files; may be given several "
+        f"times.  [default: {default}]",
+    )
+
+
+def time_limit_option(default: float, words: str) -> Callable[[FC], FC]:
+    """Return the option --time-limit (s); `words` say what it limits."""
+    return click.option(
+        "--time-limit",
+        type=click.FloatRange(min=0.0, min_open=True),
+        default=default,
+        show_default=True,
+        metavar="SECONDS",
+        help=words,
+    )
 
 
 def default_fmu(given: Path | None) -> Path:

@@ -6,36 +6,22 @@ from pathlib import Path
 
 import click
 
-from harness.commands.options import default_fmus
+from harness.commands.options import default_fmus, scenes_option, time_limit_option
 from harness.commands.reports import Reports, print_verdicts, report_options
 from harness.console import progress_bar
 from harness.errors import HarnessError
 from harness.isolated_runs import TIME_LIMIT
 from harness.repeated import repeated
-from harness.scene import built_in_scenes, scene_files
+from harness.scene import files_of_scenes
 from harness.validate import validate
 from harness.verdict import TITLE
 
 
 @click.command("validate")
 @click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
-@click.option(
-    "--scene",
-    "scenes",
-    multiple=True,
-    metavar="NAME|FILE|DIR",
-    help="A built-in scene, a scene file or a folder of scene files; may be given several times.  "
-    "[default: all built-in]",
-)
+@scenes_option("all built-in")
 @click.option("--details", is_flag=True, help="Show every point of a sweep, and the reasons.")
-@click.option(
-    "--time-limit",
-    type=click.FloatRange(min=0.0, min_open=True),
-    default=TIME_LIMIT,
-    show_default=True,
-    metavar="SECONDS",
-    help="For each scene, or point of a sweep, on each FMU.",
-)
+@time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
 @click.option(
     "--repeat",
     type=click.IntRange(min=1),
@@ -77,7 +63,7 @@ def validate_command(
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
     reports = Reports.asked_for(TITLE, junit, html, json, sources)
     try:
-        files = [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
+        files = files_of_scenes(scenes)
         paths = fmus or default_fmus()
         with progress_bar() as progress:
             again = [path for path in paths for _ in range(repeat)]

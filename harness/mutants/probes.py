@@ -34,7 +34,6 @@ _SIGNALS = (
     "friction_force",
 )
 
-
 _SPECIAL: tuple[Mapping[str, float], ...] = (
     {"base_amplitude": 0.0, "tangential_force": 0.0},
     {"normal_preload": 0.0},
@@ -115,9 +114,8 @@ def _device(draw: Random, fidelity: int, law: int) -> dict[str, float]:
     resonance = drive * draw.choice((1.0, free, _log(draw, 0.2, 3.0), _log(draw, 0.2, 3.0), 0.01))
     preload = draw.choice((1.0, _log(draw, 0.1, 10.0)))
     amplitude = preload * draw.choice((0.0, 0.5, 1.0, draw.uniform(0.1, 1.0), 1.7))
-    if (
-        fidelity == 0 and law == 1
-    ):  # a bristle under flight costs seconds; a scene of its own has it
+    # A bristle under flight costs seconds: a scene of its own has it.
+    if fidelity == 0 and law == 1:
         amplitude = min(amplitude, preload)
     coefficient, faces = draw.uniform(0.03, 0.5), draw.choice((1, 2))
     force = faces * coefficient * preload * _log(draw, 0.3, 300.0)
