@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 
+from harness.atomic import replacing
 from harness.baseline.judge import TOLERANCE, Compared, compared
 from harness.baseline.measuring import Progress, measure_scenes
 from harness.baseline.provenance import (
@@ -85,8 +86,9 @@ def check(
 ) -> Validation:
     """Compare an FMU with what is recorded of scenes, of all that are without `files`.
 
-    What has changed is kept for `accept`. Raises HarnessError where nothing is recorded or a
-    record cannot be read, FmuError for a file that is no FMU.
+    What has changed is kept for `accept`; where it cannot be, that is a trouble beside the
+    verdicts. Raises HarnessError where nothing is recorded or a record cannot be read, FmuError
+    for a file that is no FMU.
     """
     began = perf_counter()
     files = files or recorded_files(folder)
@@ -106,7 +108,11 @@ def check(
             continue
         verdicts += found
         if not all(verdict.check.passed for verdict in found):
-            _keep(folder, scene.name, measured.scenes[file])
+            try:
+                _keep(folder, scene.name, measured.scenes[file])
+            except HarnessError as error:
+                reason = f"what has changed could not be kept for accept: {error}"
+                troubles.append(Trouble(scene.name, reason, {}))
     curves = (curves_of(one.check, one.measured, one.golden) for one in verdicts)
     return Validation(
         str(fmu),
@@ -199,4 +205,5 @@ def _keep(folder: Path, name: str, now: Recorded) -> None:
     write_recorded(folder / CHANGED / name, now)
     ignored = folder / CHANGED / ".gitignore"
     if not ignored.exists():
-        ignored.write_text("*\n")
+        with replacing(ignored) as temporary:
+            temporary.write_text("*\n", encoding="utf-8")

@@ -27,8 +27,8 @@ def test_the_error_is_of_the_order_of_what_friction_does_in_a_radian_of_the_driv
     shares: list[float] = []
     (error,) = predicted_errors(closed_loop_package, design, DUTY, shares.append)
     per_radian = 2.0 * 0.1 * 1.0 / (1.1 * 3500.0)
-    assert error == pytest.approx(per_radian, rel=3.0)
-    assert error > per_radian / 10.0
+    assert error is not None
+    assert per_radian / 10.0 < error < 4.0 * per_radian
     assert shares == [1.0]
 
 

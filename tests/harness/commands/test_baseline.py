@@ -183,3 +183,11 @@ def test_a_folder_that_cannot_be_made_is_refused(native_fmu: Path, scenes: Path)
     result = call("record", native_fmu, native_fmu / "inside", "--scene", scenes)
     assert result.exit_code == 2
     assert "cannot be made a folder" in result.stderr
+
+
+def test_what_cannot_be_kept_is_shown_even_so(other_fmu: Path, baseline: Path) -> None:
+    (baseline / ".changed").write_text("in the way of what accept takes over")
+    result = call("check", other_fmu, baseline)
+    assert result.exit_code == 2
+    assert "one: blocking_force" in result.stdout
+    assert "could not be kept for accept" in result.stderr
