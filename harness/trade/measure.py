@@ -14,7 +14,7 @@ from harness.errors import FmuError
 from harness.trade.fmu_methods import FmuMethods
 from harness.trade.method import Answer, Label, Method, cpu_seconds
 from harness.trade.motion import QUANTITIES, Motion, errors
-from harness.trade.peers import peer_answers, peer_methods
+from harness.trade.peer_methods import peer_answers, peer_methods
 from harness.trade.referee import Referee, referee
 from harness.trade.result import Omission, Row, Trade
 from harness.trade.task import Task

@@ -13,7 +13,8 @@ from harness.references import taylor
 from harness.references.lugre_taylor import simulate_lugre
 from harness.references.trajectory import Trajectory
 from harness.trade.motion import Windows, windows
-from harness.trade.peers import motion_of, shoot
+from harness.trade.peer import motion_of
+from harness.trade.shooting import shoot
 from harness.trade.task import TRUTH_STEPS, Task
 
 SHOOTING = 1e-10

@@ -15,7 +15,7 @@ from harness.drive import instantiate
 from harness.errors import HarnessError
 from harness.fmu import open_fmu
 from harness.trade.fmu_methods import FmuMethods
-from harness.trade.peers import peer_methods
+from harness.trade.peer_methods import peer_methods
 from harness.trade.result import Trade
 from harness.trade.task import Task
 from tests.harness.trade.scenes import HEAD, TABLE_1, task

@@ -15,7 +15,7 @@ from harness.references import taylor
 from harness.trade.fmu_methods import STEPS, FmuMethods
 from harness.trade.method import Method
 from harness.trade.motion import errors, windows
-from harness.trade.peers import motion_of
+from harness.trade.peer import motion_of
 from harness.trade.result import AVERAGED
 from harness.trade.task import Task
 from tests.harness.trade.scenes import LUGRE, RAMP, TABLE_1, task
