@@ -23,6 +23,7 @@ from harness.references.closed_forms import equivalent_force
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
 from harness.references.lugre_taylor import simulate_lugre
+from harness.references.trajectory import Trajectory
 from harness.trade.motion import Motion
 from harness.trade.one_call import cvode_in_one_call, heyoka_in_one_call
 from harness.trade.peer import NO_EVENTS, NOT_SHOT, Peer, motion_of
@@ -36,10 +37,10 @@ MOST_EVALUATIONS = 1_000_000
 
 def peers(task: Task) -> list[Peer]:
     """Return the peers for the friction law of a task."""
-    return [*(_lugre if task.device.friction_law == 1 else _coulomb)(task.device), _averaged()]
+    return [*(_lugre() if task.device.friction_law == 1 else _coulomb()), _averaged()]
 
 
-def _coulomb(device: Device) -> Iterator[Peer]:
+def _coulomb() -> Iterator[Peer]:
     for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
         yield heyoka_in_one_call("heyoka at its fastest", "path", taylor.simulate, tolerance)
     for tolerance in (1e-6, 1e-12):
@@ -76,14 +77,13 @@ def _coulomb(device: Device) -> Iterator[Peer]:
         simulate = partial(moreau_jean.simulate, steps_per_period=count)
         setting = f"{count} steps a period"
         yield _trajectory("Moreau-Jean", setting, simulate, shooting=1e-6, located=False)
-    speed = equivalent_force(device).velocity_amplitude
     for share in (1e-1, 1e-2, 1e-3, 1e-4):
-        simulate = partial(regularised.simulate, width=share * speed, rtol=1e-7, atol=1e-9)
+        simulate = partial(_regularised, share=share)
         setting = f"width {share:g} of the fast velocity"
         yield _trajectory("tanh, LSODA", setting, simulate, shooting=1e-6, located=False)
 
 
-def _lugre(_: Device) -> Iterator[Peer]:
+def _lugre() -> Iterator[Peer]:
     for bristle in ("path", "state"):
         for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
             family = f"heyoka at its fastest, bristle {'from' if bristle == 'path' else 'as'} "
@@ -101,6 +101,17 @@ def _lugre(_: Device) -> Iterator[Peer]:
             yield _at(family, tolerance, simulate, located=False)
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
         yield cvode_in_one_call(tolerance)
+
+
+def _regularised(
+    device: Device, held: Sequence[HeldInputs], times: Array, *, share: float
+) -> Trajectory:
+    """Return the motion with a width of tanh that is a share of the fast velocity.
+
+    Raises ValueError where there is no steady vibration, besides what `regularised` raises.
+    """
+    width = share * equivalent_force(device).velocity_amplitude
+    return regularised.simulate(device, held, times, width=width, rtol=1e-7, atol=1e-9)
 
 
 def _at(family: str, tolerance: float, simulate: Simulate, *, located: bool = True) -> Peer:

@@ -65,8 +65,11 @@ class Task:
 
     @property
     def steady(self) -> bool:
-        """Whether the inputs allow a steady motion."""
-        return self.constant and common_period(self.inputs["frequency_ratio"]) is not None
+        """Whether the inputs allow a steady motion, and friction draws the slider into it."""
+        device = self.device
+        rubs = device.friction_coefficient * (device.normal_preload + device.normal_amplitude) > 0.0
+        periodic = common_period(self.inputs["frequency_ratio"]) is not None
+        return rubs and self.constant and periodic
 
     @property
     def beat(self) -> float | None:

@@ -15,6 +15,12 @@ from harness.trade.task import Task
 from tests.harness.trade.scenes import LUGRE, TABLE_1, task
 
 PERIODS = 4
+UNDAMPED_RESONANCE = """
+[device]
+damping_ratio = 0.0
+resonator_mass = 1.0
+resonator_frequency = 2474.8737341529163
+"""
 EXACT = {"heyoka", "DOP853 with", "LSODA with", "CVODE with", "LSODA, bristle", "CVODE BDF"}
 """Families whose error is what their tolerance asks for."""
 
@@ -40,3 +46,13 @@ def test_the_last_setting_of_each_family_is_near_the_referee(tmp_path: Path, tex
         compared = "slow_displacement" if peer.family.startswith("averaged") else "velocity"
         assert found[compared] < allowed, f"{peer.family}: {found}"
         assert ("event_times" in found) == ("event_times" not in peer.missing), peer.family
+
+
+def test_a_width_in_fast_velocities_needs_a_steady_vibration(tmp_path: Path) -> None:
+    resonant = task(tmp_path, UNDAMPED_RESONANCE, most_periods=PERIODS)
+    by_family = {peer.family: peer for peer in peers(resonant)}
+    assert "Moreau-Jean" in by_family, "the others follow resonance as it grows"
+    with pytest.raises(ValueError, match="there is no steady state"):
+        by_family["tanh, LSODA"].follow(
+            resonant.device, resonant.held(PERIODS), resonant.readings(PERIODS)
+        )

@@ -53,6 +53,15 @@ def test_inputs_that_vary_allow_no_steady_motion(tmp_path: Path) -> None:
     assert found.lengths == (16,), "who stops earlier has not seen all of them"
 
 
+@pytest.mark.parametrize(
+    "device", ["friction_coefficient = 0.0", "normal_preload = 0.0\nnormal_amplitude = 0.0"]
+)
+def test_nothing_draws_a_slider_without_friction_into_a_steady_motion(
+    tmp_path: Path, device: str
+) -> None:
+    assert not task(tmp_path, f"[device]\n{device}\n").steady
+
+
 def test_jumps_are_exact_for_everybody(tmp_path: Path) -> None:
     found = task(tmp_path, JUMPS)
     assert [inputs.start for inputs in found.truth(16)] == [0.0, 0.0101]
