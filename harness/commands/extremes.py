@@ -12,6 +12,7 @@ from harness.extremes.listing import as_plain, write_matrices
 from harness.extremes.matrix import all_cells
 from harness.extremes.run import LIMIT, Matrix, run_matrix
 from harness.extremes.verdict import PASSED
+from harness.fmu import open_fmu
 from harness.json_output import to_json
 from harness.targets import make_folder
 
@@ -60,10 +61,14 @@ def extremes_command(
       python -m harness extremes --out extremes
       python -m harness extremes my.fmu --out extremes --json
     """
+    chosen = fmus or default_fmus()
+    for path in chosen:
+        with open_fmu(path):  # One that cannot be opened must not cost the matrix of another.
+            pass
     make_folder(out)
     cells = all_cells(long=long)
     with progress_bar() as progress:
-        matrices = [run_matrix(fmu, cells, progress, limit) for fmu in fmus or default_fmus()]
+        matrices = [run_matrix(fmu, cells, progress, limit) for fmu in chosen]
     write_matrices(matrices, out)
     if as_json:
         click.echo(to_json(as_plain(matrices)))

@@ -99,7 +99,6 @@ def trade_command(
       python -m harness trade my.toml --out trade --fmu my.fmu --json
     """
     tasks = _tasks(scenes or ("table_1",), periods)
-    make_folder(out)
     trades: list[Trade] = []
     with ExitStack() as stack:
         progress = stack.enter_context(progress_bar())
@@ -109,6 +108,7 @@ def trade_command(
             build = "native" if fmu.runs_without_python else "Python"
             name = build if build not in instances else f"{build} {fmu.path.name}"
             instances[name] = stack.enter_context(instantiate(fmu))
+        make_folder(out)
         for task in tasks:
             trades.append(measure_trade(task, instances, progress, repeats=repeats, budget=budget))
             # After each scene: what took minutes to measure outlives a later one that fails.

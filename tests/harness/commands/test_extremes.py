@@ -46,6 +46,14 @@ def test_a_failed_cell_ends_with_1(
     assert "it flies" in json.loads(said)["fmus"][0]["verdicts"][0]["reason"]
 
 
-def test_what_cannot_be_run_ends_with_2(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    code, _ = invoke(monkeypatch, [GOOD], "missing.fmu", "--out", str(tmp_path))
+def test_what_cannot_be_run_ends_with_2_before_anything_is_run(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run: list[Path] = []
+    monkeypatch.setattr(extremes, "run_matrix", lambda fmu, *_: run.append(fmu))
+    out = tmp_path / "out"
+    code, said = invoke(monkeypatch, [GOOD], str(native_fmu), "missing.fmu", "--out", str(out))
     assert code == 2
+    assert "missing.fmu: no such file" in said
+    assert run == []
+    assert not out.exists()

@@ -68,11 +68,20 @@ def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
     assert "| position | 1e-09 | fidelity 2, steps of" in text
 
 
-def test_a_scene_that_does_not_exist_is_told_and_leaves_nothing(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["tabel_1"], "did you mean 'table_1'?"),
+        (["table_1", "--fmu", "missing.fmu"], "missing.fmu: no such file"),
+    ],
+)
+def test_what_does_not_exist_is_told_and_leaves_nothing(
+    tmp_path: Path, arguments: list[str], told: str
+) -> None:
     out = tmp_path / "out"
-    result = CliRunner().invoke(main, ["trade", "tabel_1", "--out", str(out)])
+    result = CliRunner().invoke(main, ["trade", *arguments, "--out", str(out)])
     assert result.exit_code == 2
-    assert "did you mean 'table_1'?" in result.stderr
+    assert told in result.stderr
     assert not out.exists()
 
 
