@@ -28,6 +28,7 @@ from harness.sweep.local import available_cores
 from harness.targets import distinct
 
 WANTED_RATE = 0.95
+"""Share of the mutants that change a result that must be rejected for a pass."""
 
 
 @click.command("mutants")

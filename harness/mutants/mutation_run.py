@@ -107,8 +107,11 @@ def _check_original(path: Path, points: Sequence[Point], time_limit: float) -> N
     """Raise FmuError unless the unchanged FMU passes: else a rejection would say nothing."""
     outcome = trial(path, points, time_limit)
     if isinstance(outcome, Rejection):
-        where = f"scene {outcome.scene}: {outcome.quantity}: " if outcome.scene else ""
-        raise FmuError(f"{path} is rejected before anything is changed: {where}{outcome.reason}")
+        where = f"scene {outcome.scene}: " * bool(outcome.scene)
+        what = f"{outcome.quantity}: " * bool(outcome.quantity)
+        raise FmuError(
+            f"{path} is rejected before anything is changed: {where}{what}{outcome.reason}"
+        )
 
 
 def _all(

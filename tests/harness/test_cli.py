@@ -16,7 +16,10 @@ from tests.harness import faulty_fmus
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
-COMMANDS = ("validate", "run", "steady", "blocking", "scenes", "bench", "picture")
+COMMANDS = (
+    *("validate", "baseline", "mutants", "crosscheck", "choose", "run", "steady", "blocking"),
+    *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "picture", "paper"),
+)
 
 
 def call(*arguments: object) -> Result:
@@ -36,10 +39,16 @@ def test_help_shows_examples(command: str) -> None:
     assert f"python -m harness {command}" in result.stdout
 
 
+@pytest.mark.parametrize("verb", ["record", "check", "accept"])
+def test_help_of_a_part_shows_examples(verb: str) -> None:
+    assert f"python -m harness baseline {verb}" in call("baseline", verb, "--help").stdout
+
+
 def test_every_command_is_listed() -> None:
     result = call("--help")
     assert result.exit_code == 0
-    assert all(command in result.stdout for command in COMMANDS)
+    listed = result.stdout.partition("\nCommands:\n")[2].splitlines()
+    assert sorted(line.split()[0] for line in listed) == sorted(COMMANDS)
 
 
 def test_validate_passes_with_0_and_fails_with_1(python_fmu: Path, tmp_path: Path) -> None:
