@@ -49,12 +49,10 @@ def random_points(table: Mapping[str, Any]) -> Points:
     """
     if not table:
         return (), ()
-    numbers = {}
-    for key, least in (("count", 1), ("seed", 0)):
-        value = table.get(key)
-        if isinstance(value, bool) or not isinstance(value, int) or value < least:
-            raise AxisError(f"random.{key} = {value!r}: allowed is a whole number from {least} on")
-        numbers[key] = value
+    numbers = {
+        key: _whole(f"random.{key}", table.get(key), least)
+        for key, least in (("count", 1), ("seed", 0))
+    }
     check_count(numbers["count"])
     ranges = {name: value for name, value in table.items() if name not in numbers}
     if not ranges:
@@ -78,16 +76,14 @@ def _axis(key: str, value: object) -> Sequence[float]:
     if not isinstance(value, dict):
         return _values(key, value)
     first, last, spacing = _bounds(key, value, ("count",))
-    count = value.get("count")
-    if isinstance(count, bool) or not isinstance(count, int) or count < 2:
-        raise AxisError(f"{key}.count = {count!r}: allowed is a whole number from 2 on")
+    count = _whole(f"{key}.count", value.get("count"), 2)
     check_count(count)
     return [_between(first, last, spacing, index / (count - 1)) for index in range(count)]
 
 
 def _values(key: str, value: object) -> Sequence[float]:
     if not isinstance(value, list) or not value:
-        raise AxisError(f"{key} = {value!r}: allowed is a list of numbers")
+        raise AxisError(f"{key} = {value!r}: allowed is a list of one number or more")
     for entry in value:
         _number(key, entry)
     return [float(entry) for entry in value]
@@ -119,7 +115,17 @@ def _between(first: float, last: float, spacing: str, share: float) -> float:
     return first + (last - first) * share
 
 
+def _whole(key: str, value: object, least: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise AxisError(f"{_given(key, value)}: allowed is a whole number from {least} on")
+    return value
+
+
 def _number(key: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-        raise AxisError(f"{key} = {value!r}: allowed is a finite number")
+        raise AxisError(f"{_given(key, value)}: allowed is a finite number")
     return float(value)
+
+
+def _given(key: str, value: object) -> str:
+    return f"{key} is missing" if value is None else f"{key} = {value!r}"

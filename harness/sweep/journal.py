@@ -29,16 +29,20 @@ class Journal:
     """One line of JSON for each finished point, after a line that says which sweep it is.
 
     A line that was cut off by the end of its writer is dropped, and its point is computed again.
-    Raises HarnessError for the journal of another sweep, and while another process writes it.
+    With `restart` all that the file holds is discarded.
+    Raises HarnessError for the journal of another sweep, for a file that is none, and while another
+    process writes it.
     """
 
-    def __init__(self, path: Path, digest: str) -> None:
+    def __init__(self, path: Path, digest: str, *, restart: bool = False) -> None:
         self.path = path
         self.rows: dict[int, Row] = {}
         try:
             self._file: BinaryIO = path.open("a+b")
             self._lock()
             try:
+                if restart:
+                    self._file.truncate(0)
                 self._read(digest)
             except BaseException:
                 self._file.close()
@@ -84,6 +88,11 @@ class Journal:
         for number, line in enumerate(self._file):
             entry = _entry(line)
             if entry is None:
+                if number == 0 and line.endswith(b"\n"):
+                    raise HarnessError(
+                        f"{self.path}: is no journal of a sweep; move it away, or discard it "
+                        "with --restart"
+                    )
                 break
             if number == 0:
                 self._check(entry, digest)

@@ -74,13 +74,15 @@ class Task:
 
 def check_measure(name: object) -> None:
     """Raise AxisError unless this is the name of a measure."""
-    output, dot, statistic = str(name).partition(".")
+    if not isinstance(name, str):
+        raise AxisError(f"measure {name!r}: allowed is a name in quotes")
+    output, dot, statistic = name.partition(".")
     if dot and output not in OUTPUTS:
         raise AxisError(f"measure {name!r}: {unknown_name('output', output, OUTPUTS)}")
     if dot and statistic not in STATISTICS:
         raise AxisError(f"measure {name!r}: {unknown_name('statistic', statistic, STATISTICS)}")
     if not dot and name not in SHOOTING:
-        raise AxisError(unknown_name("measure", str(name), [*SHOOTING, "OUTPUT.STATISTIC"]))
+        raise AxisError(unknown_name("measure", name, [*SHOOTING, "OUTPUT.STATISTIC"]))
 
 
 def unit(measure: str) -> str:

@@ -51,10 +51,7 @@ def run_sweep(
     with open_fmu(fmu):
         pass  # what is wrong with the file is said once, not at every point
     fmu_digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
-    journal_file = journal_path(out)
-    if restart:
-        journal_file.unlink(missing_ok=True)
-    with Journal(journal_file, _digest(sweep, fmu_digest)) as journal:
+    with Journal(journal_path(out), _digest(sweep, fmu_digest), restart=restart) as journal:
         found = len(journal.rows)
         left = [(n, point) for n, point in enumerate(sweep.points) if n not in journal.rows]
 

@@ -49,10 +49,15 @@ def test_the_journal_of_another_sweep_is_refused_and_left_alone(tmp_path: Path) 
     assert path.read_bytes() == content
 
 
-def test_two_at_once_are_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("restart", [False, True])
+def test_two_at_once_are_refused(restart: bool, tmp_path: Path) -> None:
     path = tmp_path / "journal"
-    with Journal(path, "a"), pytest.raises(HarnessError, match="another sweep is writing it"):
-        Journal(path, "a")
+    with Journal(path, "a") as journal:
+        journal.add(ROWS)
+        with pytest.raises(HarnessError, match="another sweep is writing it"):
+            Journal(path, "a", restart=restart)
+    with Journal(path, "a") as journal:
+        assert list(journal.rows.values()) == ROWS
 
 
 def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
@@ -62,3 +67,15 @@ def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
 
 def test_the_journal_is_beside_its_table() -> None:
     assert journal_path(Path("a") / "b.csv") == Path("a") / "b.csv.journal"
+
+
+def test_a_file_that_is_no_journal_is_left_alone_unless_discarded(tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    path.write_text("Monday: measured.\n")
+    with pytest.raises(HarnessError, match="is no journal of a sweep"):
+        Journal(path, "a")
+    assert path.read_text() == "Monday: measured.\n"
+    with Journal(path, "a", restart=True) as journal:
+        journal.add(ROWS)
+    with Journal(path, "a") as journal:
+        assert list(journal.rows.values()) == ROWS
