@@ -41,7 +41,9 @@ def _explanation() -> str:
         "not of the start of an FMU, nor of the first drive period that heyoka in one call is led "
         "through by located Taylor steps, since it cannot begin at rest. A method that would "
         "exceed its budget is followed over fewer drive periods, which the column says. Peers hold "
-        "inputs that vary over the scene's own communication step, the FMUs over theirs.</p>"
+        "inputs that vary over the scene's own communication step (FMUs over theirs), and cost "
+        "what they cost a user of Python: heyoka compiles its equations, scipy and CVODE call them "
+        "in Python, and Moreau-Jean is a loop in Python.</p>"
     )
 
 
