@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rich import box
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
@@ -41,8 +42,9 @@ def print_validation(
     if validation.troubles:
         verdict += f"[bold red]{len(validation.troubles)} could not be run[/], "
     console.print(
-        f"{validation.fmu}: {verdict}{len(validation.checks) - failed} of "
-        f"{len(validation.checks)} checks passed in {validation.wall_time:.1f} s"
+        f"{escape(validation.fmu)}: {verdict}{len(validation.checks) - failed} of "
+        f"{len(validation.checks)} checks passed in {validation.wall_time:.1f} s",
+        soft_wrap=True,
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -10,12 +9,11 @@ import click
 from harness.baseline.judge import TOLERANCE
 from harness.baseline.work import accept, check, record
 from harness.commands.options import fmu_argument, scenes_option, time_limit_option
-from harness.commands.reports import Reports, print_verdicts, report_options
+from harness.commands.reports import Reports, print_troubles, print_verdicts, report_options
 from harness.console import progress_bar
 from harness.errors import HarnessError
 from harness.isolated_runs import TIME_LIMIT
 from harness.scene import files_of_scenes
-from harness.validate import Trouble
 
 dir_option = click.option(
     "--dir",
@@ -74,7 +72,7 @@ def record_command(
             fmu, files, folder, progress, replace=replace, time_limit=time_limit
         )
     click.echo(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {folder}")
-    _tell(fmu, troubles)
+    print_troubles(str(fmu), troubles)
     context.exit(2 if troubles else 0)
 
 
@@ -154,9 +152,3 @@ def accept_command(fmu: Path, folder: Path, scenes: tuple[str, ...]) -> None:
     """
     names = accept(fmu, folder, scenes)
     click.echo(f"accepted {', '.join(names) or 'nothing: nothing has changed'}")
-
-
-def _tell(fmu: Path, troubles: Sequence[Trouble]) -> None:
-    for trouble in troubles:
-        scene = f"{fmu}: scene {trouble.scene}: " * bool(trouble.scene)
-        click.echo(f"error: {scene}{trouble.reason}", err=True)

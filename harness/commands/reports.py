@@ -17,7 +17,8 @@ from harness.junit import write_junit
 from harness.report import print_validation
 from harness.step_summary import VARIABLE, append_summary
 from harness.targets import distinct
-from harness.validate import Validation
+from harness.validate import Trouble, Validation
+from harness.verdict import place
 
 PRINTED = Path("-")
 """What `--json` without a file stands for."""
@@ -111,6 +112,11 @@ def print_verdicts(
     for validation in validations:
         if validation.checks and not as_json:
             print_validation(output(), validation, details=details, only_failed=only_failed)
-        for trouble in validation.troubles:
-            scene = f"{validation.fmu}: scene {trouble.scene}: " * bool(trouble.scene)
-            click.echo(f"error: {scene}{trouble.reason}", err=True)
+        print_troubles(validation.fmu, validation.troubles)
+
+
+def print_troubles(fmu: str, troubles: Sequence[Trouble]) -> None:
+    """Print on standard error what could not be run, and where."""
+    for trouble in troubles:
+        where = f"{fmu}: scene {trouble.scene}{place(trouble.at, ' at ')}: " * bool(trouble.scene)
+        click.echo(f"error: {where}{trouble.reason}", err=True)

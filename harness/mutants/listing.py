@@ -26,7 +26,7 @@ def print_run(console: Console, run: MutationRun) -> None:
         console.print(heading, Text(f"     {verdict.reason}"), Text(verdict.mutant.diff), sep="\n")
     for status, meaning in STATUSES.items():
         console.print(f"{status:12} {run.counts[status]:5}  {meaning}")
-    console.print(summary(run))
+    console.print(summary(run), markup=False, soft_wrap=True)
 
 
 def summary(run: MutationRun) -> str:

@@ -36,9 +36,9 @@ WIDEST = (
 )
 
 
-def printed(*checks: Check, details: bool = False) -> str:
+def printed(*checks: Check, details: bool = False, fmu: str = "my.fmu") -> str:
     console = Console(file=io.StringIO(), width=WIDTH_OF_A_LOG)
-    print_validation(console, Validation("my.fmu", checks, 1.5), details=details)
+    print_validation(console, Validation(fmu, checks, 1.5), details=details)
     assert isinstance(console.file, io.StringIO)
     return console.file.getvalue()
 
@@ -49,6 +49,11 @@ def test_the_table_shows_units_and_the_summary() -> None:
     assert "located" in text
     assert "1 of 1 checks passed" in text
     assert "FAIL" not in text
+
+
+def test_the_summary_is_one_line_with_the_file_as_it_is_called() -> None:
+    fmu = f"a{'/very' * 40}/long/path[old].fmu"
+    assert printed(GOOD, fmu=fmu).splitlines()[-1] == f"{fmu}: 1 of 1 checks passed in 1.5 s"
 
 
 def test_the_longest_rows_fit_a_log_unwrapped() -> None:
