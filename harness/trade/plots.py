@@ -55,6 +55,7 @@ def draw_picture(trade: Trade, path: Path) -> None:
             _draw(axes, rows, quantity, looks)
             axes.set_title(f"error of the {quantity.replace('_', ' ')}")
             _name_ours(axes, rows, quantity)
+        figure.axes[0].set_ylabel("share of the peak")
         handles, labels = figure.axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=8.5)
         with replacing(path) as temporary:
