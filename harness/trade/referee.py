@@ -8,6 +8,7 @@ from math import inf
 import numpy as np
 
 from harness.errors import HarnessError
+from harness.measures.deviation import peak, share_of
 from harness.reference_steady import Simulate
 from harness.references import taylor
 from harness.references.lugre_taylor import simulate_lugre
@@ -26,8 +27,8 @@ class Referee:
     """The truth about a task.
 
     `windows` are its readings; `sticks` says whether the slider sticks after the first drive
-    period; `uncertainty` is how far the readings of the position depend on the steps in which
-    inputs that vary are held, as a share of its peak. The steady velocity (m/s) and the blocking
+    period; `uncertainty` is what half as many steps in which inputs that vary are held would change
+    in the readings of the position, as a share of its peak. The steady velocity (m/s) and the blocking
     force (N) are None where there is none.
     """
 
@@ -47,8 +48,8 @@ def referee(task: Task) -> Referee:
         uncertainty = 0.0
         if not task.constant:
             coarse = _run(task, simulate, TRUTH_STEPS // 2)
-            off = np.abs(coarse.position - run.position).max() / 3.0
-            uncertainty = float(off / np.abs(run.position).max())
+            # Three times what second order leaves: corners between steps make it irregular.
+            uncertainty = share_of(peak(coarse.position - run.position), peak(run.position))
         first = simulate(task.device, task.truth(1), np.empty(0)).stick_time
         answers = {}
         for quantity in ("steady_velocity", "blocking_force"):
