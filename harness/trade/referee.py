@@ -28,8 +28,8 @@ class Referee:
 
     `windows` are its readings; `sticks` says whether the slider sticks after the first drive
     period; `uncertainty` is what half as many steps in which inputs that vary are held would change
-    in the readings of the position, as a share of its peak. The steady velocity (m/s) and the blocking
-    force (N) are None where there is none.
+    in the readings of the position, as a share of its peak. The steady velocity (m/s) and the
+    blocking force (N) are None where there is none.
     """
 
     windows: Windows
