@@ -43,7 +43,8 @@ def _explanation() -> str:
         "exceed its budget is followed over fewer drive periods, which the column says. Peers hold "
         "inputs that vary over the scene's own communication step (FMUs over theirs), and cost "
         "what they cost a user of Python: heyoka compiles its equations, scipy and CVODE call them "
-        "in Python, and Moreau-Jean is a loop in Python.</p>"
+        "in Python, and Moreau-Jean is a loop in Python. Steps are an FMU's communication steps "
+        "or an integrator's own; events are those that were located, else reversals.</p>"
     )
 
 

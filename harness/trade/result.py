@@ -17,8 +17,10 @@ class Row:
     `answer` is `run`, with the errors of a trajectory over `periods` drive periods, or
     `steady_velocity` or `blocking_force`, with that error alone. `cpu` (s) holds every repeat, per
     simulated second of a run and per answer otherwise, and `start_cpu` (s) what initialisation took
-    besides. `step` is the communication step in drive periods. What a method does not have or does
-    not tell is None.
+    besides. `step` is the communication step in drive periods. Of a run `steps` counts the
+    communication steps of an FMU or an integrator's own, `evaluations` those of the equations,
+    `events` the located ones, or the reversals where a method tells no others. What a method does
+    not have or does not tell is None.
     """
 
     scene: str
