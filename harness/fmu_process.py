@@ -20,13 +20,12 @@ from harness.fmu_side import FmuSide
 from harness.isolated import Answer, Request
 from harness.last_words import last_words
 from harness.process_group import end_group
+from harness.temporary_files import temporary_files_in
 
 GRACE = 10.0
 """Seconds beyond its time limit after which a process that did not end itself is ended."""
 START_UP = 60.0
 """Seconds in which Python and the harness are loaded, beside the FMU's own time limit."""
-_TEMPORARY = ("TMPDIR", "TEMP", "TMP")
-"""Environment variables that name the folder for temporary files."""
 
 
 class FmuDied(FmuError):
@@ -53,7 +52,7 @@ class FmuProcess:
                 [sys.executable, "-m", "harness.isolated", str(fmu), repr(time_limit)],
                 env={
                     **os.environ,
-                    **dict.fromkeys(_TEMPORARY, folder),
+                    **temporary_files_in(folder),
                     "PYTHONPATH": _search_path(),
                 },
                 stdin=subprocess.PIPE,

@@ -16,6 +16,7 @@ from harness.hosts.hosts import Host
 from harness.hosts.job import Answer, Job, Rows, read_answers, write_jobs
 from harness.interface import OUTPUTS
 from harness.process_group import end_group
+from harness.temporary_files import temporary_files_in
 
 STEP, STEPS = 1e-3, 40
 
@@ -96,7 +97,9 @@ def ask(host: Host, jobs: Sequence[Job]) -> list[Answer]:
 
     Where the host died, or did not end within `TIME_LIMIT` (s), the answers it did not give say so.
     """
-    with tempfile.TemporaryDirectory(prefix="slider-resonator-") as name:
+    with tempfile.TemporaryDirectory(
+        prefix="slider-resonator-", ignore_cleanup_errors=True
+    ) as name:
         asked, answered, said = (Path(name, f) for f in ("jobs.json", "answers.jsonl", "said.txt"))
         write_jobs(asked, jobs)
         command = [str(host.python), "-m", f"harness.hosts.{host.module}"]
@@ -116,7 +119,12 @@ def _run(command: Sequence[str], said: Path) -> int | None:
     with said.open("wb") as log:
         process = subprocess.Popen(
             command,
-            env={**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[2])},
+            env={
+                **os.environ,
+                # Hosts leave what they have unpacked where it is when an FMU fails.
+                **temporary_files_in(str(said.parent)),
+                "PYTHONPATH": str(Path(__file__).resolve().parents[2]),
+            },
             stdin=subprocess.DEVNULL,
             stdout=log,
             stderr=log,

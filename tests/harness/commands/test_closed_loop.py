@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import tempfile
 import zipfile
 from pathlib import Path
 
@@ -93,12 +94,22 @@ def test_another_device_is_a_proof_that_disagrees(
     ],
 )
 def test_a_package_that_cannot_be_run_is_no_verdict(
-    closed_loop_package: Path, tmp_path: Path, old: str, new: str, said: str
+    closed_loop_package: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    old: str,
+    new: str,
+    said: str,
 ) -> None:
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    monkeypatch.setenv("TMPDIR", str(temporary))
     broken = changed(closed_loop_package, tmp_path / "broken.ssp", old, new)
     done = closed_loop(broken, "--out", tmp_path)
     assert done.exit_code == 2
     assert said in done.stderr
+    assert list(temporary.iterdir()) == [], "nothing that was unpacked is left behind"
 
 
 def test_what_is_no_package_is_said(tmp_path: Path) -> None:
