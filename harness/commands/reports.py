@@ -73,13 +73,13 @@ class Reports:
             write_json(self.json, validations, error)
         if self.junit is not None:
             write_junit(self.junit, validations, error, title=self.title)
-        if self.summary is not None:
-            append_summary(self.summary, validations, error, title=self.title)
         if self.html is not None:
             # Here, for drawing takes longer to load than everything else.
             from harness.html_report import write_html
 
             write_html(self.html, validations, error, title=self.title)
+        if self.summary is not None:  # last: it is not a file that the user has named
+            append_summary(self.summary, validations, error, title=self.title)
 
 
 def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
