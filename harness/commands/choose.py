@@ -58,7 +58,8 @@ def choose_command(
     "free" where either law will do. Laws of the errors say where to look, and a short resolved run
     in the FMU confirms the answer. Fidelity and tolerance of the scene itself do not matter, its
     step is how often it looks at signals; of a scene with a sweep the unvaried device is taken.
-    Leaves with 0 when something suffices, with 1 when nothing does: then the nearest is told.
+    Leaves with 0 when something suffices, with 1 when nothing does (then the nearest is told), and
+    with 2 when the scene could not be run.
 
     \b
     Examples:
