@@ -19,7 +19,7 @@ def check_folder(dest: Path) -> None:
         raise BuildError(f"folder {dest} refused: {there} is a file; allowed is a folder")
 
 
-def write_fmu(dest: Path, model: str, files: Mapping[str, bytes], suffix: str = ".fmu") -> Path:
+def write_archive(dest: Path, model: str, files: Mapping[str, bytes], suffix: str = ".fmu") -> Path:
     """Write `dest`/`model` with `suffix` and return its path; it appears at once or not at all."""
     dest.mkdir(parents=True, exist_ok=True)
     target = dest / f"{model}{suffix}"

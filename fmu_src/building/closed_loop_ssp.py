@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from fmu_src.building import controller_fmu, native_fmu
-from fmu_src.building.archive import check_folder, write_fmu
+from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
 from fmu_src.controller.variables import VARIABLES as CONTROLLER_VARIABLES
 from fmu_src.python.slider_resonator.variables import VARIABLES as SLIDER_VARIABLES
@@ -58,7 +58,7 @@ def build_closed_loop(dest: Path, slider: Path, controller: Path) -> Path:
         files[_resource(name)] = parameter_set(SYSTEM, name, values)
     files["SystemStructure.ssd"] = structure(SYSTEM, parameters=_resource("proof"))
     files["ComponentsOnly.ssd"] = structure(SYSTEM, connectors=False)
-    return write_fmu(dest, MODEL, files, ".ssp")
+    return write_archive(dest, MODEL, files, ".ssp")
 
 
 def _resource(name: str) -> str:

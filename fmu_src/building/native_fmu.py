@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fmu_src import __version__
-from fmu_src.building.archive import check_folder, write_fmu
+from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.compiling import (
     Compiler,
@@ -110,7 +110,7 @@ def build_model(
     files |= {f"sources/{name}": data for name, data in code.items()}
     files |= compile_binaries(code, model.name, chosen, tool, progress)
     files["modelDescription.xml"] = _description(model, generation_tool, guid, date)
-    return write_fmu(dest, model.name, files)
+    return write_archive(dest, model.name, files)
 
 
 def read_sources(folder: Path, patterns: Sequence[str] = ("*.c", "*.h")) -> dict[str, bytes]:

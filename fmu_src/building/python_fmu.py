@@ -13,7 +13,7 @@ from importlib import metadata
 from pathlib import Path
 
 from fmu_src import __version__
-from fmu_src.building.archive import check_folder, write_fmu
+from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.content import digest_of, guid_of, icon_and_licences
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
@@ -66,7 +66,7 @@ def build_python(dest: Path, package: Path = PACKAGE) -> Path:
     files = _run_pythonfmu(content)
     guid = guid_of(content.digest)
     files["modelDescription.xml"] = _description(content.generation_tool, guid, date)
-    return write_fmu(dest, MODEL, files | dict(content.extras))
+    return write_archive(dest, MODEL, files | dict(content.extras))
 
 
 def _collect(package: Path) -> _Content:

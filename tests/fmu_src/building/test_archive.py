@@ -5,31 +5,31 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.building.archive import check_folder, write_fmu
+from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
 
 FILES = {"b/two": b"2", "a": b"1" * 1000}
 
 
 def test_what_goes_in_comes_out(tmp_path: Path) -> None:
-    fmu = write_fmu(tmp_path / "new" / "folder", "Model", FILES)
+    fmu = write_archive(tmp_path / "new" / "folder", "Model", FILES)
     assert fmu == tmp_path / "new" / "folder" / "Model.fmu"
     with zipfile.ZipFile(fmu) as archive:
         assert {name: archive.read(name) for name in archive.namelist()} == FILES
 
 
 def test_the_order_of_files_does_not_show(tmp_path: Path) -> None:
-    one = write_fmu(tmp_path / "1", "Model", FILES)
-    other = write_fmu(tmp_path / "2", "Model", dict(reversed(FILES.items())))
+    one = write_archive(tmp_path / "1", "Model", FILES)
+    other = write_archive(tmp_path / "2", "Model", dict(reversed(FILES.items())))
     assert one.read_bytes() == other.read_bytes()
 
 
 def test_an_older_file_is_replaced_or_stays(tmp_path: Path) -> None:
-    older = write_fmu(tmp_path, "Model", {"a": b"old"}).read_bytes()
+    older = write_archive(tmp_path, "Model", {"a": b"old"}).read_bytes()
     with pytest.raises(TypeError):
-        write_fmu(tmp_path, "Model", {"a": None})  # type: ignore[dict-item]
+        write_archive(tmp_path, "Model", {"a": None})  # type: ignore[dict-item]
     assert (tmp_path / "Model.fmu").read_bytes() == older
-    assert write_fmu(tmp_path, "Model", FILES).read_bytes() != older
+    assert write_archive(tmp_path, "Model", FILES).read_bytes() != older
     assert [p.name for p in tmp_path.iterdir()] == ["Model.fmu"], "no left-overs"
 
 

@@ -1,8 +1,11 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from harness.commands.reports import print_troubles
+from harness.commands.reports import Reports, print_troubles
+from harness.errors import HarnessError
 from harness.validate import Trouble
 
 
@@ -13,3 +16,13 @@ def test_what_could_not_be_run_is_told_with_its_place(capsys: pytest.CaptureFixt
         "error: my.fmu: scene swept at phase 0.4: crashed",
         "error: my.fmu: corrupt",
     ]
+
+
+def test_reports_are_written_even_where_the_summary_cannot_be(tmp_path: Path) -> None:
+    paths = [tmp_path / name for name in ("report.xml", "report.html", "report.json")]
+    junit, html, written = paths
+    reports = Reports("A title", junit, html, written, tmp_path / "none" / "summary.md")
+    with pytest.raises(HarnessError, match=r"GITHUB_STEP_SUMMARY .*cannot be written"):
+        reports.write([], "my.fmu: corrupt")
+    for path in paths:
+        assert "my.fmu: corrupt" in path.read_text(encoding="utf-8"), path.name
