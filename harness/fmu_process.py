@@ -49,7 +49,8 @@ class FmuProcess:
         self._log = Path(folder) / "said.txt"
         with self._log.open("wb") as log:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "harness.isolated", str(fmu), repr(time_limit)],
+                # -P: what lies in the user's folder is not what the harness imports.
+                [sys.executable, "-P", "-m", "harness.isolated", str(fmu), repr(time_limit)],
                 env={
                     **os.environ,
                     **temporary_files_in(folder),

@@ -102,7 +102,7 @@ def ask(host: Host, jobs: Sequence[Job]) -> list[Answer]:
     ) as name:
         asked, answered, said = (Path(name, f) for f in ("jobs.json", "answers.jsonl", "said.txt"))
         write_jobs(asked, jobs)
-        command = [str(host.python), "-m", f"harness.hosts.{host.module}"]
+        command = [str(host.python), "-P", "-m", f"harness.hosts.{host.module}"]
         code = _run([*command, str(asked), str(answered)], said)
         answers = read_answers(answered)
         end = f"ended after {TIME_LIMIT:g} s" if code is None else f"ended with {code}"

@@ -59,6 +59,15 @@ def test_an_fmu_that_does_nothing_fails_and_what_it_prints_harms_nothing(
     assert not curves.fmu.any(), "it never moves"
 
 
+def test_what_lies_in_the_present_folder_is_not_imported(
+    native_fmu: Path, tmp_path: Path, scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "numpy.py").write_text("raise RuntimeError('a script of the user')")
+    monkeypatch.chdir(tmp_path)
+    validation = judged(native_fmu.resolve(), scene)
+    assert validation.exit_code == 0, validation.troubles
+
+
 def test_an_fmu_that_keeps_crashing_is_given_up(native_fmu: Path, tmp_path: Path) -> None:
     names = [f"scene_{number}" for number in range(MOST_DEATHS + 2)]
     scenes = [faulty_fmus.scene(tmp_path, name) for name in names]

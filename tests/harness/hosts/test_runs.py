@@ -16,7 +16,7 @@ FMU = Path("some.fmu")
 
 
 def host(folder: Path, script: str) -> Host:
-    """A host whose interpreter is a shell script with the arguments -m MODULE JOBS ANSWERS."""
+    """A host whose interpreter is a shell script with the arguments -P -m MODULE JOBS ANSWERS."""
     program = folder / "host"
     program.write_text(f"#!/bin/sh\n{script}\n")
     program.chmod(0o755)
@@ -37,7 +37,7 @@ def test_every_case_is_run_and_every_input_changes() -> None:
 
 def test_a_host_that_dies_leaves_the_answers_before(tmp_path: Path) -> None:
     answer = '{"rows": [[1.0]], "error": null}'
-    broken = host(tmp_path, f"echo '{answer}' > \"$4\"; echo 'cannot go on' >&2; exit 3")
+    broken = host(tmp_path, f"echo '{answer}' > \"$5\"; echo 'cannot go on' >&2; exit 3")
     first, second, *_ = answers = ask(broken, table_1_jobs(FMU))
     assert len(answers) == len(CASES)
     assert first == Answer([[1.0]])
