@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.extremes import averaged_referee
 from harness.extremes.cell import Cell
 from harness.extremes.observe import NAMES, Observation
 from harness.extremes.verdict import Check
@@ -66,7 +67,9 @@ def allowed_deviation(cell: Cell, seen: Observation) -> float:
 def refereed(cell: Cell) -> bool:
     """Whether the referee covers the cell at a cost that can be borne."""
     device = cell.device
-    if device.fidelity == 0 or cell.start_time or len(cell.holds) > MOST_HOLDS:
+    if device.fidelity == 0:
+        return averaged_referee.follows(cell)
+    if cell.start_time or len(cell.holds) > MOST_HOLDS:
         return False
     if device.fidelity == 1 and device.damping_ratio < 1e-9:
         return False
@@ -92,6 +95,8 @@ def _referee(cell: Cell, seen: Observation) -> Check:
         for first, last, hold in zip(ends, ends[1:], cell.holds, strict=False)
     ]
     try:
+        if cell.device.fidelity == 0:
+            return averaged_referee.compare(cell, seen, held, times, allowed_deviation(cell, seen))
         if cell.device.friction_law == 0:
             motion: Trajectory | LugreTrajectory = simulate(cell.device, held, times)
         else:
