@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from harness.extremes.cell import DIVISIBLE, Cell
 from harness.extremes.observe import Observation
-from harness.extremes.verdict import Check
+from harness.extremes.verdict import REFEREE, Check
 from harness.references.averaged_motion import simulate_averaged
 from harness.references.closed_forms import equivalent_force
 from harness.references.held_inputs import HeldInputs
@@ -61,4 +61,4 @@ def compare(
         found = off / (size * (REFERENCE + own))
         if not found <= worst:
             worst, words = found, f"{name} off by {off:.3g}, {off / size:.3g} of its peak"
-    return Check("averaged reference", worst, words)
+    return Check(REFEREE, worst, words)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from harness.extremes import averaged_referee
 from harness.extremes.cell import Cell
 from harness.extremes.observe import NAMES, Observation
-from harness.extremes.verdict import Check
+from harness.extremes.verdict import NO_REFEREE, REFEREE, Check
 from harness.references.device import Device
 from harness.references.held_inputs import HeldInputs
 from harness.references.lugre_taylor import simulate_lugre
@@ -102,8 +102,8 @@ def _referee(cell: Cell, seen: Observation) -> Check:
         else:
             motion = simulate_lugre(cell.device, held, times)
     except (RuntimeError, ValueError, ArithmeticError) as error:
-        return Check("no referee", 0.0, f"the referee gave up: {error}")
-    return _compare("referee", cell, seen, [getattr(motion, name) for name in SIGNALS])
+        return Check(NO_REFEREE, 0.0, f"the referee gave up: {error}", is_deviation=False)
+    return _compare(REFEREE, cell, seen, [getattr(motion, name) for name in SIGNALS])
 
 
 def _compare_last(name: str, cell: Cell, seen: Observation, other: Array) -> Check:

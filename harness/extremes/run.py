@@ -9,7 +9,14 @@ from pathlib import Path
 
 from harness.extremes.cell import Cell
 from harness.extremes.judge import MOST_COST, broken, judge
-from harness.extremes.verdict import FAILED, PASSED, REFUSED, Verdict
+from harness.extremes.verdict import (
+    FAILED,
+    NO_REFEREE,
+    PASSED,
+    REFEREE,
+    REFUSED,
+    Verdict,
+)
 from harness.extremes.worker import Broken, Worker, working
 
 LIMIT = 300.0
@@ -57,7 +64,9 @@ class Matrix:
         lines = [
             f"{len(self.verdicts)} cells: {self.count(PASSED)} passed, "
             f"{self.count(REFUSED)} refused by name, {self.count(FAILED)} failed, none skipped; "
-            f"{self.wall_time:.0f} s"
+            f"{self.wall_time:.0f} s",
+            f"{sum(one.has(REFEREE) for one in self.verdicts)} cells held against a reference as "
+            f"well, which gave up in {sum(one.has(NO_REFEREE) for one in self.verdicts)} others",
         ]
         if self.dearest is not None:
             lines.append(

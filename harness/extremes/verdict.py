@@ -8,6 +8,11 @@ PASSED = "passed"
 REFUSED = "refused by name"
 FAILED = "failed"
 
+REFEREE = "referee"
+"""Name of the check against a reference that shares no code with the FMU."""
+NO_REFEREE = "no referee"
+"""Name of the check that tells why that reference gave up."""
+
 
 @dataclass(frozen=True)
 class Check:
@@ -44,6 +49,10 @@ class Verdict:
     def cost_ratio(self) -> float:
         """Worst cost of a step, per period in it but at least one, over that of a period."""
         return self.worst_step / self.period_cost if self.period_cost > 0.0 else 0.0
+
+    def has(self, check: str) -> bool:
+        """Whether a check of this name was made."""
+        return any(one.name == check for one in self.checks)
 
     @property
     def name(self) -> str:

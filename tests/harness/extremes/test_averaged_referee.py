@@ -13,7 +13,7 @@ from harness.extremes.cell import Cell, Hold, Model
 from harness.extremes.judge import judge
 from harness.extremes.matrix import all_cells
 from harness.extremes.observe import NAMES, Observation, observe
-from harness.extremes.verdict import FAILED, PASSED
+from harness.extremes.verdict import FAILED, PASSED, REFEREE
 from harness.fmu import open_fmu
 
 CELL = Cell("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0.02),))
@@ -28,7 +28,7 @@ def seen(native_fmu: Path) -> Observation:
 def test_averaged_motion_agrees(seen: Observation) -> None:
     verdict = judge(CELL, seen)
     assert verdict.verdict == PASSED, verdict.reason
-    (check,) = [check for check in verdict.checks if check.name == "averaged reference"]
+    (check,) = [check for check in verdict.checks if check.name == REFEREE]
     assert 0.0 < check.found < 0.2, "well within what the reference's steps leave"
 
 
@@ -41,7 +41,7 @@ def test_a_mean_friction_that_is_slightly_off_fails(
     outputs[-1, NAMES.index(name)] += 3.0 * REFERENCE * size
     wrong = judge(CELL, replace(seen, outputs=outputs))
     assert wrong.verdict == FAILED
-    assert "averaged reference" in wrong.reason
+    assert "referee" in wrong.reason
 
 
 def test_most_averaged_cells_are_covered() -> None:

@@ -10,7 +10,7 @@ from harness.extremes.cell import Cell
 from harness.extremes.judge import MOST_COST
 from harness.extremes.matrix import all_cells
 from harness.extremes.run import Matrix, run_matrix
-from harness.extremes.verdict import FAILED, REFUSED
+from harness.extremes.verdict import FAILED, REFEREE, REFUSED
 
 EVERY = 9
 """The Python FMU runs each ninth cell here: it takes minutes for all of them."""
@@ -44,6 +44,9 @@ def judged(fmu: Path, cells: list[Cell]) -> Matrix:
 def test_native(native_fmu: Path) -> None:
     matrix = judged(native_fmu, all_cells())
     assert sum(matrix.counts.values()) == len(all_cells())
+    refereed = sum(one.has(REFEREE) for one in matrix.verdicts)
+    assert refereed >= 700, "most cells are held against a reference that shares no code"
+    assert f"{refereed} cells held against a reference" in matrix.summary
     assert matrix.dearest is not None
     assert f"(bound {MOST_COST:g})" in matrix.summary, "the worst cost of a step is printed"
     assert matrix.dearest.cost_ratio <= MOST_COST
