@@ -20,6 +20,7 @@ SHELL = (
     "lifecycle.h",
     "model_guid.h",
     "refusal.[ch]",
+    "state_bytes.[ch]",
     "values.[ch]",
 )
 """The slider's C files that know FMI and a table of variables, but nothing of the slider."""

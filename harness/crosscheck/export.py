@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import csv
+import os
 import re
 import shutil
-from collections.abc import Iterable
+import tempfile
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import fmpy
 
-from harness.atomic import replacing
 from harness.crosscheck.cases import CASES, OUTPUTS, STEP_SIZE, STOP_TIME, Case
 from harness.drive import Instance, Record, run
 from harness.errors import FmuError, HarnessError
@@ -53,7 +54,7 @@ def case_folders(out: Path, fmu: Fmu, tool: str) -> list[tuple[Path, Case]]:
 
 
 def export(instance: Instance, out: Path, tool: str) -> list[Path]:
-    """Run every case and write the whole tree; return the folders of the cases.
+    """Run every case and write the whole tree or nothing; return the folders of the cases.
 
     Raises HarnessError when a folder is there already or cannot be written, FmuError and Refusal
     when the FMU cannot be run.
@@ -64,15 +65,27 @@ def export(instance: Instance, out: Path, tool: str) -> list[Path]:
         if folder.exists():
             raise HarnessError(f"{folder}: is there already; remove it first")
     records = {case.name: run(instance, {}, case.schedule, outputs=OUTPUTS) for case in CASES}
-    for folder, case in folders:
-        make_folder(folder)
-        with replacing(folder / f"{case.name}.fmu") as temporary:
-            shutil.copyfile(fmu.path, temporary)
-        _write_csv(folder / f"{case.name}_in.csv", INPUTS, input_rows(case))
-        _write_csv(folder / f"{case.name}_ref.csv", OUTPUTS, _rows(records[case.name]))
-        _write_text(folder / f"{case.name}_ref.opt", _options())
-        _write_text(folder / "ReadMe.md", _read_me(fmu, case, folder.parents[2].name))
+    make_folder(out)
+    try:
+        with tempfile.TemporaryDirectory(dir=out, prefix=".crosscheck-") as unfinished:
+            for folder, case in folders:
+                _write_case(Path(unfinished) / folder.relative_to(out), fmu, case, records)
+            for folder, _ in folders:
+                make_folder(folder.parent)
+                os.replace(Path(unfinished) / folder.relative_to(out), folder)
+    except OSError as error:
+        raise HarnessError(f"{out}: cannot be written: {error.strerror or error}") from error
     return [folder for folder, _ in folders]
+
+
+def _write_case(folder: Path, fmu: Fmu, case: Case, records: Mapping[str, Record]) -> None:
+    folder.mkdir(parents=True)
+    shutil.copyfile(fmu.path, folder / f"{case.name}.fmu")
+    _write_csv(folder / f"{case.name}_in.csv", INPUTS, input_rows(case))
+    _write_csv(folder / f"{case.name}_ref.csv", OUTPUTS, _rows(records[case.name]))
+    (folder / f"{case.name}_ref.opt").write_text(_options(), encoding="utf-8")
+    read_me = _read_me(fmu, case, folder.parents[2].name)
+    (folder / "ReadMe.md").write_text(read_me, encoding="utf-8")
 
 
 def input_rows(case: Case) -> list[list[float]]:
@@ -94,15 +107,10 @@ def _rows(record: Record) -> list[list[float]]:
 
 
 def _write_csv(path: Path, names: Iterable[str], rows: list[list[float]]) -> None:
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+    with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, quoting=csv.QUOTE_ALL, lineterminator="\n")
         writer.writerow(["time", *names])
         csv.writer(file, lineterminator="\n").writerows(rows)
-
-
-def _write_text(path: Path, text: str) -> None:
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
 
 
 def _options() -> str:

@@ -1,4 +1,4 @@
-"""The layout of the native FMU's serialised state, as snapshot.c says, read by other code."""
+"""The native state's layout, as state_bytes.h and snapshot.c say, read by other code."""
 
 from __future__ import annotations
 

@@ -36,6 +36,24 @@ def case_folder(tree: Path, name: str) -> Path:
     return folder
 
 
+def test_a_tree_that_cannot_be_finished_is_not_begun(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copies: list[str] = []
+
+    def full_disk(_source: object, target: Path) -> None:
+        copies.append(target.name)
+        if len(copies) == len(CASES):
+            raise OSError(28, "No space left on device")
+        target.write_bytes(b"")
+
+    monkeypatch.setattr("harness.crosscheck.export.shutil.copyfile", full_disk)
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        with pytest.raises(HarnessError, match="cannot be written: No space left"):
+            export(instance, tmp_path, TOOL)
+    assert list(tmp_path.iterdir()) == [], "the next export meets no half of this one"
+
+
 def test_fmpy_finds_nothing_wrong_with_the_repository(tree: Path) -> None:
     fmus, _, problems = validate_repo(str(tree))
     assert fmus == 2 * len(CASES), "each case for this platform and as C sources"
