@@ -51,10 +51,10 @@ def extremes_command(
 ) -> None:
     """Run FMUs at the extremes of every parameter, input and step, and judge them by physics.
 
-    Each cell runs in a process of its own kind, passes the bounds that follow from the equations,
-    is refused by name, or has failed; a hang or a crash is a failure of its cell. Without FMUS:
-    those that build_fmu.py has built in dist. Leaves with 0 when no cell failed, 1 when one did, 2
-    when an FMU could not be run.
+    Each cell runs apart from this process. It passes the bounds that follow from the equations, is
+    refused by name, or has failed; a hang or a crash is a failure of its cell. Without FMUS: those
+    that build_fmu.py has built in dist. Leaves with 0 when no cell failed, 1 when one did, 2 when
+    an FMU could not be run.
 
     \b
     Examples:

@@ -48,9 +48,9 @@ def test_a_tree_that_cannot_be_finished_is_not_begun(
         target.write_bytes(b"")
 
     monkeypatch.setattr("harness.crosscheck.export.shutil.copyfile", full_disk)
-    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
-        with pytest.raises(HarnessError, match="cannot be written: No space left"):
-            export(instance, tmp_path, TOOL)
+    full = pytest.raises(HarnessError, match="cannot be written: No space left")
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance, full:
+        export(instance, tmp_path, TOOL)
     assert list(tmp_path.iterdir()) == [], "the next export meets no half of this one"
 
 
