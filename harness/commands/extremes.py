@@ -35,9 +35,9 @@ from harness.targets import make_folder
 @click.option(
     "--long",
     is_flag=True,
-    help="Add resolved runs of 1e8 drive periods, with LuGre friction of 1e5: up to 20 minutes "
-    "each in the native FMU, so give them a --limit. Without it they have 1e5 and 1e3; averaged "
-    "motion always has 1e8.",
+    help="Add resolved runs of 1e8 drive periods, with LuGre friction of 1e6: minutes each in the "
+    "native FMU, so give slower ones a --limit. Without it they have 1e5 and 1e3; averaged motion "
+    "always has 1e8.",
 )
 @json_option
 @click.pass_context

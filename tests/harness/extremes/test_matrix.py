@@ -63,7 +63,7 @@ def test_long_runs_are_asked_for() -> None:
     added = {cell.name for cell in all_cells(long=True)} - {cell.name for cell in all_cells()}
     assert added == {
         *(f"drive periods: 1e+08: Coulomb, fidelity {n}" for n in (1, 2)),
-        *(f"drive periods: 1e+05: LuGre, fidelity {n}" for n in (1, 2)),
+        *(f"drive periods: 1e+06: LuGre, fidelity {n}" for n in (1, 2)),
     }
 
 
