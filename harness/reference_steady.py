@@ -54,10 +54,9 @@ def reference_steady_velocity(
     reference instead of that for the friction law, `tolerance` the accuracy wanted of the state in
     units of its scale.
     """
-    count = common_period(ratio)
-    if count is None:
+    period_map = _period_map(device, phase, ratio, simulate)
+    if period_map is None:
         return None
-    period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate or simulator(device))
     found = steady_point(period_map, guess, load, tolerance=tolerance)
     return found.displacement / period_map.period if isinstance(found, FixedPoint) else None
 
@@ -75,16 +74,25 @@ def reference_blocking_force(
 
     The arguments are those of `reference_steady_velocity`.
     """
-    count = common_period(ratio)
-    if count is None:
+    period_map = _period_map(device, phase, ratio, simulate)
+    if period_map is None:
         return None
-    period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate or simulator(device))
     # Without preload the load varies alone and friction is of the order of its amplitude.
     normal = device.normal_preload + device.normal_amplitude
     friction = device.friction_faces * device.friction_coefficient * normal
     warm = period_map.warm_up(0.0, guess)
     found = blocked_point(period_map, warm, guess, friction, tolerance=tolerance)
     return found.load if isinstance(found, FixedPoint) else None
+
+
+def _period_map(
+    device: Device, phase: float, ratio: float, simulate: Simulate | None
+) -> _ReferencePeriodMap | None:
+    """Return the map of the period after which drive and normal load repeat, None without one."""
+    count = common_period(ratio)
+    if count is None:
+        return None
+    return _ReferencePeriodMap(device, phase, ratio, count, simulate or simulator(device))
 
 
 class _ReferencePeriodMap:

@@ -14,6 +14,7 @@ MODEL = "VelocityController"
 DESCRIPTION = "Holds the velocity of the slider with an embedded resonator by moving its phase"
 
 SHELL = (
+    "component_functions.h",
     "experiment.[ch]",
     "fmi2*.[ch]",
     "instance.[ch]",

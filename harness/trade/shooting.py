@@ -39,9 +39,12 @@ def shoot(task: Task, quantity: str, simulate: Simulate, tolerance: float, budge
         return simulate(device, held, times)
 
     phase, load, ratio = (task.inputs[name] for name in ("phase", "load", "frequency_ratio"))
-    options = {"simulate": counted, "tolerance": tolerance}
     if quantity == "steady_velocity":
-        value = reference_steady_velocity(task.device, phase, load, ratio, **options)  # type: ignore[arg-type]
+        value = reference_steady_velocity(
+            task.device, phase, load, ratio, simulate=counted, tolerance=tolerance
+        )
     else:
-        value = reference_blocking_force(task.device, phase, ratio, **options)  # type: ignore[arg-type]
+        value = reference_blocking_force(
+            task.device, phase, ratio, simulate=counted, tolerance=tolerance
+        )
     return Found(value, "the search by shooting has found none", round(sum(turns)))

@@ -56,24 +56,4 @@ EXPORT I fmi2DoStep(C c, double t, double step, I no_rollback)
     return 0;
 }
 
-/* A host looks for these too; none is called. */
-#define STUB(name) EXPORT I name(void) { return 3; }
-STUB(fmi2CancelStep)
-STUB(fmi2GetBoolean)
-STUB(fmi2SetBoolean)
-STUB(fmi2GetString)
-STUB(fmi2SetString)
-STUB(fmi2GetFMUstate)
-STUB(fmi2SetFMUstate)
-STUB(fmi2FreeFMUstate)
-STUB(fmi2SerializedFMUstateSize)
-STUB(fmi2SerializeFMUstate)
-STUB(fmi2DeSerializeFMUstate)
-STUB(fmi2GetDirectionalDerivative)
-STUB(fmi2SetRealInputDerivatives)
-STUB(fmi2GetRealOutputDerivatives)
-STUB(fmi2GetStatus)
-STUB(fmi2GetRealStatus)
-STUB(fmi2GetIntegerStatus)
-STUB(fmi2GetBooleanStatus)
-STUB(fmi2GetStringStatus)
+#include "uncalled_functions.h"

@@ -93,23 +93,4 @@ EXPORT I fmi2DoStep(C c, double t, double step, I no_rollback)
     return function(c, t, step, no_rollback);
 }
 
-#define STUB(name) EXPORT I name(void) { return ERROR; }
-STUB(fmi2CancelStep)
-STUB(fmi2GetBoolean)
-STUB(fmi2SetBoolean)
-STUB(fmi2GetString)
-STUB(fmi2SetString)
-STUB(fmi2GetFMUstate)
-STUB(fmi2SetFMUstate)
-STUB(fmi2FreeFMUstate)
-STUB(fmi2SerializedFMUstateSize)
-STUB(fmi2SerializeFMUstate)
-STUB(fmi2DeSerializeFMUstate)
-STUB(fmi2GetDirectionalDerivative)
-STUB(fmi2SetRealInputDerivatives)
-STUB(fmi2GetRealOutputDerivatives)
-STUB(fmi2GetStatus)
-STUB(fmi2GetRealStatus)
-STUB(fmi2GetIntegerStatus)
-STUB(fmi2GetBooleanStatus)
-STUB(fmi2GetStringStatus)
+#include "uncalled_functions.h"
