@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from rich import box
 from rich.console import Console
 from rich.markup import escape
@@ -14,6 +16,8 @@ from harness.readable import readable
 from harness.validate import Validation, worst_of_sweeps
 from harness.verdict import place, sentence
 
+FEW_SCENES = 3
+"""Up to so many scenes are shown check by check; of more only what has failed."""
 DIGITS = 8
 """Significant digits in the table; what is asserted is the deviation, which has its own column."""
 SIGNAL = "*"
@@ -25,8 +29,15 @@ def print_validation(
     """Print the table of verdicts, the reasons of failures, and one line that sums up.
 
     Of a sweep the worst point is shown; with `details` every point, and why each thing is expected.
-    What has passed is left out with `only_failed`.
+    Many scenes have a line each, with the check that is nearest to what is allowed. What has passed
+    is left out with `only_failed`.
     """
+    scenes: dict[str, list[Check]] = {}
+    for check in validation.checks:
+        scenes.setdefault(check.scene, []).append(check)
+    if len(scenes) > FEW_SCENES and not (details or only_failed):
+        console.print(_overview(scenes))
+        only_failed = True
     checks = [check for check in validation.checks if not (only_failed and check.passed)]
     rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
     if rows:
@@ -46,6 +57,28 @@ def print_validation(
         f"{len(validation.checks)} checks passed in {validation.wall_time:.1f} s",
         soft_wrap=True,
     )
+
+
+def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
+    """Return a line for each scene, with its check of the largest share of what is allowed."""
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table.add_column("scene", overflow="fold")
+    table.add_column("passed", justify="right", no_wrap=True)
+    table.add_column("nearest to its bound", overflow="fold")
+    for heading in ("off by", "allowed"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("", no_wrap=True)
+    for scene, checks in scenes.items():
+        passed = sum(check.passed for check in checks)
+        nearest = max(checks, key=lambda check: check.severity)
+        cells = (scene, f"{passed} of {len(checks)}", nearest.quantity)
+        sizes = (_size(nearest.deviation), _size(nearest.allowed))
+        table.add_row(*(Text(cell) for cell in (*cells, *sizes)), _word(passed == len(checks)))
+    return table
+
+
+def _word(passed: bool) -> Text:
+    return Text("pass", "green") if passed else Text("FAIL", "bold red")
 
 
 def _table(rows: list[tuple[Check, int]], details: bool) -> Table:
@@ -69,8 +102,7 @@ def _table(rows: list[tuple[Check, int]], details: bool) -> Table:
         cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
         cells += [_value(check.fmu), _value(check.reference), check.against.split("_")[0]]
         cells += [_size(check.deviation), _size(check.allowed)]
-        verdict = Text("pass", "green") if check.passed else Text("FAIL", "bold red")
-        table.add_row(*(Text(cell) for cell in cells), verdict)
+        table.add_row(*(Text(cell) for cell in cells), _word(check.passed))
         if details:
             table.add_row(Text(check.why, "dim"))
     return table

@@ -20,7 +20,11 @@ from harness.verdict import TITLE
 @click.command("validate")
 @click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
 @scenes_option("all built-in")
-@click.option("--details", is_flag=True, help="Show every point of a sweep, and the reasons.")
+@click.option(
+    "--details",
+    is_flag=True,
+    help="Show every check of many scenes, every point of a sweep, and the reasons.",
+)
 @time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
 @click.option(
     "--repeat",

@@ -89,3 +89,21 @@ def test_details_show_every_point_and_why() -> None:
     text = printed(GOOD, BAD, details=True)
     assert "phase 0 " in text
     assert text.count("both must agree") >= 2
+
+
+def test_many_scenes_have_a_line_each_and_their_failures_in_full() -> None:
+    good = [replace(GOOD, scene=f"scene_{n}", why=f"reason {n}") for n in range(9)]
+    near = replace(GOOD, scene="scene_0", quantity="blocking_force", deviation=0.9e-7)
+    text = printed(*good, near, replace(BAD, scene="scene_9"))
+    rows = [line.split() for line in text.splitlines() if " of " in line and "pass" in line[-6:]]
+    assert len(rows) == 9, "one line a scene"
+    assert rows[0] == ["scene_0", "2", "of", "2", "blocking_force", "9.0e-08", "1.0e-07", "pass"]
+    assert "FAIL scene_9: steady_velocity at phase 0.4: both must agree" in text
+    assert text.count("steady_velocity") == 9 + 2, "a line each, and two of what fails"
+    assert "10 of 11 checks passed" in text
+    assert "reason" not in text
+
+
+def test_with_details_many_scenes_are_shown_check_by_check() -> None:
+    text = printed(*(replace(GOOD, scene=f"scene_{n}") for n in range(9)), details=True)
+    assert text.count("both must agree") == 9
