@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fmu_src.controller.variables import VARIABLES as CONTROLLER_VARIABLES
-from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variables import VARIABLES, Variable
 
 C_SOURCES = Path(__file__).parent / "c"
 CONTROLLER_SOURCES = Path(__file__).parent / "controller" / "c"
@@ -91,7 +91,7 @@ def c_table(variables: Sequence[Variable] = VARIABLES) -> Mapping[str, str]:
     )
     return _texts(
         variables,
-        "python/slider_resonator/variables.py",
+        "python/slider_component/variables.py",
         include='\n#include "device.h"\n',
         declarations=_DECLARATIONS,
         definitions=definitions,

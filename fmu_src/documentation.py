@@ -13,7 +13,7 @@ from string import Template
 from typing import Literal
 
 from fmu_src.model_description import DESCRIPTION
-from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variables import VARIABLES, Variable
 
 ASSETS = Path(__file__).parent / "assets"
 

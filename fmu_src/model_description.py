@@ -7,7 +7,7 @@ from xml.etree import ElementTree as ET
 
 from fmu_src import __version__
 from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
-from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variables import VARIABLES, Variable
 from fmu_src.units import UNITS
 
 DESCRIPTION = (

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from fmu_src import __version__
-from fmu_src.python.slider_resonator.variables import Variable
+from fmu_src.python.slider_component.variables import Variable
 from fmu_src.units import UNITS
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"

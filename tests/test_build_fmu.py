@@ -17,7 +17,7 @@ from fmpy.validation import validate_fmu
 from build_fmu import main
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import MODEL as PYTHON_MODEL
-from fmu_src.python.slider_resonator.variables import VARIABLES
+from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmus import both_fmus
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -24,7 +24,7 @@ from fmu_src.c_header import C_SOURCES
 from fmu_src.documentation import documentation_page
 from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
 from fmu_src.model_description import DESCRIPTION, model_description
-from fmu_src.python.slider_resonator.variables import VARIABLES
+from fmu_src.python.slider_component.variables import VARIABLES
 
 MODEL = "SliderResonator"
 

@@ -21,7 +21,7 @@ from fmu_src.documentation import documentation_page
 from fmu_src.model_description import model_description
 
 PYTHON_SOURCES = Path(__file__).resolve().parents[1] / "python"
-PACKAGE = PYTHON_SOURCES / "slider_resonator"
+PACKAGE = PYTHON_SOURCES / "slider_component"
 SCRIPT = PYTHON_SOURCES / "slider_resonator_py.py"
 MODEL = "SliderResonatorPy"
 
@@ -43,7 +43,7 @@ class _Content:
     @property
     def package_name(self) -> str:
         """The Python package inside the FMU."""
-        return f"slider_resonator_{self.digest[:12]}"
+        return f"slider_component_{self.digest[:12]}"
 
     @property
     def script_name(self) -> str:
@@ -99,7 +99,7 @@ def _run_pythonfmu(content: _Content) -> dict[str, bytes]:
             path.write_bytes(data)
         script = stage / f"{content.script_name}.py"
         text = SCRIPT.read_text(encoding="utf-8")
-        inside = text.replace("from slider_resonator.", f"from {content.package_name}.")
+        inside = text.replace("from slider_component.", f"from {content.package_name}.")
         script.write_bytes(inside.encode())
         out.mkdir()
         # pythonfmu imports the script and runs it: in a process of its own, that of the caller

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from fmu_src.python.slider_resonator.variables import Variable
+from fmu_src.python.slider_component.variables import Variable
 
 _input = partial(Variable, type="Real", causality="input", variability="continuous")
 _tunable = partial(Variable, type="Real", causality="parameter", variability="tunable")

@@ -1,6 +1,6 @@
 """The script that pythonfmu loads: it shows the class of the component and nothing else."""
 
-from slider_resonator.slave import SliderResonatorPy, outlast_loading
+from slider_component.slave import SliderResonatorPy, outlast_loading
 
 __all__ = ["SliderResonatorPy"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 
-from fmu_src.python.slider_resonator.variables import VARIABLES
+from fmu_src.python.slider_component.variables import VARIABLES
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]
 FIELDS = (

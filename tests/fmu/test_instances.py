@@ -23,7 +23,7 @@ STEP = 1.3e-3
 
 
 def _python_build(folder: Path) -> Path:
-    package = folder / "slider_resonator"
+    package = folder / "slider_component"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
     _edit(
         package / "device.py",

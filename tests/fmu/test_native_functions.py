@@ -16,7 +16,7 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
 )
 
-from fmu_src.python.slider_resonator.variables import VALUE_REFERENCE, VARIABLES
+from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
 from tests.fmu.host import Instance, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
 from tests.fmu.test_native_binaries import fmi_functions

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variables import VARIABLES, Variable
 from tests.fmu.host import Instance
 from tests.fmus import both_fmus
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from fmu_src.c_header import C_SOURCES, CONTROLLER_SOURCES, c_table, controller_table
-from fmu_src.python.slider_resonator.variables import VARIABLES
+from fmu_src.python.slider_component.variables import VARIABLES
 
 
 @pytest.mark.parametrize("name", c_table())

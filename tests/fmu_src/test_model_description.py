@@ -10,7 +10,7 @@ from pythonfmu import Fmi2Slave
 
 from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
 from fmu_src.model_description import LOG_CATEGORIES, model_description
-from fmu_src.python.slider_resonator.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variables import VARIABLES, Variable
 from fmu_src.units import UNITS
 
 NAMES = [v.name for v in VARIABLES]

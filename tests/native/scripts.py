@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from fmu_src.python.slider_resonator.variables import VALUE_REFERENCE, VARIABLES
+from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
 from tests.problems import PROBLEMS
 
 GET = " ".join(["get", *(str(VALUE_REFERENCE[v.name]) for v in VARIABLES if v.start is None)])

@@ -22,7 +22,7 @@ def guid(fmu: Path) -> str:
 def package_name(fmu: Path) -> str:
     with zipfile.ZipFile(fmu) as archive:
         (name,) = {
-            n.split("/")[1] for n in archive.namelist() if re.search("slider_resonator_.*/", n)
+            n.split("/")[1] for n in archive.namelist() if re.search("slider_component_.*/", n)
         }
     return name
 
@@ -30,7 +30,7 @@ def package_name(fmu: Path) -> str:
 @pytest.fixture
 def edited_package(tmp_path: Path) -> Path:
     """A copy of the component in which one comment differs."""
-    copy = tmp_path / "slider_resonator"
+    copy = tmp_path / "slider_component"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     with (copy / "variables.py").open("a") as file:
         file.write("# one comment more\n")
@@ -46,7 +46,7 @@ def test_another_content_gets_another_name_and_guid(
 
 
 def test_names_are_made_of_the_content(python_fmu: Path) -> None:
-    assert re.fullmatch("slider_resonator_[0-9a-f]{12}", package_name(python_fmu))
+    assert re.fullmatch("slider_component_[0-9a-f]{12}", package_name(python_fmu))
     with zipfile.ZipFile(python_fmu) as archive:
         module = archive.read("resources/slavemodule.txt").decode()
         assert re.fullmatch("slider_resonator_py_[0-9a-f]{12}", module)
@@ -98,7 +98,7 @@ def test_a_folder_that_is_no_package_is_refused(tmp_path: Path) -> None:
 
 
 def test_the_caller_keeps_its_modules_and_search_path(tmp_path: Path) -> None:
-    path, modules = list(sys.path), {n for n in sys.modules if "slider_resonator_" in n}
+    path, modules = list(sys.path), {n for n in sys.modules if "slider_component_" in n}
     build_python(tmp_path)
     assert sys.path == path
-    assert {n for n in sys.modules if "slider_resonator_" in n} == modules
+    assert {n for n in sys.modules if "slider_component_" in n} == modules

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fmu_src.python.slider_resonator.averaged import averaged
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.plant import equivalent_force
+from fmu_src.python.slider_component.averaged import averaged
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.plant import equivalent_force
 
 TABLE_1 = Device()
 FAST_VELOCITY = abs(equivalent_force(TABLE_1)) / 1.1 / 3500.0

@@ -8,17 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fmu_src.python.slider_resonator.averaged import averaged
-from fmu_src.python.slider_resonator.averaged_lugre import (
+from fmu_src.python.slider_component.averaged import averaged
+from fmu_src.python.slider_component.averaged_lugre import (
     MOST_WAVES,
     FastMotion,
     friction_means,
     gauss_legendre,
     mean_friction,
 )
-from fmu_src.python.slider_resonator.bristle import Bristle
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.vibrating_load import VibratingLoad
+from fmu_src.python.slider_component.bristle import Bristle
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.vibrating_load import VibratingLoad
 
 UNIT = Device(
     slider_mass=1.0,

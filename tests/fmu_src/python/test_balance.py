@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.balance import (
+from fmu_src.python.slider_component.balance import (
     BISECTIONS,
     Balance,
     Point,

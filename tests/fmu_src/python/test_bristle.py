@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.bristle import Bristle
+from fmu_src.python.slider_component.bristle import Bristle
 
 BRISTLE = Bristle(0.4, 1e5, 10.0)
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.clock import Clock
+from fmu_src.python.slider_component.clock import Clock
 
 
 @given(st.lists(st.floats(1e-9, 1e-3), min_size=1, max_size=300), st.floats(1.0, 1e6))

@@ -6,10 +6,10 @@ import math
 
 import pytest
 
-from fmu_src.python.slider_resonator.component import Component
-from fmu_src.python.slider_resonator.outputs import OUTPUTS
-from fmu_src.python.slider_resonator.refusal import Refusal
-from fmu_src.python.slider_resonator.snapshot import from_bytes, to_bytes
+from fmu_src.python.slider_component.component import Component
+from fmu_src.python.slider_component.outputs import OUTPUTS
+from fmu_src.python.slider_component.refusal import Refusal
+from fmu_src.python.slider_component.snapshot import from_bytes, to_bytes
 
 
 def running(start_time: float = 0.0, **values: float) -> Component:

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.contact import flight_window, is_lifted, time_to_switch
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.plant import plant
+from fmu_src.python.slider_component.contact import flight_window, is_lifted, time_to_switch
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.plant import plant
 
 
 def window_of(preload: float, amplitude: float) -> tuple[float, float] | None:

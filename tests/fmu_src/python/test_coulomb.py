@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from fmu_src.python.slider_resonator import coulomb
-from fmu_src.python.slider_resonator.coulomb import (
+from fmu_src.python.slider_component import coulomb
+from fmu_src.python.slider_component.coulomb import (
     BACKWARD,
     FORWARD,
     LIFTED,
@@ -17,11 +17,11 @@ from fmu_src.python.slider_resonator.coulomb import (
     advance,
     hold,
 )
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.first_zero import Watch, first_zero
-from fmu_src.python.slider_resonator.motion import State
-from fmu_src.python.slider_resonator.regular_slide import RegularSlide
-from fmu_src.python.slider_resonator.split_slide import SplitSlide, split
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.first_zero import Watch, first_zero
+from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.regular_slide import RegularSlide
+from fmu_src.python.slider_component.split_slide import SplitSlide, split
 
 TABLE_1 = Device()
 BLOCK = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from fmu_src.python.slider_resonator.coulomb import BACKWARD, FORWARD, STICK, advance, hold, start
-from fmu_src.python.slider_resonator.departure import departure_time
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.motion import State
-from fmu_src.python.slider_resonator.regular_slide import RegularSlide
+from fmu_src.python.slider_component.coulomb import BACKWARD, FORWARD, STICK, advance, hold, start
+from fmu_src.python.slider_component.departure import departure_time
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.regular_slide import RegularSlide
 
 STICKING = Device(base_amplitude=5e-8)
 

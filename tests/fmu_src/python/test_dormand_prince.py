@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from fmu_src.python.slider_resonator.dormand_prince import Passage, integrate
+from fmu_src.python.slider_component.dormand_prince import Passage, integrate
 
 MOST = 10_000
 

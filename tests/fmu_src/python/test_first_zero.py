@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.first_zero import Signal, Watch, first_zero
+from fmu_src.python.slider_component.first_zero import Signal, Watch, first_zero
 
 
 def sine_sum(offset: float, waves: list[tuple[float, float, float]]) -> Signal:

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.averaged_lugre import FastMotion, friction_means
-from fmu_src.python.slider_resonator.bristle import Bristle
-from fmu_src.python.slider_resonator.friction_table import ERROR, friction_table
+from fmu_src.python.slider_component.averaged_lugre import FastMotion, friction_means
+from fmu_src.python.slider_component.bristle import Bristle
+from fmu_src.python.slider_component.friction_table import ERROR, friction_table
 
 TABLE_1 = FastMotion(0.2366, 3500.0)
 

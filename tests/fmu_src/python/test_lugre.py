@@ -10,13 +10,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator import lugre
-from fmu_src.python.slider_resonator.coulomb import Moment
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.law import law_of
-from fmu_src.python.slider_resonator.motion import State
-from fmu_src.python.slider_resonator.refusal import Refusal
-from fmu_src.python.slider_resonator.taylor_slide import TaylorSlide
+from fmu_src.python.slider_component import lugre
+from fmu_src.python.slider_component.coulomb import Moment
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.law import law_of
+from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.refusal import Refusal
+from fmu_src.python.slider_component.taylor_slide import TaylorSlide
 
 TABLE_1 = Device(friction_law=1)
 PERIOD = math.tau / 3500.0

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from fmu_src.python.slider_resonator.forced_oscillator import ForcedOscillator
-from fmu_src.python.slider_resonator.oscillator import (
+from fmu_src.python.slider_component.forced_oscillator import ForcedOscillator
+from fmu_src.python.slider_component.oscillator import (
     Oscillator,
     double_integral,
     free_response,

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.period import PeriodMeans
+from fmu_src.python.slider_component.period import PeriodMeans
 
 FREQUENCY = 2.0
 PERIOD = math.tau / FREQUENCY

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.coulomb import (
+from fmu_src.python.slider_component.coulomb import (
     LIFTED,
     STICK,
     Held,
@@ -23,8 +23,8 @@ from fmu_src.python.slider_resonator.coulomb import (
     mode_of,
     start,
 )
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.motion import State
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.motion import State
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5]), st.floats(-3.0, 3.0))
 devices = st.builds(

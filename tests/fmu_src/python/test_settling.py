@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from fmu_src.python.slider_resonator.dormand_prince import Passage
-from fmu_src.python.slider_resonator.settling import NEAR, settled
+from fmu_src.python.slider_component.dormand_prince import Passage
+from fmu_src.python.slider_component.settling import NEAR, settled
 
 RATE = 50.0
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import pytest
 
-from fmu_src.python.slider_resonator.coulomb import Moment
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.law import law_of
-from fmu_src.python.slider_resonator.motion import State
-from fmu_src.python.slider_resonator.refusal import Refusal
+from fmu_src.python.slider_component.coulomb import Moment
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.law import law_of
+from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.refusal import Refusal
 
 TABLE_1 = Device(fidelity=0)
 FAST_VELOCITY = 0.2366097

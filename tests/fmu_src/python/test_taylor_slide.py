@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from fmu_src.python.slider_resonator.bristle import Bristle
-from fmu_src.python.slider_resonator.coulomb import hold
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.first_zero import first_zero
-from fmu_src.python.slider_resonator.motion import State
-from fmu_src.python.slider_resonator.taylor_slide import TaylorSlide
+from fmu_src.python.slider_component.bristle import Bristle
+from fmu_src.python.slider_component.coulomb import hold
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.first_zero import first_zero
+from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.taylor_slide import TaylorSlide
 
 THETA, PSI, BENT = 0.7, 1.9, -0.06
 STATE = State(2e-4, 1e-4, -0.8)

@@ -7,11 +7,11 @@ from dataclasses import fields
 
 import pytest
 
-from fmu_src.python.slider_resonator.device import Device, Inputs
-from fmu_src.python.slider_resonator.outputs import OUTPUTS
-from fmu_src.python.slider_resonator.refusal import Refusal
-from fmu_src.python.slider_resonator.values import BY_NAME, SETTABLE, checked
-from fmu_src.python.slider_resonator.variables import VARIABLES
+from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.outputs import OUTPUTS
+from fmu_src.python.slider_component.refusal import Refusal
+from fmu_src.python.slider_component.values import BY_NAME, SETTABLE, checked
+from fmu_src.python.slider_component.variables import VARIABLES
 
 
 def test_the_table_is_the_interface() -> None:

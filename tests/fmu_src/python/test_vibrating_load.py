@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_resonator.device import Device
-from fmu_src.python.slider_resonator.vibrating_load import VibratingLoad, turns_to_repeat
+from fmu_src.python.slider_component.device import Device
+from fmu_src.python.slider_component.vibrating_load import VibratingLoad, turns_to_repeat
 
 
 @given(
