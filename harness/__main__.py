@@ -1,8 +1,8 @@
-"""`python -m harness`."""
+"""`python -m harness` in a checkout is `slider-resonator`, from the sources beside this file."""
 
-from __future__ import annotations
+import sys
+from importlib import import_module
+from pathlib import Path
 
-from harness.cli import main
-
-if __name__ == "__main__":
-    main(prog_name="python -m harness")
+sys.path.insert(0, str(Path(__file__).parent))
+import_module("slider_resonator.cli").main(prog_name="python -m harness")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from harness.references.device import Device
-from harness.references.held_inputs import HeldInputs
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
 
 SIGNALS = (
     "position",

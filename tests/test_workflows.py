@@ -12,7 +12,7 @@ import click
 import pytest
 import yaml
 
-from harness.cli import main
+from slider_resonator.cli import main
 
 ROOT = Path(__file__).resolve().parents[1]
 WORKFLOWS = (ROOT / ".github" / "workflows" / "ci.yml", ROOT / "examples" / "validate-fmu.yml")

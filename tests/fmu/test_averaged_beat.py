@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from harness.measures.frequency import dominant_frequency
+from slider_resonator.checks.measures.frequency import dominant_frequency
 from tests.fmu.host import Instance
 
 Instantiate = Callable[[], Instance]

@@ -10,9 +10,12 @@ from collections.abc import Callable
 
 import pytest
 
-from harness.reference_steady import reference_blocking_force, reference_steady_velocity
-from harness.references.device import Device
-from harness.references.lugre_taylor import simulate_lugre
+from slider_resonator.device.device import Device
+from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from slider_resonator.steady.reference_steady import (
+    reference_blocking_force,
+    reference_steady_velocity,
+)
 from tests.fmu.host import Instance
 
 Instantiate = Callable[[], Instance]

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from harness.references.taylor import simulate
-from harness.references.trajectory import Trajectory
+from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.references.resolved.trajectory import Trajectory
 from tests.fmu.host import Instance, Unpacked
 from tests.fmu.native_layout import LAYOUT, numbers
 from tests.fmus import both_fmus

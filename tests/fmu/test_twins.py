@@ -13,12 +13,12 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from harness.drive import Instance, Record, instantiate, run
-from harness.errors import Refusal
-from harness.fmu import open_fmu
-from harness.interface import OUTPUTS
-from harness.scene import built_in_scenes, read_scene
-from harness.schedule import Schedule, schedule, steps
+from slider_resonator.device.interface import OUTPUTS
+from slider_resonator.device.schedule import Schedule, schedule, steps
+from slider_resonator.errors import Refusal
+from slider_resonator.fmu.drive import Instance, Record, instantiate, run
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.scenes.scene import built_in_scenes, read_scene
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.drive import Instance, instantiate
-from harness.fmu import Fmu, open_fmu
+from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.opening import Fmu, open_fmu
 
 
 @pytest.fixture(scope="session")

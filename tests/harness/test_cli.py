@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from harness.cli import main
+from slider_resonator.cli import main
 from tests.harness import faulty_fmus
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
@@ -173,7 +173,7 @@ def test_a_bug_is_not_taken_for_a_verdict(monkeypatch: pytest.MonkeyPatch) -> No
     def broken() -> None:
         raise KeyError("oops")
 
-    monkeypatch.setattr("harness.commands.scenes.built_in_scenes", broken)
+    monkeypatch.setattr("slider_resonator.commands.scenes.built_in_scenes", broken)
     result = call("scenes")
     assert result.exit_code == 2, "Python itself would have left with 1"
     assert "KeyError" in result.stderr

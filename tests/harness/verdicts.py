@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.compare import Check
-from harness.validate import Curves, Trouble, Validation
+from slider_resonator.checks.compare import Check
+from slider_resonator.checks.validate import Curves, Trouble, Validation
 
 PASSED = Check(
     *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.closed_loop.course import HOSTS, run_loop
-from harness.closed_loop.duty import Duty
-from harness.closed_loop.judge import judge_agreement, judge_holds
-from harness.closed_loop.prediction import predicted_errors
+from slider_resonator.studies.closed_loop.course import HOSTS, run_loop
+from slider_resonator.studies.closed_loop.duty import Duty
+from slider_resonator.studies.closed_loop.judge import judge_agreement, judge_holds
+from slider_resonator.studies.closed_loop.prediction import predicted_errors
 
 pytestmark = pytest.mark.interop
 

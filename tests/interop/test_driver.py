@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.hosts.driver_host import BINARY, native_driver
-from harness.hosts.job import describe
+from slider_resonator.trials.hosts.driver_host import BINARY, native_driver
+from slider_resonator.trials.hosts.job import describe
 from tests.native.toolchain import Binary, unpacked_binary
 
 STEADY = {

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.errors import HarnessError
-from harness.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
-from harness.hosts.runs import ALLOWED, run_host
+from slider_resonator.errors import HarnessError
+from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
+from slider_resonator.trials.hosts.runs import ALLOWED, run_host
 
 pytestmark = pytest.mark.interop
 

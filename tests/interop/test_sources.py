@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.hosts.hosts import hosts
-from harness.hosts.runs import CASES, ask, by_case, table_1_jobs
+from slider_resonator.trials.hosts.hosts import hosts
+from slider_resonator.trials.hosts.runs import CASES, ask, by_case, table_1_jobs
 
 pytestmark = pytest.mark.interop
 

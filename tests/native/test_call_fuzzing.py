@@ -10,7 +10,7 @@ import pytest
 
 from fmu_src.c_header import C_SOURCES
 from fmu_src.controller.variables import VARIABLES
-from harness.hosts.compiler import compile_program, native_compiler
+from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
 from tests.native.toolchain import PROGRAMS, UNBUILT_GUID, Binary, program, run, unpacked_binary
 
 CALLS = 300_000

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from fmu_src.c_header import C_SOURCES
-from harness.hosts.compiler import compile_program, native_compiler
-from harness.hosts.driver_host import BINARY
-from harness.hosts.job import describe
+from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
+from slider_resonator.trials.hosts.driver_host import BINARY
+from slider_resonator.trials.hosts.job import describe
 
 PROGRAMS = Path(__file__).parent / "c"
 UNBUILT_GUID = "00000000-0000-0000-0000-000000000000"

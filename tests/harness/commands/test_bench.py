@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from harness.benchmark.cost import Cost, Ratio
-from harness.benchmark.coulomb import PAPER_TOLERANCES, CoulombBenchmark
-from harness.cli import main
+from slider_resonator.cli import main
+from slider_resonator.studies.benchmark.cost import Cost, Ratio
+from slider_resonator.studies.benchmark.coulomb import PAPER_TOLERANCES, CoulombBenchmark
 
 
 def test_no_absolute_tolerance_of_the_paper_s_method_stands_for_it(
@@ -18,7 +18,7 @@ def test_no_absolute_tolerance_of_the_paper_s_method_stands_for_it(
     costs = tuple(Cost(name, 5, *times, 1e-3, 1e-3, 6727, 17105, 313004) for name in names)
     ratios = tuple(Ratio(name, "my.fmu", 250.0, 1000.0) for name in names)
     benchmark = CoulombBenchmark(1, costs, ratios)
-    monkeypatch.setattr("harness.commands.bench.measure_coulomb", lambda *_: benchmark)
+    monkeypatch.setattr("slider_resonator.commands.bench.measure_coulomb", lambda *_: benchmark)
     text = CliRunner().invoke(main, ["bench", str(python_fmu), "--part", "coulomb"]).stdout
     assert PAPER_TOLERANCES == (1e-6, 1e-8, 1e-10)
     for name in names:

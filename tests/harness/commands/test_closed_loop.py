@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from harness.cli import main
-from harness.closed_loop import prediction
+from slider_resonator.cli import main
+from slider_resonator.studies.closed_loop import prediction
 
 
 def closed_loop(*arguments: object) -> Result:

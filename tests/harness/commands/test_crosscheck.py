@@ -5,7 +5,7 @@ from pathlib import Path
 
 from click.testing import CliRunner, Result
 
-from harness.cli import main
+from slider_resonator.cli import main
 
 
 def call(*arguments: object) -> Result:

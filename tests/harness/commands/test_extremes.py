@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from harness.cli import main
-from harness.commands import extremes
-from harness.extremes.cell import Cell, Hold, Limit, Model
+from slider_resonator.cli import main
+from slider_resonator.commands import extremes
+from slider_resonator.trials.extremes.cell import Cell, Hold, Limit, Model
 
 HOLDS = (Hold(1e-4, 20),)
 GOOD = Cell("steps", "few", Model(2, 0), {}, HOLDS)

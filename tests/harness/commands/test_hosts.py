@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from harness.cli import main
-from harness.commands.hosts import NATIVE, PYTHON
+from slider_resonator.cli import main
+from slider_resonator.commands.hosts import NATIVE, PYTHON
 
 FMPY = ("--host", "fmpy")
 
@@ -44,7 +44,7 @@ def test_a_host_that_fails_is_a_verdict(
     native_fmu: Path, python_fmu: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setenv("CC", str(tmp_path / "no compiler"))
-    monkeypatch.setattr("harness.hosts.hosts.compiler_version", lambda _: "none")
+    monkeypatch.setattr("slider_resonator.trials.hosts.hosts.compiler_version", lambda _: "none")
     out = tmp_path / "hosts.md"
     done = hosts(native_fmu, "--python-fmu", python_fmu, "--host", "C driver", "--out", out)
     assert done.exit_code == 1

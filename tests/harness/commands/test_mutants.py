@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from harness.cli import main
+from slider_resonator.cli import main
 from tests.harness import faulty_fmus
 
 

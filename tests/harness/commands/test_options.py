@@ -6,8 +6,8 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from harness.commands import options
-from harness.errors import FmuError
+from slider_resonator.commands import options
+from slider_resonator.errors import FmuError
 
 
 def test_fmus_built_here_are_preferred(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from harness.cli import main
+from slider_resonator.cli import main
 
 
 def test_figures_are_written_and_told_of_as_json(native_fmu: Path, tmp_path: Path) -> None:
@@ -29,8 +29,8 @@ def test_what_cannot_be_run_ends_with_2(arguments: list[str], tmp_path: Path) ->
 def test_a_claim_that_is_not_confirmed_ends_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from harness.paper import reproduce
-    from harness.paper.claim import AGREES, Claim, ClaimGroup
+    from slider_resonator.studies.paper import reproduce
+    from slider_resonator.studies.paper.claim import AGREES, Claim, ClaimGroup
 
     claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, AGREES, "it does not", False)
     group = ClaimGroup("claims_x", "X", {}, lambda instance, progress: [claim])
@@ -44,8 +44,8 @@ def test_a_claim_that_is_not_confirmed_ends_with_1(
 def test_a_table_that_deviates_ends_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from harness.paper import reproduce
-    from harness.paper.table import PaperTable
+    from slider_resonator.studies.paper import reproduce
+    from slider_resonator.studies.paper.table import PaperTable
 
     def measure(instance: object, progress: object) -> dict[str, object]:
         return {"rows": [{"error": 0.3}]}

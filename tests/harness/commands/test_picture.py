@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from harness.cli import main
+from slider_resonator.cli import main
 
 
 @pytest.mark.parametrize(

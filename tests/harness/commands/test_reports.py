@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.commands.reports import Reports, print_troubles
-from harness.errors import HarnessError
-from harness.validate import Trouble
+from slider_resonator.checks.validate import Trouble
+from slider_resonator.commands.reports import Reports, print_troubles
+from slider_resonator.errors import HarnessError
 
 
 def test_what_could_not_be_run_is_told_with_its_place(capsys: pytest.CaptureFixture[str]) -> None:

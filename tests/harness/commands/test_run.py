@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from harness.cli import main
-from harness.scene import find_scene
+from slider_resonator.cli import main
+from slider_resonator.scenes.scene import find_scene
 
 
 def call(*arguments: object) -> Result:

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from harness.commands.searching import tell
-from harness.outcome import Outcome
+from slider_resonator.commands.searching import tell
+from slider_resonator.steady.outcome import Outcome
 
 
 def test_what_was_found_is_told_in_sentences(capsys: pytest.CaptureFixture[str]) -> None:

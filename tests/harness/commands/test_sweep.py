@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from harness.cli import main
+from slider_resonator.cli import main
 
 
 def _grid(tmp_path: Path, text: str) -> str:

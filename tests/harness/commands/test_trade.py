@@ -9,17 +9,17 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from harness.cli import main
-from harness.commands import trade as command
-from harness.drive import instantiate
-from harness.errors import HarnessError
-from harness.fmu import open_fmu
-from harness.trade.fmu_methods import FmuMethods
-from harness.trade.peer_methods import peer_methods
-from harness.trade.result import Trade
-from harness.trade.task import Task
-from tests.harness.trade.scenes import HEAD, TABLE_1, task
-from tests.harness.trade.test_needs import TRADE
+from slider_resonator.cli import main
+from slider_resonator.commands import trade as command
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.studies.trade.fmu_methods import FmuMethods
+from slider_resonator.studies.trade.peer_methods import peer_methods
+from slider_resonator.studies.trade.result import Trade
+from slider_resonator.studies.trade.task import Task
+from tests.harness.studies.trade.scenes import HEAD, TABLE_1, task
+from tests.harness.studies.trade.test_needs import TRADE
 
 
 @pytest.mark.slow

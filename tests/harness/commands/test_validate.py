@@ -9,7 +9,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from click.testing import CliRunner, Result
 
-from harness.cli import main
+from slider_resonator.cli import main
 from tests.harness import faulty_fmus
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.references.device import Device
-from harness.references.held_inputs import HeldInputs
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
 
 Array = NDArray[np.float64]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from harness.references.device import Device
-from harness.references.held_inputs import HeldInputs
-from harness.references.lugre_trajectory import LugreTrajectory
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from tests import problems
 
 DURATION = 0.012

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from harness.references import closed_forms
-from harness.references.device import Device
+from slider_resonator.device.device import Device
+from slider_resonator.references import closed_forms
 
 TABLE_1 = Device()
 FAST_VARIANT = Device(base_amplitude=1e-5, drive_frequency=35000.0, resonator_frequency=35000.0)

@@ -7,9 +7,15 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from harness.references import located_events, paper_method, taylor
-from harness.references.trajectory import Trajectory
-from tests.harness.references.known_motions import FIRST_SLIP, FREQUENCY, KNOWN_MOTIONS, STOP
+from slider_resonator.references.resolved import located_events, taylor
+from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.studies.trade.peers import paper_method
+from tests.harness.references.known_motions import (
+    FIRST_SLIP,
+    FREQUENCY,
+    KNOWN_MOTIONS,
+    STOP,
+)
 
 Simulate = Callable[..., Trajectory]
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from harness.references.phase import Elapsed, advanced
+from slider_resonator.references.phase import Elapsed, advanced
 
 
 def test_angle_stays_within_half_a_turn_and_keeps_its_value() -> None:

@@ -1,0 +1,8 @@
+"""`python -m slider_resonator`."""
+
+from __future__ import annotations
+
+from slider_resonator.cli import main
+
+if __name__ == "__main__":
+    main(prog_name="python -m slider_resonator")

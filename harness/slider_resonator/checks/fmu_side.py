@@ -1,0 +1,48 @@
+"""What the FMU says about a scene: each thing is computed once, when it is first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from math import pi
+
+from slider_resonator.fmu.drive import Instance, Record, run
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.steady.blocking_force import Blocking, find_blocking
+from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
+
+
+class FmuSide:
+    """Run, steady motion and blocking force of one FMU instance in one scene."""
+
+    def __init__(
+        self,
+        instance: Instance,
+        scene: Scene,
+        progress: Callable[[float], None] = lambda share: None,
+    ) -> None:
+        self.instance = instance
+        self.scene = scene
+        self.progress = progress
+
+    @cached_property
+    def record(self) -> Record:
+        """The run of the scene."""
+        schedule = self.scene.schedule()
+        return run(self.instance, self.scene.parameters, schedule, progress=self.progress)
+
+    @cached_property
+    def steady(self) -> SteadyMotion:
+        """The steady motion under the inputs of the scene."""
+        return find_steady(self.instance, self.scene.values)
+
+    @cached_property
+    def blocking(self) -> Blocking:
+        """The blocking force under the inputs of the scene, whatever its load."""
+        values = {name: value for name, value in self.scene.values.items() if name != "load"}
+        return find_blocking(self.instance, values)
+
+    @property
+    def drive_period(self) -> float:
+        """Drive period in seconds."""
+        return 2.0 * pi / self.scene.device.drive_frequency

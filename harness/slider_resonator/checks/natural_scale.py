@@ -1,0 +1,70 @@
+"""What counts as near zero: the size that a quantity has in a device of this kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from math import pi
+
+from slider_resonator.device.device import Device
+from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
+
+NEAR_ZERO = 0.01
+"""A reference is taken to be at least this share of the natural scale, unless a scene says how
+near the FMU must be in absolute terms."""
+
+
+def _vibration(pick: Callable[[EquivalentForce], float]) -> Callable[[Device], float]:
+    """Return a size in the steady vibration (32)-(34) without friction; 0 where there is none."""
+
+    def size(device: Device) -> float:
+        # Friction has no part in the vibration, but must be there for the other figures.
+        driven = replace(device, friction_coefficient=1.0, friction_faces=1, normal_preload=1.0)
+        try:
+            return abs(pick(equivalent_force(driven)))
+        except ValueError:
+            return 0.0
+
+    return size
+
+
+def _largest_normal_force(device: Device) -> float:
+    return device.normal_preload + device.normal_amplitude
+
+
+def _full_friction(device: Device) -> float:
+    return device.friction_faces * device.friction_coefficient * _largest_normal_force(device)
+
+
+_velocity = _vibration(lambda force: force.velocity_amplitude)
+_displacement = _vibration(lambda force: force.ripple_amplitude)
+_resonator = _vibration(lambda force: force.resonator_amplitude)
+
+_SCALES: Mapping[str, Callable[[Device], float]] = {
+    "steady_velocity": _velocity,
+    "predicted_velocity": _velocity,
+    "mean_velocity": _velocity,
+    "velocity": _velocity,
+    "blocking_force": _full_friction,
+    "predicted_blocking_force": _full_friction,
+    "friction_force": _full_friction,
+    "normal_force": _largest_normal_force,
+    "position": _displacement,
+    "slow_displacement": _displacement,
+    "ripple_amplitude": _displacement,
+    "resonator_displacement": _resonator,
+    "resonator_velocity": lambda device: _resonator(device) * device.drive_frequency,
+    "stick_fraction": lambda device: 1.0,
+    "last_event_time": lambda device: 2.0 * pi / device.drive_frequency,
+}
+
+
+def smallest_reference(quantity: str, device: Device) -> float:
+    """Return the size, in the quantity's unit, below which a reference counts as that size.
+
+    It is `NEAR_ZERO` times the amplitude of the fast velocity v_q for velocities, the force of full
+    friction for forces, the amplitude of the fast motion for displacements, and so on; 0 for
+    quantities that have no scale of their own.
+    """
+    scale = _SCALES.get(quantity)
+    return NEAR_ZERO * scale(device) if scale else 0.0

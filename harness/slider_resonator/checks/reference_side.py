@@ -1,0 +1,225 @@
+"""What the references say about a scene: each thing is computed once, when first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import cached_property
+from math import floor, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.references import closed_forms
+from slider_resonator.references.averaged import averaged_coulomb, uniform_average
+from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
+from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
+from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.steady.reference_steady import (
+    reference_blocking_force,
+    reference_steady_velocity,
+)
+
+Array = NDArray[np.float64]
+
+_SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
+    "located_events": located_events.simulate,
+    "taylor": taylor.simulate,
+    "bristle_state": lugre_scipy.simulate_lugre,
+}
+
+TUBE_POINTS = 3
+"""Points on each side of a time at which a tube looks at the reference."""
+COINCIDENCE = 1e-6
+"""Share of a drive period within which an event and a communication point coincide."""
+
+
+class ReferenceSide:
+    """Trajectories, steady motion and closed forms for one scene."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.device = scene.device
+        self.inputs = {name: signal.at(0.0) for name, signal in scene.signals.items()}
+        self._trajectories: dict[str, Trajectory] = {}
+        self._around: dict[tuple[str, float], Trajectory] = {}
+
+    @property
+    def drive_period(self) -> float:
+        """Drive period in seconds."""
+        return 2.0 * pi / self.device.drive_frequency
+
+    @cached_property
+    def times(self) -> Array:
+        """Communication points of the scene (s), shape (n,)."""
+        return self.scene.schedule().times
+
+    def trajectory(self, referee: str) -> Trajectory:
+        """Return the run of the scene by `located_events`, `taylor` or, for LuGre, `bristle_state`.
+
+        It also has the two ends of the last whole drive period.
+        """
+        if referee not in self._trajectories:
+            times = np.union1d(self.times, self._last_period)
+            self._trajectories[referee] = self._simulate(referee, times)
+        return self._trajectories[referee]
+
+    def signal(self, referee: str, name: str) -> Array:
+        """Return one output of that run at the communication points, shape (n,)."""
+        run = self.trajectory(referee)
+        values = np.asarray(getattr(run, name), dtype=np.float64)
+        return values[np.searchsorted(run.time, self.times)]
+
+    def tube(self, referee: str, name: str, share: float) -> Tube:
+        """Return one output with what it takes on within a share of a drive period around."""
+        offsets = share * self.drive_period * np.linspace(-1.0, 1.0, 2 * TUBE_POINTS + 1)
+        around = np.clip(self.times[:, None] + offsets, 0.0, self.times[-1])
+        if (referee, share) not in self._around:
+            self._around[referee, share] = self._simulate(referee, np.unique(around))
+        run = self._around[referee, share]
+        values = np.asarray(getattr(run, name), dtype=np.float64)
+        window = values[np.searchsorted(run.time, around)]
+        return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
+
+    def event_times(self, referee: str) -> Tube:
+        """Return the time of the last event before each communication point, in drive periods.
+
+        Where an event all but coincides with a point the tube leaves open which of the two was
+        first.
+        """
+        events = np.append(0.0, self.trajectory(referee).event_times)
+
+        def last_before(times: Array) -> Array:
+            return events[np.searchsorted(events, np.maximum(times, 0.0), side="right") - 1]
+
+        margin = COINCIDENCE * self.drive_period
+        courses = [last_before(self.times + shift) for shift in (0.0, -margin, margin)]
+        return Tube(*(course / self.drive_period for course in courses))
+
+    def _simulate(self, referee: str, times: Array) -> Trajectory:
+        return _SIMULATORS[referee](self.device, self.scene.schedule().held(), times)
+
+    @cached_property
+    def averaged_motion(self) -> AveragedMotion:
+        """The averaged motion of the scene, whatever its fidelity, at the communication points."""
+        return simulate_averaged(self.device, self.scene.schedule().held(), self.times)
+
+    @cached_property
+    def mean_velocity(self) -> float:
+        """Mean velocity (m/s) over the last whole drive period of the run."""
+        run = self.trajectory("located_events")
+        begin, end = run.position[np.searchsorted(run.time, self._last_period)]
+        return float(end - begin) / self.drive_period
+
+    @cached_property
+    def stick_fraction(self) -> float:
+        """Share of the last whole drive period of the run that is spent sticking."""
+        begin, end = (self._stick_time(float(time)) for time in self._last_period)
+        return (end - begin) / self.drive_period
+
+    @property
+    def last_event_time(self) -> float:
+        """Time (s) of the last change of contact mode, 0 without any."""
+        events = self.trajectory("located_events").event_times
+        return float(events[-1]) if events.size else 0.0
+
+    @cached_property
+    def steady_velocity(self) -> float | None:
+        """Mean velocity (m/s) of the steady motion, by shooting with located events."""
+        try:
+            guess = self.predicted_velocity
+        except ValueError:
+            guess = 0.0
+        inputs = (self.inputs["phase"], self.inputs["load"], self.inputs["frequency_ratio"])
+        return reference_steady_velocity(self.device, *inputs, guess)
+
+    @cached_property
+    def blocking_force(self) -> float | None:
+        """Load (N) that makes the mean velocity zero, by shooting with located events."""
+        phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
+        return reference_blocking_force(self.device, phase, ratio)
+
+    @property
+    def predicted_velocity(self) -> float:
+        """Steady velocity (m/s) by averages: any ratio, both friction laws, a contact may lift."""
+        phase, load = self.inputs["phase"], self.inputs["load"]
+        ratio = self.inputs["frequency_ratio"]
+        if self.device.friction_law == 1:
+            return uniform_average.device_steady_velocity(self.device, phase, load, ratio)
+        return averaged_coulomb.device_steady_velocity_at_ratio(self.device, phase, ratio, load)
+
+    @property
+    def predicted_blocking_force(self) -> float:
+        """Blocking force (N) by the same averages."""
+        phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
+        if self.device.friction_law == 1:
+            return uniform_average.device_blocking_force(self.device, phase, ratio)
+        return averaged_coulomb.device_blocking_force_at_ratio(self.device, phase, ratio)
+
+    @property
+    def at_the_end(self) -> ReferenceSide:
+        """The same device under the inputs at the end of the run.
+
+        What earlier frequency ratios have left of the normal phase is part of its phase (rad).
+        """
+        held = self.scene.schedule().held()
+        ratio = held[-1].frequency_ratio
+        lead = sum((h.frequency_ratio - ratio) * (h.stop - h.start) for h in held)
+        end = ReferenceSide(self.scene)
+        end.inputs = {
+            "phase": held[-1].phase + lead * self.device.drive_frequency,
+            "load": held[-1].load,
+            "frequency_ratio": ratio,
+        }
+        return end
+
+    @property
+    def averaged_velocity(self) -> float:
+        """Steady velocity (m/s) of averaged theory, (5) and (20); for equal frequencies only."""
+        self._require_equal_frequencies()
+        phase, load = self.inputs["phase"], self.inputs["load"]
+        return closed_forms.device_steady_velocity(self.device, phase, load)
+
+    @property
+    def averaged_blocking_force(self) -> float:
+        """Blocking force (N) of averaged theory, (22) for all faces; for equal frequencies only."""
+        self._require_equal_frequencies()
+        return closed_forms.device_blocking_force(self.device, self.inputs["phase"])
+
+    @property
+    def ripple_amplitude(self) -> float:
+        """Amplitude (m) of the fast displacement, (33)-(34)."""
+        return closed_forms.equivalent_force(self.device).ripple_amplitude
+
+    @property
+    def difference_frequency(self) -> float:
+        """Distance (Hz) of the normal force's frequency from a multiple of the drive's: the beat.
+
+        For a ratio near 1 it is that of appendix A.
+        """
+        ratio = self.inputs["frequency_ratio"]
+        return abs(ratio - round(ratio)) / self.drive_period
+
+    @cached_property
+    def _last_period(self) -> Array:
+        """Begin and end (s) of the last whole drive period, shape (2,)."""
+        stop = float(self.times[-1])
+        whole = floor(stop / self.drive_period * (1.0 + 1e-12))
+        if whole < 1:
+            raise ValueError(f"the run of {stop:.6g} s is shorter than one drive period")
+        return np.minimum(np.array([whole - 1, whole]) * self.drive_period, stop)
+
+    def _stick_time(self, stop: float) -> float:
+        """Return the time (s) spent sticking from the start until `stop` (s)."""
+        held = [inputs for inputs in self.scene.schedule().held() if inputs.start < stop]
+        if not held:
+            return 0.0
+        held[-1] = replace(held[-1], stop=min(held[-1].stop, stop))
+        return located_events.simulate(self.device, held, np.array([stop])).stick_time
+
+    def _require_equal_frequencies(self) -> None:
+        ratio = self.inputs["frequency_ratio"]
+        if ratio != 1.0:
+            raise ValueError(f"frequency_ratio = {ratio!r}: the closed form allows only 1")

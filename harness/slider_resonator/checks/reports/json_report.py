@@ -1,0 +1,45 @@
+"""Verdicts as one JSON document."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from slider_resonator.checks.validate import Validation
+from slider_resonator.checks.verdict import sentence
+from slider_resonator.output.atomic import replacing
+from slider_resonator.output.json_output import to_json
+
+
+def validations_as_json(validations: Sequence[Validation], error: str = "") -> str:
+    """Return a single FMU's verdicts as they are, those of several under `fmus`.
+
+    Without any there is only the `error` that kept the command from getting as far as an FMU.
+    """
+    plain = [_plain(validation) for validation in validations]
+    if error:
+        return to_json({"passed": False, "error": error})
+    if len(plain) == 1:
+        return to_json(plain[0])
+    return to_json({"passed": all(v.passed for v in validations), "fmus": plain})
+
+
+def write_json(path: Path, validations: Sequence[Validation], error: str = "") -> None:
+    """Write that document; HarnessError when the file cannot be written."""
+    with replacing(path) as temporary:
+        temporary.write_text(validations_as_json(validations, error) + "\n", encoding="utf-8")
+
+
+def _plain(validation: Validation) -> dict[str, object]:
+    checks = [
+        {**vars(check), "verdict": "pass" if check.passed else sentence(check)}
+        for check in validation.checks
+    ]
+    return {
+        "fmu": validation.fmu,
+        "passed": validation.passed,
+        "exit_code": validation.exit_code,
+        "wall_time": validation.wall_time,
+        "errors": validation.troubles,
+        "checks": checks,
+    }

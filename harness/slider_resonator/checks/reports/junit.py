@@ -1,0 +1,64 @@
+"""Verdicts as JUnit XML, the format that CI servers read."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+from slider_resonator.checks.validate import Trouble, Validation
+from slider_resonator.checks.verdict import TITLE, place, sentence, title
+from slider_resonator.output.atomic import replacing
+
+_NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""Characters that XML 1.0 cannot hold: an FMU may have printed them."""
+
+
+def write_junit(
+    path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
+) -> None:
+    """Write one test suite for each FMU, with a test case for each check or what could not be run.
+
+    `error` is what kept the command from getting as far as an FMU. Raises HarnessError when the
+    file cannot be written.
+    """
+    root = ET.Element("testsuites", name=title)
+    for validation in validations:
+        _suite(root, validation)
+    if error:
+        _suite(root, Validation(title, (), 0.0, (Trouble("", error, {}),)))
+    counts = {"tests": 0, "failures": 0, "errors": 0}
+    for suite in root:
+        for name in counts:
+            counts[name] += int(suite.attrib[name])
+    root.attrib.update({name: str(count) for name, count in counts.items()})
+    root.set("time", f"{sum(v.wall_time for v in validations):.3f}")
+    ET.indent(root)
+    with replacing(path) as temporary:
+        ET.ElementTree(root).write(temporary, encoding="utf-8", xml_declaration=True)
+
+
+def _suite(root: ET.Element, validation: Validation) -> None:
+    suite = ET.SubElement(
+        root,
+        "testsuite",
+        name=_text(validation.fmu),
+        tests=str(len(validation.checks) + len(validation.troubles)),
+        failures=str(sum(not check.passed for check in validation.checks)),
+        errors=str(len(validation.troubles)),
+        time=f"{validation.wall_time:.3f}",
+    )
+    for check in validation.checks:
+        case = ET.SubElement(suite, "testcase", classname=check.scene, name=title(check))
+        if not check.passed:
+            failure = ET.SubElement(case, "failure", message=_text(sentence(check)))
+            failure.text = _text(f"{sentence(check)}\nexpected because: {check.why}")
+    for trouble in validation.troubles:
+        name = f"could not be run{place(trouble.at, ' at ')}"
+        case = ET.SubElement(suite, "testcase", classname=trouble.scene or "FMU", name=name)
+        ET.SubElement(case, "error", message=_text(trouble.reason)).text = _text(trouble.reason)
+
+
+def _text(text: str) -> str:
+    return _NOT_XML.sub("\ufffd", text)

@@ -1,0 +1,73 @@
+"""A verdict in a sentence: by how much, of what, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from slider_resonator.checks.compare import Check, Value
+from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.output.readable import readable
+
+TITLE = "Slider-resonator validation"
+"""What a report is called unless its command calls it otherwise."""
+DIGITS = 9
+
+
+def title(check: Check) -> str:
+    """Return what is compared with what, in which tube and at which point of a sweep."""
+    tube = "" if check.tube is None else f" in a tube of {check.tube:g} periods"
+    return f"{check.quantity} against {check.against}{tube}{place(check.at, ' at ')}"
+
+
+def place(at: Mapping[str, float], before: str = "") -> str:
+    """Return the point of a sweep, such as "phase 0.4", after `before`; nothing without a sweep."""
+    return before * bool(at) + ", ".join(f"{name} {value:g}" for name, value in at.items())
+
+
+def sentence(check: Check) -> str:
+    """Return by how much and where the FMU is off."""
+    unit = f" {check.unit}" * (check.unit not in ("", "1"))
+    if check.fmu is None:
+        return f"the FMU gives none, expected is {_value(check.reference, unit)}: {check.note}"
+    if check.reference is None:
+        return f"the FMU gives {_value(check.fmu, unit)}, the reference has none"
+    if check.deviation is None or check.allowed is None:
+        return f"the FMU gives {check.fmu!r}, expected is {check.reference!r}"
+    if QUANTITIES[check.quantity].kind == "signal":
+        return _signal_sentence(check, unit)
+    bound = f"{check.against} " * check.against.startswith("at ")
+    return (
+        f"the FMU gives {_value(check.fmu, unit)}, expected is {bound}"
+        f"{_value(check.reference, unit)}: off by {check.deviation:.2g}{unit}, {_times(check)}"
+    )
+
+
+def _signal_sentence(check: Check, unit: str) -> str:
+    assert check.deviation is not None
+    quantity = QUANTITIES[check.quantity]
+    if quantity.exact:
+        size = f"differs at {check.deviation:.2%} of the points"
+    elif quantity.in_periods:
+        size = f"off by {check.deviation:.2g} drive periods"
+    else:
+        tube = f"a tube of {check.tube:g} drive periods to each side " if check.tube else ""
+        size = "outside " + tube if tube else "off "
+        size += f"by {check.deviation:.2g} of the peak, which is {_value(check.reference, unit)}"
+    text = f"{size}, {_times(check)}"
+    if check.first_time is None or check.worst_time is None:
+        return text
+    return f"{text}; from {check.first_time:.9g} s on, most at {check.worst_time:.9g} s"
+
+
+def _times(check: Check) -> str:
+    assert check.deviation is not None
+    if not check.allowed:
+        return "allowed is 0"
+    ratio = check.deviation / check.allowed
+    return f"{ratio:.3g} times the allowed {check.allowed:.2g}"
+
+
+def _value(value: Value, unit: str) -> str:
+    return (
+        repr(value) if value is None or isinstance(value, str) else readable(value, DIGITS) + unit
+    )

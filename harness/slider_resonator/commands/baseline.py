@@ -1,0 +1,159 @@
+"""`baseline`: golden results recorded, checked and accepted."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from slider_resonator.commands.options import fmu_argument, scenes_option, time_limit_option
+from slider_resonator.commands.reports import (
+    Reports,
+    print_troubles,
+    print_verdicts,
+    report_options,
+)
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT
+from slider_resonator.output.console import progress_bar
+from slider_resonator.scenes.scene import files_of_scenes
+from slider_resonator.trials.baseline.judge import TOLERANCE
+from slider_resonator.trials.baseline.work import accept, check, record
+
+dir_option = click.option(
+    "--dir",
+    "folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    required=True,
+    help="Folder of the baseline: CSV files to be kept under version control.",
+)
+limited = time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep.")
+
+
+@click.group("baseline")
+def baseline_command() -> None:
+    """Keep what an FMU gives under version control, and see what changes.
+
+    A baseline has a folder for each scene with steady velocity, blocking force, counts and some
+    points of the run in CSV files, and where they come from. validate judges an FMU by physics; a
+    baseline judges it by what it was.
+
+    \b
+    Examples:
+      python -m harness baseline record my.fmu --dir baseline
+      python -m harness baseline check my.fmu --dir baseline --html changes.html
+      python -m harness baseline accept my.fmu --dir baseline
+    """
+
+
+@baseline_command.command("record")
+@fmu_argument
+@dir_option
+@scenes_option("all built-in")
+@click.option("--replace", is_flag=True, help="Record anew what is recorded already.")
+@limited
+@click.pass_context
+def record_command(
+    context: click.Context,
+    fmu: Path,
+    folder: Path,
+    scenes: tuple[str, ...],
+    replace: bool,
+    time_limit: float,
+) -> None:
+    """Record scenes, by default all that are built in.
+
+    What is recorded already is not replaced unasked. Leaves with 0, or with 2 when something could
+    not be run: the scenes that could are recorded even so.
+
+    \b
+    Examples:
+      python -m harness baseline record my.fmu --dir baseline
+      python -m harness baseline record my.fmu --dir baseline --scene scenes/mine.toml --replace
+    """
+    files = files_of_scenes(scenes)
+    with progress_bar() as progress:
+        names, troubles = record(
+            fmu, files, folder, progress, replace=replace, time_limit=time_limit
+        )
+    click.echo(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {folder}")
+    print_troubles(str(fmu), troubles)
+    context.exit(2 if troubles else 0)
+
+
+@baseline_command.command("check")
+@fmu_argument
+@dir_option
+@scenes_option("all that are recorded")
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(min=0.0),
+    default=TOLERANCE,
+    show_default=True,
+    help="Change that counts as none: a share of a number or of a signal's peak, for times of "
+    "events of the drive period.",
+)
+@click.option("--details", is_flag=True, help="Show what has not changed as well.")
+@limited
+@report_options
+@click.pass_context
+def check_command(
+    context: click.Context,
+    fmu: Path,
+    folder: Path,
+    scenes: tuple[str, ...],
+    tolerance: float,
+    details: bool,
+    time_limit: float,
+    junit: Path | None,
+    html: Path | None,
+    json: Path | None,
+) -> None:
+    """Compare an FMU with what is recorded: what has changed, by how much and where.
+
+    Without --scene everything that is recorded is checked. Leaves with 0 when nothing has changed,
+    1 when something has, 2 when something could not be run. What has changed is kept, unseen by
+    git, for accept.
+
+    \b
+    Examples:
+      python -m harness baseline check my.fmu --dir baseline
+      python -m harness baseline check my.fmu --dir baseline --scene table_1 --tolerance 1e-6
+      python -m harness baseline check my.fmu --dir baseline --junit report.xml --html report.html
+    """
+    reports = Reports.asked_for("Slider-resonator baseline", junit, html, json, {"the FMU": fmu})
+    try:
+        files = files_of_scenes(scenes) if scenes else []
+        with progress_bar() as progress:
+            result = check(fmu, files, folder, progress, tolerance=tolerance, time_limit=time_limit)
+    except HarnessError as error:
+        reports.write([], str(error))
+        raise
+    print_verdicts([result], details=details, as_json=reports.prints_json, only_failed=not details)
+    reports.write([result])
+    context.exit(result.exit_code)
+
+
+@baseline_command.command("accept")
+@fmu_argument
+@dir_option
+@click.option(
+    "--scene",
+    "scenes",
+    multiple=True,
+    metavar="NAME",
+    help="A scene that has changed; may be given several times.  [default: all that have]",
+)
+def accept_command(fmu: Path, folder: Path, scenes: tuple[str, ...]) -> None:
+    """Take over what the last check of this FMU has found changed.
+
+    Nothing is run again. Leaves with 0, or with 2 for a scene that has not changed and for an FMU
+    that is not the one that was checked.
+
+    \b
+    Examples:
+      python -m harness baseline accept my.fmu --dir baseline
+      python -m harness baseline accept my.fmu --dir baseline --scene table_1 --scene lift_off
+    """
+    names = accept(fmu, folder, scenes)
+    click.echo(f"accepted {', '.join(names) or 'nothing: nothing has changed'}")

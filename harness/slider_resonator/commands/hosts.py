@@ -1,0 +1,122 @@
+"""`hosts`: table 1 in other simulators, and the table of the README."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+from rich.markup import escape
+from rich.table import Table
+
+from slider_resonator.commands.options import Target, json_option
+from slider_resonator.errors import HarnessError
+from slider_resonator.output.console import output, progress_bar
+from slider_resonator.output.json_output import to_json
+from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
+from slider_resonator.trials.hosts.runs import ALLOWED, CASES, HostResult, run_host
+from slider_resonator.trials.hosts.table import host_table, shown, write_table
+
+NATIVE, PYTHON = Path("dist/SliderResonator.fmu"), Path("dist/SliderResonatorPy.fmu")
+NAMES = [host.name for host in hosts()]
+
+
+@click.command("hosts")
+@click.argument(
+    "native", type=click.Path(path_type=Path, exists=True, dir_okay=False), default=NATIVE
+)
+@click.option(
+    "--python-fmu",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    default=PYTHON,
+    show_default=True,
+    help="FMU that needs Python in the process, for the hosts that have it.",
+)
+@click.option("--host", "chosen", type=click.Choice(NAMES), multiple=True, help="Run only these.")
+@click.option(
+    "--own-environment",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=OWN_ENVIRONMENT,
+    show_default=True,
+    help="Virtual environment of cofmupy, as `make hosts` creates it.",
+)
+@click.option(
+    "--out",
+    type=Target((".md",)),
+    help="Markdown file for the table; in a file that has them, the table goes between the lines "
+    "<!-- hosts --> and <!-- end of hosts -->.",
+)
+@json_option
+@click.pass_context
+def hosts_command(
+    context: click.Context,
+    native: Path,
+    python_fmu: Path,
+    chosen: Sequence[str],
+    own_environment: Path,
+    out: Path | None,
+    as_json: bool,
+) -> None:
+    """Run table 1 in other simulators and compare with fmpy.
+
+    Each fidelity with each friction law, 40 steps of 1 ms in which all inputs change; all outputs
+    after every step, largest deviation in shares of each signal's peak. Leaves with 0 when all
+    agree, 1 when one does not, 2 when a host is not installed (`make hosts` installs them).
+
+    \b
+    Examples:
+      python -m harness hosts
+      python -m harness hosts my.fmu --host "C driver" --json
+      python -m harness hosts --out README.md
+    """
+    everyone = hosts(own_environment)
+    selected = [host for host in everyone if host.name in (chosen or NAMES)]
+    _check_installed([everyone[0], *selected])
+    results: list[HostResult] = []
+    with progress_bar() as progress:
+        for index, host in enumerate(selected):
+            progress(host.name, index / len(selected))
+            results += run_host(host, everyone[0], native, python_fmu)
+    if out is not None:
+        write_table(out, host_table(results))
+    if as_json:
+        click.echo(to_json([_entry(result) for result in results]))
+    else:
+        _show(results)
+    context.exit(0 if all(result.passed for result in results) else 1)
+
+
+def _check_installed(wanted: Sequence[Host]) -> None:
+    missing = []
+    for host in wanted:
+        try:
+            host.version()
+        except HarnessError as error:
+            missing.append(str(error))
+    if missing:
+        raise HarnessError("; ".join(dict.fromkeys(missing)))
+
+
+def _entry(result: HostResult) -> dict[str, object]:
+    cases = [
+        {"friction_law": case.friction_law, "fidelity": case.fidelity, "passed": found.passed}
+        | {"deviation": found.deviation, "allowed": ALLOWED, "error": found.error}
+        for case, found in result.comparisons.items()
+    ]
+    entry = {"host": result.host, "version": result.version, "fmu": result.fmu}
+    return entry | {"passed": result.passed, "cases": cases}
+
+
+def _show(results: Sequence[HostResult]) -> None:
+    table = Table("host", "version", "FMU", *(case.title for case in CASES), "", box=None)
+    for result in results:
+        cells = [shown(result.comparisons[case]) for case in CASES]
+        verdict = "[green]pass[/green]" if result.passed else "[bold red]FAIL[/bold red]"
+        table.add_row(result.host, result.version, result.fmu, *cells, verdict)
+    console = output()
+    console.print(table)
+    for result in results:
+        for case, comparison in result.comparisons.items():
+            if comparison.error:
+                where = f"{result.host}, {result.fmu} FMU, {case.title}"
+                console.print(f"{where}: {escape(comparison.error)}")

@@ -1,0 +1,180 @@
+"""Arguments and options that several commands share."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.values import check_value
+from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.names import unknown_name
+from slider_resonator.output.targets import writable
+
+BUILT_FMUS = (Path("dist") / "SliderResonator.fmu", Path("dist") / "SliderResonatorPy.fmu")
+REPOSITORY = Path(__file__).resolve().parents[3]
+SET = "--set"
+FC = TypeVar("FC", bound=Callable[..., Any])
+"""A command, or the function that becomes one."""
+_SETTING = re.compile(r"[A-Za-z_]\w*=")
+
+
+class Setting(click.ParamType[tuple[str, float]]):
+    """NAME=VALUE with a parameter or input of the FMU."""
+
+    name = "NAME=VALUE"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, float]:
+        """Split, check the name, and read and check the number."""
+        if isinstance(value, tuple):
+            return value
+        name, separator, number = str(value).partition("=")
+        name = name.strip()
+        if not separator:
+            self.fail(f"{value!r} is not NAME=VALUE, such as phase=0.4", param, ctx)
+        allowed = [*PARAMETERS, *INPUTS]
+        if name not in allowed:
+            self.fail(unknown_name("parameter or input", name, allowed), param, ctx)
+        try:
+            read = float(number)
+        except ValueError:
+            self.fail(f"{name} = {number!r}: allowed is a number", param, ctx)
+        try:
+            check_value(name, read)
+        except ValueError as error:
+            self.fail(str(error), param, ctx)
+        return name, read
+
+
+class SettingsCommand(click.Command):
+    """A command with `--set`, after which several NAME=VALUE may follow."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Give each NAME=VALUE that follows another one after `--set` a `--set` of its own."""
+        return super().parse_args(ctx, _each_with_its_option(args))
+
+
+def _each_with_its_option(arguments: Sequence[str]) -> list[str]:
+    spread: list[str] = []
+    inside = False
+    for before, argument in zip(["", *arguments], arguments, strict=False):
+        bare = inside and before != SET and _SETTING.match(argument) is not None
+        if bare:
+            spread.append(SET)
+        spread.append(argument)
+        inside = bare or before == SET or argument == SET or argument.startswith(f"{SET}=")
+    return spread
+
+
+class Target(click.ParamType[Path]):
+    """A file to write, judged before anything is run; `suffixes`, if any, are those allowed."""
+
+    name = "FILE"
+
+    def __init__(self, suffixes: Sequence[str] = ()) -> None:
+        self.suffixes = suffixes
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> Path:
+        """Return the path, or say why it cannot be written."""
+        try:
+            return writable(str(value), self.suffixes)
+        except HarnessError as error:
+            self.fail(str(error), param, ctx)
+
+
+def _each_once(
+    context: click.Context, option: click.Parameter, settings: Sequence[tuple[str, float]]
+) -> dict[str, float]:
+    given: dict[str, float] = {}
+    for name, value in settings:
+        if name in given:
+            raise click.BadParameter(
+                f"{name} = {given[name]!r} and {name} = {value!r}: allowed is one value",
+                context,
+                option,
+            )
+        given[name] = value
+    return given
+
+
+def check_left_to_choose(settings: Mapping[str, float]) -> None:
+    """Raise UsageError for a setting of what is to be chosen."""
+    given = [
+        f"{name} = {settings[name]:g}" for name in ("fidelity", "tolerance") if name in settings
+    ]
+    if given:
+        raise click.UsageError(
+            f"'--set': {', '.join(given)}: it is chosen; allowed are other parameters and inputs"
+        )
+
+
+fmu_argument = click.argument("fmu", type=click.Path(path_type=Path))
+
+set_option = click.option(
+    SET,
+    "settings",
+    type=Setting(),
+    multiple=True,
+    callback=_each_once,
+    help="Value of a parameter or input, in SI units; more NAME=VALUE may follow, and the option "
+    "may be given several times. All others keep their start value, the device of table 1.",
+)
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
+
+max_denominator_option = click.option(
+    "--max-denominator",
+    type=click.IntRange(min=1),
+    default=20,
+    show_default=True,
+    help="Largest q for which a frequency ratio p/q counts as having a common period.",
+)
+
+
+def scenes_option(default: str) -> Callable[[FC], FC]:
+    """Return the option --scene, given any number of times; `default` says what is without it."""
+    return click.option(
+        "--scene",
+        "scenes",
+        multiple=True,
+        metavar="NAME|FILE|DIR",
+        help="A built-in scene, a scene file or a folder of scene files; may be given several "
+        f"times.  [default: {default}]",
+    )
+
+
+def time_limit_option(default: float, words: str) -> Callable[[FC], FC]:
+    """Return the option --time-limit (s); `words` say what it limits."""
+    return click.option(
+        "--time-limit",
+        type=click.FloatRange(min=0.0, min_open=True),
+        default=default,
+        show_default=True,
+        metavar="SECONDS",
+        help=words,
+    )
+
+
+def default_fmu(given: Path | None) -> Path:
+    """Return the FMU that was asked for, or the first of `default_fmus`, which raises FmuError."""
+    return given if given is not None else default_fmus()[0]
+
+
+def default_fmus() -> tuple[Path, ...]:
+    """Return the FMUs that were built here or else in the repository, the native one first.
+
+    Raises FmuError, with the command that builds them, where there is none.
+    """
+    for folder in (Path(), REPOSITORY):
+        found = tuple(folder / fmu for fmu in BUILT_FMUS if (folder / fmu).is_file())
+        if found:
+            return found
+    raise FmuError(f"{BUILT_FMUS[0]}: no such file; build it with: python build_fmu.py")

@@ -1,0 +1,178 @@
+"""`run`: one scene, one CSV, one picture, and what it cost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from math import pi
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from slider_resonator.commands.options import (
+    SettingsCommand,
+    Target,
+    check_left_to_choose,
+    fmu_argument,
+    json_option,
+    set_option,
+)
+from slider_resonator.device.schedule import Schedule
+from slider_resonator.fmu.drive import Record, instantiate, run
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.record_csv import write_csv
+from slider_resonator.output.console import progress_bar
+from slider_resonator.output.json_output import to_json
+from slider_resonator.output.readable import readable
+from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
+from slider_resonator.scenes.scene import Scene, find_scene, read_scene
+
+if TYPE_CHECKING:
+    from slider_resonator.studies.choose import Choice
+
+
+@dataclass(frozen=True)
+class RunSummary:
+    """What was run and what it cost; times in s, velocities in m/s. `auto` is what --auto chose."""
+
+    fmu: str
+    scene: str
+    simulated_time: float
+    drive_periods: float
+    communication_steps: int
+    position: float
+    mean_velocity: float
+    reversals: int
+    stick_fraction: float
+    last_event_time: float
+    wall_time: float
+    wall_time_per_simulated_time: float
+    microseconds_per_drive_period: float
+    out: str | None
+    plot: str | None
+    auto: Choice | None
+
+
+@click.command("run", cls=SettingsCommand)
+@fmu_argument
+@click.argument("scene")
+@click.option("--out", type=Target(), help="CSV file for the run.")
+@click.option(
+    "--plot",
+    type=Target(PICTURE_SUFFIXES),
+    help="PNG, SVG or PDF of the run, made from a second one with finer steps at the end.",
+)
+@click.option(
+    "--auto",
+    is_flag=True,
+    help="Run with the cheapest fidelity, tolerance and step that the scene's [need] allows, as "
+    "the command choose finds them.",
+)
+@set_option
+@json_option
+@click.pass_context
+def run_command(
+    context: click.Context,
+    fmu: Path,
+    scene: str,
+    out: Path | None,
+    plot: Path | None,
+    auto: bool,
+    settings: dict[str, float],
+    as_json: bool,
+) -> None:
+    """Run one scene, built in or from a file, and say what it cost.
+
+    Of a scene with a sweep the unvaried device is run; --set varies it. Nothing is judged: leaves
+    with 0, or with 2 when it could not be run; with --auto also with 1, and without a run, when no
+    model meets the scene's needs.
+
+    \b
+    Examples:
+      python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
+      python -m harness run my.fmu feed_forward --auto
+      python -m harness run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
+    """
+    read = read_scene(find_scene(scene), settings)
+    files = {f"the scene's file {file}": file for file in read.files}
+    distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **files})
+    if auto:
+        check_left_to_choose(settings)
+    choice = None
+    with progress_bar() as progress, open_fmu(fmu) as opened, instantiate(opened) as instance:
+        if auto:
+            from slider_resonator.studies.choose.choosing import (
+                choose_with,  # here, for it loads scipy
+            )
+
+            read.schedule()
+            choice = choose_with(instance, read)
+            if not choice.meets:
+                click.echo(to_json(choice) if as_json else "\n".join(choice.sentences()))
+                context.exit(1)
+            read = choice.applied_to(read)
+
+        def run_in(schedule: Schedule) -> Record:
+            told = partial(progress, read.name)
+            return run(instance, read.parameters, schedule, progress=told)
+
+        record = run_in(read.schedule())
+        if out is not None:
+            write_csv(record, out)
+        if plot is not None:
+            # Here, for drawing takes longer to load than the rest to run.
+            from slider_resonator.scenes.run_plot import plot_run, schedule_to_plot
+
+            plot_run(run_in(schedule_to_plot(read)), read, plot)
+    summary = _summary(fmu, read, record, out, plot, choice)
+    click.echo(to_json(summary) if as_json else _sentences(summary, read))
+
+
+def _summary(
+    fmu: Path,
+    scene: Scene,
+    record: Record,
+    out: Path | None,
+    plot: Path | None,
+    choice: Choice | None,
+) -> RunSummary:
+    simulated = float(record.times[-1])
+    periods = simulated * scene.device.drive_frequency / (2.0 * pi)
+    return RunSummary(
+        fmu=str(fmu),
+        scene=scene.name,
+        simulated_time=simulated,
+        drive_periods=periods,
+        communication_steps=len(record.times) - 1,
+        position=record.final("position"),
+        mean_velocity=record.final("mean_velocity"),
+        reversals=round(record.final("reversals")),
+        stick_fraction=record.final("stick_fraction"),
+        last_event_time=record.final("last_event_time"),
+        wall_time=record.wall_time,
+        wall_time_per_simulated_time=record.wall_time / simulated,
+        microseconds_per_drive_period=1e6 * record.wall_time / periods,
+        out=None if out is None else str(out),
+        plot=None if plot is None else str(plot),
+        auto=choice,
+    )
+
+
+def _sentences(summary: RunSummary, scene: Scene) -> str:
+    lines = [] if summary.auto is None else summary.auto.sentences()
+    lines += [
+        f"scene    {summary.scene}: {scene.title}",
+        f"FMU      {summary.fmu}",
+        f"run      {summary.simulated_time:.6g} s, {summary.drive_periods:.6g} drive periods in "
+        f"{summary.communication_steps} communication steps",
+        f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
+        f"period {readable(summary.mean_velocity, 9)} m/s",
+        f"contact  {summary.reversals} reversals, sticking {summary.stick_fraction:.1%} of the "
+        f"last drive period, last event at {summary.last_event_time:.9g} s",
+        f"cost     {summary.wall_time:.3g} s of wall time, "
+        f"{summary.wall_time_per_simulated_time:.3g} per simulated second, "
+        f"{summary.microseconds_per_drive_period:.3g} us per drive period",
+    ]
+    lines += [f"written  {file}" for file in (summary.out, summary.plot) if file]
+    return "\n".join(lines)

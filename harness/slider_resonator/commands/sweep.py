@@ -1,0 +1,101 @@
+"""`sweep`: thousands of runs into one table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from slider_resonator.commands.options import Target, default_fmu, json_option
+from slider_resonator.output.console import progress_bar
+from slider_resonator.output.json_output import to_json
+from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
+from slider_resonator.studies.sweep.grid import read_grid
+from slider_resonator.studies.sweep.local import available_cores
+from slider_resonator.studies.sweep.sweeping import SweepResult, run_sweep
+from slider_resonator.studies.sweep.table import SUFFIXES
+
+
+@click.command("sweep")
+@click.argument("grid", type=click.Path(path_type=Path))
+@click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write, or to finish.")
+@click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
+@click.option("--fmu", type=click.Path(path_type=Path), help="FMU to run instead of the built one.")
+@click.option("--workers", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
+@click.option("--dask", metavar="ADDRESS", help="Scheduler of a cluster to run on instead.")
+@click.option("--restart", is_flag=True, help="Discard the points of an earlier attempt.")
+@json_option
+@click.pass_context
+def sweep_command(
+    context: click.Context,
+    grid: Path,
+    out: Path,
+    plot: Path | None,
+    fmu: Path | None,
+    workers: int | None,
+    dask: str | None,
+    restart: bool,
+    as_json: bool,
+) -> None:
+    """Compute measures over a grid, a list or a random sample of parameters and inputs.
+
+    Finished points are kept beside the table until it is written: after an interruption, even a
+    kill, the same command goes on and its table is the same, byte for byte. It does not depend on
+    the number of workers, or on where they run, either. A point that fails is a row with its error.
+    Leaves with 0, with 1 when a point failed, 2 when the sweep could not be run.
+
+    \b
+    A grid file:
+      measures = ["steady_velocity", "blocking_force", "velocity.rms"]
+      [fixed]
+      load = 0.01
+      [grid]
+      frequency_ratio = { from = 0.5, to = 5.5, count = 101 }
+      phase = [0.0, 0.4, 0.8]
+
+    [list] has lists side by side, [random] count, seed and ranges; the points of all three are
+    combined. A range may have spacing = "log". OUTPUT.STATISTIC (mean, rms, minimum, maximum,
+    peak_to_peak, last) is of a run: [run] has drive_periods, steps_per_period and skip_periods.
+
+    \b
+    Examples:
+      python -m harness sweep grid.toml --out table.parquet --plot map.png
+      python -m harness sweep grid.toml --out table.csv --workers 4
+      python -m harness sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
+    """
+    sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
+    distinct({"--out": out, "--plot": plot}, sources)
+    sweep = read_grid(grid)
+    if plot is not None:
+        # Here, for drawing takes longer to load than many sweeps to run.
+        from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
+
+        check_picture(sweep)
+    with progress_bar() as progress:
+        result = run_sweep(
+            sweep,
+            default_fmu(fmu),
+            out,
+            workers=workers or available_cores(),
+            dask=dask,
+            restart=restart,
+            progress=progress,
+        )
+    if plot is not None:
+        draw_sweep(sweep, result.columns, plot)
+    click.echo(_json(result, out) if as_json else _sentences(result, out))
+    context.exit(1 if result.failed else 0)
+
+
+def _json(result: SweepResult, out: Path) -> str:
+    facts = {"points": result.points, "found": result.found, "failed": result.failed}
+    return to_json({"out": str(out), **facts, "first_error": result.first_error})
+
+
+def _sentences(result: SweepResult, out: Path) -> str:
+    lines = [f"written  {out}: {result.points} points"]
+    if result.found:
+        lines.append(f"found    {result.found} of them finished before")
+    if result.failed:
+        lines.append(f"failed   {result.failed} points; the first error: {result.first_error}")
+    return "\n".join(lines)

@@ -1,0 +1,148 @@
+"""`trade`: what accuracy costs, for our models and for others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+
+import click
+
+from slider_resonator.commands.options import Target, default_fmus, json_option
+from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.output.console import progress_bar
+from slider_resonator.output.json_output import to_json
+from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
+from slider_resonator.scenes.scene import find_scene, read_scene, sweep_points
+from slider_resonator.studies.trade.files import write_omissions, write_rows
+from slider_resonator.studies.trade.measure import BUDGET, REPEATS, measure_trade
+from slider_resonator.studies.trade.needs import SUFFIXES, title, write_choices
+from slider_resonator.studies.trade.page import write_trades
+from slider_resonator.studies.trade.plots import draw_picture
+from slider_resonator.studies.trade.result import Trade
+from slider_resonator.studies.trade.summary import comparisons, standings
+from slider_resonator.studies.trade.task import Task, task_of
+
+
+@click.command("trade")
+@click.argument("scenes", nargs=-1)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    required=True,
+    help="Folder for trade.csv, omissions.csv and index.html.",
+)
+@click.option(
+    "--fmu",
+    "fmus",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="FMU to measure; may be given more than once.  [default: those built in dist]",
+)
+@click.option(
+    "--repeats",
+    type=click.IntRange(min=1),
+    default=REPEATS,
+    show_default=True,
+    help="Times that each method is timed, in turn with the others; fewer where its budget ends.",
+)
+@click.option(
+    "--budget",
+    type=click.FloatRange(min=0.0, min_open=True),
+    default=BUDGET,
+    show_default=True,
+    help="CPU time in s for the longest run of a method or its search for steady motion, and as "
+    "much again for repeats.",
+)
+@click.option(
+    "--periods",
+    type=click.IntRange(min=1),
+    help="Cut runs short to so many drive periods.",
+)
+@click.option(
+    "--picture", type=Target(PICTURE_SUFFIXES), help="Picture of the first scene for the README."
+)
+@click.option(
+    "--page",
+    "pages",
+    type=Target(SUFFIXES),
+    multiple=True,
+    help="Markdown or HTML file for the tables from need to model to cost; in a file that has "
+    "them, they go between the lines <!-- trade --> and <!-- end of trade -->.",
+)
+@json_option
+def trade_command(
+    scenes: Sequence[str],
+    out: Path,
+    fmus: Sequence[Path],
+    repeats: int,
+    budget: float,
+    periods: int | None,
+    picture: Path | None,
+    pages: Sequence[Path],
+    as_json: bool,
+) -> None:
+    """Measure error and cost of every model of the FMUs and of other methods on scenes.
+
+    Rows are fidelities, friction laws, communication steps and tolerances, and peers on the same
+    equations; columns are the errors against Taylor integration with located events, CPU time and
+    counts. Scenes are names of built-in ones or files, without any table_1; of a sweep each point
+    is measured. Whatever fidelity a scene asks for, its full device is the truth. Scenes under
+    constant inputs run for at least 1000 drive periods. Needs heyoka, and for CVODE scikit-sundae
+    (pip install 'slider-resonator[peers]'). Leaves with 0, or with 2 when it could not be run.
+
+    \b
+    Examples:
+      python -m harness trade --out trade
+      python -m harness trade table_1 lugre detuned_beat --out trade --picture trade.png
+      python -m harness trade my.toml --out trade --fmu my.fmu --json
+    """
+    tasks = _tasks(scenes or ("table_1",), periods)
+    trades: list[Trade] = []
+    with ExitStack() as stack:
+        progress = stack.enter_context(progress_bar())
+        instances = {}
+        for path in fmus or default_fmus():
+            fmu = stack.enter_context(open_fmu(path))
+            build = "native" if fmu.runs_without_python else "Python"
+            name = build if build not in instances else f"{build} {fmu.path.name}"
+            instances[name] = stack.enter_context(instantiate(fmu))
+        make_folder(out)
+        for task in tasks:
+            trades.append(measure_trade(task, instances, progress, repeats=repeats, budget=budget))
+            # After each scene: what took minutes to measure outlives a later one that fails.
+            write_rows(out / "trade.csv", trades)
+            write_omissions(out / "omissions.csv", trades)
+    write_trades(out / "index.html", trades)
+    if picture is not None:
+        draw_picture(trades[0], picture)
+    for page in pages:
+        write_choices(page, trades)
+    if as_json:
+        click.echo(to_json([_entry(trade) for trade in trades]))
+    else:
+        for trade in trades:
+            _print(trade)
+        click.echo(f"written {out / 'index.html'}")
+
+
+def _tasks(scenes: Sequence[str], periods: int | None) -> list[Task]:
+    tasks = []
+    for path in map(find_scene, scenes):
+        scene = read_scene(path)
+        tasks += [task_of(point, at, periods) for at, point in sweep_points(scene, path)]
+    return tasks
+
+
+def _entry(trade: Trade) -> dict[str, object]:
+    return {"trade": trade, "standings": standings(trade)}
+
+
+def _print(trade: Trade) -> None:
+    click.echo(title(trade))
+    for target, sentences in comparisons(trade):
+        click.echo(f"  {target}")
+        for words in sentences:
+            click.echo(f"    {words}")
+    click.echo(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")

@@ -1,0 +1,84 @@
+"""`validate`: scenes, references, verdicts, and reports for people and CI servers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from slider_resonator.checks.repeated import repeated
+from slider_resonator.checks.validate import validate
+from slider_resonator.checks.verdict import TITLE
+from slider_resonator.commands.options import default_fmus, scenes_option, time_limit_option
+from slider_resonator.commands.reports import Reports, print_verdicts, report_options
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT
+from slider_resonator.output.console import progress_bar
+from slider_resonator.scenes.scene import files_of_scenes
+
+
+@click.command("validate")
+@click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
+@scenes_option("all built-in")
+@click.option(
+    "--details",
+    is_flag=True,
+    help="Show every check of many scenes, every point of a sweep, and the reasons.",
+)
+@time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
+@click.option(
+    "--repeat",
+    type=click.IntRange(min=1),
+    default=1,
+    metavar="N",
+    help="Validate each FMU so often, and say whether that is the same each time; the worst run is "
+    "shown and reported.",
+)
+@report_options
+@click.pass_context
+def validate_command(
+    context: click.Context,
+    fmus: tuple[Path, ...],
+    scenes: tuple[str, ...],
+    details: bool,
+    time_limit: float,
+    repeat: int,
+    junit: Path | None,
+    html: Path | None,
+    json: Path | None,
+) -> None:
+    """Compare FMUs with the references, scene by scene.
+
+    Without FMUS: those that build_fmu.py has built in dist, the native one first. Leaves with 0
+    when every check passes, 1 when one fails, 2 when something could not be run: an FMU that is
+    corrupt, lacks a variable or gives one another unit, has no binary for this platform, cannot be
+    instantiated, refuses a scene, crashes or does not answer in time. The reports are written in
+    each case, and a table is appended to the file that GITHUB_STEP_SUMMARY names.
+
+    \b
+    Examples:
+      python -m harness validate
+      python -m harness validate my.fmu --scene table_1 --details
+      python -m harness validate my.fmu --scene scenes/mine.toml --json > report.json
+      python -m harness validate my.fmu --scene my_scenes --junit report.xml --html report.html
+      python -m harness validate my.fmu --repeat 10
+    """
+    sources = {f"the FMU {path}": path for path in fmus}
+    sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
+    reports = Reports.asked_for(TITLE, junit, html, json, sources)
+    try:
+        files = files_of_scenes(scenes)
+        paths = fmus or default_fmus()
+        with progress_bar() as progress:
+            again = [path for path in paths for _ in range(repeat)]
+            runs = validate(again, files, progress, time_limit=time_limit)
+    except HarnessError as error:
+        reports.write([], str(error))
+        raise
+    found = [repeated(runs[i : i + repeat]) for i in range(0, len(runs), repeat)]
+    validations = [one.worst for one in found]
+    print_verdicts(validations, details=details, as_json=reports.prints_json)
+    if repeat > 1:
+        click.echo("\n".join(one.sentence for one in found), err=reports.prints_json)
+    reports.write(validations)
+    context.exit(max(validation.exit_code for validation in validations))

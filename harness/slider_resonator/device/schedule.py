@@ -1,0 +1,199 @@
+"""Inputs over time, and the communication points at which an FMU gets them."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.interface import INPUT_STARTS
+
+GRID_TOLERANCE = 1e-9
+"""A jump closer to a communication point than this fraction of the step moves that point."""
+
+MOST_STEPS = 3_000_000
+"""Communication steps that a run may have: an hour of table 1 in steps of a drive period has two
+million, and all outputs are kept in memory."""
+
+
+@dataclass(frozen=True)
+class Signal:
+    """An input over time, given by points: held from each point to the next, or a polyline.
+
+    `times` (s) increase strictly. Before the first and after the last point the value is theirs.
+    """
+
+    times: tuple[float, ...]
+    values: tuple[float, ...]
+    hold: bool = True
+
+    def __post_init__(self) -> None:
+        if not self.times:
+            raise ValueError("a signal needs at least one point")
+        if len(self.times) != len(self.values):
+            raise ValueError(
+                f"a signal needs as many values as times: {len(self.times)} times, "
+                f"{len(self.values)} values"
+            )
+        if not np.all(np.isfinite([*self.times, *self.values])):
+            raise ValueError("a signal needs finite times and values")
+        for before, after in zip(self.times, self.times[1:], strict=False):
+            if not after > before:
+                raise ValueError(f"times must increase strictly: {after!r} s follows {before!r} s")
+
+    def at(self, time: float) -> float:
+        """Return the value at `time` (s); at a jump, the value after it."""
+        index = bisect_right(self.times, time) - 1
+        if index < 0:
+            return self.values[0]
+        if self.hold or index == len(self.times) - 1:
+            return self.values[index]
+        left, right = self.times[index], self.times[index + 1]
+        share = (time - left) / (right - left)
+        return self.values[index] + share * (self.values[index + 1] - self.values[index])
+
+    def over(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the values at ascending times (s), shape (n,), each as `at` gives it."""
+        points, values = np.asarray(self.times), np.asarray(self.values)
+        index = np.searchsorted(points, times, side="right") - 1
+        before = values[np.maximum(index, 0)]
+        if self.hold or len(points) == 1:
+            return before
+        left = np.clip(index, 0, len(points) - 2)
+        inside = np.clip(times, points[0], points[-1])
+        share = (inside - points[left]) / (points[left + 1] - points[left])
+        between = values[left] + share * (values[left + 1] - values[left])
+        return np.where((index < 0) | (index == len(points) - 1), before, between)
+
+    @property
+    def jumps(self) -> tuple[float, ...]:
+        """Times (s) at which the value jumps."""
+        return self.times[1:] if self.hold else ()
+
+
+def constant(value: float) -> Signal:
+    """Return a signal that never changes."""
+    return Signal((0.0,), (value,))
+
+
+def steps(points: Sequence[tuple[float, float]]) -> Signal:
+    """Return a signal held at each (time, value) until the next."""
+    return Signal(tuple(t for t, _ in points), tuple(v for _, v in points))
+
+
+def ramp(points: Sequence[tuple[float, float]]) -> Signal:
+    """Return the polyline through the (time, value) points."""
+    return Signal(tuple(t for t, _ in points), tuple(v for _, v in points), hold=False)
+
+
+def communication_points(
+    stop: float, step: float, jumps: Iterable[float] = ()
+) -> NDArray[np.float64]:
+    """Return the times 0, step, 2 step, ..., stop (s) together with the jumps inside, shape (n,).
+
+    A grid point that all but coincides with a jump is replaced by it, so that no step starts just
+    before a jump and holds the old value throughout. Raises ValueError as `step_count` does.
+    """
+    grid = step * np.arange(step_count(stop, step), dtype=np.float64)
+    inside = {time for time in jumps if 0.0 < time < stop}
+    return _giving_way(grid, np.array(sorted({0.0, stop} | inside)), GRID_TOLERANCE * step)
+
+
+def step_count(stop: float, step: float) -> int:
+    """Return how many steps (s) it takes to reach `stop` (s), the last of them perhaps shorter.
+
+    Raises ValueError for times that are not positive and for more than `MOST_STEPS` steps.
+    """
+    if not (stop > 0.0 and step > 0.0):
+        raise ValueError(f"a stop time of {stop!r} s in steps of {step!r} s: both must be positive")
+    ratio = stop / step * (1.0 - GRID_TOLERANCE)
+    if not ratio <= MOST_STEPS:
+        raise ValueError(
+            f"a stop time of {stop:.6g} s in steps of {step:.6g} s makes {ratio:.3g} communication "
+            f"steps; allowed are up to {MOST_STEPS}"
+        )
+    return int(np.ceil(ratio))
+
+
+def _giving_way(
+    grid: NDArray[np.float64], fixed: NDArray[np.float64], distance: float
+) -> NDArray[np.float64]:
+    """Return the sorted `fixed` points and those of the grid that are farther from all of them."""
+    after = np.searchsorted(fixed, grid).clip(max=len(fixed) - 1)
+    before = (after - 1).clip(min=0)
+    nearest = np.minimum(np.abs(grid - fixed[after]), np.abs(grid - fixed[before]))
+    return np.union1d(grid[nearest > distance], fixed)
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """The three inputs and the communication points (s), shape (n,), starting at 0.
+
+    Inputs are sampled at each communication point and held until the next.
+    """
+
+    times: NDArray[np.float64]
+    phase: Signal = field(default_factory=lambda: constant(INPUT_STARTS["phase"]))
+    load: Signal = field(default_factory=lambda: constant(INPUT_STARTS["load"]))
+    frequency_ratio: Signal = field(
+        default_factory=lambda: constant(INPUT_STARTS["frequency_ratio"])
+    )
+
+    def sampled(self) -> NDArray[np.float64]:
+        """Return phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
+        signals = (self.phase, self.load, self.frequency_ratio)
+        return np.column_stack([signal.over(self.times) for signal in signals])
+
+    def refined(self, begin: float, step: float) -> Schedule:
+        """Return the same held inputs with more points from `begin` (s) on.
+
+        They are `step` (s) apart, give or take a hundredth of it beside a point of this
+        schedule: those all stay, to the last digit.
+        """
+        begin, stop = max(0.0, begin), float(self.times[-1])
+        fine = np.linspace(begin, stop, step_count(stop - begin, step) + 1)
+        return self.read_at(fine, 0.01 * step)
+
+    def read_at(self, times: NDArray[np.float64], distance: float) -> Schedule:
+        """Return the same held inputs with more points, at `times` (s), shape (m,).
+
+        Those within `distance` (s) of a point of this schedule are left out.
+        """
+        merged = _giving_way(times, self.times, distance)
+        return Schedule(merged, *map(self._as_held, (self.phase, self.load, self.frequency_ratio)))
+
+    def _as_held(self, signal: Signal) -> Signal:
+        """Return a signal as it is held between the points of this schedule."""
+        if len(signal.times) == 1:
+            return signal
+        return Signal(tuple(self.times.tolist()), tuple(signal.over(self.times).tolist()))
+
+    def held(self) -> list[HeldInputs]:
+        """Return the inputs as the FMU sees them, equal neighbours merged into one interval."""
+        sampled = self.sampled()[:-1]
+        changes = np.flatnonzero(np.any(sampled[1:] != sampled[:-1], axis=1)) + 1
+        starts = [0, *changes.tolist()]
+        stops = [*changes.tolist(), len(sampled)]
+        return [
+            HeldInputs(float(self.times[i]), float(self.times[j]), *map(float, sampled[i]))
+            for i, j in zip(starts, stops, strict=True)
+        ]
+
+
+def schedule(
+    stop: float,
+    step: float,
+    *,
+    phase: Signal | None = None,
+    load: Signal | None = None,
+    frequency_ratio: Signal | None = None,
+) -> Schedule:
+    """Return the schedule over [0, stop] (s) with a step (s) and all jumps as points."""
+    given = {"phase": phase, "load": load, "frequency_ratio": frequency_ratio}
+    signals = {name: signal for name, signal in given.items() if signal is not None}
+    jumps = [time for signal in signals.values() for time in signal.jumps]
+    return Schedule(communication_points(stop, step, jumps), **signals)

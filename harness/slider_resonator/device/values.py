@@ -1,0 +1,31 @@
+"""Values of parameters and inputs that no FMU with this interface could take."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from slider_resonator.device.interface import INTEGERS
+
+LARGEST_INTEGER = 2**31 - 1
+"""FMI 2.0 passes Integers as C ints, which would silently lose the upper bits of more."""
+
+
+def check_value(name: str, value: float) -> None:
+    """Raise ValueError, with name, value and what is allowed; ranges are left to the FMU.
+
+    The drive frequency is an exception: the harness needs it to count drive periods.
+    """
+    if name in INTEGERS:
+        check_integer(name, value)
+    elif not isfinite(value):
+        raise ValueError(f"{name} = {value!r}: allowed is a finite number")
+    elif name == "drive_frequency" and not value > 0.0:
+        raise ValueError(f"{name} = {value!r}: allowed is a number above 0")
+
+
+def check_integer(name: str, value: float) -> None:
+    """Raise ValueError, with name, value and what is allowed, unless it is an FMI Integer."""
+    if not float(value).is_integer():
+        raise ValueError(f"{name} = {value!r}: allowed is an integer")
+    if abs(value) > LARGEST_INTEGER:
+        raise ValueError(f"{name} = {value!r}: allowed is an integer up to {LARGEST_INTEGER}")

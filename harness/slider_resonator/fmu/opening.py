@@ -1,0 +1,113 @@
+"""Opening an FMU: the archive, its description, and whether it has the interface."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import fmpy
+from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
+
+from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu.interface_check import interface_problems
+from slider_resonator.names import unknown_name
+
+
+@dataclass(frozen=True)
+class Fmu:
+    """An FMU unpacked in a folder that lasts as long as the `open_fmu` block."""
+
+    path: Path
+    folder: Path
+    description: ModelDescription
+    variables: Mapping[str, ModelVariable]
+
+    @property
+    def identifier(self) -> str:
+        """The model identifier, which is also the name of the binary."""
+        return str(self.description.coSimulation.modelIdentifier)
+
+    @property
+    def runs_without_python(self) -> bool:
+        """Whether a host without Python can load it: it carries no Python sources to run."""
+        return not any((self.folder / "resources").glob("*.py"))
+
+    @property
+    def takes_equal_steps_only(self) -> bool:
+        """Whether all communication steps of a run must have one size, as the FMU says."""
+        return not self.description.coSimulation.canHandleVariableCommunicationStepSize
+
+    def settable(self, name: str) -> ModelVariable:
+        """Return the parameter or input called `name`; FmuError names the nearest if none is."""
+        allowed = [*PARAMETERS, *INPUTS]
+        if name not in allowed:
+            raise FmuError(unknown_name("parameter or input", name, allowed))
+        return self.variables[name]
+
+
+@contextmanager
+def open_fmu(path: str | Path) -> Iterator[Fmu]:
+    """Unpack the FMU at `path` for the length of the block.
+
+    Raises FmuError when it is no FMI 2.0 co-simulation FMU, lacks a variable of the interface,
+    gives one of them another causality, type or unit, or has no binary for this platform.
+    """
+    path = Path(path)
+    description = _read_description(path)
+    variables = {variable.name: variable for variable in description.modelVariables}
+    _check_interface(path, description)
+    folder = Path(tempfile.mkdtemp(prefix="slider-resonator-"))
+    try:
+        try:
+            fmpy.extract(path, folder)
+        except Exception as error:  # fmpy raises bare Exception for illegal paths
+            raise FmuError(f"{path}: cannot be unpacked: {error}") from error
+        yield Fmu(path, folder, description, variables)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _read_description(path: Path) -> ModelDescription:
+    if path.is_dir():
+        raise FmuError(f"{path}: is a directory; allowed is an FMU file")
+    if not path.is_file():
+        raise FmuError(f"{path}: no such file")
+    if not zipfile.is_zipfile(path):
+        raise FmuError(f"{path}: not an FMU: it is no zip archive")
+    try:
+        version = _fmi_version(path)
+        if version != "2.0":
+            raise FmuError(f"{path}: FMI version {version}; allowed is 2.0")
+        return read_model_description(str(path))
+    except FmuError:
+        raise
+    except Exception as error:  # fmpy, lxml and the schema each raise their own
+        raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
+
+
+def _fmi_version(path: Path) -> str:
+    """Return the version that the description claims, before anything else in it is believed."""
+    with zipfile.ZipFile(path) as archive:
+        if "modelDescription.xml" not in archive.namelist():
+            raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml")
+        with archive.open("modelDescription.xml") as file:
+            _, root = next(iter(ET.iterparse(file, events=("start",))))
+            return str(root.get("fmiVersion", "unknown"))
+
+
+def _check_interface(path: Path, description: ModelDescription) -> None:
+    if description.coSimulation is None:
+        raise FmuError(f"{path}: an FMU for model exchange only; allowed is co-simulation")
+    problems = interface_problems(description)
+    platforms = fmpy.supported_platforms(str(path))
+    if not problems and fmpy.platform not in platforms:
+        problems.append(f"no binary for {fmpy.platform}, only for {', '.join(platforms) or 'none'}")
+    if problems:
+        raise FmuError(f"{path}: not usable as a slider-resonator: {'; '.join(problems)}")

@@ -1,0 +1,80 @@
+"""Where results may go, judged before anything is run: no run is lost and no file harmed."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from slider_resonator.errors import HarnessError
+
+PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
+
+
+def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
+    """Return the path of a file that can be written, or replaced: a regular one or none as yet.
+
+    Raises HarnessError, also for a suffix other than one of `suffixes` where some are given.
+    """
+    if not text:
+        raise HarnessError("'' names no file; allowed is the name of a file")
+    path = Path(text)
+    try:
+        mode = path.lstat().st_mode
+    except FileNotFoundError:
+        mode = stat.S_IFREG
+    except OSError as error:
+        raise HarnessError(f"{path}: cannot be written: {error.strerror}") from error
+    if not stat.S_ISREG(mode):
+        raise HarnessError(f"{path} is {_kind(mode)}; allowed is a regular file or a new one")
+    if suffixes and path.suffix.lower() not in suffixes:
+        allowed = ", ".join(suffixes)
+        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; allowed is one of {allowed}")
+    if not path.parent.is_dir():
+        raise HarnessError(f"{path}: there is no folder {path.parent}; create it first")
+    if not os.access(path.parent, os.W_OK):
+        raise HarnessError(f"{path}: the folder {path.parent} cannot be written to")
+    return path
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder for results where there is none; HarnessError when that is impossible."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise HarnessError(f"{path}: cannot be made a folder: {error.strerror}") from error
+
+
+def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) -> None:
+    """Refuse a target, by the option's name, that is a source or another target.
+
+    Raises HarnessError.
+    """
+    taken = dict(sources)
+    for option, path in targets.items():
+        if path is None:
+            continue
+        for name, other in taken.items():
+            if _same(path, other):
+                raise HarnessError(f"{option} {path} is {name}; allowed is a file of its own")
+        taken[f"the file of {option}"] = path
+
+
+def _same(one: Path, other: Path) -> bool:
+    """Whether two paths are one file, also under two names or before it exists."""
+    if one.exists() and other.exists():
+        return one.samefile(other)
+    return one.resolve() == other.resolve()
+
+
+def _kind(mode: int) -> str:
+    kinds = (
+        (stat.S_ISDIR, "a directory"),
+        (stat.S_ISLNK, "a symbolic link"),
+        (stat.S_ISCHR, "a device"),
+        (stat.S_ISBLK, "a device"),
+        (stat.S_ISFIFO, "a pipe"),
+        (stat.S_ISSOCK, "a socket"),
+    )
+    return next((words for test, words in kinds if test(mode)), "no regular file")

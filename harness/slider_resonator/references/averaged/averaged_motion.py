@@ -1,0 +1,131 @@
+"""The averaged motion of a device, dimensional, for both friction laws.
+
+The slow velocity V obeys ``total_mass V' = -friction - load``, friction being the mean over the
+fast motion of the slider with velocity ``V - v_q cos(theta - theta1)``. Near an integer n the
+frequency ratio lets the phase of the normal load drift slowly, by (ratio - n) w, which is appendix
+A of the paper for every n; a clipped load does so near fractions too; elsewhere the mean counts.
+The fast motion is that of (32)-(34).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.references.averaged import averaged_coulomb, uniform_average
+from slider_resonator.references.averaged.averaged_coulomb import slow_start
+from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
+from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
+from slider_resonator.references.phase import advanced
+
+Array = NDArray[np.float64]
+
+NEAR_AN_INTEGER = 0.1
+"""Greatest distance of the frequency ratio from an integer at which the phase counts as slow; for a
+load that repeats after several turns, of that many times the ratio, times the turns."""
+
+
+@dataclass(frozen=True)
+class AveragedMotion:
+    """Averaged motion at ``time``: arrays of shape (n,), SI units.
+
+    ``mean_velocity`` is the slow velocity; ``position`` and ``velocity`` carry the fast motion.
+    """
+
+    time: Array
+    position: Array
+    velocity: Array
+    mean_velocity: Array
+
+
+def mean_friction(
+    device: Device, force: EquivalentForce, velocity: float, lead: float, ratio: float
+) -> float:
+    """Return the mean friction in N at a slow velocity in m/s.
+
+    ``lead`` in rad is how far the normal load is ahead of ``ratio`` times the base excitation; the
+    phase counts only for an integer ratio. Raises ValueError for values out of bounds.
+    """
+    amplitude_ratio = device.normal_amplitude / device.normal_preload
+    phase = lead + ratio * force.angle
+    fast, scale = force.velocity_amplitude, device.friction_faces * device.normal_preload
+    if device.friction_law == 0:
+        share = averaged_coulomb.mean_friction(velocity, fast, amplitude_ratio, phase, ratio)
+        return scale * device.friction_coefficient * share
+    case = LugreCase(
+        fast, amplitude_ratio, phase, device.friction_coefficient, device.bristle_damping
+    )
+    return scale * uniform_average.mean_friction(
+        velocity, case, device.bristle_stiffness, device.drive_frequency, ratio
+    )
+
+
+def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> AveragedMotion:
+    """Return the averaged motion under held inputs at ``times`` (shape (n,), s).
+
+    ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
+    start. The initial values fix the momentum and the centre of slider and resonator; right after
+    the start the fast motion is the steady one, whatever they are. Raises ValueError for inputs
+    with gaps, times outside them, and where
+    `equivalent_force` does; RuntimeError when the slow motion cannot be integrated.
+    """
+    check_contiguous(held)
+    check_times(times, held)
+    force = equivalent_force(device)
+    share = device.mass_ratio
+    slow = device.initial_velocity + share * device.initial_resonator_velocity + slow_start(device)
+    centre = device.initial_position + share * device.initial_resonator_displacement
+    theta = psi = 0.0
+    rows = np.empty((0, 3))
+    for inputs in held:
+        wanted = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
+        grid = np.union1d(wanted, [0.0, inputs.stop - inputs.start])
+        slope = _slow_acceleration(device, force, inputs, theta, psi)
+        moved, velocity = slow_course(slope, grid, slow / force.velocity_amplitude)
+        moved, velocity = force.velocity_amplitude * moved, force.velocity_amplitude * velocity
+        places = np.searchsorted(grid, wanted)
+        angle = theta + device.drive_frequency * wanted - force.angle
+        position = centre + moved[places] - force.ripple_amplitude * np.sin(angle)
+        fast = -force.velocity_amplitude * np.cos(angle)
+        slow_there = velocity[places]
+        rows = np.vstack([rows, np.column_stack([position, slow_there + fast, slow_there])])
+        centre += float(moved[-1])
+        slow = float(velocity[-1])
+        turned = device.drive_frequency * float(grid[-1])
+        theta, psi = advanced(theta, turned), advanced(psi, inputs.frequency_ratio * turned)
+    if times.size and times[0] == held[0].start:
+        rows[0, :2] = device.initial_position, device.initial_velocity
+    return AveragedMotion(times, *rows.T)
+
+
+def _slow_acceleration(
+    device: Device, force: EquivalentForce, inputs: HeldInputs, theta: float, psi: float
+) -> Callable[[float, float], float]:
+    """Return the rate of V as a function of time and V, both V in units of the fast velocity.
+
+    Time is that since the inputs were set, where base excitation and normal load have the angles
+    ``theta`` and ``psi``.
+    """
+    amplitude_ratio = device.normal_amplitude / device.normal_preload
+    turns = turns_until_repeat(amplitude_ratio, inputs.frequency_ratio, NEAR_AN_INTEGER)
+    ratio = inputs.frequency_ratio
+    if turns:
+        ratio = round(turns * ratio) / turns
+    lead = inputs.phase + psi - ratio * theta
+    drift = (inputs.frequency_ratio - ratio) * device.drive_frequency
+    momentum = device.total_mass * force.velocity_amplitude
+
+    def acceleration(time: float, velocity: float) -> float:
+        friction = mean_friction(
+            device, force, force.velocity_amplitude * velocity, lead + drift * time, ratio
+        )
+        return -(friction + inputs.load) / momentum
+
+    return acceleration

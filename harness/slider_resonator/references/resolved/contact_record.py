@@ -1,0 +1,36 @@
+"""The sequence of contact modes of a run, and the counts taken from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from slider_resonator.references.resolved.contact import SLIP_BACKWARD, SLIP_FORWARD, STICK
+
+
+@dataclass
+class ContactRecord:
+    """Counts reversals and sticks as ``Trajectory`` defines them while the modes are entered."""
+
+    mode: int | None = None
+    last_slip: int | None = None
+    reversals: int = 0
+    sticks: int = 0
+    stick_time: float = 0.0
+    event_times: list[float] = field(default_factory=list)
+
+    def enter(self, mode: int, time: float) -> None:
+        """Enter a contact mode at a time in s; entering the present mode changes nothing."""
+        if mode == self.mode:
+            return
+        if self.mode is not None:
+            self.event_times.append(time)
+            self.sticks += mode == STICK
+        if mode in (SLIP_BACKWARD, SLIP_FORWARD):
+            self.reversals += self.last_slip == -mode
+            self.last_slip = mode
+        self.mode = mode
+
+    def stay(self, duration: float) -> None:
+        """Stay in the present mode for a duration in s."""
+        if self.mode == STICK:
+            self.stick_time += duration

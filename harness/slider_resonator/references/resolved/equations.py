@@ -1,0 +1,266 @@
+"""The dimensional equations of motion (26)-(27) of one device, and of its fidelity 1 form."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.references.resolved.contact import LIFTED, STICK
+
+State = tuple[float, float, float, float]
+"""Position m, velocity m/s, resonator displacement m, resonator velocity m/s."""
+
+Number = TypeVar("Number", float, NDArray[np.float64])
+
+_RESONANCE_RESOLUTION = 1e-12
+
+
+@dataclass(frozen=True)
+class Equations:
+    """Coefficients, in SI units, of the motion between two events.
+
+    With ``s`` the slip direction, theta the drive angle and psi the angle of the normal load::
+
+        inertia X'' = needed_force - s (friction_mean + friction_amplitude sin psi)
+        needed_force = coupling_damping Y' + coupling_stiffness Y
+                       + force_sine sin theta + force_cosine cos theta - load
+        Y'' = base_acceleration sin theta - damping_rate Y' - stiffness_rate Y - X''
+
+    In fidelity 1 the force terms carry the whole vibration, ``steady_resonator`` is the complex
+    amplitude of the resonator, Im(steady_resonator e^{i theta}), and the Y of these equations is
+    an idle state without any effect on X.
+    """
+
+    drive_frequency: float
+    inertia: float
+    coupling_damping: float
+    coupling_stiffness: float
+    force_sine: float
+    force_cosine: float
+    base_acceleration: float
+    damping_rate: float
+    stiffness_rate: float
+    friction_mean: float
+    friction_amplitude: float
+    normal_preload: float
+    normal_amplitude: float
+    steady_resonator: complex | None
+
+    def needed_force(
+        self, load: float, theta: Number, displacement: Number, velocity: Number
+    ) -> Number:
+        """Return the force in N that friction needs to hold the slider at constant velocity.
+
+        ``displacement`` and ``velocity`` are those of the resonator.
+        """
+        sine: Number = np.sin(theta)
+        cosine: Number = np.cos(theta)
+        return (
+            self.coupling_damping * velocity
+            + self.coupling_stiffness * displacement
+            + self.force_sine * sine
+            + self.force_cosine * cosine
+            - load
+        )
+
+    def friction_limit(self, angle: Number) -> Number:
+        """Return the greatest friction force in N at the angle psi + phase of the normal load."""
+        sine: Number = np.sin(angle)
+        return self.friction_mean + self.friction_amplitude * sine
+
+    def slopes(
+        self,
+        mode: int | None,
+        load: float,
+        theta: float,
+        angle: float,
+        frequency_ratio: float,
+        width: float = 0.0,
+    ) -> Callable[[float, NDArray[np.float64]], list[float]]:
+        """Return the time derivative of the state as a function of time (s) and state (4).
+
+        ``theta`` and ``angle`` are those at time 0. Within a contact mode the derivative is smooth;
+        with mode None friction follows the sign of the velocity at every instant, or with a
+        ``width`` in m/s its regularisation tanh(velocity / width).
+        """
+        sin, cos, tanh = math.sin, math.cos, math.tanh
+        rate, angle_rate = self.drive_frequency, frequency_ratio * self.drive_frequency
+        coupling_damping, coupling_stiffness = self.coupling_damping, self.coupling_stiffness
+        force_sine, force_cosine = self.force_sine, self.force_cosine
+        base, damping, stiffness = self.base_acceleration, self.damping_rate, self.stiffness_rate
+        mean, amplitude = self.friction_mean, self.friction_amplitude
+        inertia = self.inertia
+        slides = mode != STICK
+        fixed_direction = 0 if mode is None or mode == LIFTED else mode
+
+        def slopes(time: float, state: NDArray[np.float64]) -> list[float]:
+            _, velocity, displacement, resonator_velocity = state.tolist()
+            sine = sin(theta + rate * time)
+            resonator = base * sine - damping * resonator_velocity - stiffness * displacement
+            if not slides:
+                return [0.0, 0.0, resonator_velocity, resonator]
+            direction: float = fixed_direction
+            force = (
+                coupling_damping * resonator_velocity
+                + coupling_stiffness * displacement
+                + force_sine * sine
+                - load
+            )
+            if force_cosine:
+                force += force_cosine * cos(theta + rate * time)
+            limit = mean + amplitude * sin(angle + angle_rate * time)
+            if mode is None:
+                limit = max(0.0, limit)
+                direction = tanh(velocity / width) if width else (velocity > 0.0) - (velocity < 0.0)
+            acceleration = (force - direction * limit) / inertia
+            return [velocity, acceleration, resonator_velocity, resonator - acceleration]
+
+        return slopes
+
+    def contact_forces(
+        self,
+        mode: int,
+        load: float,
+        theta: NDArray[np.float64],
+        angle: NDArray[np.float64],
+        states: NDArray[np.float64],
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return normal and friction force in N along states of shape (n, 4) in one mode."""
+        if mode == LIFTED:
+            return np.zeros(len(theta)), np.zeros(len(theta))
+        normal = np.maximum(0.0, self.normal_preload + self.normal_amplitude * np.sin(angle))
+        if mode == STICK:
+            return normal, self.needed_force(load, theta, states[:, 2], states[:, 3])
+        return normal, mode * np.maximum(0.0, self.friction_limit(angle))
+
+    def resonator_motion(
+        self, theta: NDArray[np.float64], states: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the displacement in m and velocity in m/s of the resonator along states (n, 4)."""
+        if self.steady_resonator is None:
+            return states[:, 2], states[:, 3]
+        rotating: NDArray[np.complex128] = self.steady_resonator * np.exp(1j * theta)
+        return rotating.imag, self.drive_frequency * rotating.real
+
+    def fastest_rate(self, frequency_ratio: float) -> float:
+        """Return the greatest of all rates in rad/s of the motion in slip, stick and flight."""
+        damping = self.damping_rate + self.coupling_damping / self.inertia
+        stiffness = self.stiffness_rate + self.coupling_stiffness / self.inertia
+        root = 0.5 * damping + cmath.sqrt(0.25 * damping**2 - stiffness)
+        return max(self.drive_frequency * max(1.0, abs(frequency_ratio)), abs(root))
+
+    def state_scales(self, load: float) -> NDArray[np.float64]:
+        """Return characteristic sizes of the state, shape (4,), for absolute tolerances.
+
+        They are what the forces, apart from the resonator's, would reach in 1 / drive_frequency.
+        Never zero, even without any force.
+        """
+        velocity = self.force_scale(load) / (self.inertia * self.drive_frequency)
+        displacement = velocity / self.drive_frequency
+        scales = np.array([displacement, velocity, displacement, velocity])
+        return scales.clip(min=float(np.finfo(float).tiny))
+
+    def force_scale(self, load: float) -> float:
+        """Return a force in N that bounds what moves the slider apart from the resonator."""
+        return (
+            self.inertia * self.base_acceleration
+            + abs(self.force_sine)
+            + abs(self.force_cosine)
+            + self.friction_mean
+            + self.friction_amplitude
+            + abs(load)
+        )
+
+
+def equations_of(device: Device) -> Equations:
+    """Return the equations of motion of a device with Coulomb friction.
+
+    Raises ValueError for another friction law, for fidelity 0, for a negative normal load, and in
+    fidelity 1 for an undamped resonator at its slipping resonance, where (32) has no value.
+    """
+    if device.friction_law != 0:
+        raise ValueError(f"friction_law = {device.friction_law!r}: only 0 (Coulomb) is covered")
+    if device.fidelity not in (1, 2):
+        raise ValueError(f"fidelity = {device.fidelity!r}: only 1 and 2 are covered")
+    for name in ("normal_preload", "normal_amplitude"):
+        if not getattr(device, name) >= 0.0:
+            raise ValueError(f"{name} = {getattr(device, name)!r} N must be at least 0")
+    if device.fidelity == 1:
+        return _rigid_equations(device)
+    return Equations(
+        drive_frequency=device.drive_frequency,
+        inertia=device.slider_mass,
+        coupling_damping=device.damping,
+        coupling_stiffness=device.stiffness,
+        force_sine=device.tangential_force,
+        force_cosine=0.0,
+        base_acceleration=device.base_amplitude * device.drive_frequency**2,
+        damping_rate=2.0 * device.damping_ratio * device.resonator_frequency,
+        stiffness_rate=device.resonator_frequency**2,
+        friction_mean=_friction_coefficient(device) * device.normal_preload,
+        friction_amplitude=_friction_coefficient(device) * device.normal_amplitude,
+        normal_preload=device.normal_preload,
+        normal_amplitude=device.normal_amplitude,
+        steady_resonator=None,
+    )
+
+
+def initial_state(device: Device) -> State:
+    """Return the initial state; in fidelity 1 the resonator has none of its own."""
+    if device.fidelity == 1:
+        return (device.initial_position, device.initial_velocity, 0.0, 0.0)
+    return (
+        device.initial_position,
+        device.initial_velocity,
+        device.initial_resonator_displacement,
+        device.initial_resonator_velocity,
+    )
+
+
+def _friction_coefficient(device: Device) -> float:
+    return device.friction_faces * device.friction_coefficient
+
+
+def _rigid_equations(device: Device) -> Equations:
+    frequency = device.drive_frequency
+    base_acceleration = device.base_amplitude * frequency**2
+    mobility = 1.0 / (1.0 - device.mass_ratio)
+    response = complex(
+        mobility * device.resonator_frequency**2 - frequency**2,
+        2.0 * device.damping_ratio * device.resonator_frequency * mobility * frequency,
+    )
+    if abs(response) <= _RESONANCE_RESOLUTION * frequency**2:
+        raise ValueError(
+            f"damping_ratio = {device.damping_ratio!r} at resonator_frequency = "
+            f"{device.resonator_frequency!r} rad/s, the slipping resonance: fidelity 1 needs a "
+            "steady state, damping_ratio must be greater than 0 or the frequencies differ"
+        )
+    resonator = (base_acceleration - device.tangential_force / device.slider_mass) / response
+    force = (
+        device.resonator_mass * base_acceleration
+        + device.tangential_force
+        + device.resonator_mass * frequency**2 * resonator
+    )
+    return Equations(
+        drive_frequency=frequency,
+        inertia=device.total_mass,
+        coupling_damping=0.0,
+        coupling_stiffness=0.0,
+        force_sine=force.real,
+        force_cosine=force.imag,
+        base_acceleration=0.0,
+        damping_rate=0.0,
+        stiffness_rate=0.0,
+        friction_mean=_friction_coefficient(device) * device.normal_preload,
+        friction_amplitude=_friction_coefficient(device) * device.normal_amplitude,
+        normal_preload=device.normal_preload,
+        normal_amplitude=device.normal_amplitude,
+        steady_resonator=resonator,
+    )

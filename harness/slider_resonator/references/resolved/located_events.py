@@ -1,0 +1,186 @@
+"""The full equations by scipy, with every change of contact mode located; DOP853 is the reference.
+
+Within one contact mode the equations are smooth, so the high order method keeps its order; at
+events the mode changes by the contact law. Steps are bounded by a fraction of the fastest period,
+and each is searched on a finer grid with slopes, so that no pair of close roots is stepped over.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import OdeSolver
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.contact import LIFTED, STICK
+from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
+from slider_resonator.references.resolved.first_crossing import first_crossing
+from slider_resonator.references.resolved.mode_sequence import ModeSequence
+from slider_resonator.references.resolved.passage import Follow, Passage, Stretch
+from slider_resonator.references.resolved.scipy_methods import scipy_method
+from slider_resonator.references.resolved.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+Dense = Callable[[float | Array], Array]
+
+STEPS_PER_FASTEST_PERIOD = 16
+_SEARCHED_PER_STEP = 8
+_NOISE = 1e-15
+
+
+def simulate(
+    device: Device,
+    held: Sequence[HeldInputs],
+    times: Array,
+    *,
+    method: str = "DOP853",
+    rtol: float = 1e-12,
+    atol: float = 1e-14,
+    steps_per_period: int = STEPS_PER_FASTEST_PERIOD,
+) -> Trajectory:
+    """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
+
+    ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
+    start. A sample on a boundary between inputs belongs to the inputs before it. ``rtol`` is the
+    relative tolerance of every step, ``atol`` the absolute one in fractions of a characteristic
+    velocity and displacement. ``method`` is DOP853, LSODA or Radau; the fastest period takes at
+    least ``steps_per_period`` steps, which costs a loose tolerance more than it asks for. Counts
+    cover the whole span of the inputs. Raises ValueError for a device that the equations do not
+    cover, another method, inputs with gaps, and times outside them.
+    """
+    equations = equations_of(device)
+    follow = _follow_with(equations, scipy_method(method), rtol, atol, steps_per_period)
+    return ModeSequence(equations, follow, initial_state(device), times).run(held)
+
+
+def _follow_with(
+    equations: Equations, method: type[OdeSolver], rtol: float, atol: float, steps_per_period: int
+) -> Follow:
+    def follow(stretch: Stretch) -> Passage:
+        return _Motion(equations, stretch).follow(method, rtol, atol, steps_per_period)
+
+    return follow
+
+
+class _Motion:
+    """One stretch of motion: its right hand side, its events, and its integration.
+
+    The integrated states are (displacement since the start of the stretch, velocity, Y, Y').
+    """
+
+    def __init__(self, equations: Equations, stretch: Stretch) -> None:
+        self._equations = equations
+        self._stretch = stretch
+        self._rate = equations.drive_frequency
+        self._angle_rate = stretch.frequency_ratio * equations.drive_frequency
+
+    def follow(
+        self, method: type[OdeSolver], rtol: float, atol: float, steps_per_period: int
+    ) -> Passage:
+        stretch = self._stretch
+        fastest = self._equations.fastest_rate(stretch.frequency_ratio)
+        longest_step = 2.0 * math.pi / fastest / steps_per_period
+        solver: Any = method(
+            self._equations.slopes(
+                stretch.mode, stretch.load, stretch.theta, stretch.angle, stretch.frequency_ratio
+            ),
+            0.0,
+            np.array([0.0, *stretch.state[1:]]),
+            stretch.span,
+            first_step=min(longest_step, stretch.span),
+            max_step=longest_step,
+            rtol=rtol,
+            atol=atol * self._equations.state_scales(stretch.load),
+        )
+        steps = 0
+        samples: list[Array] = []
+        event = 0
+        time, state = 0.0, solver.y
+        while solver.status == "running" and not event:
+            message = solver.step()
+            if solver.status == "failed":
+                raise RuntimeError(
+                    f"{method.__name__} failed at {solver.t!r} s into a stretch of mode "
+                    f"{stretch.mode}: {message}; use a greater rtol"
+                )
+            steps += 1
+            dense = solver.dense_output()
+            time, state = solver.t, solver.y
+            crossing = self._first_event(dense, solver.t_old, solver.t)
+            if crossing is not None:
+                time, event = crossing
+                state = dense(time)
+            after = np.searchsorted(stretch.samples, [solver.t_old, time], side="right")
+            first = 0 if steps == 1 else int(after[0])
+            if after[1] > first:
+                samples.append(dense(stretch.samples[first : after[1]]).T)
+        sampled = np.concatenate([np.empty((0, 4)), *samples])
+        sampled[:, 0] += stretch.state[0]
+        return Passage(
+            duration=float(time),
+            state=(
+                stretch.state[0] + float(state[0]),
+                float(state[1]),
+                float(state[2]),
+                float(state[3]),
+            ),
+            event=event,
+            samples=sampled,
+            steps=steps,
+            evaluations=solver.nfev,
+        )
+
+    def _first_event(self, dense: Dense, start: float, stop: float) -> tuple[float, int] | None:
+        """Return time (s) and direction of the first event within a step, None if there is none."""
+        if self._stretch.mode == LIFTED:
+            return None
+        grid = np.linspace(start, stop, _SEARCHED_PER_STEP + 1)
+        states = dense(grid)
+        crossings = []
+        for event in (-self._stretch.mode,) if self._stretch.mode else (1, -1):
+            margin = partial(self._margin_at, dense, event)
+            values, slopes = self._margin(event, grid, states)
+            floor = _NOISE * float(np.abs(values).max())
+            crossing = first_crossing(grid, values, slopes, margin, floor)
+            if crossing is not None:
+                crossings.append((crossing, event))
+        return min(crossings, default=None)
+
+    def _margin_at(self, dense: Dense, event: int, time: float) -> tuple[float, float]:
+        value, slope = self._margin(event, time, dense(time))
+        return float(value), float(slope)
+
+    def _margin(self, event: int, time: float | Array, states: Array) -> tuple[Array, Array]:
+        """Return how far the event is, and the rate of that: it happens where the margin is 0.
+
+        In a slip the margin is the velocity in the slip direction, in a stick the friction left
+        before the slider breaks loose in the direction ``event``.
+        """
+        equations, stretch = self._equations, self._stretch
+        _, velocity, displacement, resonator_velocity = states
+        theta = stretch.theta + self._rate * np.asarray(time)
+        angle = stretch.angle + self._angle_rate * np.asarray(time)
+        needed = equations.needed_force(stretch.load, theta, displacement, resonator_velocity)
+        limit = equations.friction_limit(angle)
+        if stretch.mode != STICK:
+            acceleration = (needed - stretch.mode * limit) / equations.inertia
+            return stretch.mode * velocity, stretch.mode * acceleration
+        resonator_acceleration = (
+            equations.base_acceleration * np.sin(theta)
+            - equations.damping_rate * resonator_velocity
+            - equations.stiffness_rate * displacement
+        )
+        needed_rate = (
+            equations.coupling_damping * resonator_acceleration
+            + equations.coupling_stiffness * resonator_velocity
+            + self._rate
+            * (equations.force_sine * np.cos(theta) - equations.force_cosine * np.sin(theta))
+        )
+        limit_rate = self._angle_rate * equations.friction_amplitude * np.cos(angle)
+        return limit - event * needed, limit_rate - event * needed_rate

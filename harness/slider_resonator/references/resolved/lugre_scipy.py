@@ -1,0 +1,189 @@
+"""LuGre friction by scipy, straight on the full state: slow, and shares no method with the referee.
+
+The bristle is integrated as it stands in (8), |v| and the open contact are not treated as events.
+An implicit method, because stiff bristles are stiff here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.references.resolved.contact import LIFTED
+from slider_resonator.references.resolved.equations import initial_state
+from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
+from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
+from slider_resonator.references.resolved.scipy_methods import scipy_method
+
+Array = NDArray[np.float64]
+
+_STEPS_PER_FASTEST_PERIOD = 16
+
+
+def simulate_lugre(
+    device: Device,
+    held: Sequence[HeldInputs],
+    times: Array,
+    *,
+    method: str = "LSODA",
+    rtol: float = 1e-11,
+    atol: float = 1e-13,
+) -> LugreTrajectory:
+    """Return the motion with LuGre friction (8) under held inputs at ``times`` (shape (n,), s).
+
+    Takes the inputs that ``lugre_taylor.simulate_lugre`` takes. ``method`` is LSODA, Radau
+    or, for soft bristles, DOP853, ``atol`` is in fractions of characteristic sizes of the states.
+    Reversals are counted between the ends of steps, and ``event_times`` is empty. Raises ValueError
+    as the other does, and for another method; RuntimeError if a step fails.
+    """
+    solver = scipy_method(method)
+    check_contiguous(held)
+    check_times(times, held)
+    run = _Run(device, lugre_equations_of(device), times)
+    for inputs in held:
+        run.follow(inputs, solver, rtol, atol)
+    return LugreTrajectory(
+        time=times,
+        position=run.signals[:, 0],
+        velocity=run.signals[:, 1],
+        resonator_displacement=run.signals[:, 2],
+        resonator_velocity=run.signals[:, 3],
+        normal_force=run.signals[:, 4],
+        friction_force=run.signals[:, 5],
+        contact_mode=run.signals[:, 6].astype(np.int64),
+        bristle_deflection=run.signals[:, 7],
+        reversals=run.reversals,
+        sticks=0,
+        stick_time=0.0,
+        event_times=np.empty(0),
+        steps=run.steps,
+        evaluations=run.evaluations,
+    )
+
+
+class _Run:
+    """The state (position, velocity, Y, Y', z) of a run between held inputs, samples and counts."""
+
+    def __init__(self, device: Device, lugre: LugreEquations, times: Array) -> None:
+        self.signals = np.empty((len(times), 8))
+        self.reversals = 0
+        self.steps = 0
+        self.evaluations = 0
+        self._lugre = lugre
+        self._equations = lugre.equations
+        self._stiffness = device.bristle_stiffness
+        self._damping = device.bristle_damping
+        self._coefficient = device.friction_coefficient
+        self._faces = device.friction_faces
+        self._state = np.array([*initial_state(device), device.initial_bristle_deflection])
+        self._times = times
+        self._kept = 0
+        self._theta = 0.0
+        self._psi = 0.0
+        self._moved = 0.0
+
+    def follow(
+        self, inputs: HeldInputs, method: Callable[..., Any], rtol: float, atol: float
+    ) -> None:
+        equations = self._equations
+        ratio = inputs.frequency_ratio
+        scales = np.append(equations.state_scales(inputs.load), self._coefficient / self._stiffness)
+        start = self._state[0]
+        solver = method(
+            self._slopes(inputs),
+            0.0,
+            np.array([0.0, *self._state[1:]]),
+            inputs.stop - inputs.start,
+            max_step=2.0 * math.pi / equations.fastest_rate(ratio) / _STEPS_PER_FASTEST_PERIOD,
+            rtol=rtol,
+            atol=atol * scales,
+        )
+        while solver.status == "running":
+            message = solver.step()
+            if solver.status == "failed":
+                raise RuntimeError(
+                    f"{method.__name__} failed at t = {inputs.start + float(solver.t)!r} s: "
+                    f"{message}; use a greater rtol"
+                )
+            self.steps += 1
+            direction = float(np.sign(solver.y[1]))
+            self.reversals += direction * self._moved < 0.0
+            self._moved = direction or self._moved
+            reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
+            until = int(np.searchsorted(self._times, reached, side="right"))
+            if until > self._kept:
+                local = self._times[self._kept : until] - inputs.start
+                states = solver.dense_output()(local).T
+                states[:, 0] += start
+                self.signals[self._kept : until] = self._signals(inputs, local, states)
+                self._kept = until
+        self.evaluations += solver.nfev
+        turned = equations.drive_frequency * (inputs.stop - inputs.start)
+        self._theta += turned
+        self._psi += ratio * turned
+        self._state = solver.y
+        self._state[0] += start
+
+    def _slopes(self, inputs: HeldInputs) -> Callable[[float, Array], list[float]]:
+        equations = self._equations
+        sin, cos = math.sin, math.cos
+        theta, angle = self._theta, self._psi + inputs.phase
+        rate = equations.drive_frequency
+        angle_rate = inputs.frequency_ratio * rate
+        preload, amplitude, faces = (
+            equations.normal_preload,
+            equations.normal_amplitude,
+            self._faces,
+        )
+        stiffness, damping, coefficient = self._stiffness, self._damping, self._coefficient
+
+        def slopes(time: float, state: Array) -> list[float]:
+            _, velocity, displacement, resonator_velocity, deflection = state.tolist()
+            deflection_rate = velocity - stiffness * abs(velocity) * deflection / coefficient
+            normal = max(0.0, preload + amplitude * sin(angle + angle_rate * time))
+            sine = sin(theta + rate * time)
+            acceleration = (
+                equations.coupling_damping * resonator_velocity
+                + equations.coupling_stiffness * displacement
+                + equations.force_sine * sine
+                + equations.force_cosine * cos(theta + rate * time)
+                - inputs.load
+                - faces * normal * (stiffness * deflection + damping * deflection_rate)
+            ) / equations.inertia
+            resonator = (
+                equations.base_acceleration * sine
+                - equations.damping_rate * resonator_velocity
+                - equations.stiffness_rate * displacement
+                - acceleration
+            )
+            return [velocity, acceleration, resonator_velocity, resonator, deflection_rate]
+
+        return slopes
+
+    def _signals(self, inputs: HeldInputs, time: Array, states: Array) -> Array:
+        equations = self._equations
+        theta = self._theta + equations.drive_frequency * time
+        angle_rate = inputs.frequency_ratio * equations.drive_frequency
+        angle = self._psi + inputs.phase + angle_rate * time
+        load = equations.normal_preload + equations.normal_amplitude * np.sin(angle)
+        velocity, deflection = states[:, 1], states[:, 4]
+        deflection_rate = velocity - self._stiffness * np.abs(velocity) * deflection / (
+            self._coefficient
+        )
+        friction = self._stiffness * deflection + self._damping * deflection_rate
+        return np.column_stack(
+            [
+                states[:, :2],
+                *equations.resonator_motion(theta, states),
+                np.maximum(0.0, load),
+                self._faces * np.maximum(0.0, load) * friction,
+                np.where(load > 0.0, np.sign(velocity), float(LIFTED)),
+                deflection,
+            ]
+        )

@@ -1,0 +1,205 @@
+"""The order of contact modes: which stretch of motion follows which, and with what state."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.references.phase import Elapsed, advanced
+from slider_resonator.references.resolved.contact import (
+    LIFTED,
+    SLIP_BACKWARD,
+    SLIP_FORWARD,
+    STICK,
+    is_lifted,
+    mode_at_rest,
+    time_to_lift_off,
+    time_to_touchdown,
+)
+from slider_resonator.references.resolved.contact_record import ContactRecord
+from slider_resonator.references.resolved.equations import Equations, State
+from slider_resonator.references.resolved.passage import Follow, Passage, Stretch
+from slider_resonator.references.resolved.trajectory import Trajectory
+
+_MOST_EVENTS_AT_ONE_INSTANT = 20
+
+
+class ModeSequence:
+    """Follows the motion through held inputs, from theta = psi = 0 at the first start."""
+
+    def __init__(
+        self, equations: Equations, follow: Follow, state: State, times: NDArray[np.float64]
+    ) -> None:
+        self.state = state
+        self._equations = equations
+        self._follow = follow
+        self._times = times
+        self._theta = 0.0
+        self._psi = 0.0
+        self._record = ContactRecord()
+        self._next_sample = 0
+        self._signals: list[NDArray[np.float64]] = []
+        self._steps = 0
+        self._evaluations = 0
+        self._events_at_this_instant = 0
+
+    def run(self, held: Sequence[HeldInputs]) -> Trajectory:
+        """Return the motion through the held inputs.
+
+        A sample on a boundary between held inputs belongs to the inputs before it. Counts and
+        event times cover the whole span of the inputs, whatever the times wanted. Raises ValueError
+        for inputs with gaps or times outside them, RuntimeError for a contact that cannot be
+        resolved in floating point numbers.
+        """
+        check_contiguous(held)
+        check_times(self._times, held)
+        for inputs in held:
+            self._run_held(inputs, first=inputs is held[0])
+        signals = np.concatenate([*self._signals, np.empty((0, 7))])
+        return Trajectory(
+            time=self._times,
+            position=signals[:, 0],
+            velocity=signals[:, 1],
+            resonator_displacement=signals[:, 2],
+            resonator_velocity=signals[:, 3],
+            normal_force=signals[:, 4],
+            friction_force=signals[:, 5],
+            contact_mode=signals[:, 6].astype(np.int64),
+            reversals=self._record.reversals,
+            sticks=self._record.sticks,
+            stick_time=self._record.stick_time,
+            event_times=np.array(self._record.event_times),
+            steps=self._steps,
+            evaluations=self._evaluations,
+        )
+
+    def _run_held(self, inputs: HeldInputs, first: bool) -> None:
+        elapsed = Elapsed()
+        span = inputs.stop - inputs.start
+        mode = self._mode_now(inputs)
+        self._record.enter(mode, inputs.start)
+        if first and self._times.size and self._times[0] == inputs.start:
+            self._keep(mode, inputs, np.zeros(1), np.array([self.state]))
+        while (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
+            contact_span = self._time_to_contact_change(mode, inputs)
+            passage = self._pass(mode, inputs, elapsed, min(remaining, contact_span))
+            elapsed.add(passage.duration)
+            self._theta = advanced(self._theta, self._equations.drive_frequency * passage.duration)
+            self._psi = advanced(
+                self._psi,
+                inputs.frequency_ratio * self._equations.drive_frequency * passage.duration,
+            )
+            self.state = passage.state
+            time = inputs.start + elapsed.seconds
+            self._guard_progress(passage.duration, time)
+            if passage.event:
+                mode = self._mode_after_event(mode, passage.event, inputs)
+            elif contact_span < remaining:
+                mode = self._mode_in_contact(inputs) if mode == LIFTED else LIFTED
+            else:
+                break
+            self._record.enter(mode, time)
+        self._keep_leftovers(mode, inputs)
+
+    def _pass(self, mode: int, inputs: HeldInputs, elapsed: Elapsed, span: float) -> Passage:
+        local = (self._times[self._next_sample :] - inputs.start) - elapsed.seconds - elapsed.carry
+        wanted = local[: np.searchsorted(local, span, side="right")]
+        stretch = Stretch(
+            mode=mode,
+            state=self.state,
+            theta=self._theta,
+            angle=self._psi + inputs.phase,
+            load=inputs.load,
+            frequency_ratio=inputs.frequency_ratio,
+            span=span,
+            samples=wanted,
+        )
+        passage = self._follow(stretch)
+        self._keep(mode, inputs, wanted[: len(passage.samples)], passage.samples)
+        self._record.stay(passage.duration)
+        self._steps += passage.steps
+        self._evaluations += passage.evaluations
+        return passage
+
+    def _keep(
+        self,
+        mode: int,
+        inputs: HeldInputs,
+        local: NDArray[np.float64],
+        states: NDArray[np.float64],
+    ) -> None:
+        if not len(local):
+            return
+        equations = self._equations
+        theta = self._theta + equations.drive_frequency * local
+        angle = (
+            self._psi + inputs.phase + inputs.frequency_ratio * equations.drive_frequency * local
+        )
+        resonator = equations.resonator_motion(theta, states)
+        forces = equations.contact_forces(mode, inputs.load, theta, angle, states)
+        modes = np.full(len(local), float(mode))
+        self._signals.append(
+            np.column_stack([states[:, 0], states[:, 1], *resonator, *forces, modes])
+        )
+        self._next_sample += len(local)
+
+    def _keep_leftovers(self, mode: int, inputs: HeldInputs) -> None:
+        """Keep the samples at the stop that an event at the stop, to rounding, has passed over."""
+        end = int(np.searchsorted(self._times, inputs.stop, side="right"))
+        count = max(0, end - self._next_sample)
+        self._keep(mode, inputs, np.zeros(count), np.tile(self.state, (count, 1)))
+
+    def _mode_now(self, inputs: HeldInputs) -> int:
+        equations = self._equations
+        if is_lifted(
+            equations.normal_preload,
+            equations.normal_amplitude,
+            self._psi + inputs.phase,
+            inputs.frequency_ratio * equations.drive_frequency,
+        ):
+            return LIFTED
+        return self._mode_in_contact(inputs)
+
+    def _mode_in_contact(self, inputs: HeldInputs) -> int:
+        _, velocity, displacement, resonator_velocity = self.state
+        if velocity:
+            return SLIP_FORWARD if velocity > 0.0 else SLIP_BACKWARD
+        needed = self._equations.needed_force(
+            inputs.load, self._theta, displacement, resonator_velocity
+        )
+        limit = self._equations.friction_limit(self._psi + inputs.phase)
+        return mode_at_rest(needed, max(0.0, limit))
+
+    def _mode_after_event(self, mode: int, event: int, inputs: HeldInputs) -> int:
+        position, _, displacement, resonator_velocity = self.state
+        self.state = (position, 0.0, displacement, resonator_velocity)
+        now = self._mode_now(inputs)
+        if mode == STICK and now != LIFTED:
+            return SLIP_FORWARD if event > 0 else SLIP_BACKWARD
+        return now
+
+    def _time_to_contact_change(self, mode: int, inputs: HeldInputs) -> float:
+        equations = self._equations
+        time_to = time_to_touchdown if mode == LIFTED else time_to_lift_off
+        return time_to(
+            equations.normal_preload,
+            equations.normal_amplitude,
+            self._psi + inputs.phase,
+            inputs.frequency_ratio * equations.drive_frequency,
+        )
+
+    def _guard_progress(self, duration: float, time: float) -> None:
+        resolution = math.ulp(1.0) / self._equations.drive_frequency
+        self._events_at_this_instant = (
+            self._events_at_this_instant + 1 if duration <= resolution else 0
+        )
+        if self._events_at_this_instant > _MOST_EVENTS_AT_ONE_INSTANT:
+            raise RuntimeError(
+                f"contact at t = {time!r} s changes mode more than {_MOST_EVENTS_AT_ONE_INSTANT} "
+                f"times at one instant (state {self.state!r}): stick and slip cannot be told apart "
+                "there; perturb the initial state or an input"
+            )

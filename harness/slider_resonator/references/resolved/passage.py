@@ -1,0 +1,50 @@
+"""What an integrator is asked for: one stretch of motion in one contact mode."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.references.resolved.equations import State
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A contact mode with constant inputs, to be followed for at most ``span`` s.
+
+    ``theta`` is the drive angle and ``angle`` that of the normal load at the start, rad.
+    ``samples`` (shape (n,), ascending, within (0, span], s from the start) are the times wanted.
+    """
+
+    mode: int
+    state: State
+    theta: float
+    angle: float
+    load: float
+    frequency_ratio: float
+    span: float
+    samples: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Passage:
+    """The motion until the first event of the mode, or through the whole span.
+
+    ``event`` is 0 if the span ended without one. In a slip it is the sign of the acceleration at
+    which the velocity vanished; in a stick the direction in which the slider breaks loose.
+    ``samples`` has shape (k, 4), the states at those times wanted that lie within ``duration`` s.
+    """
+
+    duration: float
+    state: State
+    event: int
+    samples: NDArray[np.float64]
+    steps: int
+    evaluations: int
+
+
+Follow = Callable[[Stretch], Passage]
+"""An integrator: follows a stretch of motion to the first event of its contact mode."""

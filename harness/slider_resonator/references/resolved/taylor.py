@@ -1,0 +1,259 @@
+"""The referee: the full equations by heyoka's Taylor method, events located to rounding.
+
+heyoka supplies the Taylor polynomials of the motion within one contact mode; the events are the
+first roots of those polynomials. There is one compiled system for every device and mode, all
+numbers are runtime parameters.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.phase import Elapsed, advanced
+from slider_resonator.references.resolved.contact import LIFTED, STICK
+from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
+from slider_resonator.references.resolved.mode_sequence import ModeSequence
+from slider_resonator.references.resolved.passage import Passage, Stretch
+from slider_resonator.references.resolved.polynomial_roots import first_fall
+from slider_resonator.references.resolved.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+
+ROUNDING = 1e-18
+"""Tolerance of a Taylor step in the scaled variables, below what double precision resolves."""
+
+_ROUNDING_OF_A_SUM = 1e-15
+
+
+def simulate(
+    device: Device,
+    held: Sequence[HeldInputs],
+    times: Array,
+    *,
+    tolerance: float = ROUNDING,
+) -> Trajectory:
+    """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
+
+    ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
+    start. A sample on a boundary between inputs belongs to the inputs before it. ``tolerance``
+    (scaled variables) leaves truncation errors only for studies of them. Counts cover the whole
+    span of the inputs. ``evaluations`` counts Taylor expansions. Raises ValueError for a device
+    that the equations do not cover, inputs with gaps, and times outside them; ModuleNotFoundError
+    when heyoka is not installed.
+    """
+    equations = equations_of(device)
+    integrator = _integrator(tolerance)
+
+    def follow(stretch: Stretch) -> Passage:
+        return _ScaledMotion(equations, stretch, integrator).follow()
+
+    return ModeSequence(equations, follow, initial_state(device), times).run(held)
+
+
+def _heyoka() -> Any:
+    try:
+        return importlib.import_module("heyoka")
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(
+            "the Taylor reference needs heyoka: pip install 'slider-resonator[referee]'"
+        ) from error
+
+
+@cache
+def _integrator(tolerance: float) -> Any:
+    """Compile the scaled equations once; see ``_ScaledMotion`` for the order of parameters."""
+    heyoka = _heyoka()
+    position, velocity, displacement, resonator_velocity = heyoka.make_vars("x", "v", "y", "u")
+    (
+        damping,
+        stiffness,
+        sine,
+        cosine,
+        constant,
+        normal,
+        base,
+        damping_rate,
+        stiffness_rate,
+        theta,
+        angle,
+        ratio,
+    ) = (heyoka.par[index] for index in range(12))
+    drive_angle = theta + heyoka.time
+    acceleration = (
+        damping * resonator_velocity
+        + stiffness * displacement
+        + sine * heyoka.sin(drive_angle)
+        + cosine * heyoka.cos(drive_angle)
+        + constant
+        + normal * heyoka.sin(angle + ratio * heyoka.time)
+    )
+    resonator_acceleration = (
+        base * heyoka.sin(drive_angle)
+        - damping_rate * resonator_velocity
+        - stiffness_rate * displacement
+        - acceleration
+    )
+    return heyoka.taylor_adaptive(
+        [
+            (position, velocity),
+            (velocity, acceleration),
+            (displacement, resonator_velocity),
+            (resonator_velocity, resonator_acceleration),
+        ],
+        [0.0] * 4,
+        pars=[0.0] * 12,
+        tol=tolerance,
+    )
+
+
+class _ScaledMotion:
+    """One stretch of motion in drive angle as time and forces over a characteristic force."""
+
+    def __init__(self, equations: Equations, stretch: Stretch, integrator: Any) -> None:
+        self._equations = equations
+        self._stretch = stretch
+        self._integrator = integrator
+        rate = equations.drive_frequency
+        self._force = equations.force_scale(stretch.load) or 1.0
+        velocity = self._force / (equations.inertia * rate)
+        self._scales = np.array([velocity / rate, velocity] * 2)
+
+    def follow(self) -> Passage:
+        stretch, integrator = self._stretch, self._integrator
+        rate = self._equations.drive_frequency
+        integrator.pars[:] = self._parameters()
+        # The displacement starts from zero, so that a long way travelled costs it no digits.
+        state = np.array([0.0, *stretch.state[1:]]) / self._scales
+        wanted = stretch.samples * rate
+        span = stretch.span * rate
+        longest = self._longest_step()
+        elapsed = Elapsed()
+        theta, angle = stretch.theta, stretch.angle
+        samples: list[Array] = []
+        steps, event = 0, 0
+        while not event and (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
+            integrator.pars[9:11] = theta, angle
+            integrator.state[:] = state
+            integrator.time = 0.0
+            _, step = integrator.step(max_delta_t=min(remaining, longest), write_tc=True)
+            coefficients = np.array(integrator.tc)
+            steps += 1
+            crossing = self._first_event(coefficients, theta, angle, step)
+            if crossing is None:
+                state = np.array(integrator.state)
+            else:
+                step, event = crossing
+                state = np.polynomial.polynomial.polyval(step, coefficients.T)
+            local = (wanted[len(samples) :] - elapsed.seconds) - elapsed.carry
+            covered = local[: np.searchsorted(local, step, side="right")]
+            samples.extend(np.polynomial.polynomial.polyval(covered, coefficients.T).T)
+            elapsed.add(step)
+            theta = advanced(theta, step)
+            angle = advanced(angle, stretch.frequency_ratio * step)
+        sampled = np.array(samples).reshape(-1, 4) * self._scales
+        sampled[:, 0] += stretch.state[0]
+        displacement, velocity, resonator, resonator_velocity = (state * self._scales).tolist()
+        return Passage(
+            duration=(elapsed.seconds + elapsed.carry) / rate if event else stretch.span,
+            state=(stretch.state[0] + displacement, velocity, resonator, resonator_velocity),
+            event=event,
+            samples=sampled,
+            steps=steps,
+            evaluations=steps,
+        )
+
+    def _parameters(self) -> list[float]:
+        equations, stretch = self._equations, self._stretch
+        rate = equations.drive_frequency
+        slides = float(stretch.mode != STICK)
+        friction = 0.0 if stretch.mode == LIFTED else float(stretch.mode)
+        coupling = slides / (equations.inertia * rate)
+        per_force = slides / self._force
+        return [
+            coupling * equations.coupling_damping,
+            coupling * equations.coupling_stiffness / rate,
+            per_force * equations.force_sine,
+            per_force * equations.force_cosine,
+            -per_force * (stretch.load + friction * equations.friction_mean),
+            -per_force * friction * equations.friction_amplitude,
+            equations.base_acceleration * equations.inertia / self._force,
+            equations.damping_rate / rate,
+            equations.stiffness_rate / rate**2,
+            stretch.theta,
+            stretch.angle,
+            stretch.frequency_ratio,
+        ]
+
+    def _first_event(
+        self, coefficients: Array, theta: float, angle: float, step: float
+    ) -> tuple[float, int] | None:
+        """Return scaled time and direction of the first event in a step, None if there is none."""
+        mode = self._stretch.mode
+        if mode == LIFTED:
+            return None
+        noise = self._noise(coefficients, step)
+        if mode != STICK:
+            rest = first_fall(mode * coefficients[1], step, noise)
+            return None if rest is None else (rest, -mode)
+        limit, needed = self._stick_forces(coefficients, theta, angle)
+        found = [
+            (crossing, event)
+            for event in (1, -1)
+            if (crossing := first_fall(limit - event * needed, step, noise)) is not None
+        ]
+        return min(found, default=None)
+
+    def _longest_step(self) -> float:
+        # heyoka sizes its steps by the motion. In a stick the event series hold sines that the
+        # motion need not contain; steps of one radian of the faster keep them at rounding level.
+        stretch = self._stretch
+        return 1.0 / max(1.0, abs(stretch.frequency_ratio)) if stretch.mode == STICK else np.inf
+
+    def _noise(self, coefficients: Array, step: float) -> float:
+        """Return the rounding error of forces and velocities in a step, over their scales.
+
+        The resonator can push and pull with far more force than is left over on the slider.
+        """
+        equations = self._equations
+        rate = equations.drive_frequency
+        coupling = equations.coupling_damping + equations.coupling_stiffness / rate
+        reach = np.abs(coefficients[2:] * step ** np.arange(coefficients.shape[1])).max()
+        return _ROUNDING_OF_A_SUM * float(1.0 + coupling / (equations.inertia * rate) * reach)
+
+    def _stick_forces(self, coefficients: Array, theta: float, angle: float) -> tuple[Array, Array]:
+        """Return the Taylor coefficients of friction limit and needed force, over force scale."""
+        equations, stretch = self._equations, self._stretch
+        count = coefficients.shape[1]
+        rate = equations.drive_frequency
+        coupling = 1.0 / (equations.inertia * rate)
+        drive_sine, drive_cosine = _sine_series(theta, 1.0, count)
+        normal_sine, _ = _sine_series(angle, stretch.frequency_ratio, count)
+        needed = (
+            coupling * equations.coupling_damping * coefficients[3]
+            + coupling * equations.coupling_stiffness / rate * coefficients[2]
+            + (equations.force_sine * drive_sine + equations.force_cosine * drive_cosine)
+            / self._force
+        )
+        limit = equations.friction_amplitude / self._force * normal_sine
+        needed[0] -= stretch.load / self._force
+        limit[0] += equations.friction_mean / self._force
+        return limit, needed
+
+
+def _sine_series(angle: float, rate: float, count: int) -> tuple[Array, Array]:
+    """Return the Taylor coefficients of sin and cos of ``angle + rate t``, shape (count,) each."""
+    sine, cosine = np.sin(angle), np.cos(angle)
+    powers = np.concatenate([[1.0], np.cumprod(rate / np.arange(1.0, count))])
+    order = np.arange(count) % 4
+    return (
+        np.array([sine, cosine, -sine, -cosine])[order] * powers,
+        np.array([cosine, -sine, -cosine, sine])[order] * powers,
+    )

@@ -1,0 +1,116 @@
+"""A run as a picture: the slow course, and the last drive periods in full."""
+
+from __future__ import annotations
+
+from math import pi
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS
+from slider_resonator.device.schedule import Schedule
+from slider_resonator.fmu.drive import Record
+from slider_resonator.output.atomic import replacing
+from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
+from slider_resonator.scenes.scene import Scene
+
+Array = NDArray[np.float64]
+
+ZOOM_PERIODS = 6
+RESOLVING = 8
+"""Points per drive period below which the fast motion is not drawn."""
+SMOOTH = 64
+"""Points per drive period that make it look smooth."""
+
+
+def schedule_to_plot(scene: Scene) -> Schedule:
+    """Return the schedule of a scene with the points that show its last drive periods smoothly."""
+    period = 2.0 * pi / scene.device.drive_frequency
+    schedule = scene.schedule()
+    return schedule.refined(float(schedule.times[-1]) - ZOOM_PERIODS * period, period / SMOOTH)
+
+
+def plot_run(record: Record, scene: Scene, path: Path) -> None:
+    """Write a picture of a run to `path`, whose suffix is one of `PICTURE_SUFFIXES`."""
+    period = 2.0 * pi / scene.device.drive_frequency
+    varying = [i for i in range(len(INPUTS)) if np.ptp(record.inputs[:, i]) > 0.0]
+    gaps = np.diff(record.times[_last_periods(record, period)])
+    resolved = gaps.size > 0 and bool(gaps.max() * RESOLVING <= period)
+    with style():
+        height = 4.3 + 2.1 * resolved + 1.3 * bool(varying)
+        figure = Figure(figsize=(8.0, height), layout="constrained")
+        heights = [2.0, 2.0] + [2.0] * resolved + [1.3] * bool(varying)
+        axes = figure.subplots(len(heights), 1, height_ratios=heights)
+        figure.suptitle(f"{scene.title}  ({scene.name}){_constant_inputs(record, varying)}")
+        times, unit = _readable(record.times)
+        _position(axes[0], record, times)
+        _velocity(axes[1], record, times, unit)
+        if resolved:
+            _zoom(axes[2], record, period)
+        if varying:
+            _inputs(axes[-1], record, times, unit, varying)
+        with replacing(path) as temporary:
+            save(figure, temporary)
+
+
+def _readable(times: Array) -> tuple[Array, str]:
+    """Return times (s) in the unit that suits the length of the run."""
+    return (times, "s") if times[-1] > 2.0 else (1e3 * times, "ms")
+
+
+def _position(axes: Axes, record: Record, times: Array) -> None:
+    small = np.abs(record["position"]).max() < 1e-4
+    factor, length = (1e6, "um") if small else (1e3, "mm")
+    axes.plot(times, factor * record["position"], color=COLOURS["position"])
+    axes.set(ylabel=f"position [{length}]", xlim=(times[0], times[-1]))
+    axes.tick_params(labelbottom=False)
+
+
+def _velocity(axes: Axes, record: Record, times: Array, unit: str) -> None:
+    axes.plot(times, 1e3 * record["mean_velocity"], color=COLOURS["slow"], label="mean velocity")
+    predicted = 1e3 * record["steady_velocity"]
+    axes.plot(times, predicted, "--", color=COLOURS["theory"], label="steady, averaged theory")
+    axes.set(xlabel=f"time [{unit}]", ylabel="velocity [mm/s]", xlim=(times[0], times[-1]))
+    axes.legend()
+
+
+def _zoom(axes: Axes, record: Record, period: float) -> None:
+    """Show the last drive periods with the directions of slip, as finely as they were stepped."""
+    window = _last_periods(record, period)
+    periods = (record.times[window] - record.times[-1]) / period
+    entries = shade_directions(axes, periods, record["contact_mode"][window])
+    axes.plot(periods, 1e3 * record["velocity"][window], color=COLOURS["velocity"])
+    axes.axhline(0.0, color="0.4", linewidth=0.6)
+    axes.set(
+        xlabel="drive periods before the end", ylabel="velocity [mm/s]", xlim=(-ZOOM_PERIODS, 0.0)
+    )
+    axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(entries))
+
+
+def _last_periods(record: Record, period: float) -> NDArray[np.bool_]:
+    """Return which points of the run lie in the drive periods that are shown in full."""
+    window: NDArray[np.bool_]
+    window = record.times >= record.times[-1] - ZOOM_PERIODS * period * (1.0 + 1e-9)
+    return window
+
+
+def _constant_inputs(record: Record, varying: list[int]) -> str:
+    """Return a line with the inputs that stay at another value than their start."""
+    shown = [
+        f"{name} {record.inputs[0, index]:g} {INPUTS[name].removeprefix('1')}".strip()
+        for index, name in enumerate(INPUTS)
+        if index not in varying and record.inputs[0, index] != INPUT_STARTS[name]
+    ]
+    return "\n" * bool(shown) + ", ".join(shown)
+
+
+def _inputs(axes: Axes, record: Record, times: Array, unit: str, varying: list[int]) -> None:
+    names = list(INPUTS)
+    for index in varying:
+        label = f"{names[index]} [{INPUTS[names[index]]}]"
+        axes.step(times, record.inputs[:, index], where="post", label=label)
+    axes.set(xlabel=f"time [{unit}]", ylabel="inputs", xlim=(times[0], times[-1]))
+    axes.legend()

@@ -1,0 +1,70 @@
+"""Blocking force of an FMU by shooting: the load under which the steady displacement vanishes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+
+from slider_resonator.device.common_period import MAX_DENOMINATOR
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.steady.outcome import Outcome, cost, why_not
+from slider_resonator.steady.periodic import FmuPeriodMap, Obstacle, read_facts, repeating_periods
+from slider_resonator.steady.search import blocked_point
+from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
+
+
+@dataclass(frozen=True)
+class Blocking(Outcome):
+    """The outcome of a search for the blocking force.
+
+    `blocking_force` (N) is None where there is none. `status` is blocked, unstable or neutral;
+    without a force it is stuck, slow_beat (frequency_ratio next to an integer), no_common_period,
+    no_fixed_point, not_unique or not_converged.
+    """
+
+    blocking_force: float | None = None
+
+
+def find_blocking(
+    instance: Instance,
+    values: Mapping[str, float],
+    *,
+    max_denominator: int = MAX_DENOMINATOR,
+) -> Blocking:
+    """Find the load that stops an FMU with the given parameters and inputs.
+
+    A `load` among the values is where the search begins. Raises FmuError and Refusal as
+    `Instance.start` does.
+    """
+    facts = read_facts(instance, values)
+    predicted = facts.blocking_force
+    count = repeating_periods(facts, max_denominator)
+    if isinstance(count, Obstacle):
+        return Blocking(count.status, count.reason, predicted)
+    period_map = FmuPeriodMap(instance, values, facts, count)
+    load = values.get("load", predicted if isfinite(predicted) else 0.0)
+    warm = period_map.warm_up(0.0, load)
+    if period_map.stick_fraction == 1.0:
+        return Blocking(
+            "stuck",
+            f"the slider sticks throughout at load = {load:.6g} N: every load that friction holds "
+            "stops it, so that no single one is the blocking force",
+            predicted,
+            **cost(period_map, None),
+        )
+    found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
+    if isinstance(found, NoFixedPoint):
+        return Blocking(*why_not(found, facts), predicted, **cost(period_map, found))
+    return Blocking(
+        _status(found),
+        f"at this load the mean velocity is zero; the largest multiplier is "
+        f"{abs(found.multipliers[0]):.9g}",
+        predicted,
+        **cost(period_map, found),
+        blocking_force=found.load,
+    )
+
+
+def _status(found: FixedPoint) -> str:
+    return "blocked" if found.stability == "stable" else found.stability

@@ -1,0 +1,206 @@
+"""The map of an FMU over one common period, and what must hold before anything can repeat."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import asin, ceil, pi, sin, sqrt
+
+import numpy as np
+
+from slider_resonator.device.common_period import common_period
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.steady.bristle_reading import Array, bristle_reading
+from slider_resonator.steady.newton import Vector
+from slider_resonator.steady.search import WARM_UP, WarmedUp
+
+STATE = ("velocity", "resonator_displacement", "resonator_velocity")
+"""The outputs that are states; the position does not matter, for nothing depends on it."""
+SAMPLES = 8
+"""Points of the last drive period of the warm-up that give the size of each state."""
+SLOW = 0.1
+"""Distance of the frequency ratio from an integer, below which the phase runs slowly: a beat."""
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """Why nothing repeats; `status` for machines, `reason` for people."""
+
+    status: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Parameters and inputs in force, read back from the FMU, and its own two predictions."""
+
+    values: Mapping[str, float]
+    steady_velocity: float
+    blocking_force: float
+
+    def __getitem__(self, name: str) -> float:
+        """Return a parameter or input by name."""
+        return self.values[name]
+
+    @property
+    def drive_period(self) -> float:
+        """Seconds that theta takes for one turn."""
+        return 2.0 * pi / self["drive_frequency"]
+
+    @property
+    def mean_normal_force(self) -> float:
+        """Normal force (N) of a face averaged over the drive, with lift-off."""
+        preload, amplitude = self["normal_preload"], self["normal_amplitude"]
+        if self["frequency_ratio"] == 0.0:
+            return max(0.0, preload + amplitude * sin(self["phase"]))
+        if amplitude <= preload:
+            return preload
+        share = preload / amplitude
+        return preload * (0.5 + asin(share) / pi) + amplitude / pi * sqrt(1.0 - share**2)
+
+    @property
+    def friction_limit(self) -> float:
+        """Mean friction force (N) of a slider that slides one way all the time."""
+        return self["friction_faces"] * self["friction_coefficient"] * self.mean_normal_force
+
+    @property
+    def velocity_floor(self) -> float:
+        """Velocity (m/s) that friction takes away in a drive period; a scale where all rests."""
+        mass = self["slider_mass"] + self["resonator_mass"]
+        return max(self.friction_limit / mass * self.drive_period, 1e-9)
+
+
+def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
+    """Initialise the FMU with `values` and read back what is in force."""
+    instance.start(values)
+    names = (
+        *("phase", "load", "frequency_ratio", "drive_frequency", "normal_preload"),
+        *("normal_amplitude", "friction_faces", "friction_coefficient", "friction_law"),
+        *("bristle_stiffness", "bristle_damping", "fidelity"),
+        *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio"),
+        *("steady_velocity", "blocking_force"),
+    )
+    with instance.explained():
+        read = instance.read(names)
+    return Facts(read, read.pop("steady_velocity"), read.pop("blocking_force"))
+
+
+def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:
+    """Return the number q of drive periods of a common period.
+
+    Where frequency_ratio is no p/q with a small q nothing repeats: slow_beat next to an integer,
+    where the phase runs slowly through all its values, no_common_period elsewhere.
+    """
+    ratio = facts["frequency_ratio"]
+    count = common_period(ratio, max_denominator)
+    if count is not None:
+        return count
+    why = f"no common period: frequency_ratio = {ratio!r} is no p/q with q <= {max_denominator}"
+    distance = abs(ratio - round(ratio))
+    if distance < SLOW:
+        beat = distance / facts.drive_period
+        return Obstacle("slow_beat", f"{why}; slow beat at {beat:.6g} Hz")
+    return Obstacle(
+        "no_common_period",
+        f"{why}, so that drive and normal force never repeat together; --max-denominator allows "
+        "a larger q",
+    )
+
+
+class FmuPeriodMap:
+    """State and load (N) at theta = psi = 0 -> state and displacement (m) after q drive periods.
+
+    The state has the entries `names`: those of `STATE` and, where there is a LuGre bristle that
+    matters, its deflection. `periods` counts every drive period that has been simulated,
+    `stick_fraction` is that of the last one.
+    """
+
+    def __init__(
+        self, instance: Instance, values: Mapping[str, float], facts: Facts, drive_periods: int
+    ) -> None:
+        self.instance = instance
+        self.values = values
+        self.facts = facts
+        self.drive_periods = drive_periods
+        self.periods = 0
+        self.stick_fraction = 0.0
+        self.bristle = bristle_reading(facts.values)
+        self.names = STATE if self.bristle is None else (*STATE, "bristle_deflection")
+        self._initial = [f"initial_{name}" for name in self.names]
+        self._leads = np.array((0.0,) if self.bristle is None else self.bristle.leads)
+        self._times = self._times_before(self.period)
+        self._position = instance.block(["position"])
+        self._read = instance.block(
+            ["position", *STATE, "friction_force", "normal_force", "stick_fraction"]
+        )
+
+    @property
+    def period(self) -> float:
+        """Length of the common period in seconds."""
+        return self.drive_periods * self.facts.drive_period
+
+    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
+        """Run one common period."""
+        before = self._start(state, load)
+        readings = self._readings(self._times)
+        self.periods += self.drive_periods
+        return self._state(self._times, readings), float(readings[-1, 0]) - before
+
+    def warm_up(self, velocity: float, load: float) -> WarmedUp:
+        """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
+        count = ceil(WARM_UP / self.drive_periods) * self.drive_periods
+        period = self.facts.drive_period
+        start = np.zeros(len(self.names))
+        start[0] = velocity
+        self._start(start, load)
+        whole = 0 if self.instance.fmu.takes_equal_steps_only else count - 1
+        samples = np.linspace(whole * period, count * period, (count - whole) * SAMPLES + 1)
+        before_end = self._times_before(count * period)
+        times = np.union1d(samples, before_end)
+        readings = self._readings(times)
+        self.periods += count
+        last = readings[np.searchsorted(times, samples[-SAMPLES - 1 :])]
+        floor = self.facts.velocity_floor
+        sizes = np.abs(last[1:, 1:4]).max(axis=0)
+        scale = np.maximum(sizes, [floor, floor * period / (2.0 * pi), floor])
+        if self.bristle is not None:
+            scale = np.append(scale, self.bristle.scale)
+        state = self._state(before_end, readings[np.searchsorted(times, before_end)])
+        return WarmedUp(state, scale, float(last[-1, 0] - last[0, 0]) / period)
+
+    def _start(self, state: Vector, load: float) -> float:
+        initial = dict(zip(self._initial, state.tolist(), strict=True))
+        self.instance.start({**self.values, **initial, "load": load})
+        return self._position.read()[0]
+
+    def _times_before(self, stop: float) -> Array:
+        """Return the times (s) of the readings that give the state at `stop`."""
+        return np.maximum(0.0, stop - self._leads)
+
+    def _readings(self, times: Array) -> Array:
+        """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""
+        rows = []
+        if self.instance.fmu.takes_equal_steps_only:
+            self.instance.check_steps(times[times > self.instance.time])
+        with self.instance.explained():
+            for time in times.tolist():
+                if time > self.instance.time:
+                    self.instance.step_to(time)
+                rows.append(self._read.read())
+        readings = np.array(rows)
+        if not np.isfinite(readings).all():
+            raise FmuError(
+                f"{self.instance.fmu.path.name} at t = {times[-1]:.9g} s: output is {rows[-1]}"
+            )
+        self.stick_fraction = float(readings[-1, 6])
+        return readings
+
+    def _state(self, times: Array, readings: Array) -> Vector:
+        """Return the state at the end of readings."""
+        state = readings[-1, 1:4]
+        if self.bristle is None:
+            return state
+        position, velocity, friction, normal = readings[:, (0, 1, 4, 5)].T
+        bent = self.bristle.deflection(times, position, velocity, friction, normal)
+        return np.append(state, bent)

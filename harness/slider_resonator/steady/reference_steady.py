@@ -1,0 +1,153 @@
+"""Steady velocity and blocking force of the references, by the same shooting.
+
+With Coulomb friction it is the reference with located events that is run, with LuGre friction the
+one that integrates the bristle as a state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import ceil, pi
+from typing import Any
+
+import numpy as np
+
+from slider_resonator.device.common_period import common_period
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved import located_events, lugre_scipy
+from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.steady.newton import Vector
+from slider_resonator.steady.search import WARM_UP, WarmedUp, blocked_point, steady_point
+from slider_resonator.steady.shooting import FixedPoint
+
+STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
+SAMPLES = 16
+TOLERANCE = 1e-9
+"""Wanted accuracy in units of the scale: the integrator's own 1e-12 per period, amplified by the
+thousand periods that the slow velocity remembers."""
+
+
+Simulate = Callable[[Device, Sequence[HeldInputs], Vector], Trajectory]
+"""A reference: device, held inputs and times (n,) to its motion."""
+
+
+def simulator(device: Device) -> Simulate:
+    """Return the reference for the friction law of a device."""
+    return lugre_scipy.simulate_lugre if device.friction_law == 1 else located_events.simulate
+
+
+def reference_steady_velocity(
+    device: Device,
+    phase: float,
+    load: float,
+    ratio: float,
+    guess: float = 0.0,
+    *,
+    simulate: Simulate | None = None,
+    tolerance: float = TOLERANCE,
+) -> float | None:
+    """Return the mean velocity (m/s) of the steady motion, None where none is found.
+
+    `phase` in rad, `load` in N; `guess` (m/s) is where the search begins. `simulate` is any
+    reference instead of that for the friction law, `tolerance` the accuracy wanted of the state in
+    units of its scale.
+    """
+    period_map = _period_map(device, phase, ratio, simulate)
+    if period_map is None:
+        return None
+    found = steady_point(period_map, guess, load, tolerance=tolerance)
+    return found.displacement / period_map.period if isinstance(found, FixedPoint) else None
+
+
+def reference_blocking_force(
+    device: Device,
+    phase: float,
+    ratio: float,
+    guess: float = 0.0,
+    *,
+    simulate: Simulate | None = None,
+    tolerance: float = TOLERANCE,
+) -> float | None:
+    """Return the load (N) that makes the mean velocity zero, None where none is found.
+
+    The arguments are those of `reference_steady_velocity`.
+    """
+    period_map = _period_map(device, phase, ratio, simulate)
+    if period_map is None:
+        return None
+    # Without preload the load varies alone and friction is of the order of its amplitude.
+    normal = device.normal_preload + device.normal_amplitude
+    friction = device.friction_faces * device.friction_coefficient * normal
+    warm = period_map.warm_up(0.0, guess)
+    found = blocked_point(period_map, warm, guess, friction, tolerance=tolerance)
+    return found.load if isinstance(found, FixedPoint) else None
+
+
+def _period_map(
+    device: Device, phase: float, ratio: float, simulate: Simulate | None
+) -> _ReferencePeriodMap | None:
+    """Return the map of the period after which drive and normal load repeat, None without one."""
+    count = common_period(ratio)
+    if count is None:
+        return None
+    return _ReferencePeriodMap(device, phase, ratio, count, simulate or simulator(device))
+
+
+class _ReferencePeriodMap:
+    """The period map of a reference; `count` drive periods are one common period.
+
+    The state has the entries of `STATE` that there are: no resonator at fidelity 1, where its
+    force is given, and no bristle with Coulomb friction.
+    """
+
+    def __init__(
+        self, device: Device, phase: float, ratio: float, count: int, simulate: Simulate
+    ) -> None:
+        self.simulate = simulate
+        self.device = device
+        self.phase = phase
+        self.ratio = ratio
+        self.count = count
+        self.drive_period = 2.0 * pi / device.drive_frequency
+        self.period = count * self.drive_period
+        resonator = STATE[1:3] if device.fidelity == 2 else ()
+        bristle = STATE[3:] if device.friction_law == 1 else ()
+        self.names = (STATE[0], *resonator, *bristle)
+
+    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
+        """Run one common period."""
+        states, position = self._run(state, load, np.array([self.period]))
+        return states[0], float(position[0])
+
+    def warm_up(self, velocity: float, load: float) -> WarmedUp:
+        """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
+        count = ceil(WARM_UP / self.count) * self.count
+        stop = count * self.drive_period
+        times = np.linspace((count - 1) * self.drive_period, stop, SAMPLES + 1)
+        start = np.zeros(len(self.names))
+        start[0] = velocity
+        states, position = self._run(start, load, times)
+        mean = float(position[-1] - position[0]) / self.drive_period
+        return WarmedUp(states[-1], self._scale(np.abs(states).max(axis=0)), mean)
+
+    def _scale(self, sizes: Vector) -> Vector:
+        """Return the scale of each state from the largest sizes that were seen, all (n,)."""
+        seen = dict(zip(self.names, sizes.tolist(), strict=True))
+        floor = 1e-6 * max(seen["velocity"], seen.get("resonator_velocity", 0.0), 1e-3)
+        scale = {name: max(size, floor) for name, size in seen.items()}
+        if "resonator_displacement" in seen:
+            scale[STATE[1]] = max(seen[STATE[1]], floor * self.drive_period)
+        if "bristle_deflection" in seen:
+            scale[STATE[3]] = self.device.friction_coefficient / self.device.bristle_stiffness
+        return np.array(list(scale.values()))
+
+    def _run(self, state: Vector, load: float, times: Vector) -> tuple[Vector, Vector]:
+        """Return states (m, n) and positions (m,) at times (m,), from a state at time 0."""
+        initial: dict[str, Any] = {f"initial_{name}": 0.0 for name in ("position", *STATE)}
+        initial |= {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
+        device = replace(self.device, **initial)
+        held = [HeldInputs(0.0, float(times[-1]), self.phase, load, self.ratio)]
+        run = self.simulate(device, held, times)
+        return np.column_stack([getattr(run, name) for name in self.names]), run.position

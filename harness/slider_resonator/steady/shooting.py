@@ -1,0 +1,195 @@
+"""Steady motion as a fixed point of the map over one common period, found by shooting.
+
+The slow velocity of the table 1 device forgets its start over some 1140 periods, so that waiting
+for 1e-6 takes 16 000 of them. The map over a single period, solved for its fixed point, gives
+rounding accuracy from a few dozen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.steady.newton import Matrix, Root, Vector, central_jacobian, solve
+
+PeriodMap = Callable[[Vector], tuple[Vector, float]]
+"""State (n,) at the start of a period -> state (n,) at its end, displacement over it."""
+
+LoadedPeriodMap = Callable[[Vector, float], tuple[Vector, float]]
+"""The same, with the load (N) that acts during the period."""
+
+NEUTRAL = 1e-7
+"""A multiplier this close to the unit circle neither grows nor decays, as far as can be told."""
+FRESH = 1e-6
+"""A Jacobian taken this close to the fixed point, in units of the scale, gives its multipliers."""
+
+FAMILY = 1e-9
+"""Residual, in units of the scale, below which a singular map has a family of fixed points."""
+
+Stability = Literal["stable", "unstable", "neutral"]
+
+
+@dataclass(frozen=True)
+class FixedPoint:
+    """A motion that repeats.
+
+    `state` (n,) at the start of the period, `displacement` over it and the `load` that acts.
+    `multipliers` (n,), complex, are the Floquet multipliers, largest first; `residual` is the
+    largest change of the state over the period in units of the scale.
+    """
+
+    state: Vector
+    displacement: float
+    load: float
+    iterations: int
+    evaluations: int
+    residual: float
+    multipliers: NDArray[np.complex128]
+
+    @property
+    def stability(self) -> Stability:
+        """Whether small departures from the motion decay, grow, or stay."""
+        largest = float(np.abs(self.multipliers).max())
+        if largest > 1.0 + NEUTRAL:
+            return "unstable"
+        return "neutral" if largest >= 1.0 - NEUTRAL else "stable"
+
+
+@dataclass(frozen=True)
+class NoFixedPoint:
+    """No repeating motion was found; `reason` says what was seen and what can be done."""
+
+    status: Literal["no_fixed_point", "not_unique", "not_converged"]
+    reason: str
+    iterations: int
+    evaluations: int
+    residual: float
+
+
+def fixed_point(
+    period_map: PeriodMap,
+    guess: Vector,
+    scale: Vector,
+    *,
+    load: float = 0.0,
+    tolerance: float = 1e-11,
+    max_iterations: int = 60,
+) -> FixedPoint | NoFixedPoint:
+    """Find a state that the map returns to, starting from `guess` (n,).
+
+    `scale` (n,) is the typical size of each entry of the state and `tolerance` the accuracy
+    wanted in units of it. `load` is only recorded.
+    """
+    displacements: list[float] = []
+
+    def change(state: Vector) -> Vector:
+        end, displacement = period_map(state)
+        displacements.append(displacement)
+        return end - state
+
+    root = solve(change, guess, scale, tolerance=tolerance, max_iterations=max_iterations)
+    if root.status != "converged":
+        return _failure(root, len(displacements))
+    jacobian = _fresh_jacobian(change, root, scale)
+    change(root.x)
+    return FixedPoint(
+        state=root.x,
+        displacement=displacements[-1],
+        load=load,
+        iterations=root.iterations,
+        evaluations=len(displacements),
+        residual=root.residual,
+        multipliers=_multipliers(jacobian),
+    )
+
+
+def blocking_point(
+    period_map: LoadedPeriodMap,
+    guess: Vector,
+    load_guess: float,
+    scale: Vector,
+    load_scale: float,
+    displacement_scale: float,
+    *,
+    tolerance: float = 1e-11,
+    max_iterations: int = 60,
+) -> FixedPoint | NoFixedPoint:
+    """Find the load and the state of the repeating motion without displacement over a period.
+
+    One more unknown and one more equation than `fixed_point`: the load (N) and displacement = 0.
+    """
+    evaluations = 0
+    bordered_scale = np.append(scale, load_scale)
+
+    def change(unknowns: Vector) -> Vector:
+        nonlocal evaluations
+        evaluations += 1
+        state, load = unknowns[:-1], float(unknowns[-1])
+        end, displacement = period_map(state, load)
+        return np.append(end - state, displacement * load_scale / displacement_scale)
+
+    root = solve(
+        change,
+        np.append(guess, load_guess),
+        bordered_scale,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+    )
+    if root.status != "converged":
+        return _failure(root, evaluations)
+    jacobian = _fresh_jacobian(change, root, bordered_scale)
+    state, load = root.x[:-1], float(root.x[-1])
+    _, displacement = period_map(state, load)
+    return FixedPoint(
+        state=state,
+        displacement=displacement,
+        load=load,
+        iterations=root.iterations,
+        evaluations=evaluations + 1,
+        residual=root.residual,
+        multipliers=_multipliers(jacobian[:-1, :-1]),
+    )
+
+
+def _fresh_jacobian(function: Callable[[Vector], Vector], root: Root, scale: Vector) -> Matrix:
+    """Return the Jacobian at the root: the last one, where it was taken close enough."""
+    if float(np.abs((root.x - root.jacobian_at) / scale).max()) <= FRESH:
+        return root.jacobian
+    return central_jacobian(function, root.x, 1e-4 * scale)
+
+
+def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
+    """Return the eigenvalues of the map, largest first, from the Jacobian of its change."""
+    size = len(change_jacobian)
+    values = np.linalg.eigvals(change_jacobian + np.eye(size)).astype(np.complex128)
+    return values[np.argsort(-np.abs(values))]
+
+
+def _failure(root: Root, evaluations: int) -> NoFixedPoint:
+    """Put the end of a failed iteration into words."""
+    numbers = (root.iterations, evaluations, root.residual)
+    if root.status == "singular" and root.residual <= FAMILY:
+        return NoFixedPoint(
+            "not_unique",
+            "a whole family of motions repeats: friction does not choose among them, each start "
+            "keeps its own velocity",
+            *numbers,
+        )
+    if root.status == "singular":
+        return NoFixedPoint(
+            "no_fixed_point",
+            "the state drifts by the same amount in every period, whatever its start "
+            f"({root.residual:.3g} of its scale): no motion repeats",
+            *numbers,
+        )
+    why = {"stalled": "no step brings it closer", "limit": "out of iterations"}[root.status]
+    return NoFixedPoint(
+        "not_converged",
+        f"did not converge ({why}): after {root.iterations} iterations the next correction is "
+        f"{root.correction:.3g} of the scale, the change over a period {root.residual:.3g}",
+        *numbers,
+    )

@@ -1,0 +1,105 @@
+"""Steady velocity of an FMU by shooting: the FMU alone, no long run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isfinite
+
+from slider_resonator.device.common_period import MAX_DENOMINATOR
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.steady.outcome import Outcome, cost, why_not, with_undamped_hint
+from slider_resonator.steady.periodic import (
+    Facts,
+    FmuPeriodMap,
+    Obstacle,
+    read_facts,
+    repeating_periods,
+)
+from slider_resonator.steady.search import steady_point
+from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
+
+
+@dataclass(frozen=True)
+class SteadyMotion(Outcome):
+    """The outcome of a search for steady motion.
+
+    `steady_velocity` (m/s) is the mean over the common period, None where there is no steady
+    motion; `state` is the one at theta = psi = 0. `status` is steady, stuck, unstable or neutral;
+    without a velocity it is load_above_friction, slow_beat (frequency_ratio next to an integer),
+    no_common_period, no_fixed_point, not_unique or not_converged.
+    """
+
+    steady_velocity: float | None = None
+    state: Mapping[str, float] = field(default_factory=dict)
+
+
+def find_steady(
+    instance: Instance,
+    values: Mapping[str, float],
+    *,
+    max_denominator: int = MAX_DENOMINATOR,
+) -> SteadyMotion:
+    """Find the steady motion of an FMU with the given parameters and inputs.
+
+    An `initial_velocity` among the values is where the search begins, otherwise that is the FMU's
+    own prediction. Raises FmuError and Refusal as `Instance.start` does.
+    """
+    facts = read_facts(instance, values)
+    predicted = facts.steady_velocity
+    runaway = _runaway(facts)
+    # Damped bristles can give more friction than full sliding: there only the search can tell.
+    certain = runaway if facts["friction_law"] == 0 else None
+    count = certain or repeating_periods(facts, max_denominator)
+    if isinstance(count, Obstacle):
+        return SteadyMotion(count.status, count.reason, predicted)
+    period_map = FmuPeriodMap(instance, values, facts, count)
+    wanted = values.get("initial_velocity", predicted)
+    found = steady_point(period_map, wanted if isfinite(wanted) else 0.0, facts["load"])
+    if isinstance(found, NoFixedPoint):
+        status, reason = why_not(found, facts)
+        if runaway is not None:
+            status, reason = runaway.status, runaway.reason
+        return SteadyMotion(status, reason, predicted, **cost(period_map, found))
+    status, reason = _judge(found, period_map.stick_fraction)
+    return SteadyMotion(
+        status,
+        with_undamped_hint(reason, facts) if status == "neutral" else reason,
+        predicted,
+        **cost(period_map, found),
+        steady_velocity=found.displacement / period_map.period,
+        state=dict(zip(period_map.names, found.state.tolist(), strict=True)),
+    )
+
+
+def _runaway(facts: Facts) -> Obstacle | None:
+    """Return the obstacle of a load that even full sliding friction cannot hold."""
+    load, limit = facts["load"], facts.friction_limit
+    if abs(load) < limit or (load == 0.0 and limit == 0.0):
+        return None
+    mass = facts["slider_mass"] + facts["resonator_mass"]
+    rate = abs(load) - limit
+    return Obstacle(
+        "load_above_friction",
+        f"no steady motion: load = {load:.6g} N is not below the {limit:.6g} N that friction "
+        f"gives on average in full sliding; the slider gains {rate / mass:.3g} m/s every second",
+    )
+
+
+def _judge(found: FixedPoint, stick_fraction: float) -> tuple[str, str]:
+    """Return status and reason of a motion that repeats."""
+    if found.displacement == 0.0 and stick_fraction == 1.0:
+        return "stuck", "the slider sticks throughout: the drive does not overcome friction"
+    largest = f"{abs(found.multipliers[0]):.9g}"
+    return {
+        "stable": ("steady", f"stable: the largest multiplier is {largest}"),
+        "unstable": (
+            "unstable",
+            f"this motion repeats but departures from it grow by {largest} per common period: "
+            "another one is reached in practice",
+        ),
+        "neutral": (
+            "neutral",
+            f"this motion repeats but departures from it neither grow nor decay ({largest})",
+        ),
+    }[found.stability]

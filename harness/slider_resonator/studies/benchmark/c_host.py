@@ -1,0 +1,81 @@
+"""What a communication step costs a host in C: set an input, step, get outputs."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+
+from slider_resonator.studies.benchmark.in_turn import Progress
+from slider_resonator.trials.hosts.driver_host import BINARY, converse, native_driver
+from slider_resonator.trials.hosts.job import describe
+
+
+@dataclass(frozen=True)
+class Step:
+    """A kind of communication step: parameters, its size (s), and how many to take."""
+
+    name: str
+    parameters: Mapping[str, float]
+    size: float
+    count: int
+    outputs: tuple[str, ...]
+
+
+_ALL_MOTION = ("position", "velocity", "mean_velocity", "friction_force")
+_FEED_FORWARD = (*_ALL_MOTION, "steady_velocity", "blocking_force")
+_FAST = {"drive_frequency": 35000.0, "resonator_frequency": 35000.0, "base_amplitude": 1e-5}
+
+STEPS = (
+    Step("resolved Coulomb, 1 ms", {"fidelity": 2}, 1e-3, 20_000, _ALL_MOTION),
+    Step("the same, averaged theory read too", {"fidelity": 2}, 1e-3, 20_000, _FEED_FORWARD),
+    Step("averaged Coulomb, 10 ms", {"fidelity": 0}, 1e-2, 20_000, _ALL_MOTION),
+    Step("the same at 35 000 rad/s", {"fidelity": 0, **_FAST}, 1e-2, 20_000, _ALL_MOTION),
+    Step("averaged LuGre, 10 ms", {"fidelity": 0, "friction_law": 1}, 1e-2, 20_000, _ALL_MOTION),
+    Step("resolved Coulomb at 35 000 rad/s, 10 ms", {**_FAST}, 1e-2, 500, _ALL_MOTION),
+    Step("resolved LuGre, 1 ms", {"friction_law": 1}, 1e-3, 5_000, _ALL_MOTION),
+)
+
+
+@dataclass(frozen=True)
+class StepCost:
+    """Microseconds of a step with its set and get: median and extremes over the repeats."""
+
+    name: str
+    outputs: int
+    microseconds: float
+    fastest: float
+    slowest: float
+
+
+def measure_steps(fmu: Path, repeats: int, progress: Progress) -> tuple[StepCost, ...]:
+    """Time every kind of step in the C driver, in turn; RuntimeError with what it complains of.
+
+    The input that is set is the load, to a new value each time.
+    """
+    times: dict[str, list[float]] = {step.name: [] for step in STEPS}
+    for repeat in range(repeats):
+        for index, step in enumerate(STEPS):
+            progress(f"C host: {step.name}", (repeat + index / len(STEPS)) / repeats)
+            folder, suffix = BINARY[platform.system()]
+            said = converse(fmu, _commands(fmu, step), [str(native_driver())], folder, suffix, str)
+            times[step.name].append(said[-1][0])
+    progress("", 1.0)
+    return tuple(
+        StepCost(s.name, len(s.outputs), median(t), min(t), max(t))
+        for s, t in zip(STEPS, times.values(), strict=True)
+    )
+
+
+def _commands(fmu: Path, step: Step) -> str:
+    references = describe(str(fmu)).references
+    lines = [
+        f"{'integer' if isinstance(value, int) else 'real'} {references[name]} {value!r}"
+        for name, value in step.parameters.items()
+    ]
+    outputs = " ".join(str(references[name]) for name in step.outputs)
+    lines += ["initialize", f"step {step.size!r} 10"]
+    lines.append(f"time {step.count} {step.size!r} {references['load']} 0.01 {outputs}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,94 @@
+"""A stretch of a scene, run with one candidate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.studies.choose.held import HeldGrid
+
+Array = NDArray[np.float64]
+
+SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
+MOST_LOOKS = 2000
+"""Points at which signals are compared; more would tell the same."""
+GOLDEN = 0.6180339887498949
+NO_POINTS = np.empty(0)
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """From `start` to `stop` (s), with the `looks` (n,) (s) at which signals are compared.
+
+    `start` is a whole number of drive periods. `initial` holds the initial values of a stretch that
+    begins later than the scene.
+    """
+
+    start: float
+    stop: float
+    looks: Array
+    initial: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Course:
+    """Outputs by name (n,) at the looks of a stretch, `times` in s from the scene's start.
+
+    `grid_velocity` (m,) is the mean velocity at `grid_times` (m,) (s), points of a record that is
+    to have a spectrum.
+    """
+
+    times: Array
+    signals: Mapping[str, Array]
+    grid_times: Array
+    grid_velocity: Array
+
+    def __getitem__(self, name: str) -> Array:
+        """Return an output at the looks."""
+        return self.signals[name]
+
+
+def looks_between(points: Array, start: float, stop: float) -> Array:
+    """Return some of the points (s) in (start, stop], and stop, at no regular distance.
+
+    Equal distances could show one phase of the vibration only.
+    """
+    inside = points[(points > start) & (points < stop)]
+    if inside.size > MOST_LOOKS:
+        index = np.arange(MOST_LOOKS)
+        places = (index + (GOLDEN * index) % 1.0) * (inside.size / MOST_LOOKS)
+        inside = inside[np.unique(places.astype(np.int64))]
+    return np.append(inside, stop)
+
+
+def follow(
+    instance: Instance,
+    scene: Scene,
+    parameters: Mapping[str, float],
+    held: HeldGrid,
+    stretch: Stretch,
+    grid: Array = NO_POINTS,
+) -> Course:
+    """Run a stretch; FmuError or Refusal where the FMU cannot, or gives what is not finite.
+
+    `grid` (m,) (s) are points of the stretch for `Course.grid_times`.
+    """
+    points = np.union1d(stretch.looks, grid)
+    frequency = scene.device.drive_frequency
+    schedule = held.stretch(stretch.start, stretch.stop, points, frequency)
+    values = {**scene.parameters, **stretch.initial, **parameters}
+    record = run(instance, values, schedule, outputs=SIGNALS)
+    at = np.searchsorted(schedule.times, stretch.looks - stretch.start)
+    signals = {name: record[name][at] for name in SIGNALS}
+    signals["last_event_time"] = signals["last_event_time"] + stretch.start
+    for name, values_there in signals.items():
+        if not np.isfinite(values_there).all():
+            raise FmuError(f"{instance.fmu.path.name}: output {name} is not finite")
+    on_grid = np.searchsorted(schedule.times, grid - stretch.start)
+    return Course(stretch.looks, signals, grid, record["mean_velocity"][on_grid])

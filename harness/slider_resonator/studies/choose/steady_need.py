@@ -1,0 +1,57 @@
+"""Needs that hold for ever: steady velocity and blocking force, by shooting or by theory."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import inf
+
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.steady.blocking_force import Blocking, find_blocking
+from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
+from slider_resonator.studies.choose.candidate import Candidate
+from slider_resonator.studies.choose.errors import ROUNDING, Wrong
+
+EXISTS = {"steady_velocity": ("steady", "stuck"), "blocking_force": ("blocked",)}
+"""Outcomes of a search that a device settles at."""
+SOLVED = 1e-10
+"""Accuracy of a solution by shooting, as a share of its size, but for that of the integration."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A steady quantity (m/s or N), None with the reason, and the drive periods that it took."""
+
+    value: float | None
+    reason: str
+    periods: int
+
+
+def find(instance: Instance, values: Mapping[str, float], name: str, candidate: Candidate) -> Found:
+    """Return a steady quantity as a candidate gives it: at fidelity 0 the FMU's own output.
+
+    `values` are the parameters and inputs of the scene. Raises FmuError where the FMU refuses.
+    """
+    given = {**values, **candidate.parameters}
+    if candidate.model.fidelity == 0:
+        instance.start(given)
+        with instance.explained():
+            return Found(instance.value(name), "", 0)
+    if name == "steady_velocity":
+        motion: SteadyMotion | Blocking = find_steady(instance, given)
+        value = motion.steady_velocity if isinstance(motion, SteadyMotion) else None
+    else:
+        motion = find_blocking(instance, {k: v for k, v in given.items() if k != "load"})
+        value = motion.blocking_force
+    settles = motion.status in EXISTS[name]
+    return Found(value if settles else None, f"{motion.status}: {motion.reason}", motion.periods)
+
+
+def steady_error(found: Found, truth: Found, law: int) -> Wrong:
+    """Return how far a quantity is from the resolved one; `law` is the friction law of that."""
+    if truth.value is None:
+        return Wrong(inf, 0.0, truth.reason)
+    if found.value is None:
+        return Wrong(inf, abs(truth.value), found.reason)
+    floor = max(SOLVED, ROUNDING[law]) * abs(truth.value)
+    return Wrong(max(abs(found.value - truth.value), floor), abs(truth.value))

@@ -1,0 +1,100 @@
+"""One run of the closed loop in a host, at one fidelity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from fmpy.ssp.ssd import read_ssv
+from numpy.typing import NDArray
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.studies.closed_loop.duty import Duty
+from slider_resonator.trials.hosts.hosts import Host, package_version
+from slider_resonator.trials.hosts.job import Job
+from slider_resonator.trials.hosts.runs import ask
+
+Array = NDArray[np.float64]
+
+DESIGN, PROOF = "design", "proof"
+"""The parameter sets in the package: averaged motion, and the full device."""
+FIDELITY = "slider.fidelity"
+OUTPUTS = ("slider.mean_velocity", "controller.phase")
+
+HOSTS = (
+    Host("fmpy", "fmpy_ssp_host", lambda: package_version("fmpy")),
+    Host("libcosimpy", "libcosim_ssp_host", lambda: package_version("libcosimpy")),
+)
+
+INPUT_DELAY = {"fmpy": 1, "libcosimpy": 0}
+"""Communication steps after which inputs of the system reach the components."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """Mean velocity (m/s) and phase (rad) at the ends of the communication steps, shapes (n,).
+
+    The phase is the one that the controller puts out: the slider has it in the step after. `load`
+    (N) is what the slider had in the step.
+    """
+
+    host: str
+    fidelity: int
+    times: Array
+    velocity: Array
+    phase: Array
+    load: Array
+
+
+def run_loop(package: Path, host: Host, duty: Duty) -> tuple[Course, Course]:
+    """Run the loop at the fidelity of the design and at that of the proof.
+
+    The host is a process of its own. Raises HarnessError where it is missing or cannot run.
+    """
+    host.version()
+    jobs = [_job(package, name, duty) for name in (DESIGN, PROOF)]
+    courses = []
+    for job, answer in zip(jobs, ask(host, jobs), strict=True):
+        if answer.error is not None:
+            raise HarnessError(f"{package} does not run in {host.name}: {answer.error}")
+        rows = np.array(answer.rows, dtype=np.float64)
+        if rows.shape != (job.steps, len(OUTPUTS)) or not np.isfinite(rows).all():
+            raise HarnessError(
+                f"{package} in {host.name}: {rows.shape} values, allowed are "
+                f"{(job.steps, len(OUTPUTS))} finite ones"
+            )
+        times = duty.step * np.arange(1.0, job.steps + 1.0)
+        fidelity = int(job.start[FIDELITY])
+        late = INPUT_DELAY[host.name] * duty.step
+        load = np.array([duty.load(time - late) for time in duty.times])
+        courses.append(Course(host.name, fidelity, times, rows[:, 0], rows[:, 1], load))
+    return courses[0], courses[1]
+
+
+def _job(package: Path, name: str, duty: Duty) -> Job:
+    return Job(
+        fmu=str(package.resolve()),
+        start=parameters(package, name),
+        inputs={
+            "velocity_reference": [duty.reference] * len(duty.times),
+            "load": [duty.load(time) for time in duty.times],
+        },
+        step=duty.step,
+        outputs=OUTPUTS,
+    )
+
+
+def parameters(package: Path, name: str) -> dict[str, float]:
+    """Return the values of a parameter set in the package, Integers as int.
+
+    Raises HarnessError where there is no such set, or it says nothing of the fidelity.
+    """
+    try:
+        found = read_ssv(str(package), resource=f"resources/{name}.ssv").parameters
+    except Exception as error:  # zipfile, lxml and fmpy each raise their own
+        raise HarnessError(f"{package}: no parameter set {name} can be read: {error}") from error
+    values = {p.name: int(p.value) if p.type == "Integer" else float(p.value) for p in found}
+    if FIDELITY not in values:
+        raise HarnessError(f"{package}: parameter set {name} lacks {FIDELITY}")
+    return values

@@ -1,0 +1,94 @@
+"""The picture of the closed loop: load, velocity, phase, and how far design and proof differ."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from slider_resonator.output.atomic import replacing
+from slider_resonator.output.plot_style import COLOURS, save, style
+from slider_resonator.studies.closed_loop.course import Course
+from slider_resonator.studies.closed_loop.duty import Duty
+from slider_resonator.studies.closed_loop.judge import Agreement
+
+DESIGN_COLOUR, PROOF_COLOUR = COLOURS["theory"], COLOURS["slow"]
+BAND_COLOUR = "#d8e6ee"
+
+
+def draw_loop(
+    design: Course,
+    proof: Course,
+    duty: Duty,
+    agreements: Sequence[Agreement],
+    path: Path,
+    title: str,
+) -> None:
+    """Draw both courses of a host, and how far they differ, with the errors that are predicted."""
+    with style():
+        figure = Figure(figsize=(8.0, 6.2), layout="constrained")
+        figure.suptitle(title, fontsize=11)
+        ratios = {"height_ratios": [0.6, 1.5, 1.0, 1.0]}
+        load, velocity, phase, difference = figure.subplots(4, 1, sharex=True, gridspec_kw=ratios)
+        _draw_load(load, duty)
+        _draw_velocity(velocity, design, proof, duty)
+        _draw_phase(phase, design, proof)
+        _draw_difference(difference, design, proof, duty, agreements)
+        difference.set(xlabel="time [s]", xlim=(0.0, duty.end))
+        with replacing(path) as temporary:
+            save(figure, temporary)
+
+
+def _draw_load(axes: Axes, duty: Duty) -> None:
+    starts = [hold.start for hold in duty.holds]
+    loads = [1e3 * hold.load for hold in duty.holds]
+    axes.step([*starts, duty.end], [*loads, loads[-1]], where="post", color="0.25")
+    axes.set_ylabel("load [mN]")
+
+
+def _draw_velocity(axes: Axes, design: Course, proof: Course, duty: Duty) -> None:
+    reference = 1e3 * duty.reference
+    low, high = (1.0 - duty.band) * reference, (1.0 + duty.band) * reference
+    label = f"{duty.band:.0%}, {duty.settling:g} s after each step"
+    for hold in duty.holds:
+        since = [hold.start + duty.settling, hold.end]
+        axes.fill_between(since, low, high, color=BAND_COLOUR, linewidth=0.0, label=label)
+        label = ""
+    axes.plot(
+        proof.times, 1e3 * proof.velocity, color=PROOF_COLOUR, label=f"fidelity {proof.fidelity}"
+    )
+    axes.plot(
+        design.times,
+        1e3 * design.velocity,
+        color=DESIGN_COLOUR,
+        linestyle="--",
+        label=f"fidelity {design.fidelity}",
+    )
+    axes.set(ylabel="mean velocity [mm/s]", ylim=(0.86 * reference, 1.12 * reference))
+    axes.legend(loc="lower right", ncols=3)
+
+
+def _draw_phase(axes: Axes, design: Course, proof: Course) -> None:
+    axes.plot(proof.times, proof.phase, color=PROOF_COLOUR)
+    axes.plot(design.times, design.phase, color=DESIGN_COLOUR, linestyle="--")
+    axes.set_ylabel("phase [rad]")
+
+
+def _draw_difference(
+    axes: Axes, design: Course, proof: Course, duty: Duty, agreements: Sequence[Agreement]
+) -> None:
+    counts = design.times > duty.load_steps[0].start
+    difference = 1e3 * np.abs(design.velocity - proof.velocity)[counts]
+    axes.plot(design.times[counts], difference, color="0.25", label="between the fidelities")
+    label = "predicted by choose"
+    for hold, agreement in zip(duty.load_steps, agreements, strict=True):
+        if agreement.predicted is not None:
+            since, error = (hold.start, hold.end), 1e3 * agreement.predicted
+            axes.plot(since, (error, error), color=DESIGN_COLOUR, linewidth=1.0, label=label)
+            label = ""
+    axes.set(ylabel="difference [mm/s]")
+    axes.set_ylim(0.0, 1.45 * axes.get_ylim()[1])
+    axes.legend(loc="upper right", ncols=2)

@@ -1,0 +1,106 @@
+"""What `choose` predicts for averaged motion in the loop, from what the loop does with it."""
+
+from __future__ import annotations
+
+import tempfile
+import zipfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from fmpy.ssp.ssd import read_ssd
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.scenes.scene import read_scene
+from slider_resonator.studies.choose.choosing import choose_with
+from slider_resonator.studies.closed_loop.course import DESIGN, FIDELITY, Course, parameters
+from slider_resonator.studies.closed_loop.duty import Duty, Hold
+
+FIRST = 10
+"""Communication steps after a step of the load, at each of whose ends the error is predicted."""
+
+
+def predicted_errors(
+    package: Path,
+    design: Course,
+    duty: Duty,
+    progress: Callable[[float], None] = lambda share: None,
+) -> list[float | None]:
+    """Return the largest error (m/s) of the mean velocity at fidelity 0 after each load step.
+
+    The slider of the package is given the phase that the controller gave it in the design, at every
+    communication point, and the loads. The error is asked for while the loop answers, where it has
+    settled and at the end; None stands for a load under which averaged motion does not meet the
+    need, the mean velocity within the duty's band. Raises HarnessError without a slider.
+    """
+    device = _device(package)
+    with _slider(package) as instance, tempfile.TemporaryDirectory() as folder:
+        largest: list[float | None] = []
+        for index, hold in enumerate(duty.load_steps):
+            found = [
+                _error(instance, _scene(design, duty, device, stop), Path(folder) / "loop.toml")
+                for stop in _instants(duty, hold)
+            ]
+            progress((index + 1) / len(duty.load_steps))
+            largest.append(None if None in found else max(error for error in found if error))
+        return largest
+
+
+def _instants(duty: Duty, hold: Hold) -> list[int]:
+    """Return the communication points, by number, at which the error is predicted."""
+    start, end = round(hold.start / duty.step), round(hold.end / duty.step)
+    settled = start + round(duty.settling / duty.step)
+    return [*range(start + 1, start + FIRST + 1), settled, end]
+
+
+def _device(package: Path) -> str:
+    """Return the slider's parameters in the design's set, but for its fidelity, as TOML."""
+    values = {
+        name: value for name, value in parameters(package, DESIGN).items() if name != FIDELITY
+    }
+    own = {n.removeprefix("slider."): v for n, v in values.items() if n.startswith("slider.")}
+    return "".join(f"{name} = {value!r}\n" for name, value in own.items())
+
+
+def _error(instance: Instance, scene: str, file: Path) -> float | None:
+    file.write_text(scene, encoding="utf-8")
+    choice = choose_with(instance, read_scene(file))
+    return choice.error["mean_velocity"] if choice.meets and choice.fidelity == 0 else None
+
+
+def _scene(design: Course, duty: Duty, device: str, stop: int) -> str:
+    """Return the scene of the first `stop` communication steps, in which nothing is fed back."""
+    phases = [design.phase[0], *design.phase[:-1]]  # each holds over the step after
+    phase = [[t, float(p)] for t, p in zip(duty.times, phases, strict=True)][:stop]
+    load = [[t, float(p)] for t, p in zip(duty.times, design.load, strict=True)][:stop]
+    return f"""\
+name = "loop"
+title = "What the controller did at fidelity 0"
+
+[device]
+{device}
+[inputs]
+phase = {{ steps = {phase} }}
+load = {{ steps = {load} }}
+
+[run]
+stop_time = {stop * duty.step!r}
+step_size = {duty.step!r}
+
+[need]
+mean_velocity = {{ abs = {duty.band * duty.reference!r} }}
+"""
+
+
+@contextmanager
+def _slider(package: Path) -> Iterator[Instance]:
+    """Instantiate the slider of a package."""
+    sources = {part.name: part.source for part in read_ssd(str(package)).system.elements}
+    if "slider" not in sources:
+        raise HarnessError(f"{package}: no component slider, only {', '.join(sources)}")
+    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(package) as archive:
+        fmu = archive.extract(sources["slider"], folder)
+        with open_fmu(fmu) as opened, instantiate(opened) as instance:
+            yield instance

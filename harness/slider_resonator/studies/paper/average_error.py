@@ -1,0 +1,111 @@
+"""How fast averages become right: error of the steady velocity over the drive frequency."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure as Drawing
+
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.references import closed_forms
+from slider_resonator.references.averaged import uniform_average
+from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.studies.paper.figure import (
+    SHADES,
+    Array,
+    Data,
+    PaperFigure,
+    Progress,
+    panels,
+    part,
+    sweep,
+)
+from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
+from slider_resonator.studies.paper.measure import steady_velocity
+
+PHASE, AMPLITUDE_RATIO = 1.0, 0.8
+CASE = LugreCase(phase=PHASE, amplitude_ratio=AMPLITUDE_RATIO)
+COULOMB_FREQUENCIES = tuple(np.geomspace(10.0, 10000.0, 13).tolist())
+LUGRE_FREQUENCIES = tuple(np.geomspace(30.0, 3000.0, 7).tolist())
+KAPPAS = (0.25, 2.5, 25.0)
+
+
+def _stiffness(kappa: float, frequency: float) -> float:
+    return kappa * CASE.friction_coefficient * frequency / CASE.strength
+
+
+def _measure(instance: Instance, progress: Progress) -> Data:
+    data: Data = {
+        "Coulomb": sweep(
+            COULOMB_FREQUENCIES,
+            lambda frequency: steady_velocity(
+                instance, coulomb_case(1.0, frequency, AMPLITUDE_RATIO, PHASE)
+            ),
+            part(progress, 0, 4),
+        )
+    }
+    for index, kappa in enumerate(KAPPAS):
+        data[f"LuGre {kappa:g}"] = sweep(
+            LUGRE_FREQUENCIES,
+            lambda frequency, kappa=kappa: steady_velocity(  # type: ignore[misc]
+                instance, lugre_case(CASE, frequency, _stiffness(kappa, frequency))
+            ),
+            part(progress, index + 1, 4),
+        )
+    return data
+
+
+def errors(data: Data) -> dict[str, tuple[Array, Array]]:
+    """Return frequencies and errors of the average, each shape (n,), by case."""
+    result = {}
+    for name, points in data.items():
+        frequencies = np.array(points["x"])
+        if name == "Coulomb":
+            average = closed_forms.steady_velocity(1.0, AMPLITUDE_RATIO, PHASE)
+        else:
+            # At a given kappa the average does not depend on the frequency.
+            stiffness = _stiffness(float(name.split()[1]), 1000.0)
+            average = uniform_average.steady_velocity(CASE, stiffness, 1000.0)
+        result[name] = frequencies, np.abs(np.array(points["v"]) - average)
+    return result
+
+
+def slope(frequencies: Array, error: Array) -> float:
+    """Return the exponent of the power law through the errors."""
+    return float(np.polyfit(np.log(frequencies), np.log(error), 1)[0])
+
+
+def _draw(data: Data) -> Drawing:
+    drawing, (axis,) = panels(1)
+    for (name, (frequencies, error)), shade in zip(errors(data).items(), SHADES, strict=False):
+        law, _, kappa = name.partition(" ")
+        case = f"{law}, $\\kappa$ = {kappa}" if kappa else law
+        axis.loglog(
+            frequencies,
+            error,
+            "o-",
+            markersize=4,
+            color=shade,
+            label=f"{case}: slope {slope(frequencies, error):.2f}",
+        )
+    ends = np.array([10.0, 10000.0])
+    axis.loglog(ends, 1.0 / ends, ":", color="0.4", label="$1 / \\Omega$")
+    axis.set(xlabel="drive frequency $\\Omega$", ylabel="error of the averaged velocity")
+    axis.legend(fontsize=8)
+    return drawing
+
+
+FIGURE = PaperFigure(
+    "average_error",
+    "Error of the averages over the drive frequency",
+    "q = 1, alpha = 0.8, phi = 1; LuGre sigma_1 = 1, mu = 0.4 and kappa = sigma_0 q / (mu Omega) "
+    "held. FMU by shooting against (5) and the uniform average.",
+    {
+        "phase": PHASE,
+        "amplitude_ratio": AMPLITUDE_RATIO,
+        "coulomb": COULOMB_FREQUENCIES,
+        "lugre": LUGRE_FREQUENCIES,
+        "kappas": KAPPAS,
+    },
+    _measure,
+    _draw,
+)

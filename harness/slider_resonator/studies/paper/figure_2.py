@@ -1,0 +1,113 @@
+"""Figure 2: displacement from rest, Coulomb and LuGre, at a low and at a high frequency."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.references.averaged import averaged_coulomb, uniform_average
+from slider_resonator.references.averaged.averaged_lugre import LugreCase, fast_displacement
+from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.studies.paper.figure import (
+    SHADES,
+    Array,
+    Data,
+    PaperFigure,
+    Progress,
+    markers,
+    panels,
+    part,
+)
+from slider_resonator.studies.paper.mapping import Values, coulomb_case, lugre_case
+from slider_resonator.studies.paper.measure import course
+
+STOP = 8.0
+STRENGTH = 1.0
+FREQUENCIES = (10.0, 1000.0)
+STIFFNESS = 100.0
+POINTS = {10.0: 320, 1000.0: 64}
+LAWS = ("Coulomb", "LuGre")
+
+
+def _values(law: str, frequency: float) -> Values:
+    if law == "Coulomb":
+        return coulomb_case(STRENGTH, frequency)
+    return lugre_case(LugreCase(strength=STRENGTH), frequency, STIFFNESS)
+
+
+def _measure(instance: Instance, progress: Progress) -> Data:
+    data: Data = {}
+    cases = [(law, frequency) for law in LAWS for frequency in FREQUENCIES]
+    for index, (law, frequency) in enumerate(cases):
+        run = course(instance, _values(law, frequency), STOP, POINTS[frequency])
+        data[f"{law} {frequency:g}"] = run.plain()
+        part(progress, index, len(cases))(1.0)
+    return data
+
+
+def averaged_course(law: str, frequency: float, times: Array) -> Array:
+    """Return the averaged position with its fast part at times, shape (n,).
+
+    From rest the slow velocity starts at q, for the fast one starts at -q.
+    """
+
+    def acceleration(time: float, velocity: float) -> float:
+        if law == "Coulomb":
+            return averaged_coulomb.slow_acceleration(velocity, STRENGTH, 1.0, pi / 2.0)
+        return -uniform_average.mean_friction(velocity, LugreCase(), STIFFNESS, frequency)
+
+    coarse = np.linspace(0.0, times[-1], 201)
+    slow = np.interp(times, coarse, slow_course(acceleration, coarse, velocity=STRENGTH)[0])
+    fast = np.array([fast_displacement(frequency * t, STRENGTH, frequency) for t in times])
+    return np.asarray(slow + fast)
+
+
+def _draw(data: Data) -> Drawing:
+    drawing, axes = panels(2)
+    for axis, law in zip(axes, LAWS, strict=True):
+        _panel(axis, law, data)
+        axis.set(title=f"{law} friction")
+    return drawing
+
+
+def _panel(axis: Axes, law: str, data: Data) -> None:
+    times = np.linspace(0.0, STOP, 1601)
+    for frequency, shade, dash in zip(FREQUENCIES, SHADES, ("-", "--"), strict=False):
+        run = data[f"{law} {frequency:g}"]
+        if frequency == 1000.0:
+            label = "average, no fast part drawn"
+            shown = averaged_course(law, frequency, times[::16])
+            axis.plot(times[::16], shown, dash, color=shade, label=f"$\\Omega$ = 1000, {label}")
+        else:
+            shown = averaged_course(law, frequency, times)
+            axis.plot(times, shown, dash, color=shade, label="$\\Omega$ = 10, average + fast part")
+        every = 5 if frequency == 10.0 else 2
+        markers(
+            axis,
+            run["time"][::every],
+            run["position"][::every],
+            shade,
+            f"$\\Omega$ = {frequency:g}, FMU",
+        )
+    axis.set(xlabel="time $\\tau$", ylabel="displacement $X$", xlim=(0.0, STOP))
+    axis.legend(fontsize=8)
+
+
+FIGURE = PaperFigure(
+    "figure_2",
+    "Displacement from rest",
+    "alpha = 1, phi = pi/2, q = 1: F_T = Omega = 10 and F_T = Omega = 1000; (b) sigma_0 = 100, "
+    "sigma_1 = 1, mu = 0.4. Markers: FMU. Lines: averaged motion from slow velocity q, (4) in (a), "
+    "the uniform average in (b), with the fast part -(q/Omega) sin(Omega tau).",
+    {
+        "stop": STOP,
+        "points": {f"{frequency:g}": points for frequency, points in POINTS.items()},
+        "cases": {f"{law} {f:g}": _values(law, f) for law in LAWS for f in FREQUENCIES},
+    },
+    _measure,
+    _draw,
+)

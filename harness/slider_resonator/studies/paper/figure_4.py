@@ -1,0 +1,114 @@
+"""Figure 4: velocity against load, Coulomb and LuGre."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from matplotlib.figure import Figure as Drawing
+
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.references import closed_forms
+from slider_resonator.references.averaged import averaged_lugre, uniform_average
+from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.studies.paper.figure import (
+    SHADES,
+    Data,
+    PaperFigure,
+    Progress,
+    markers,
+    panels,
+    part,
+    sweep,
+)
+from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
+from slider_resonator.studies.paper.measure import steady_velocity
+
+FREQUENCY = 1000.0
+STIFFNESS = 100.0
+STRENGTHS = (1.0, 2.0)
+SHARES = tuple(np.linspace(0.0, 0.98, 8).tolist())
+"""Loads as shares of the blocking load of the theory that is drawn."""
+
+
+def _coulomb(instance: Instance, strength: float, load: float) -> float:
+    return steady_velocity(instance, {**coulomb_case(strength, FREQUENCY), "load": load})
+
+
+def _lugre(instance: Instance, strength: float, load: float) -> float:
+    values = lugre_case(LugreCase(strength=strength), FREQUENCY, STIFFNESS)
+    return steady_velocity(instance, {**values, "load": load})
+
+
+def _measure(instance: Instance, progress: Progress) -> Data:
+    data: Data = {}
+    for index, strength in enumerate(STRENGTHS):
+        loads = [closed_forms.blocking_load(1.0, pi / 2.0) * share for share in SHARES]
+        data[f"Coulomb {strength:g}"] = sweep(
+            loads,
+            lambda load, q=strength: _coulomb(instance, q, load),  # type: ignore[misc]
+            part(progress, 2 * index, 4),
+        )
+        blocking = uniform_average.blocking_load(LugreCase(strength=strength), STIFFNESS, FREQUENCY)
+        data[f"LuGre {strength:g}"] = sweep(
+            [blocking * share for share in SHARES],
+            lambda load, q=strength: _lugre(instance, q, load),  # type: ignore[misc]
+            part(progress, 2 * index + 1, 4),
+        )
+    return data
+
+
+def _draw(data: Data) -> Drawing:
+    drawing, axes = panels(2)
+    for strength, shade, dash in zip(STRENGTHS, SHADES, ("-", "--"), strict=False):
+        end = closed_forms.blocking_load(1.0, pi / 2.0)
+        loads = np.linspace(0.0, end, 101).tolist()
+        curve = [closed_forms.loaded_velocity(strength, 1.0, pi / 2.0, load) for load in loads]
+        axes[0].plot(loads, curve, dash, color=shade, label=f"(20), q = {strength:g}")
+        case = LugreCase(strength=strength)
+        end = averaged_lugre.blocking_load(case)
+        loads = np.linspace(0.0, end, 101).tolist()
+        curve = [averaged_lugre.steady_velocity(case, load) for load in loads]
+        axes[1].plot(loads, curve, dash, color=shade, label=f"(23), q = {strength:g}")
+        end = uniform_average.blocking_load(case, STIFFNESS, FREQUENCY)
+        loads = np.linspace(0.0, end, 61).tolist()
+        curve = [
+            uniform_average.steady_velocity(case, STIFFNESS, FREQUENCY, load=load) for load in loads
+        ]
+        axes[1].plot(loads, curve, ":", color=shade, label=f"uniform, q = {strength:g}")
+        for axis, law in zip(axes, ("Coulomb", "LuGre"), strict=True):
+            points = data[f"{law} {strength:g}"]
+            markers(axis, points["x"], points["v"], shade, f"FMU, q = {strength:g}")
+    for axis, law in zip(axes, ("Coulomb", "LuGre"), strict=True):
+        axis.set(title=f"{law} friction", xlabel="load $L$", ylabel="steady velocity $V$")
+        axis.set(xlim=(0.0, None), ylim=(0.0, None))
+        axis.legend(fontsize=8)
+    axes[1].axvline(0.4, color="0.6", linewidth=0.8)
+    axes[1].annotate(
+        "$L = \\mu$",
+        (0.4, 1.0),
+        (3, -9),
+        textcoords="offset points",
+        fontsize=8,
+        color="0.4",
+        xycoords=("data", "axes fraction"),
+    )
+    return drawing
+
+
+FIGURE = PaperFigure(
+    "figure_4",
+    "Velocity against load",
+    "alpha = 1, phi = pi/2, q = 1 and 2; (b) sigma_1 = 1, mu = 0.4, sigma_0 = 100. Markers: FMU, "
+    "Omega = 1000, by shooting. Lines: (20) and (23); dotted the uniform average. The "
+    "blocking load of (b) lies above mu, the friction of full sliding.",
+    {
+        "frequency": FREQUENCY,
+        "stiffness": STIFFNESS,
+        "strengths": STRENGTHS,
+        "shares": SHARES,
+        "cases": [coulomb_case(1.0, FREQUENCY), lugre_case(LugreCase(), FREQUENCY, STIFFNESS)],
+    },
+    _measure,
+    _draw,
+)

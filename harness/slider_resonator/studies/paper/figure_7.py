@@ -1,0 +1,107 @@
+"""Figure 7: the device with its resonator against the single-degree-of-freedom model."""
+
+from __future__ import annotations
+
+from math import cos, pi
+
+import numpy as np
+from matplotlib.figure import Figure as Drawing
+
+from slider_resonator.device.device import Device
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.references.averaged import averaged_coulomb
+from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.studies.paper.figure import (
+    SHADES,
+    Array,
+    Data,
+    PaperFigure,
+    Progress,
+    markers,
+    panels,
+    part,
+)
+from slider_resonator.studies.paper.mapping import resonator_case
+from slider_resonator.studies.paper.measure import course
+
+PHASE = 0.85
+CASE = resonator_case(0.1, 100.0, 100.0, 0.01, amplitude_ratio=1.0, phase=PHASE, damping_ratio=0.05)
+FIDELITIES = {2: "two degrees of freedom", 1: "one degree of freedom"}
+PERIOD = 2.0 * pi / 100.0
+STOP_PERIODS = 160
+POINTS_PER_PERIOD = 40
+ZOOM_PERIODS = 3
+
+
+def _measure(instance: Instance, progress: Progress) -> Data:
+    data: Data = {}
+    for index, fidelity in enumerate(FIDELITIES):
+        values = {**CASE, "fidelity": fidelity}
+        points = STOP_PERIODS * POINTS_PER_PERIOD
+        data[str(fidelity)] = course(instance, values, STOP_PERIODS * PERIOD, points).plain()
+        part(progress, index, len(FIDELITIES))(1.0)
+    return data
+
+
+def averaged_course(fidelity: int, times: Array) -> tuple[Array, Array]:
+    """Return the averaged position and velocity (4) from rest at times, each shape (n,).
+
+    The models differ in their slow start: (34) takes the resonator to swing already.
+    """
+    device = Device.from_mapping({k: v for k, v in CASE.items() if k != "phase"})
+    force = equivalent_force(device)
+    phase = averaged_coulomb.phase_to_force(force, PHASE, 1.0)
+    swinging = force.velocity_amplitude * cos(force.angle)
+    start = averaged_coulomb.slow_start(device) if fidelity == 2 else swinging
+    return slow_course(
+        lambda time, velocity: averaged_coulomb.slow_acceleration(
+            velocity, force.strength, 1.0, phase
+        ),
+        times,
+        start,
+    )
+
+
+def _draw(data: Data) -> Drawing:
+    drawing, axes = panels(3)
+    times = np.linspace(0.0, STOP_PERIODS * PERIOD, 401)
+    for fidelity in FIDELITIES:
+        position, velocity = averaged_course(fidelity, times)
+        label = "(4)" if fidelity == 2 else ""
+        axes[0].plot(times, position, ":", color="0.3", label=label)
+        axes[1].plot(times, velocity, ":", color="0.3", label=label)
+    for fidelity, shade in zip(FIDELITIES, SHADES, strict=False):
+        run = {name: np.array(values) for name, values in data[str(fidelity)].items()}
+        whole = run["position"][::POINTS_PER_PERIOD]
+        instants = run["time"][::POINTS_PER_PERIOD]
+        name = f"FMU, {FIDELITIES[fidelity]}"
+        axes[0].plot(instants, whole, color=shade, label=name)
+        middles, means = 0.5 * (instants[1:] + instants[:-1]), np.diff(whole) / PERIOD
+        chosen = [*range(0, 40, 2), *range(40, STOP_PERIODS, 10)]
+        markers(axes[1], middles[chosen], means[chosen], shade, f"{name}, mean of a period")
+        last = slice(-ZOOM_PERIODS * POINTS_PER_PERIOD - 1, None)
+        dash = "-" if fidelity == 2 else "--"
+        turns = (run["time"][last] - run["time"][-1]) / PERIOD
+        axes[2].plot(turns, run["velocity"][last], dash, color=shade, label=name)
+    axes[0].set(xlabel="time $\\tau$", ylabel="displacement $x$")
+    axes[1].set(xlabel="time $\\tau$", ylabel="slow velocity")
+    axes[2].set(xlabel="drive periods before the end", ylabel="velocity $\\dot x$")
+    axes[2].set_ylim(-0.3, 1.6)
+    for axis in axes:
+        axis.legend(fontsize=7.5)
+    axes[1].set_ylim(-0.15, None)
+    return drawing
+
+
+FIGURE = PaperFigure(
+    "figure_7",
+    "Two degrees of freedom against one",
+    "r_m = 0.1, Omega_n = Omega = 100, a = 0.01, alpha = 1, phi_1 = 0.85, xi = 0.05, from rest. "
+    "(a) displacement at whole periods, (b) velocity averaged over a period, (c) velocity in full "
+    "over the last periods. FMU with fidelity 2 and 1; dotted (4) from "
+    "the slow velocity that each model has at the start.",
+    {"case": CASE, "periods": STOP_PERIODS, "points": POINTS_PER_PERIOD},
+    _measure,
+    _draw,
+)

@@ -1,0 +1,154 @@
+"""Figure 8: normal and tangential frequencies that differ."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+
+from slider_resonator.device.device import Device
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.references.averaged import averaged_coulomb
+from slider_resonator.references.averaged.averaged_coulomb import (
+    device_steady_velocity_at_ratio,
+    drifting_phase,
+)
+from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.studies.paper.figure import (
+    SHADES,
+    Data,
+    PaperFigure,
+    Progress,
+    markers,
+    panels,
+    part,
+)
+from slider_resonator.studies.paper.measure import course
+
+DEVICE = Device()
+PERIOD = 2.0 * pi / DEVICE.drive_frequency
+RATIOS = tuple((np.arange(1, 31) / 4.0).tolist())
+PHASES = tuple(np.linspace(0.0, 2.0 * pi, 17).tolist())
+SHOWN_RATIOS = (1.0, 3.0, 5.0)
+DETUNINGS = (1.0, 2.0, 4.0)
+HISTORY_RATIOS = (1.0, 3.0, 5.0, 1.5)
+STOP = 16.0
+POINTS = 400
+
+
+def velocity_at(instance: Instance, phase: float, ratio: float) -> float | None:
+    """Return the FMU's steady velocity in x0 w0 by shooting; None where it finds none."""
+    velocity = find_steady(instance, {"phase": phase, "frequency_ratio": ratio}).steady_velocity
+    return None if velocity is None else velocity / equivalent_force(DEVICE).length_scale
+
+
+def _measure(instance: Instance, progress: Progress) -> Data:
+    data: Data = {"ratio": [], "phase": {}, "detuned": {}, "history": {}}
+    for index, ratio in enumerate(RATIOS):
+        data["ratio"].append(velocity_at(instance, 0.0, ratio))
+        part(progress, 0, 4)((index + 1) / len(RATIOS))
+    for index, ratio in enumerate(SHOWN_RATIOS):
+        values = [velocity_at(instance, phase, ratio) for phase in PHASES]
+        data["phase"][f"{ratio:g}"] = values
+        part(progress, 1, 4)((index + 1) / len(SHOWN_RATIOS))
+    for name, group, share in (
+        ("detuned", [(d, 1.0 + d / DEVICE.drive_frequency) for d in DETUNINGS], 2),
+        ("history", [(r, r) for r in HISTORY_RATIOS], 3),
+    ):
+        for index, (key, ratio) in enumerate(group):
+            run = course(instance, {"frequency_ratio": ratio}, STOP, POINTS)
+            data[name][f"{key:g}"] = run.plain()
+            part(progress, share, 4)((index + 1) / len(group))
+    return data
+
+
+def _draw(data: Data) -> Drawing:
+    drawing, axes = panels(4, height=3.2)
+    _over_ratio(axes[0], data)
+    _over_phase(axes[1], data)
+    _detuned(axes[2], data)
+    _histories(axes[3], data)
+    for axis in axes:
+        axis.legend(fontsize=7.5)
+    return drawing
+
+
+def _scaled(phase: float, ratio: float) -> float:
+    length = equivalent_force(DEVICE).length_scale
+    return device_steady_velocity_at_ratio(DEVICE, phase, ratio) / length
+
+
+def _over_ratio(axis: Axes, data: Data) -> None:
+    axis.axhline(0.0, color="0.4", linewidth=0.6)
+    integers = [float(n) for n in range(1, 8)]
+    axis.vlines(
+        integers,
+        0.0,
+        [_scaled(0.0, n) for n in integers],
+        color=SHADES[0],
+        label="average at integer ratios",
+    )
+    markers(axis, RATIOS, data["ratio"], SHADES[1], "FMU")
+    axis.set(xlabel="frequency ratio $\\lambda$", ylabel="steady velocity")
+
+
+def _over_phase(axis: Axes, data: Data) -> None:
+    fine = np.linspace(0.0, 2.0 * pi, 121).tolist()
+    for ratio, shade in zip(SHOWN_RATIOS, SHADES, strict=False):
+        axis.plot(fine, [_scaled(p, ratio) for p in fine], color=shade)
+        values = data["phase"][f"{ratio:g}"]
+        markers(axis, PHASES, values, shade, f"$\\lambda$ = {ratio:g}")
+    axis.set(xlabel="phase $\\phi_1$ [rad]", ylabel="steady velocity")
+
+
+def _detuned(axis: Axes, data: Data) -> None:
+    force = equivalent_force(DEVICE)
+    times = np.linspace(0.0, STOP, 401)
+    for detuning, shade in zip(DETUNINGS, SHADES, strict=False):
+
+        def acceleration(time: float, velocity: float, detuning: float = detuning) -> float:
+            phase = drifting_phase(time, detuning, force.angle)
+            return averaged_coulomb.slow_acceleration(velocity, force.strength, 1.0, phase)
+
+        start = averaged_coulomb.slow_start(DEVICE) / force.length_scale
+        axis.plot(times, slow_course(acceleration, times, start)[0], color=shade)
+        run = data["detuned"][f"{detuning:g}"]
+        position = np.array(run["position"]) / force.length_scale
+        label = f"$\\Delta\\Omega$ = {detuning:g}"
+        markers(axis, run["time"][::8], position[::8], shade, label)
+    axis.set(xlabel="time $\\tau$", ylabel="displacement", ylim=(0.0, 2.3))
+
+
+def _histories(axis: Axes, data: Data) -> None:
+    length = equivalent_force(DEVICE).length_scale
+    for ratio, shade in zip(HISTORY_RATIOS, SHADES, strict=False):
+        run = data["history"][f"{ratio:g}"]
+        position = np.array(run["position"]) / length
+        axis.plot(run["time"], position, color=shade, label=f"$\\lambda$ = {ratio:g}")
+    axis.set(xlabel="time $\\tau$", ylabel="displacement")
+
+
+FIGURE = PaperFigure(
+    "figure_8",
+    "Different frequencies of normal load and drive",
+    "The device of table 1 (Omega = Omega_n = 3500, a = 0.00055, mu = 0.1, r_m = 0.0909, "
+    "alpha = 1, xi = 0.05), lengths in x0, time in 1/w0. (a) phi_1 = 0; (b) over phi_1; (c) "
+    "small detuning, lambda = 1 + DeltaOmega / Omega; (d) from rest. Markers: FMU, by shooting "
+    "in (a) and (b). Lines: the average at integer ratios in (a) and (b), (A.2) in (c), the "
+    "FMU in (d).",
+    {
+        "ratios": RATIOS,
+        "phases": PHASES,
+        "shown": SHOWN_RATIOS,
+        "detunings": DETUNINGS,
+        "histories": HISTORY_RATIOS,
+        "stop": STOP,
+        "points": POINTS,
+    },
+    _measure,
+    _draw,
+)

@@ -1,0 +1,108 @@
+"""What the report says in words: the captions of the figures, the tables, and the claims."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from slider_resonator.output.atomic import replacing
+from slider_resonator.output.json_output import to_json
+from slider_resonator.studies.paper.figure import Data, PaperFigure
+from slider_resonator.studies.paper.table import PaperTable
+
+HEAD = (
+    "The FMU runs with masses, loads and reference frequency of 1, so that its SI values are the "
+    "paper's dimensionless ones; numbers in brackets are equations of the paper."
+)
+
+
+def write_figures(folder: Path, figures: Iterable[PaperFigure], fmu: str, guid: str) -> None:
+    """Write FIGURES.md with the caption of each figure; HarnessError when it cannot be written."""
+    lines = ["# Figures", "", f"FMU {fmu}, GUID {guid}. {HEAD}", ""]
+    for figure in figures:
+        lines += [f"## {figure.name}: {figure.title}", "", f"![{figure.title}]({figure.name}.png)"]
+        lines += ["", f"{figure.caption} ([SVG]({figure.name}.svg))", ""]
+    _write(folder / "FIGURES.md", "\n".join(lines))
+
+
+def write_tables(
+    folder: Path, tables: Sequence[tuple[PaperTable, Data]], fmu: str, guid: str
+) -> None:
+    """Write TABLES.md with all tables and a JSON file for each.
+
+    Raises HarnessError when they cannot be written.
+    """
+    lines = ["# Tables", "", f"FMU {fmu}, GUID {guid}.", ""]
+    for table, data in tables:
+        content = {
+            "fmu": fmu,
+            "guid": guid,
+            "title": table.title,
+            "caption": table.caption,
+            "columns": table.columns,
+            "largest": table.largest(data),
+            "allowed": table.bounds,
+            "rows": data["rows"],
+        }
+        _write(folder / f"{table.name}.json", to_json(content) + "\n")
+        lines += [f"## {table.name}: {table.title}", "", table.caption, ""]
+        lines.append("| " + " | ".join(table.columns.values()) + " |")
+        lines.append("|---" * len(table.columns) + "|")
+        for row in data["rows"]:
+            lines.append("| " + " | ".join(_number(row[name]) for name in table.columns) + " |")
+        lines.append("")
+        for name, size in table.largest(data).items():
+            verdict = "" if size <= table.bounds[name] else ", **NOT CONFIRMED**"
+            meaning = table.columns[name]
+            lines.append(f"Largest {meaning}: {size:.2g}, allowed {table.bounds[name]:g}{verdict}.")
+        lines.append("")
+    _write(folder / "TABLES.md", "\n".join(lines))
+
+
+def write_claims(
+    folder: Path,
+    groups: Sequence[tuple[str, Sequence[Mapping[str, Any]]]],
+    fmu: str,
+    guid: str,
+) -> None:
+    """Write claims.json and claims.md from (title, claims) of every group.
+
+    Raises HarnessError when they cannot be written.
+    """
+    claims = [claim for _, group in groups for claim in group]
+    _write(folder / "claims.json", to_json({"fmu": fmu, "guid": guid, "claims": claims}) + "\n")
+    lines = ["# Statements of the paper, and what was measured", "", f"FMU {fmu}, GUID {guid}."]
+    lines += [verdicts(claims), ""]
+    for title, group in groups:
+        lines += [f"## {title}", ""]
+        lines += ["| statement | where | measured | verdict | why |", "|---|---|---|---|---|"]
+        for claim in group:
+            numbers = "<br>".join(
+                f"{name.replace('_', ' ')} {_number(value)}"
+                for name, value in claim["numbers"].items()
+            )
+            verdict = claim["verdict"] if claim["confirmed"] else "**NOT CONFIRMED**"
+            cells = (claim["statement"], claim["where"], numbers, verdict, claim["why"])
+            lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+        lines.append("")
+    _write(folder / "claims.md", "\n".join(lines))
+
+
+def verdicts(claims: Sequence[Mapping[str, Any]]) -> str:
+    """Return a sentence that counts the verdicts."""
+    counts: dict[str, int] = {}
+    for claim in claims:
+        name = claim["verdict"] if claim["confirmed"] else "not confirmed"
+        counts[name] = counts.get(name, 0) + 1
+    listed = ", ".join(f"{count} {name}" for name, count in counts.items())
+    return f"{len(claims)} statements: {listed}."
+
+
+def _number(value: float | None) -> str:
+    return "none" if value is None else f"{value:.6g}"
+
+
+def _write(path: Path, text: str) -> None:
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")

@@ -1,0 +1,64 @@
+"""Table: the device of table 1 on bristles from soft to hard, resolved and averaged."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from slider_resonator.device.device import Device
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.references.averaged import uniform_average
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.studies.paper.measure import blocking_force, steady_velocity
+from slider_resonator.studies.paper.table import PaperTable, rows_over
+
+KAPPAS = tuple(np.geomspace(0.01, 1000.0, 11).tolist())
+TABLE_1 = Device(friction_law=1)
+
+
+def _row(instance: Instance, kappa: float) -> dict[str, float]:
+    fast = equivalent_force(TABLE_1).velocity_amplitude
+    coefficient = TABLE_1.friction_coefficient
+    stiffness = kappa * coefficient * TABLE_1.drive_frequency / fast
+    greatest = coefficient + TABLE_1.bristle_damping * fast
+    friction = TABLE_1.friction_faces * TABLE_1.normal_preload * greatest
+    device = Device(friction_law=1, bristle_stiffness=stiffness)
+    values = {"friction_law": 1.0, "bristle_stiffness": stiffness}
+    two, one = (steady_velocity(instance, {**values, "fidelity": f}) for f in (2.0, 1.0))
+    force = blocking_force(instance, values)
+    velocity = uniform_average.device_steady_velocity(device, 0.0)
+    blocking = uniform_average.device_blocking_force(device, 0.0)
+    return {
+        "kappa": kappa,
+        "stiffness": stiffness,
+        "velocity": two,
+        "one": one,
+        "uniform_velocity": velocity,
+        "velocity_deviation": (velocity - two) / fast,
+        "force": force,
+        "uniform_force": blocking,
+        "force_deviation": (blocking - force) / friction,
+    }
+
+
+TABLE = PaperTable(
+    "lugre_device",
+    "The device of table 1 with LuGre friction",
+    "Steady velocity and blocking force of the device with its resonator, sigma_1 = 10 s/m, phase "
+    "0. Velocities deviate in units of the fast velocity v_q = 0.2366 m/s, forces in units of the "
+    "largest friction, faces N0 (mu + sigma_1 v_q) = 4.93 N: the average neglects the ratio of "
+    "friction to drive. Coulomb friction has 0.126667 m/s and 0.0851861 N.",
+    {
+        "kappa": "sigma_0 v_q / (mu w)",
+        "stiffness": "sigma_0 [1/m]",
+        "velocity": "V, FMU fidelity 2 [m/s]",
+        "one": "V, FMU fidelity 1 [m/s]",
+        "uniform_velocity": "V, uniform average [m/s]",
+        "velocity_deviation": "(uniform - FMU) / v_q",
+        "force": "blocking force, FMU fidelity 2 [N]",
+        "uniform_force": "blocking force, uniform average [N]",
+        "force_deviation": "(uniform - FMU) / largest friction",
+    },
+    {"velocity_deviation": 2e-3, "force_deviation": 2e-3},
+    {"kappas": KAPPAS},
+    rows_over(KAPPAS, _row),
+)

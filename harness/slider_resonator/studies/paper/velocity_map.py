@@ -1,0 +1,55 @@
+"""Steady velocity of the device of table 1 over frequency ratio and phase."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from matplotlib.figure import Figure as Drawing
+
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.studies.paper.figure import Data, PaperFigure, Progress, panels
+from slider_resonator.studies.paper.figure_8 import DEVICE, velocity_at
+
+RATIOS = tuple((np.arange(2, 21) / 4.0).tolist())
+PHASES = tuple(np.linspace(-pi, pi, 25)[:-1].tolist())
+
+
+def _measure(instance: Instance, progress: Progress) -> Data:
+    rows = []
+    for index, ratio in enumerate(RATIOS):
+        rows.append([velocity_at(instance, phase, ratio) for phase in PHASES])
+        progress((index + 1) / len(RATIOS))
+    return {"velocity": rows}
+
+
+def _draw(data: Data) -> Drawing:
+    drawing, axes = panels(2)
+    length = equivalent_force(DEVICE).length_scale
+    found = np.array(data["velocity"], dtype=np.float64)
+    theory = [
+        [device_steady_velocity_at_ratio(DEVICE, p, r) / length for p in PHASES] for r in RATIOS
+    ]
+    for axis, values, title in zip(
+        axes, (found, np.array(theory)), ("FMU", "average"), strict=True
+    ):
+        axis.grid(False)
+        axis.set_facecolor("0.75")
+        image = axis.pcolormesh(RATIOS, PHASES, values.T, cmap="RdBu_r", vmin=-0.9, vmax=0.9)
+        axis.set(title=title, xlabel="frequency ratio $\\lambda$", ylabel="phase $\\phi_1$ [rad]")
+    drawing.colorbar(image, ax=axes, label="steady velocity $/\\,(x_0 \\omega_0)$")
+    return drawing
+
+
+FIGURE = PaperFigure(
+    "velocity_map",
+    "Steady velocity over frequency ratio and phase",
+    "The device of table 1. (a) FMU by shooting at ratios of quarters, grey where it finds no "
+    "steady motion; (b) the average: integer ratios drive the slider, at others only the mean load "
+    "counts.",
+    {"ratios": RATIOS, "phases": PHASES},
+    _measure,
+    _draw,
+)

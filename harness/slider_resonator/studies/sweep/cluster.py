@@ -1,0 +1,102 @@
+"""Workers of a dask cluster, on any number of machines."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from concurrent.futures import CancelledError as FutureCancelled
+from concurrent.futures import Future
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlugin
+
+from slider_resonator import __version__
+from slider_resonator.errors import HarnessError
+from slider_resonator.studies.sweep.measures import Task
+from slider_resonator.studies.sweep.running import Rows
+from slider_resonator.studies.sweep.worker import Point, close, register, run_chunk
+
+CONNECT_SECONDS = 30
+
+
+class FmuPlugin(WorkerPlugin):
+    """Gives the FMU to every worker, also to one that joins later.
+
+    Raises HarnessError on a worker with another version of this package: its rows could differ.
+    """
+
+    def __init__(self, digest: str, file_name: str, content: bytes) -> None:
+        self.name = f"slider-resonator-{digest}"
+        self.version = __version__
+        self.digest = digest
+        self.file_name = file_name
+        self.content = content
+
+    def setup(self, worker: Worker) -> None:
+        """Write the FMU on the worker's machine, in the folder that goes with the worker."""
+        if __version__ != self.version:
+            raise HarnessError(
+                f"worker {worker.address} has slider-resonator {__version__}; allowed is "
+                f"{self.version}, as where the sweep was started"
+            )
+        folder = tempfile.mkdtemp(prefix="fmu-", dir=worker.local_directory)
+        fmu = Path(folder) / self.file_name
+        fmu.write_bytes(self.content)
+        register(self.digest, fmu)
+
+    def teardown(self, worker: Worker) -> None:
+        """Free the worker's instances."""
+        close()
+
+
+class DaskWorkers:
+    """The workers of a cluster; it computes the chunks of a dead one again by itself."""
+
+    losses: tuple[type[BaseException], ...] = (KilledWorker, CancelledError, FutureCancelled)
+    attempts = 1  # the cluster has tried several by then
+
+    def __init__(self, client: Client, address: str, task: Task, digest: str) -> None:
+        self.client = client
+        self.address = address
+        self.task = task
+        self.digest = digest
+        self._executor: Any = client.get_executor(pure=False)  # type: ignore[no-untyped-call]
+
+    @property
+    def count(self) -> int:
+        """How many threads the workers have at present."""
+        threads: dict[str, int] = self.client.nthreads()  # type: ignore[no-untyped-call]
+        return max(1, sum(threads.values()))
+
+    def submit(self, points: Sequence[Point]) -> Future[Rows]:
+        """Begin to compute a chunk."""
+        future: Future[Rows] = self._executor.submit(run_chunk, self.task, self.digest, points)
+        return future
+
+    def replace_lost(self) -> None:
+        """Check that the cluster is still there: it replaces its workers itself."""
+        if self.client.status != "running":
+            raise HarnessError(
+                f"{self.address}: the cluster is gone; the same command goes on where this ended"
+            )
+
+
+@contextmanager
+def dask_workers(task: Task, digest: str, fmu: Path, address: str) -> Iterator[DaskWorkers]:
+    """Yield the workers of the scheduler at `address`; HarnessError where none answers."""
+    try:
+        client = Client(  # type: ignore[no-untyped-call]
+            address, timeout=CONNECT_SECONDS, set_as_default=False
+        )
+    except (OSError, ValueError) as error:
+        raise HarnessError(f"--dask {address}: no scheduler answers: {error}") from error
+    with client:
+        plugin = FmuPlugin(digest, fmu.name, fmu.read_bytes())
+        client.register_plugin(plugin)
+        try:
+            yield DaskWorkers(client, address, task, digest)
+        finally:
+            if client.status == "running":
+                client.unregister_worker_plugin(plugin.name)  # type: ignore[no-untyped-call]

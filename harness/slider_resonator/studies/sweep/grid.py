@@ -1,0 +1,152 @@
+"""What a sweep computes, read from a TOML file: the points, the measures, and how to run them."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from slider_resonator.device.common_period import MAX_DENOMINATOR
+from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.values import check_value
+from slider_resonator.errors import HarnessError
+from slider_resonator.names import unknown_name
+from slider_resonator.studies.sweep.axes import (
+    AxisError,
+    check_count,
+    grid_points,
+    list_points,
+    random_points,
+)
+from slider_resonator.studies.sweep.measures import Run, Task, check_measure
+
+KEYS = ("title", "measures", "max_denominator", "fixed", "grid", "list", "random", "run")
+RUN_KEYS = ("drive_periods", "steps_per_period", "skip_periods")
+RUN_DEFAULTS = {"drive_periods": 100, "steps_per_period": 16, "skip_periods": 0}
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A sweep that has been read and found sound.
+
+    `points` are the values of `task.names`, one tuple each, in the order of the rows of the table.
+    `is_grid` tells that they are a full product of axes and nothing else.
+    """
+
+    title: str
+    task: Task
+    points: tuple[tuple[float, ...], ...]
+    is_grid: bool
+
+
+def read_grid(path: Path) -> Sweep:
+    """Read a grid file; raises HarnessError with file, key, value and what is allowed."""
+    try:
+        with path.open("rb") as file:
+            content = tomllib.load(file)
+    except OSError as error:
+        raise HarnessError(f"{path}: cannot be read: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise HarnessError(f"{path}: not TOML: {error}") from error
+    try:
+        return _sweep(content)
+    except AxisError as error:
+        raise HarnessError(f"{path}: {error}") from error
+
+
+def _sweep(content: Mapping[str, Any]) -> Sweep:
+    _known("key", content, KEYS)
+    parts = [
+        ("grid", grid_points(_table(content, "grid"))),
+        ("list", list_points(_table(content, "list"))),
+        ("random", random_points(_table(content, "random"))),
+    ]
+    names = [name for _, (own, _) in parts for name in own]
+    if not names:
+        raise AxisError("nothing is varied; allowed is any of [grid], [list] and [random]")
+    fixed = _table(content, "fixed")
+    for name in [*names, *fixed]:
+        if name not in PARAMETERS and name not in INPUTS:
+            raise AxisError(unknown_name("parameter or input", name, [*PARAMETERS, *INPUTS]))
+        if [*names, *fixed].count(name) > 1:
+            raise AxisError(f"{name} is given more than once; allowed is one place")
+    count = 1
+    for _, (own, rows) in parts:
+        count *= len(rows) if own else 1
+    check_count(count)
+    points: list[tuple[float, ...]] = [()]
+    for _, (own, rows) in parts:
+        if own:
+            points = [(*left, *right) for left in points for right in rows]
+    for column, name in enumerate(names):
+        _check(name, {point[column] for point in points})
+    for name, value in fixed.items():
+        _check(name, [value])
+    task = Task(
+        names=tuple(names),
+        fixed=tuple((name, float(value)) for name, value in fixed.items()),
+        measures=_measures(content),
+        max_denominator=_count(content, "max_denominator", MAX_DENOMINATOR, 1),
+        run=_run(_table(content, "run")),
+    )
+    is_grid = not content.get("list") and not content.get("random")
+    title = content.get("title", "")
+    if not isinstance(title, str):
+        raise AxisError(f"title = {title!r}: allowed is a text in quotes")
+    return Sweep(title, task, tuple(points), is_grid)
+
+
+def _measures(content: Mapping[str, Any]) -> tuple[str, ...]:
+    names = content.get("measures", ["steady_velocity"])
+    if not isinstance(names, list) or not names or len(set(map(str, names))) < len(names):
+        raise AxisError(f"measures = {names!r}: allowed is a list of different measures")
+    for name in names:
+        check_measure(name)
+    return tuple(names)
+
+
+def _run(table: Mapping[str, Any]) -> Run:
+    _known("key of [run]", table, RUN_KEYS)
+    least = {"skip_periods": 0}
+    periods, steps, skipped = (
+        _count(table, key, RUN_DEFAULTS[key], least.get(key, 1)) for key in RUN_KEYS
+    )
+    if skipped >= periods:
+        raise AxisError(
+            f"run.skip_periods = {skipped}: allowed is a whole number below drive_periods = "
+            f"{periods}"
+        )
+    return Run(periods, steps, skipped)
+
+
+def _count(table: Mapping[str, Any], key: str, default: int, least: int) -> int:
+    value = table.get(key, default)
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise AxisError(f"{key} = {value!r}: allowed is a whole number not below {least}")
+    return value
+
+
+def _check(name: str, values: Iterable[object]) -> None:
+    for value in values:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+            raise AxisError(f"{name} = {value!r}: allowed is a finite number")
+        try:
+            check_value(name, value)
+        except ValueError as error:
+            raise AxisError(str(error)) from error
+
+
+def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    table = content.get(key, {})
+    if not isinstance(table, dict):
+        raise AxisError(f"{key} = {table!r}: allowed is a table headed [{key}]")
+    return table
+
+
+def _known(kind: str, table: Iterable[str], allowed: Iterable[str]) -> None:
+    for key in table:
+        if key not in allowed:
+            raise AxisError(unknown_name(kind, key, allowed))

@@ -1,0 +1,131 @@
+"""What a sweep can measure at a point: shooting results, and statistics of a trajectory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS, INTEGERS, OUTPUTS
+from slider_resonator.device.schedule import constant, schedule
+from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.names import unknown_name
+from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.studies.sweep.axes import AxisError
+
+Array = NDArray[np.float64]
+Cell = float | str | None
+"""An entry of the table; None where there is none."""
+
+SHOOTING: Mapping[str, str] = {"steady_velocity": "m/s", "blocking_force": "N"}
+"""Measures found by shooting, with units; each has a status beside its value."""
+
+
+def _mean(values: Array) -> float:
+    """Return the mean over time by the trapezoidal rule."""
+    return float((values.sum() - 0.5 * (values[0] + values[-1])) / (len(values) - 1))
+
+
+STATISTICS: Mapping[str, Callable[[Array], float]] = {
+    "mean": _mean,
+    "rms": lambda values: _mean(values**2) ** 0.5,
+    "minimum": lambda values: float(values.min()),
+    "maximum": lambda values: float(values.max()),
+    "peak_to_peak": lambda values: float(np.ptp(values)),
+    "last": lambda values: float(values[-1]),
+}
+"""Statistics of an output over a run, written OUTPUT.STATISTIC, in the unit of the output."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run from the initial state; statistics leave out the first `skip_periods`."""
+
+    drive_periods: int
+    steps_per_period: int
+    skip_periods: int
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is done at every point: variables that vary, values that do not, and measures."""
+
+    names: tuple[str, ...]
+    fixed: tuple[tuple[str, float], ...]
+    measures: tuple[str, ...]
+    max_denominator: int
+    run: Run
+
+    @property
+    def columns(self) -> tuple[tuple[str, type], ...]:
+        """Name and type of the table's columns."""
+        results: list[tuple[str, type]] = []
+        for measure in self.measures:
+            results.append((measure, float))
+            if measure in SHOOTING:
+                results.append((f"{measure}_status", str))
+        varied = ((name, int if name in INTEGERS else float) for name in self.names)
+        return (("point", int), *varied, *results, ("error", str))
+
+
+def check_measure(name: object) -> None:
+    """Raise AxisError unless this is the name of a measure."""
+    if not isinstance(name, str):
+        raise AxisError(f"measure {name!r}: allowed is a name in quotes")
+    output, dot, statistic = name.partition(".")
+    if dot and output not in OUTPUTS:
+        raise AxisError(f"measure {name!r}: {unknown_name('output', output, OUTPUTS)}")
+    if dot and statistic not in STATISTICS:
+        raise AxisError(f"measure {name!r}: {unknown_name('statistic', statistic, STATISTICS)}")
+    if not dot and name not in SHOOTING:
+        raise AxisError(unknown_name("measure", name, [*SHOOTING, "OUTPUT.STATISTIC"]))
+
+
+def unit(measure: str) -> str:
+    """Return the unit of a measure."""
+    return SHOOTING.get(measure) or OUTPUTS[measure.partition(".")[0]]
+
+
+def measure(instance: Instance, task: Task, point: tuple[float, ...]) -> list[Cell]:
+    """Return the cells of the measures at a point, in the order of the columns.
+
+    Depends on nothing but its arguments: not on the points before, so that neither the order of
+    the points nor who computes them shows in the result. Raises what the FMU and the search raise.
+    """
+    values = {**dict(task.fixed), **dict(zip(task.names, point, strict=True))}
+    statistics = _statistics(instance, task, values)
+    cells: list[Cell] = []
+    for name in task.measures:
+        if name == "steady_velocity":
+            motion = find_steady(instance, values, max_denominator=task.max_denominator)
+            cells += [motion.steady_velocity, motion.status]
+        elif name == "blocking_force":
+            blocking = find_blocking(instance, values, max_denominator=task.max_denominator)
+            cells += [blocking.blocking_force, blocking.status]
+        else:
+            cells.append(statistics[name])
+    return cells
+
+
+def _statistics(instance: Instance, task: Task, values: Mapping[str, float]) -> Mapping[str, float]:
+    """Return the statistics among the measures, all from one run."""
+    wanted = [name for name in task.measures if name not in SHOOTING]
+    if not wanted:
+        return {}
+    outputs = list(dict.fromkeys(name.partition(".")[0] for name in wanted))
+    parameters = {name: value for name, value in values.items() if name not in INPUTS}
+    inputs = {name: constant(values.get(name, start)) for name, start in INPUT_STARTS.items()}
+    instance.start(values)
+    period = tau / instance.value("drive_frequency")
+    plan = schedule(task.run.drive_periods * period, period / task.run.steps_per_period, **inputs)
+    record = run(instance, parameters, plan, outputs=outputs)
+    first = task.run.skip_periods * task.run.steps_per_period
+    results = {}
+    for name in wanted:
+        output, _, statistic = name.partition(".")
+        results[name] = STATISTICS[statistic](record[output][first:])
+    return results

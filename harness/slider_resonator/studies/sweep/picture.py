@@ -1,0 +1,104 @@
+"""Pictures of a sweep: lines over one variable, maps over two."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.errors import HarnessError
+from slider_resonator.output.atomic import replacing
+from slider_resonator.output.plot_style import save, style
+from slider_resonator.studies.sweep.grid import Sweep
+from slider_resonator.studies.sweep.measures import unit
+from slider_resonator.studies.sweep.table import Columns
+
+Array = NDArray[np.float64]
+
+MOST_LINES = 6
+"""Values of a variable that are drawn as a line each; more of them make a map."""
+
+
+def check_picture(sweep: Sweep) -> None:
+    """Raise HarnessError for a sweep that has no picture."""
+    if len(sweep.task.names) > 2:
+        raise HarnessError(
+            f"--plot: {len(sweep.task.names)} variables ({', '.join(sweep.task.names)}); "
+            "allowed are one, drawn as lines, or two, drawn as lines or a map"
+        )
+
+
+def draw_sweep(sweep: Sweep, columns: Columns, path: Path) -> None:
+    """Draw every measure over what was varied; the suffix of `path` chooses the format."""
+    names = sweep.task.names
+    values = {name: np.array(columns[name], dtype=np.float64) for name in names}
+    with style():
+        count = len(sweep.task.measures)
+        figure = Figure(figsize=(6.4, 3.9 * count), layout="constrained")
+        if sweep.title:
+            figure.suptitle(sweep.title)
+        for index, measure in enumerate(sweep.task.measures):
+            axes = figure.add_subplot(count, 1, index + 1)
+            result = np.array(columns[measure], dtype=np.float64)  # None becomes NaN: a gap
+            label = f"{measure.replace('_', ' ')} [{unit(measure)}]"
+            if len(names) == 1:
+                _line(axes, values[names[0]], result, None)
+                axes.set_ylabel(label)
+            elif sweep.is_grid:
+                _over_grid(axes, sweep, values, result, label)
+            else:
+                points = axes.scatter(values[names[0]], values[names[1]], c=result, s=12)
+                axes.set_ylabel(_variable(names[1]))
+                figure.colorbar(points, ax=axes, label=label)
+            if not axes.get_xlabel():
+                axes.set_xlabel(_variable(names[0]))
+        with replacing(path) as temporary:
+            save(figure, temporary)
+
+
+def _over_grid(
+    axes: Axes, sweep: Sweep, values: dict[str, Array], result: Array, label: str
+) -> None:
+    """Draw lines where one of the two axes has few values, a map where both have many."""
+    one, other = sweep.task.names
+    few = min((one, other), key=lambda name: len(np.unique(values[name])))
+    if len(np.unique(values[few])) <= MOST_LINES:
+        abscissa = other if few == one else one
+        for value in np.unique(values[few]):
+            chosen = values[few] == value
+            _line(axes, values[abscissa][chosen], result[chosen], f"{_name(few)} {value:.4g}")
+        axes.set_xlabel(_variable(abscissa))
+        axes.set_ylabel(label)
+        axes.legend()
+        return
+    x, column = np.unique(values[one], return_inverse=True)
+    y, row = np.unique(values[other], return_inverse=True)
+    image = np.full((len(y), len(x)), np.nan)
+    image[row, column] = result
+    limit: dict[str, Any] = {}
+    if np.nanmin(image, initial=0.0) < 0.0 < np.nanmax(image, initial=0.0):
+        largest = float(np.nanmax(np.abs(image)))
+        limit = {"vmin": -largest, "vmax": largest, "cmap": "RdBu_r"}
+    mesh = axes.pcolormesh(x, y, image, shading="nearest", rasterized=True, **limit)
+    axes.grid(False)
+    axes.set_ylabel(_variable(other))
+    axes.figure.colorbar(mesh, ax=axes, label=label)
+
+
+def _line(axes: Axes, x: Array, y: Array, label: str | None) -> None:
+    order = np.argsort(x, kind="stable")
+    marker = "." if len(x) <= 200 else ""
+    axes.plot(x[order], y[order], marker=marker, label=label)
+
+
+def _variable(name: str) -> str:
+    return f"{_name(name)} [{INPUTS.get(name) or PARAMETERS[name]}]"
+
+
+def _name(name: str) -> str:
+    return name.replace("_", " ")

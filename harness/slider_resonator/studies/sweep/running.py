@@ -1,0 +1,90 @@
+"""Hands the points of a sweep to workers, and keeps what they return."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from typing import Protocol
+
+from slider_resonator.studies.sweep.measures import Task
+from slider_resonator.studies.sweep.worker import Point, Row, failed_row
+
+Rows = tuple[list[Row], float]
+"""Rows of a chunk and the seconds that they took."""
+
+CHUNK_SECONDS = 0.2
+"""Work in a chunk: much more than passing it costs, and all that a kill can lose of a worker's."""
+LARGEST_CHUNK = 200
+CHUNKS_EACH = 2
+"""Chunks that a worker has before it, so that it never waits for the next."""
+
+
+class Workers(Protocol):
+    """Processes, here or elsewhere, that compute chunks."""
+
+    losses: tuple[type[BaseException], ...]
+    """What the result of a chunk raises when its worker died."""
+    attempts: int
+    """How many workers a point may cost before it counts as what kills them."""
+
+    @property
+    def count(self) -> int:
+        """How many chunks are computed at once."""
+
+    def submit(self, points: Sequence[Point]) -> Future[Rows]:
+        """Begin to compute a chunk."""
+
+    def replace_lost(self) -> None:
+        """Be ready for more after a loss; HarnessError where that is impossible."""
+
+
+def run_points(
+    workers: Workers, task: Task, points: Sequence[Point], keep: Callable[[Sequence[Row]], None]
+) -> None:
+    """Compute all points, calling `keep` with rows as they come, in any order.
+
+    After a worker has died, the points that it may have been at are computed one at a time, so
+    that one that kills every worker is known by its number and has an error as its row.
+    """
+    waiting, suspects = deque(points), deque[Point]()
+    pending: dict[Future[Rows], list[Point]] = {}
+    deaths: dict[int, int] = {}
+    seconds = CHUNK_SECONDS  # of a point, as far as is known
+
+    def submit(chunk: list[Point]) -> None:
+        try:
+            pending[workers.submit(chunk)] = chunk
+        except workers.losses:
+            suspects.extend(chunk)
+
+    lost = False
+    while waiting or suspects or pending:
+        if suspects and not pending:
+            if lost:
+                workers.replace_lost()
+                lost = False
+            submit([suspects.popleft()])
+        while waiting and not suspects and len(pending) < CHUNKS_EACH * workers.count:
+            size = max(1, min(LARGEST_CHUNK, int(CHUNK_SECONDS / seconds)))
+            submit([waiting.popleft() for _ in range(min(size, len(waiting)))])
+        if not pending:
+            lost = True  # not even a chunk could be handed over
+            continue
+        for future in wait(pending, return_when=FIRST_COMPLETED).done:
+            chunk = pending.pop(future)
+            try:
+                rows, duration = future.result()
+            except workers.losses:
+                lost = True
+                alone = len(chunk) == 1 and not pending
+                if alone:
+                    number = chunk[0][0]
+                    deaths[number] = deaths.get(number, 0) + 1
+                    if deaths[number] >= workers.attempts:
+                        keep([failed_row(task, number, "the worker process died at this point")])
+                        continue
+                suspects.extend(chunk)
+            else:
+                keep(rows)
+                seconds = max(duration / len(rows), 1e-6)

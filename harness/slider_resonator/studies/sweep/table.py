@@ -1,0 +1,67 @@
+"""The table of a sweep: Parquet or CSV, the same bytes for the same rows."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.output.atomic import replacing
+from slider_resonator.studies.sweep.measures import Task
+from slider_resonator.studies.sweep.worker import Row
+
+SUFFIXES = (".parquet", ".csv")
+
+Columns = Mapping[str, list[Any]]
+"""Column name to its entries, one a point; None where there is none."""
+
+
+def check_writer(path: Path) -> None:
+    """Raise HarnessError where the table could not be written for lack of a package."""
+    if path.suffix.lower() == ".parquet" and find_spec("pyarrow") is None:
+        raise HarnessError(
+            f"{path}: Parquet needs pyarrow: pip install 'slider-resonator[parquet]'; "
+            "a file called .csv does not"
+        )
+
+
+def table_columns(
+    task: Task, points: Sequence[tuple[float, ...]], rows: Mapping[int, Row]
+) -> Columns:
+    """Return the columns of the table, ordered by the number of the point."""
+    names = [name for name, _ in task.columns]
+    kinds = [kind for _, kind in task.columns]
+    lines = []
+    for number, values in enumerate(points):
+        _, cells, error = rows[number]
+        line: list[Any] = [number, *values, *cells, error]
+        lines.append([int(e) if kind is int else e for kind, e in zip(kinds, line, strict=True)])
+    return dict(zip(names, map(list, zip(*lines, strict=True)), strict=True))
+
+
+def write_table(path: Path, task: Task, columns: Columns) -> None:
+    """Write the table; the suffix chooses the format. Numbers come back to the last digit."""
+    with replacing(path) as temporary:
+        if path.suffix.lower() == ".csv":
+            _write_csv(temporary, columns)
+        else:
+            _write_parquet(temporary, task, columns)
+
+
+def _write_csv(path: Path, columns: Columns) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*columns.values(), strict=True))
+
+
+def _write_parquet(path: Path, task: Task, columns: Columns) -> None:
+    import pyarrow as pa  # type: ignore[import-untyped]
+    from pyarrow import parquet
+
+    types = {int: pa.int64(), float: pa.float64(), str: pa.string()}
+    schema = pa.schema([(name, types[kind]) for name, kind in task.columns])
+    parquet.write_table(pa.table(dict(columns), schema=schema), path)

@@ -1,0 +1,52 @@
+"""The data of trades as CSV: one file of rows, one of omissions."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from slider_resonator.output.atomic import replacing
+from slider_resonator.studies.trade.motion import QUANTITIES
+from slider_resonator.studies.trade.result import Row, Trade
+
+COLUMNS = (
+    *("scene", "answer", "kind", "family", "method", "fidelity", "friction_law"),
+    *("step_periods", "tolerance", "periods", "repeats", "cpu_median_s", "cpu_min_s", "cpu_max_s"),
+    *("start_cpu_s", "steps", "evaluations", "events"),
+    *(f"error_{quantity}" for quantity in QUANTITIES),
+)
+"""Columns of the data; CPU times are per simulated second where `answer` is `run`, else per answer;
+what a method does not have or does not tell is empty."""
+
+
+def write_rows(path: Path, trades: Sequence[Trade]) -> None:
+    """Write all rows; HarnessError when that is impossible."""
+    _write(path, COLUMNS, (_cells(row) for trade in trades for row in trade.rows))
+
+
+def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
+    """Write who or what is missing, and why; HarnessError when that is impossible."""
+    lines = [
+        (omission.scene, omission.method, omission.quantity, omission.reason)
+        for trade in trades
+        for omission in trade.omissions
+    ]
+    _write(path, ("scene", "method", "quantity", "reason"), lines)
+
+
+def _cells(row: Row) -> list[Any]:
+    return [
+        *(row.scene, row.answer, row.kind, row.family, row.method, row.fidelity, row.friction_law),
+        *(row.step, row.tolerance, row.periods, len(row.cpu), row.cost, min(row.cpu), max(row.cpu)),
+        *(row.start_cpu, row.steps, row.evaluations, row.events),
+        *(row.errors.get(quantity) for quantity in QUANTITIES),
+    ]
+
+
+def _write(path: Path, head: Sequence[str], lines: Iterable[Sequence[Any]]) -> None:
+    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(head)
+        writer.writerows(lines)

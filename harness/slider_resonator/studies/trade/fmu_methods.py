@@ -1,0 +1,144 @@
+"""Our FMUs as methods: every fidelity, friction law, communication step and tolerance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import ceil
+
+import numpy as np
+
+from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.studies.trade.method import Answer, Found, Label, Method
+from slider_resonator.studies.trade.motion import Motion
+from slider_resonator.studies.trade.result import AVERAGED, RESOLVED
+from slider_resonator.studies.trade.task import Task
+
+STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+"""Communication steps in drive periods."""
+USUAL_STEP = 10.0
+"""The step at which tolerances and the other friction law are tried."""
+TOLERANCES = (1e-4, 1e-6, 1e-10, 1e-12)
+"""Of LuGre friction, besides the one that the FMU starts with."""
+USUAL_TOLERANCE = 1e-8
+LAWS = ("Coulomb", "LuGre")
+OUTPUTS = ("position", "velocity", "mean_velocity")
+SHORTEST = 2e-3
+"""CPU time (s) that is long enough to be timed; shorter runs are repeated up to MOST_RUNS times."""
+MOST_RUNS = 20
+
+_UNRESOLVED = {"event_times": "averaged motion has no events"}
+
+
+class FmuMethods:
+    """The methods of an FMU on a task; `build` is what it is called, such as `native`."""
+
+    def __init__(self, task: Task, build: str, instance: Instance) -> None:
+        self.task = task
+        self.build = build
+        self.instance = instance
+
+    def methods(self) -> Iterator[Method]:
+        """Yield every setting; the other friction law as a model of the same device."""
+        own = self.task.device.friction_law
+        for fidelity in (2, 1, 0):
+            for step in STEPS:
+                yield self._method(fidelity, own, step, USUAL_TOLERANCE)
+            yield self._method(fidelity, 1 - own, USUAL_STEP, USUAL_TOLERANCE)
+            for tolerance in TOLERANCES if own == 1 and fidelity else ():
+                yield self._method(fidelity, own, USUAL_STEP, tolerance)
+
+    def answers(self) -> Iterator[Answer]:
+        """Yield the searches for steady motion and blocking force, and the outputs of theory."""
+        own = self.task.device.friction_law
+        for quantity in ("steady_velocity", "blocking_force"):
+            for fidelity in (2, 1, 0):
+                yield self._search(quantity, fidelity, own)
+            yield self._prediction(quantity)
+
+    def _values(self, fidelity: int, law: int, tolerance: float) -> dict[str, float]:
+        own = {"fidelity": fidelity, "friction_law": law}
+        return {**self.task.parameters, **own, "tolerance": tolerance}
+
+    def _label(self, fidelity: int, law: int, tolerance: float, step: float | None) -> Label:
+        own = self.task.device.friction_law
+        family = f"{self.build} FMU, fidelity {fidelity}"
+        if law != own:
+            family += f", {LAWS[law]} instead"
+        name = family
+        if step is not None:
+            name += f", steps of {step:g} period{'s' if step != 1.0 else ''}"
+        if law == 1 and tolerance != USUAL_TOLERANCE:
+            name += f", tol {tolerance:.0e}"
+        kind = RESOLVED if fidelity else AVERAGED
+        used = tolerance if law == 1 else None
+        return Label(kind, family, name, law, fidelity, step, used)
+
+    def _method(self, fidelity: int, law: int, step: float, tolerance: float) -> Method:
+        values = self._values(fidelity, law, tolerance)
+        size = step * self.task.period
+
+        def follow(periods: int) -> Motion:
+            return self._follow(values, periods, size, resolved=fidelity > 0)
+
+        def seconds(periods: int) -> float:
+            schedule = self.task.schedule(periods, size)
+            taken: list[float] = []
+            while not taken or (sum(taken) < SHORTEST and len(taken) < MOST_RUNS):
+                taken.append(run(self.instance, values, schedule, outputs=OUTPUTS).step_cpu)
+            return sum(taken) / len(taken)
+
+        return Method(
+            self._label(fidelity, law, tolerance, step),
+            follow,
+            seconds,
+            least_periods=ceil(step),
+            missing={} if fidelity else _UNRESOLVED,
+        )
+
+    def _follow(
+        self, values: Mapping[str, float], periods: int, size: float, *, resolved: bool
+    ) -> Motion:
+        own = self.task.schedule(periods, size)
+        readings = self.task.readings(periods)
+        closest = 1e-9 * min(size, self.task.period)
+        outputs = (*OUTPUTS, "last_event_time", "reversals")
+        record = run(self.instance, values, own.read_at(readings, closest), outputs=outputs)
+        at = np.searchsorted(record.times, own.times)
+        return Motion(
+            times=record.times,
+            position=record["position"],
+            velocity=record["velocity"],
+            mean_velocity=record["mean_velocity"],
+            last_event=record["last_event_time"] if resolved else None,
+            course=(own.times, record["mean_velocity"][at]),
+            steps=len(own.times) - 1,
+            events=round(record.final("reversals")) if resolved else None,
+            start_cpu=record.start_cpu,
+        )
+
+    def _search(self, quantity: str, fidelity: int, law: int) -> Answer:
+        values = {**self._values(fidelity, law, USUAL_TOLERANCE), **self.task.inputs}
+
+        def find(_: float) -> Found:
+            if quantity == "steady_velocity":
+                steady = find_steady(self.instance, values)
+                return Found(steady.steady_velocity, steady.reason, steady.periods)
+            free = {name: value for name, value in values.items() if name != "load"}
+            blocking = find_blocking(self.instance, free)
+            return Found(blocking.blocking_force, blocking.reason, blocking.periods)
+
+        return Answer(self._label(fidelity, law, USUAL_TOLERANCE, None), quantity, find)
+
+    def _prediction(self, quantity: str) -> Answer:
+        """Return the reading of an output that holds averaged theory, at the start of a run."""
+        law = self.task.device.friction_law
+        values = {**self._values(2, law, USUAL_TOLERANCE), **self.task.inputs}
+        family = f"{self.build} FMU, output {quantity}"
+
+        def find(_: float) -> Found:
+            self.instance.start(values)
+            return Found(self.instance.value(quantity), "", 0)
+
+        return Answer(Label(AVERAGED, family, family, law), quantity, find)

@@ -1,0 +1,133 @@
+"""What a method says about a motion at the readings of a task, and how wrong that is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.checks.measures.deviation import peak, share_of
+from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
+from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.studies.trade.task import Task
+
+Array = NDArray[np.float64]
+
+QUANTITIES: Mapping[str, str] = {
+    "mean_velocity": "mean velocity over a drive period, share of its peak",
+    "slow_displacement": "position averaged over a drive period, share of its peak",
+    "position": "instantaneous position, share of its peak",
+    "velocity": "instantaneous velocity, share of its peak",
+    "event_times": "time of the last event, in drive periods",
+    "beat_frequency": "frequency of the beat, share of it",
+    "steady_velocity": "steady velocity by shooting, share of it",
+    "blocking_force": "blocking force by shooting, share of it",
+}
+"""Every error that is measured, and what it is the error of."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Signals at `times` (s) and counts over the run, None where the method does not tell.
+
+    `position` (m) and `velocity` (m/s) have the shape (n,) of the times, `mean_velocity` (m/s) too
+    where the method has one of its own, `last_event` (s) where it locates events. `course` are the
+    times and mean velocities of its own steps, for the beat. `start_cpu` is the CPU time (s) of
+    getting started, which is no part of following the motion.
+    """
+
+    times: Array
+    position: Array
+    velocity: Array
+    mean_velocity: Array | None = None
+    last_event: Array | None = None
+    course: tuple[Array, Array] | None = None
+    steps: int | None = None
+    evaluations: int | None = None
+    events: int | None = None
+    start_cpu: float | None = None
+
+
+@dataclass(frozen=True)
+class Windows:
+    """What is compared, from the windows of a task: a row each.
+
+    `position` and `velocity` have the shape (w, POINTS + 1), the others (w,).
+    """
+
+    position: Array
+    velocity: Array
+    mean_velocity: Array
+    slow_displacement: Array
+    last_event: Array | None
+
+
+def windows(task: Task, motion: Motion, periods: int) -> Windows:
+    """Return the readings of a motion of so many drive periods, window by window."""
+    places = [_places(motion.times, task.window(end)) for end in task.windows(periods)]
+    position = np.array([motion.position[at] for at in places])
+    last = [at[-1] for at in places]
+    mean = (position[:, -1] - position[:, 0]) / task.period
+    if motion.mean_velocity is not None:
+        mean = motion.mean_velocity[last]
+    slow = [slow_displacement(task.window(1), row, task.period)[-1] for row in position]
+    return Windows(
+        position=position,
+        velocity=np.array([motion.velocity[at] for at in places]),
+        mean_velocity=mean,
+        slow_displacement=np.array(slow),
+        last_event=None if motion.last_event is None else motion.last_event[last],
+    )
+
+
+def last_events(event_times: Array, times: Array) -> Array:
+    """Return the time of the last event up to each time, 0 before the first; shape of `times`."""
+    known = np.concatenate([[0.0], event_times])
+    return np.asarray(known[np.searchsorted(event_times, times, side="right")])
+
+
+def errors(task: Task, motion: Motion, referee: Windows, periods: int) -> dict[str, float]:
+    """Return the error of each quantity that the motion tells, infinite where it is not finite."""
+    found = windows(task, motion, periods)
+    count = len(found.mean_velocity)
+    told = {}
+    for name in ("mean_velocity", "slow_displacement", "position", "velocity"):
+        expected = getattr(referee, name)[:count]
+        told[name] = share_of(peak(getattr(found, name) - expected), peak(expected))
+    if found.last_event is not None and referee.last_event is not None:
+        late = np.abs(found.last_event - referee.last_event[:count]).max()
+        told["event_times"] = float(late) / task.period
+    if task.beat is not None and motion.course is not None:
+        beat = _beat(*motion.course, task.beat)
+        if beat is not None:
+            told["beat_frequency"] = abs(beat - task.beat) / task.beat
+    return {name: error if np.isfinite(error) else np.inf for name, error in told.items()}
+
+
+def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
+    """Return the frequency (Hz) in the later half, None where it is sampled too thinly."""
+    if len(times) < 32:
+        return None
+    steps = np.diff(times)
+    if abs(steps[-1] - steps[0]) > 1e-6 * steps[0]:
+        times, mean_velocity = times[:-1], mean_velocity[:-1]
+    half = len(times) // 2
+    later = times[half:]
+    if len(later) < 16 or not (later[-1] - later[0]) * beat > 2.0:
+        return None
+    if (later[-1] - later[0]) / (len(later) - 1) * beat > 0.4:
+        return None
+    try:
+        return dominant_frequency(later, mean_velocity[half:])
+    except NoOscillation:
+        return np.inf
+
+
+def _places(times: Array, wanted: Array) -> NDArray[np.intp]:
+    """Return where the wanted times are among the times, to rounding."""
+    after = np.searchsorted(times, wanted).clip(max=len(times) - 1)
+    before = (after - 1).clip(min=0)
+    nearer = np.abs(times[before] - wanted) < np.abs(times[after] - wanted)
+    return np.where(nearer, before, after)

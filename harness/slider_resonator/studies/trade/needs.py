@@ -1,0 +1,114 @@
+"""From need to model to cost: the table of the page that helps to choose, from measured rows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.output.marked_text import write_marked
+from slider_resonator.studies.trade.fmu_methods import LAWS
+from slider_resonator.studies.trade.result import PEER, Row, Trade, cheapest
+from slider_resonator.studies.trade.summary import duration
+
+BEGIN, END = "<!-- trade -->", "<!-- end of trade -->"
+SUFFIXES = (".md", ".html")
+NEEDS = (
+    ("steady_velocity", 1e-2),
+    ("steady_velocity", 1e-6),
+    ("blocking_force", 1e-2),
+    ("blocking_force", 1e-6),
+    ("beat_frequency", 1e-2),
+    ("mean_velocity", 1e-2),
+    ("mean_velocity", 1e-6),
+    ("position", 1e-2),
+    ("position", 1e-4),
+    ("position", 1e-9),
+    ("event_times", 1e-6),
+)
+"""Quantity and error; those that a scene does not have are left out of its part of the table."""
+HEAD = ("need", "within", "model", "error", "native FMU", "Python FMU", "cheapest peer")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The cheapest way of ours to a need; what nobody reaches is None.
+
+    `python` is the same model in the Python FMU.
+    """
+
+    quantity: str
+    error: float
+    native: Row | None
+    python: Row | None
+    peer: Row | None
+
+
+def choices(trade: Trade) -> list[Choice]:
+    """Return the cheapest method for every need of a scene; the native FMU decides the model."""
+    found = []
+    for quantity, error in NEEDS:
+        rows = trade.candidates(quantity)
+        if not rows:
+            continue
+        native = cheapest([r for r in rows if r.family.startswith("native")], quantity, error)
+        twins = [
+            row
+            for row in rows
+            if native is not None and row.method == native.method.replace("native", "Python", 1)
+        ]
+        peer = cheapest([row for row in rows if row.kind == PEER], quantity, error)
+        found.append(Choice(quantity, error, native, twins[0] if twins else None, peer))
+    return found
+
+
+def write_choices(path: Path, trades: Sequence[Trade]) -> None:
+    """Write the tables of all scenes between the marks of a page, Markdown or HTML by its suffix.
+
+    Raises HarnessError when the file cannot be written, or has marks that are no pair.
+    """
+    if path.suffix not in SUFFIXES:
+        allowed = " or ".join(SUFFIXES)
+        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; allowed is {allowed}")
+    table = _markdown if path.suffix == ".md" else _html
+    write_marked(path, "\n".join(table(trade) for trade in trades), BEGIN, END)
+
+
+def title(trade: Trade) -> str:
+    """Return what a table is about."""
+    return f"{trade.title} (scene {trade.scene}, {LAWS[trade.friction_law]} friction)"
+
+
+def cells(choice: Choice) -> tuple[str, ...]:
+    """Return a row of the table, as `HEAD` has it."""
+    rows = (choice.native, choice.python, choice.peer)
+    native, python, peer = ("not reached" if row is None else _cost(row) for row in rows)
+    if choice.peer is not None:
+        peer += f" ({choice.peer.method})"
+    model, error = "none", ""
+    if choice.native is not None:
+        model = choice.native.method.removeprefix("native FMU, ")
+        error = f"{choice.native.errors[choice.quantity]:.0e}"
+    quantity = choice.quantity.replace("_", " ")
+    return (quantity, f"{choice.error:.0e}", model, error, native, python, peer)
+
+
+def _cost(row: Row) -> str:
+    return duration(row.cost) + (" / s" if row.answer == "run" else "")
+
+
+def _markdown(trade: Trade) -> str:
+    lines = [HEAD, ("---",) * len(HEAD), *map(cells, choices(trade))]
+    table = "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return f"\n**{title(trade)}**\n\n{table}\n"
+
+
+def _html(trade: Trade) -> str:
+    def line(tag: str, words: Sequence[str]) -> str:
+        return "<tr>" + "".join(f"<{tag}>{escape(word)}</{tag}>" for word in words) + "</tr>"
+
+    rows = "\n".join(line("td", cells(choice)) for choice in choices(trade))
+    head = line("th", HEAD)
+    return f"<h3>{escape(title(trade))}</h3>\n<table>\n{head}\n{rows}\n</table>"

@@ -1,0 +1,120 @@
+"""The full equations by CVODE with its own root finding for the changes of contact mode.
+
+Within a mode the equations are smooth and not stiff, so Adams' method is the one to take. CVODE
+looks for sign changes between the ends of its steps, so two roots within one are lost: a peer for
+measurements of cost, not a referee.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.contact import LIFTED, STICK
+from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
+from slider_resonator.references.resolved.mode_sequence import ModeSequence
+from slider_resonator.references.resolved.passage import Passage, Stretch
+from slider_resonator.references.resolved.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+
+MOST_STEPS = 5_000_000
+_FOUND_A_ROOT = 2
+
+
+def simulate(
+    device: Device, held: Sequence[HeldInputs], times: Array, *, tolerance: float
+) -> Trajectory:
+    """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
+
+    Takes the inputs that ``located_events.simulate`` takes; ``tolerance`` is relative and, in
+    fractions of a characteristic motion, absolute. ``steps`` is 0, for CVODE does not tell.
+    Raises ValueError as the other does; RuntimeError when the solver gives up;
+    ModuleNotFoundError without scikit-sundae.
+    """
+    try:
+        cvode = importlib.import_module("sksundae.cvode").CVODE
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(
+            "the CVODE reference needs scikit-sundae: pip install 'slider-resonator[peers]'"
+        ) from error
+    equations = equations_of(device)
+
+    def follow(stretch: Stretch) -> Passage:
+        return _follow(cvode, equations, stretch, tolerance)
+
+    return ModeSequence(equations, follow, initial_state(device), times).run(held)
+
+
+def _follow(cvode: Any, equations: Equations, stretch: Stretch, tolerance: float) -> Passage:
+    """Follow one stretch; the integrated position is the displacement since its start."""
+    slopes = equations.slopes(
+        stretch.mode, stretch.load, stretch.theta, stretch.angle, stretch.frequency_ratio
+    )
+
+    def right_hand_side(time: float, state: Array, change: Array) -> None:
+        change[:] = slopes(time, state)
+
+    options: dict[str, Any] = {}
+    if stretch.mode != LIFTED:
+        margins = _margins(equations, stretch)
+        options = {"eventsfn": margins, "num_events": len(margins.direction)}  # type: ignore[attr-defined]
+    solver = cvode(
+        right_hand_side,
+        method="Adams",
+        rtol=tolerance,
+        atol=tolerance * equations.state_scales(stretch.load),
+        max_step=2.0 * math.pi / equations.fastest_rate(stretch.frequency_ratio) / 4.0,
+        max_num_steps=MOST_STEPS,
+        **options,
+    )
+    wanted = np.union1d(stretch.samples, [0.0, stretch.span])
+    solution = solver.solve(wanted, np.array([0.0, *stretch.state[1:]]))
+    if not solution.success:
+        raise RuntimeError(f"CVODE gave up: {solution.message}; use a greater tolerance")
+    event = 0
+    if solution.status == _FOUND_A_ROOT:
+        event = -stretch.mode
+        if stretch.mode == STICK:
+            left = np.empty(2)
+            options["eventsfn"](solution.t[-1], solution.y[-1], left)
+            event = 1 if left[0] < left[1] else -1
+    duration = float(solution.t[-1]) if event else stretch.span
+    covered = stretch.samples[: np.searchsorted(stretch.samples, duration, side="right")]
+    samples = solution.y[np.searchsorted(solution.t, covered)].reshape(-1, 4)
+    samples[:, 0] += stretch.state[0]
+    displacement, velocity, resonator, resonator_velocity = solution.y[-1].tolist()
+    return Passage(
+        duration=duration,
+        state=(stretch.state[0] + displacement, velocity, resonator, resonator_velocity),
+        event=event,
+        samples=samples,
+        steps=0,
+        evaluations=int(solution.nfev),
+    )
+
+
+def _margins(equations: Equations, stretch: Stretch) -> Callable[[float, Array, Array], None]:
+    """Return what falls to zero at an event: velocity in a slip, friction left in a stick."""
+    rate, ratio, mode = equations.drive_frequency, stretch.frequency_ratio, stretch.mode
+
+    def margins(time: float, state: Array, left: Array) -> None:
+        if mode != STICK:
+            left[0] = mode * state[1]
+            return
+        theta, angle = stretch.theta + rate * time, stretch.angle + ratio * rate * time
+        needed = equations.needed_force(stretch.load, theta, float(state[2]), float(state[3]))
+        limit = equations.friction_limit(angle)
+        left[:] = limit - needed, limit + needed
+
+    count = 1 if mode != STICK else 2
+    margins.terminal = [True] * count  # type: ignore[attr-defined]
+    margins.direction = [-1] * count  # type: ignore[attr-defined]
+    return margins

@@ -1,0 +1,107 @@
+"""Peers that follow a whole motion under constant inputs in one call of their integrator."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from time import process_time
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.steady.reference_steady import Simulate
+from slider_resonator.studies.trade.motion import Motion
+from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
+from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, motion_of
+from slider_resonator.studies.trade.peers.switching_taylor import SlidingEnd, simulate_sliding
+
+Array = NDArray[np.float64]
+
+
+def heyoka_in_one_call(
+    family: str, bristle: Literal["path", "state"], first: Simulate, tolerance: float
+) -> Peer:
+    """Return heyoka in one call; it starts from where `first` is after one drive period.
+
+    `bristle` is how LuGre friction has it, from the path or as a state; Coulomb friction has none.
+    """
+
+    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Motion:
+        inputs = _single(held)
+        begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
+        early = times[times <= begin]
+        began = process_time()
+        start = first(device, [replace(inputs, stop=begin)], np.append(early, begin))
+        started = process_time() - began
+        if begin == inputs.stop:
+            return replace(
+                motion_of(start, located=False),
+                times=early,
+                position=start.position[:-1],
+                velocity=start.velocity[:-1],
+            )
+        if start.contact_mode[-1] == 0:
+            raise ValueError("the slider sticks after a drive period, which it does not cover")
+        moving = replace(
+            device,
+            initial_position=float(start.position[-1]),
+            initial_velocity=float(start.velocity[-1]),
+            initial_resonator_displacement=float(start.resonator_displacement[-1]),
+            initial_resonator_velocity=float(start.resonator_velocity[-1]),
+            initial_bristle_deflection=float(getattr(start, "bristle_deflection", [0.0])[-1]),
+        )
+        later = times[times > begin]
+        end = simulate_sliding(
+            moving, inputs, tolerance=tolerance, bristle=bristle, begin=begin, times=later
+        )
+        rest = _sliding_motion(end, later)
+        return replace(
+            rest,
+            times=times,
+            position=np.concatenate([start.position[:-1], rest.position]),
+            velocity=np.concatenate([start.velocity[:-1], rest.velocity]),
+            start_cpu=started,
+        )
+
+    missing = {"event_times": "it does not tell when it reverses", **NOT_SHOT}
+    setting = f"tol {tolerance:.0e}"
+    return Peer(family, setting, tolerance, follow, sticks_not=True, missing=missing)
+
+
+def cvode_in_one_call(tolerance: float) -> Peer:
+    """Return CVODE's BDF on LuGre friction with the bristle as a state."""
+    return Peer(
+        "CVODE BDF, bristle as state",
+        f"tol {tolerance:.0e}",
+        tolerance,
+        partial(_cvode, tolerance=tolerance),
+        missing={**NO_EVENTS, **NOT_SHOT},
+    )
+
+
+def _cvode(device: Device, held: Sequence[HeldInputs], times: Array, *, tolerance: float) -> Motion:
+    inputs = _single(held)
+    return _sliding_motion(
+        simulate_lugre_cvode(device, inputs, tolerance=tolerance, times=times), times
+    )
+
+
+def _single(held: Sequence[HeldInputs]) -> HeldInputs:
+    if len(held) != 1:
+        raise ValueError("inputs vary, which it does not cover")
+    return held[0]
+
+
+def _sliding_motion(end: SlidingEnd, times: Array) -> Motion:
+    return Motion(
+        times,
+        end.samples[:, 0],
+        end.samples[:, 1],
+        steps=end.steps or None,
+        evaluations=end.evaluations or None,
+        events=end.reversals or None,
+    )

@@ -1,0 +1,147 @@
+"""Work-precision plots: error over CPU time, family by family, with the Pareto front of all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from slider_resonator.output.atomic import replacing
+from slider_resonator.output.plot_style import png_data_uri, save, style
+from slider_resonator.studies.trade.motion import QUANTITIES
+from slider_resonator.studies.trade.result import AVERAGED, PEER, Row, Trade, families, front
+
+FLOOR = 1e-16
+"""Errors below this are drawn here: double precision resolves no less."""
+PANELS = ("position", "mean_velocity")
+"""What the picture shows."""
+OURS = {"native": "#1f5f8b", "Python": "#6fa8d0"}
+FIDELITY_MARKERS = {2: "o", 1: "s", 0: "^"}
+PEER_MARKERS = "DvPX*<>ph8dH"
+PEER_COLOURS = (
+    *("#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"),
+    *("#17becf", "#333333", "#b8860b", "#7a0177"),
+)
+
+
+@dataclass(frozen=True)
+class _Look:
+    colour: object
+    marker: str
+    weight: float
+
+
+def work_precision_png(trade: Trade, quantity: str) -> str:
+    """Return the plot of a quantity as a PNG for a page of HTML."""
+    with style():
+        figure = Figure(figsize=(10.0, 5.2), layout="constrained")
+        axes = figure.subplots()
+        _draw(axes, trade.having(quantity), quantity, _looks(trade))
+        axes.set_ylabel(f"error: {QUANTITIES[quantity]}")
+        figure.legend(loc="outside right upper", fontsize=8)
+        return png_data_uri(figure)
+
+
+def draw_picture(trade: Trade, path: Path) -> None:
+    """Write the picture of the README: position and mean velocity side by side."""
+    looks = _looks(trade)
+    with style():
+        figure = Figure(figsize=(8.0, 5.4), layout="constrained")
+        for axes, quantity in zip(figure.subplots(1, len(PANELS)), PANELS, strict=True):
+            rows = trade.candidates(quantity)
+            _draw(axes, rows, quantity, looks)
+            axes.set_title(f"error of the {quantity.replace('_', ' ')}")
+            _name_ours(axes, rows, quantity)
+        figure.axes[0].set_ylabel("share of the peak")
+        handles, labels = figure.axes[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=8.5)
+        with replacing(path) as temporary:
+            save(figure, temporary)
+
+
+def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look]) -> None:
+    drawn = [row for row in rows if row.errors[quantity] < float("inf")]
+    if not drawn:
+        axes.text(0.5, 0.5, "nobody has any", ha="center", transform=axes.transAxes)
+        return
+    best = front(drawn, quantity)
+    axes.step(
+        [row.cost for row in best],
+        [_shown(row, quantity) for row in best],
+        where="post",
+        color="0.8",
+        linewidth=6.0,
+        solid_capstyle="round",
+        zorder=1,
+        label="Pareto front of all",
+    )
+    for family in families(drawn):
+        own = [row for row in drawn if row.family == family]
+        look = looks[family]
+        # Where only the communication step of ours varies, that is one line, however exact.
+        precise = own[0].kind == PEER or len({row.tolerance for row in own}) > 1
+        curve = front(own, quantity) if precise else sorted(own, key=lambda row: row.cost)
+        axes.plot(
+            [row.cost for row in curve],
+            [_shown(row, quantity) for row in curve],
+            color=look.colour,
+            linewidth=look.weight,
+            zorder=2,
+        )
+        axes.errorbar(
+            [row.cost for row in own],
+            [_shown(row, quantity) for row in own],
+            xerr=[
+                [row.cost - min(row.cpu) for row in own],
+                [max(row.cpu) - row.cost for row in own],
+            ],
+            linestyle="none",
+            marker=look.marker,
+            markersize=5.5,
+            color=look.colour,
+            markeredgecolor="white",
+            markeredgewidth=0.5,
+            elinewidth=0.8,
+            label=family,
+            zorder=3,
+        )
+    answers = all(row.answer != "run" for row in drawn)
+    per = "answer" if answers else "simulated second"
+    axes.set(xscale="log", yscale="log", xlabel=f"CPU time per {per} [s]")
+
+
+def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
+    """Write beside our FMUs what they are."""
+    for family in families([row for row in rows if row.kind != PEER]):
+        cheapest = min((row for row in rows if row.family == family), key=lambda row: row.cost)
+        axes.annotate(
+            family.replace(" FMU, fidelity ", " "),
+            (cheapest.cost, _shown(cheapest, quantity)),
+            xytext=(0, 7) if family.startswith("native") else (0, -16),
+            textcoords="offset points",
+            fontsize=8,
+            color=next((c for build, c in OURS.items() if family.startswith(build)), "black"),
+        )
+
+
+def _shown(row: Row, quantity: str) -> float:
+    return max(row.errors[quantity], FLOOR)
+
+
+def _looks(trade: Trade) -> dict[str, _Look]:
+    """Return how each family looks; that of a family is the same in all plots of a trade."""
+    looks = {}
+    peers = families([row for row in trade.rows if row.kind == PEER])
+    for index, family in enumerate(peers):
+        colour = PEER_COLOURS[index % len(PEER_COLOURS)]
+        looks[family] = _Look(colour, PEER_MARKERS[index % len(PEER_MARKERS)], 1.0)
+    for row in trade.rows:
+        if row.kind != PEER:
+            colour = next((c for build, c in OURS.items() if row.family.startswith(build)), "black")
+            other = "instead" in row.family or "output" in row.family
+            marker = "X" if other else FIDELITY_MARKERS[row.fidelity or 0]
+            looks[row.family] = _Look(colour, marker, 0.8 if row.kind == AVERAGED else 2.0)
+    return looks

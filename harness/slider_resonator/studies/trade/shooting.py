@@ -1,0 +1,50 @@
+"""Steady velocity and blocking force by shooting with any integrator, within a budget."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from time import process_time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.steady.reference_steady import (
+    Simulate,
+    reference_blocking_force,
+    reference_steady_velocity,
+)
+from slider_resonator.studies.trade.method import Found
+from slider_resonator.studies.trade.task import Task
+
+Array = NDArray[np.float64]
+
+
+def shoot(task: Task, quantity: str, simulate: Simulate, tolerance: float, budget: float) -> Found:
+    """Return a steady velocity or blocking force by shooting with any integrator.
+
+    Raises RuntimeError when that takes more CPU time (s) than its budget.
+    """
+    turns: list[float] = []
+    began = process_time()
+
+    def counted(device: Device, held: Sequence[HeldInputs], times: Array) -> Trajectory:
+        if process_time() - began > budget:
+            raise RuntimeError(
+                f"the search by shooting takes more than its budget of {budget:g} s of CPU time"
+            )
+        turns.append((held[-1].stop - held[0].start) / task.period)
+        return simulate(device, held, times)
+
+    phase, load, ratio = (task.inputs[name] for name in ("phase", "load", "frequency_ratio"))
+    if quantity == "steady_velocity":
+        value = reference_steady_velocity(
+            task.device, phase, load, ratio, simulate=counted, tolerance=tolerance
+        )
+    else:
+        value = reference_blocking_force(
+            task.device, phase, ratio, simulate=counted, tolerance=tolerance
+        )
+    return Found(value, "the search by shooting has found none", round(sum(turns)))

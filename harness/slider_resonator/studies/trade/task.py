@@ -1,0 +1,172 @@
+"""What every method follows: the full device of a scene under its inputs, and where it is read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.common_period import common_period
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.schedule import Schedule, Signal, schedule
+from slider_resonator.references.averaged.averaged_motion import NEAR_AN_INTEGER
+from slider_resonator.scenes.scene import Scene
+
+Array = NDArray[np.float64]
+
+LEAST_PERIODS = 1000
+"""Drive periods that a scene under constant inputs is followed for at least: the longest step."""
+HALVINGS = 5
+"""The motion is read in a window that ends with the run, with half of it, and so on."""
+POINTS = 16
+"""Readings in a window, which is a drive period long."""
+TRUTH_STEPS = 16
+"""Steps a drive period in which the referee holds inputs that vary, at their middle value."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A scene as the trade takes it.
+
+    `device` is the full device under the scene's friction law, whatever fidelity the scene asks
+    for; `step` (s) the scene's own communication step, `periods` the whole drive periods of a run.
+    """
+
+    name: str
+    title: str
+    device: Device
+    parameters: Mapping[str, float]
+    signals: Mapping[str, Signal]
+    step: float
+    periods: int
+
+    @property
+    def period(self) -> float:
+        """Drive period in s."""
+        return 2.0 * pi / self.device.drive_frequency
+
+    @property
+    def constant(self) -> bool:
+        """Whether no input varies within the run."""
+        stop = self.periods * self.period
+        return all(
+            len(set(signal.values)) == 1 or signal.times[0] >= stop
+            for signal in self.signals.values()
+        )
+
+    @property
+    def inputs(self) -> dict[str, float]:
+        """The inputs at the start."""
+        return {name: signal.at(0.0) for name, signal in self.signals.items()}
+
+    @property
+    def steady(self) -> bool:
+        """Whether the inputs allow a steady motion, and friction draws the slider into it."""
+        device = self.device
+        rubs = device.friction_coefficient * (device.normal_preload + device.normal_amplitude) > 0.0
+        periodic = common_period(self.inputs["frequency_ratio"]) is not None
+        return rubs and self.constant and periodic
+
+    @property
+    def beat(self) -> float | None:
+        """Frequency (Hz) of the beat of two frequencies near each other, None where none is.
+
+        It is the difference of the frequencies exactly, appendix A of the paper.
+        """
+        ratio = self.inputs["frequency_ratio"]
+        detuning = abs(ratio - round(ratio))
+        apart = 1e-9 < detuning < NEAR_AN_INTEGER
+        return detuning / self.period if self.constant and apart else None
+
+    @property
+    def horizons(self) -> tuple[int, ...]:
+        """The drive periods at whose ends the windows are."""
+        halves = {self.periods // 2**halving for halving in range(HALVINGS + 1)}
+        return tuple(sorted(halves - {0}))
+
+    @property
+    def lengths(self) -> tuple[int, ...]:
+        """The drive periods after which a method may stop; one that misses inputs is none."""
+        return self.horizons if self.constant else (self.periods,)
+
+    def windows(self, periods: int) -> tuple[int, ...]:
+        """Return those within a run of so many drive periods."""
+        return tuple(end for end in self.horizons if end <= periods)
+
+    def window(self, end: int) -> Array:
+        """Return the times (s), shape (POINTS + 1,), of the readings in a window."""
+        return np.asarray(self.period * (end - 1 + np.arange(POINTS + 1) / POINTS))
+
+    def readings(self, periods: int) -> Array:
+        """Return the times (s) of the readings in all windows of a run, ascending."""
+        read = [self.window(end) for end in self.windows(periods)]
+        return np.unique(np.concatenate([np.empty(0), *read]))
+
+    def ends(self, periods: int) -> Array:
+        """Return the times (s), shape (periods + 1,), at which drive periods begin and end."""
+        return np.asarray(self.period * np.arange(periods + 1))
+
+    def schedule(self, periods: int, step: float) -> Schedule:
+        """Return the inputs sampled at steps (s) and held; all their jumps are points."""
+        return schedule(periods * self.period, step, **self.signals)
+
+    def held(self, periods: int) -> list[HeldInputs]:
+        """Return the inputs that peers get: held over the scene's own communication step."""
+        return self.schedule(periods, self.step).held()
+
+    def truth(self, periods: int, steps: int = TRUTH_STEPS) -> list[HeldInputs]:
+        """Return the inputs that the referee gets, `steps` a drive period where they vary."""
+        fine = self.schedule(periods, self.period / steps)
+        corners = [t for signal in self.signals.values() for t in signal.times]
+        stop = float(fine.times[-1])
+        inside = np.array([t for t in corners if 0.0 < t < stop])
+        times = np.union1d(fine.times, inside)
+        middles = 0.5 * (times[1:] + times[:-1])
+        rows = [
+            tuple(self.signals[name].at(float(middle)) for name in self.inputs)
+            for middle in middles
+        ]
+        held: list[HeldInputs] = []
+        for begin, end, row in zip(times[:-1].tolist(), times[1:].tolist(), rows, strict=True):
+            inputs = HeldInputs(begin, end, **dict(zip(self.inputs, row, strict=True)))
+            same = held and replace(held[-1], start=begin, stop=end) == inputs
+            if same:
+                held[-1] = replace(held[-1], stop=end)
+            else:
+                held.append(inputs)
+        return held
+
+
+def task_of(scene: Scene, varied: Mapping[str, float], most_periods: int | None = None) -> Task:
+    """Return the task of a scene, `varied` being what its sweep has set.
+
+    `most_periods` cuts the run short. Raises SceneError for a scene without a run whose inputs
+    vary.
+    """
+    full = replace(scene.device, fidelity=2)
+    period = 2.0 * pi / full.drive_frequency
+    varying = any(len(set(signal.values)) > 1 for signal in scene.signals.values())
+    periods, step = LEAST_PERIODS, period
+    if varying or scene.stop_time is not None:
+        plan = scene.schedule()
+        periods = int(float(plan.times[-1]) / period * (1.0 + 1e-9))
+        step = scene.step_size or period
+        if not varying:
+            periods = max(periods, LEAST_PERIODS)
+    if most_periods is not None:
+        periods = min(periods, most_periods)
+    own = {"fidelity", "friction_law", "tolerance"}
+    at = "".join(f", {name} {value:g}" for name, value in varied.items())
+    return Task(
+        name=scene.name + at,
+        title=scene.title,
+        device=full,
+        parameters={k: v for k, v in scene.parameters.items() if k not in own},
+        signals=scene.signals,
+        step=step,
+        periods=max(periods, 1),
+    )

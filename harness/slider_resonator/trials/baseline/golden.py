@@ -1,0 +1,83 @@
+"""What is recorded of an FMU in a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from slider_resonator.checks.compare import Measurement, measure
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.errors import SceneError
+from slider_resonator.scenes.schema import ExpectTable
+
+MOST_POINTS = 48
+"""Points that are kept of a run, evenly spaced over its communication points."""
+
+SIGNALS = (
+    *("position", "velocity", "resonator_displacement", "resonator_velocity"),
+    *("normal_force", "friction_force", "contact_mode", "event_times"),
+)
+"""Kept at those points; `event_times` has the last event before each."""
+OF_A_RUN = (
+    *("mean_velocity", "stick_fraction", "reversals", "ripple_amplitude", "ripple_frequency"),
+)
+"""Kept of a run as a whole, or of its last drive periods."""
+OF_CONSTANT_INPUTS = (
+    *("steady_status", "steady_velocity", "predicted_velocity"),
+    *("blocking_status", "blocking_force", "predicted_blocking_force"),
+)
+"""Found by shooting, and predicted by the FMU."""
+NUMBERS_AND_WORDS = (*OF_CONSTANT_INPUTS, *OF_A_RUN)
+"""All that is kept beside the signals, in the order of the files."""
+
+Golden = Mapping[str, Measurement]
+"""Quantity to its measurement; signals at few points."""
+
+
+def measure_golden(fmu: FmuSide) -> Golden:
+    """Measure all that the scene allows; a ripple, say, needs enough points in a drive period.
+
+    Raises FmuError and Refusal as the FMU does.
+    """
+    found = {}
+    for name in _quantities(fmu):
+        try:
+            measured = measure(_asked(name), fmu)
+        except SceneError:
+            continue
+        found[name] = _decimated(measured) if name in SIGNALS else measured
+    if "ripple_amplitude" not in found:  # too few points to see a ripple
+        found.pop("ripple_frequency", None)
+    return found
+
+
+def _quantities(fmu: FmuSide) -> Iterator[str]:
+    if fmu.scene.stop_time is not None:
+        yield from (*SIGNALS, *OF_A_RUN)
+    if all(signal.times == (0.0,) for signal in fmu.scene.signals.values()):
+        yield from OF_CONSTANT_INPUTS
+
+
+def _asked(name: str) -> ExpectTable:
+    """Return an expectation of a quantity, whatever it is compared with."""
+    return ExpectTable.model_construct(quantity=name, why="")
+
+
+def _decimated(measured: Measurement) -> Measurement:
+    assert measured.times is not None
+    count = len(measured.times)
+    kept = np.unique(np.rint(np.linspace(0, count - 1, min(count, MOST_POINTS))).astype(int))
+    return replace(measured, value=measured.value[kept], times=measured.times[kept])
+
+
+def order(name: str) -> int:
+    """Return the place of a quantity in files and tables."""
+    return (*NUMBERS_AND_WORDS, *SIGNALS).index(name)
+
+
+def unit(name: str) -> str:
+    """Return the unit of a quantity."""
+    return QUANTITIES[name].unit

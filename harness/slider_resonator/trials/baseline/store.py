@@ -1,0 +1,184 @@
+"""The CSV files of a scene's golden results."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from slider_resonator.checks.compare import Measurement, Value
+from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.errors import HarnessError
+from slider_resonator.names import unknown_name
+from slider_resonator.trials.baseline.golden import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
+from slider_resonator.trials.baseline.provenance import Provenance
+
+NUMBERS, TRAJECTORY, PROVENANCE = "numbers.csv", "trajectory.csv", "provenance.csv"
+DIGITS = 13
+"""Significant digits in the files: what differs beyond them hangs on the platform's sine."""
+NONE = "none"
+"""Written for a quantity that does not exist there, such as the velocity of a slow beat."""
+HEADERS: Mapping[str, Sequence[str]] = {
+    NUMBERS: ("at", "quantity", "unit", "value"),
+    TRAJECTORY: ("at", "time", *SIGNALS),
+    PROVENANCE: ("what", "value"),
+}
+"""First line of each file."""
+
+At = tuple[tuple[str, float], ...]
+"""What a sweep has varied, () without a sweep."""
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """Golden results at every point of a scene's sweep, and where they come from."""
+
+    points: Mapping[At, Golden]
+    provenance: Provenance
+
+
+def key(at: Mapping[str, float]) -> At:
+    """Return the point of a sweep as a key."""
+    return tuple(sorted(at.items()))
+
+
+def write_recorded(folder: Path, recorded: Recorded) -> None:
+    """Write the files of a scene, in place of those that are there, all of them or none.
+
+    Raises HarnessError when the folder cannot be written.
+    """
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        fresh = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+        try:
+            _write(fresh / NUMBERS, _number_rows(recorded))
+            if any(name in SIGNALS for golden in recorded.points.values() for name in golden):
+                _write(fresh / TRAJECTORY, _signal_rows(recorded))
+            _write(fresh / PROVENANCE, recorded.provenance.items())
+            fresh.chmod(0o755)
+            replace_folder(fresh, folder)
+        finally:
+            shutil.rmtree(fresh, ignore_errors=True)
+    except OSError as error:
+        raise HarnessError(f"{folder}: cannot be written: {error.strerror or error}") from error
+
+
+def replace_folder(fresh: Path, folder: Path) -> None:
+    """Put one folder in the place of another, which there need not be; OSError when it cannot."""
+    if folder.exists():
+        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as old:
+            folder.rename(Path(old) / folder.name)
+            fresh.rename(folder)
+    else:
+        fresh.rename(folder)
+
+
+def read_recorded(folder: Path) -> Recorded:
+    """Read the files of a scene; HarnessError names the file and the line that is no record."""
+    points: dict[At, dict[str, Measurement]] = {}
+    for line, (place, name, _, value) in _read(folder / NUMBERS):
+        with _naming(folder / NUMBERS, line):
+            points.setdefault(_at(place), {})[name] = Measurement(_value(name, value))
+    columns: dict[At, list[list[float]]] = {}
+    if (folder / TRAJECTORY).exists():
+        for line, (place, *row) in _read(folder / TRAJECTORY):
+            with _naming(folder / TRAJECTORY, line):
+                columns.setdefault(_at(place), []).append([_number(text) for text in row])
+    for at, rows in columns.items():
+        table = np.array(rows).T
+        signals = {
+            name: Measurement(column, times=table[0])
+            for name, column in zip(SIGNALS, table[1:], strict=True)
+        }
+        points.setdefault(at, {}).update(signals)
+    return Recorded(points, {what: value for _, (what, value) in _read(folder / PROVENANCE)})
+
+
+def recorded_scenes(folder: Path) -> list[Path]:
+    """Return the folders of the scenes that are recorded, in alphabetical order."""
+    found = [path.parent for path in folder.glob(f"*/{PROVENANCE}")]
+    return sorted(path for path in found if not path.name.startswith("."))
+
+
+def _number_rows(recorded: Recorded) -> Iterable[Sequence[str]]:
+    for at, golden in recorded.points.items():
+        for name in sorted(golden, key=order):
+            if name not in SIGNALS:
+                yield _place(at), name, unit(name), _text(golden[name].value)
+
+
+def _signal_rows(recorded: Recorded) -> Iterable[Sequence[str]]:
+    for at, golden in recorded.points.items():
+        signals = [golden[name] for name in SIGNALS if name in golden]
+        if signals:
+            columns = [signals[0].times, *(signal.value for signal in signals)]
+            for row in zip(*columns, strict=True):
+                yield _place(at), *(_text(float(number)) for number in row)
+
+
+def _write(path: Path, rows: Iterable[Sequence[str]]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADERS[path.name], *rows])
+
+
+def _read(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Yield the number and the cells of each line after the header."""
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            found, *rows = list(csv.reader(file)) or [[]]
+    except OSError as error:
+        raise HarnessError(f"{path}: cannot be read: {error.strerror}") from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise HarnessError(f"{path}: cannot be read: {error}") from error
+    header = list(HEADERS[path.name])
+    if found != header:
+        raise HarnessError(f"{path} line 1: {','.join(found)!r}; allowed is {','.join(header)!r}")
+    for line, row in enumerate(rows, start=2):
+        if len(row) != len(header):
+            raise HarnessError(f"{path} line {line}: {len(row)} cells; allowed are {len(header)}")
+        yield line, row
+
+
+@contextmanager
+def _naming(path: Path, line: int) -> Iterator[None]:
+    """Turn a ValueError into a HarnessError with file and line."""
+    try:
+        yield
+    except ValueError as error:
+        raise HarnessError(f"{path} line {line}: {error}") from error
+
+
+def _text(value: Value) -> str:
+    if value is None:
+        return NONE
+    return value if isinstance(value, str) else f"{value + 0.0:.{DIGITS}g}"  # no minus zero
+
+
+def _value(name: str, text: str) -> Value:
+    if name not in NUMBERS_AND_WORDS:
+        raise ValueError(unknown_name("quantity", name, NUMBERS_AND_WORDS))
+    if text == NONE:
+        return None
+    return text if QUANTITIES[name].kind == "word" else _number(text)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f"{text!r}: allowed is a number") from None
+
+
+def _place(at: At) -> str:
+    return " ".join(f"{name}={value!r}" for name, value in at)
+
+
+def _at(text: str) -> At:
+    pairs = (part.partition("=") for part in text.split())
+    return tuple((name, _number(value)) for name, _, value in pairs)

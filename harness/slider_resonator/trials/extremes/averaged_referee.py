@@ -1,0 +1,64 @@
+"""Averaged motion in the matrix against the reference, which takes the averages another way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.averaged.averaged_motion import simulate_averaged
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.trials.extremes.cell import DIVISIBLE, Cell
+from slider_resonator.trials.extremes.observe import Observation
+from slider_resonator.trials.extremes.verdict import REFEREE, Check
+
+REFERENCE = 1e-6
+"""Deviation, as a share of peaks, that the reference's own steps leave: each of them keeps 1e-8."""
+MOST_RELAXATIONS = 5000.0
+"""Times in which friction stops the fast velocity, up to which the reference follows LuGre
+friction: beyond, its quadratures in stiff steps take longer than all the rest."""
+
+
+def follows(cell: Cell) -> bool:
+    """Whether the reference covers a cell of averaged motion, at a cost that can be borne.
+
+    It needs friction under a mean load, and a vibration.
+    """
+    device = cell.device
+    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
+    if cell.start_time or not friction > 0.0 or min(h.size for h in cell.holds) <= DIVISIBLE:
+        return False
+    try:
+        fast = equivalent_force(device).velocity_amplitude
+    except ValueError:  # undamped resonance: no steady vibration
+        return False
+    duration = sum(hold.size * hold.count for hold in cell.holds)
+    lasting = MOST_RELAXATIONS * device.total_mass * fast / friction
+    return fast > 0.0 and (device.friction_law == 0 or duration <= lasting)
+
+
+def compare(
+    cell: Cell,
+    seen: Observation,
+    held: Sequence[HeldInputs],
+    times: NDArray[np.float64],
+    own: float,
+) -> Check:
+    """Return the check of mean velocity and position; `own` is the share that the FMU may err.
+
+    Raises what the reference does: RuntimeError, ValueError.
+    """
+    device = cell.device
+    fast = equivalent_force(device).velocity_amplitude
+    motion = simulate_averaged(device, held, times)
+    worst, words = 0.0, ""
+    for name, floor in (("mean_velocity", fast), ("position", fast / device.drive_frequency)):
+        # Before the first step there is no mean over a period.
+        there, here = getattr(motion, name)[1:], seen.signal(name)[1:]
+        off, size = float(np.abs(here - there).max()), max(float(np.abs(there).max()), floor)
+        found = off / (size * (REFERENCE + own))
+        if not found <= worst:
+            worst, words = found, f"{name} off by {off:.3g}, {off / size:.3g} of its peak"
+    return Check(REFEREE, worst, words)

@@ -1,0 +1,111 @@
+"""A cell of the stability matrix: what is run, and where it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import tau
+
+from slider_resonator.device.device import Device
+
+REPEATED = 3
+"""Parts into which a step that does not repeat is cut for the other partition of a cell."""
+DIVISIBLE = 1e-300
+"""Steps, s, up to this one are not cut."""
+
+
+@dataclass(frozen=True)
+class Hold:
+    """Inputs (rad, N, 1) held over `count` communication steps of `size` (s)."""
+
+    size: float
+    count: int = 1
+    phase: float = 0.4
+    load: float = 0.0
+    frequency_ratio: float = 1.0
+
+    @property
+    def inputs(self) -> tuple[float, float, float]:
+        """Phase, load, frequency_ratio."""
+        return self.phase, self.load, self.frequency_ratio
+
+
+@dataclass(frozen=True)
+class Model:
+    """A column of the matrix: how many degrees of freedom, and which friction law."""
+
+    fidelity: int
+    friction_law: int
+
+    @property
+    def name(self) -> str:
+        """The column's heading."""
+        law = "LuGre" if self.friction_law else "Coulomb"
+        return f"{law}, fidelity {self.fidelity}"
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A limit case: the value that an output must have at the end, and why."""
+
+    output: str
+    value: float
+    allowed: float
+    why: str
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One run: the value `value` on the axis `axis`, by one model.
+
+    `parameters` are those that differ from table 1. `from_zero` asks for the same motion when the
+    run starts at time 0, `restored` for the same one after a return to a stored state.
+    """
+
+    axis: str
+    value: str
+    model: Model
+    parameters: Mapping[str, float]
+    holds: tuple[Hold, ...]
+    start_time: float = 0.0
+    from_zero: bool = False
+    restored: bool = False
+    limits: tuple[Limit, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Axis, value and model."""
+        return f"{self.axis}: {self.value}: {self.model.name}"
+
+    @property
+    def settings(self) -> dict[str, float]:
+        """All parameters that are set in the FMU."""
+        chosen = {"fidelity": self.model.fidelity, "friction_law": self.model.friction_law}
+        return {**self.parameters, **chosen}
+
+    @property
+    def device(self) -> Device:
+        """The device for the references."""
+        return Device.from_mapping(self.settings)
+
+    @property
+    def period(self) -> float:
+        """The drive period, s."""
+        return tau / self.device.drive_frequency
+
+    @property
+    def other_holds(self) -> tuple[Hold, ...]:
+        """The same inputs over the same times in other steps: repeated ones merged, else cut."""
+        if any(hold.count > 1 for hold in self.holds):
+            return tuple(replace(h, size=h.size * h.count, count=1) for h in self.holds)
+        return tuple(
+            replace(h, size=h.size / REPEATED, count=REPEATED) if h.size > DIVISIBLE else h
+            for h in self.holds
+        )
+
+
+RESOLVED_COULOMB = Model(2, 0)
+MODELS = (RESOLVED_COULOMB, Model(1, 0), Model(0, 0), Model(2, 1), Model(1, 1), Model(0, 1))
+RESOLVED = tuple(model for model in MODELS if model.fidelity > 0)
+LUGRE = tuple(model for model in MODELS if model.friction_law == 1)
+COULOMB_RESOLVED = tuple(model for model in RESOLVED if model.friction_law == 0)

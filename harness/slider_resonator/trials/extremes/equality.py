@@ -1,0 +1,165 @@
+"""Motions that must be equal: other steps, another start time, the referee."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
+from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.trials.extremes import averaged_referee
+from slider_resonator.trials.extremes.cell import Cell
+from slider_resonator.trials.extremes.observe import NAMES, Observation
+from slider_resonator.trials.extremes.verdict import NO_REFEREE, REFEREE, Check
+
+Array = NDArray[np.float64]
+
+SIGNALS = ("position", "velocity", "resonator_displacement", "resonator_velocity")
+EXACT = 1e-10
+"""Deviation of resolved motion by rounding, as a fraction of peaks, where events are the same."""
+AVERAGED = 1e-7
+"""The same of averaged motion: the errors, 1e-9 each, of a hundred steps of its own."""
+MOST_TURNS = 600.0
+"""Turns of the fastest oscillation that the referee follows."""
+MOST_HOLDS = 400
+MOST_DECAY = 30.0
+"""Greatest rate of decay, in drive frequencies, of a motion that the referee follows."""
+
+
+def equalities(cell: Cell, seen: Observation) -> Iterator[Check]:
+    """Yield the checks against other runs of the same motion."""
+    yield _compare_last("other steps", cell, seen, seen.other)
+    if seen.from_zero is not None:
+        yield _compare_last("from time 0", cell, seen, seen.from_zero)
+    words = "the same start or stored state goes on differently"
+    yield Check("replay", 0.0 if seen.replayed else 2.0, words)
+    for limit in cell.limits:
+        off = abs(float(seen.signal(limit.output)[-1]) - limit.value)
+        found = off / limit.allowed if limit.allowed else 2.0 * float(off > 0.0)
+        words = f"{limit.output} off by {off:.3g}, allowed {limit.allowed:.3g}: {limit.why}"
+        yield Check("limit case", found, words)
+    if refereed(cell):
+        yield _referee(cell, seen)
+
+
+def allowed_deviation(cell: Cell, seen: Observation) -> float:
+    """Return the deviation between two runs of a motion, as a fraction of peaks.
+
+    It is rounding, of the drive angle too, or the steps of averaged motion, and `tolerance` where
+    that counts.
+    """
+    device = cell.device
+    ratios = np.maximum(1.0, np.abs(seen.inputs[:, 2]))
+    angle = float((device.drive_frequency * ratios * seen.sizes).sum())
+    rounding = 4.0 * float(np.finfo(float).eps) * angle
+    if device.fidelity == 0:
+        return AVERAGED + rounding
+    return EXACT + rounding + device.tolerance * device.friction_law
+
+
+def refereed(cell: Cell) -> bool:
+    """Whether the referee covers the cell at a cost that can be borne."""
+    device = cell.device
+    if device.fidelity == 0:
+        return averaged_referee.follows(cell)
+    if cell.start_time or len(cell.holds) > MOST_HOLDS:
+        return False
+    if device.fidelity == 1 and device.damping_ratio < 1e-9:
+        return False
+    if device.friction_law == 1 and device.friction_coefficient == 0.0:
+        return False
+    duration = sum(hold.size * hold.count for hold in cell.holds)
+    ratio = max(1.0, *(abs(hold.frequency_ratio) for hold in cell.holds))
+    fastest = max(
+        ratio * device.drive_frequency,
+        device.resonator_frequency / math.sqrt(max(1.0 - device.mass_ratio, 1e-12)),
+    )
+    decay = device.damping_ratio * device.resonator_frequency / max(1.0 - device.mass_ratio, 1e-12)
+    if decay > MOST_DECAY * device.drive_frequency or min(h.size for h in cell.holds) < 1e-9:
+        return False
+    return duration * fastest <= math.tau * MOST_TURNS
+
+
+def _referee(cell: Cell, seen: Observation) -> Check:
+    ends = np.cumsum([0, *(hold.count for hold in cell.holds)])
+    times = np.concatenate([[0.0], np.cumsum(seen.sizes)])
+    held = [
+        HeldInputs(float(times[first]), float(times[last]), *hold.inputs)
+        for first, last, hold in zip(ends, ends[1:], cell.holds, strict=False)
+    ]
+    try:
+        if cell.device.fidelity == 0:
+            return averaged_referee.compare(cell, seen, held, times, allowed_deviation(cell, seen))
+        if cell.device.friction_law == 0:
+            motion: Trajectory | LugreTrajectory = simulate(cell.device, held, times)
+        else:
+            motion = simulate_lugre(cell.device, held, times)
+    except (RuntimeError, ValueError, ArithmeticError) as error:
+        return Check(NO_REFEREE, 0.0, f"the referee gave up: {error}", is_deviation=False)
+    return _compare(REFEREE, cell, seen, [getattr(motion, name) for name in SIGNALS])
+
+
+def _compare_last(name: str, cell: Cell, seen: Observation, other: Array) -> Check:
+    last = [np.append(seen.signal(signal)[:-1], other[NAMES.index(signal)]) for signal in SIGNALS]
+    return _compare(name, cell, seen, last)
+
+
+def _compare(name: str, cell: Cell, seen: Observation, other: Sequence[Array]) -> Check:
+    """Compare four signals, each with its own scale."""
+    scales = _scales(cell, seen)
+    worst, words = 0.0, ""
+    for signal, scale, floor, motion in zip(
+        SIGNALS, scales, _rounding(cell, seen), other, strict=True
+    ):
+        off = float(np.abs(seen.signal(signal) - motion).max())
+        allowed = allowed_deviation(cell, seen) * scale + floor
+        found = off / allowed if allowed else 2.0 * float(off > 0.0)
+        if not found <= worst:
+            worst = found
+            words = f"{signal} off by {off:.3g}, {off / scale if scale else 1:.3g} of its peak"
+    return Check(name, worst, words)
+
+
+def _scales(cell: Cell, seen: Observation) -> tuple[float, float, float, float]:
+    """Peaks, with the resonator's share in the slider; steps may always meet the same phase.
+
+    The tolerance of LuGre friction refers to what friction does in a turn as well.
+    """
+    device = cell.device
+    w, share = device.drive_frequency, device.mass_ratio
+    position, velocity, swing, rate = (float(np.abs(seen.signal(s)).max()) for s in SIGNALS)
+    swing = max(swing, rate / w)
+    slip = 0.0
+    if device.friction_law == 1:
+        slip = _greatest_friction(device) / (device.total_mass * w)
+    velocity += share * w * swing + slip
+    return max(position, velocity / w), velocity, swing + slip / w, w * swing + slip
+
+
+def _rounding(cell: Cell, seen: Observation) -> tuple[float, float, float, float]:
+    """What forces that are known to rounding do to the four signals over the run.
+
+    With LuGre friction a velocity that is known to `tolerance` adds up to positions.
+    """
+    device = cell.device
+    time = float(seen.sizes.sum())
+    force = _greatest_friction(device) + float(np.abs(seen.inputs[:, 1]).max())
+    force += abs(device.tangential_force)
+    force += device.resonator_mass * device.base_amplitude * device.drive_frequency**2
+    velocity = 8.0 * np.finfo(float).eps * force * time / device.slider_mass
+    drift = velocity * time
+    if device.friction_law == 1 and device.fidelity > 0:
+        drift += device.tolerance * _scales(cell, seen)[1] * time
+    return drift, velocity, velocity * time, velocity
+
+
+def _greatest_friction(device: Device) -> float:
+    greatest = device.normal_preload + device.normal_amplitude
+    return device.friction_faces * device.friction_coefficient * greatest

@@ -1,0 +1,142 @@
+"""Running a cell in an FMU: everything that is judged later, and what the steps cost."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from statistics import median
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.device.interface import INPUTS, OUTPUTS
+from slider_resonator.errors import Refusal
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.trials.extremes.cell import Cell, Hold
+
+Array = NDArray[np.float64]
+NAMES = tuple(OUTPUTS)
+BASELINE_STEPS = 5
+"""Steps of a drive period, or of the whole run if that is less, that tell what a period costs."""
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What an FMU did in a cell.
+
+    `sizes` (n,) and `inputs` (n, 3) are those of each step, `outputs` (n + 1, 13) start with the
+    first moment. `other` (13,) are the last outputs in the other partition, `from_zero` those of
+    a run from time 0, where one was made. `replayed` tells whether a second run, and steps after a
+    return to a stored state, were equal bit by bit. `worst_step` is the CPU time (s) of the dearest
+    step, the lesser of two runs, per drive period in it but at least one; `period_cost` is the
+    median of a drive period of the device.
+    `refusal` holds the words of the FMU where it refused the cell: nothing else counts then.
+    """
+
+    sizes: Array
+    inputs: Array
+    outputs: Array
+    other: Array
+    from_zero: Array | None = None
+    replayed: bool = True
+    worst_step: float = 0.0
+    period_cost: float = 0.0
+    refusal: str | None = None
+
+    def signal(self, name: str) -> Array:
+        """Return one output over the run, shape (n + 1,)."""
+        column: Array = self.outputs[:, NAMES.index(name)]
+        return column
+
+
+def observe(instance: Instance, cell: Cell) -> Observation:
+    """Run a cell. A refusal is an observation; FmuError is raised for a wrong FMU."""
+    try:
+        return _observe(instance, cell)
+    except Refusal as refusal:
+        none = np.empty((0, len(NAMES)))
+        return Observation(np.empty(0), np.empty((0, 3)), none, np.empty(0), refusal=str(refusal))
+
+
+def _observe(instance: Instance, cell: Cell) -> Observation:
+    begin(instance, cell, cell.start_time)
+    outputs, costs = _follow(instance, cell.holds)
+    begin(instance, cell, cell.start_time)
+    again, costs_again = _follow(instance, cell.holds)
+    costs = [min(pair) for pair in zip(costs, costs_again, strict=True)]
+    replayed = bool(np.array_equal(outputs, again, equal_nan=True))
+    if cell.restored:
+        replayed = replayed and _replayed(instance, cell)
+    from_zero = None
+    if cell.from_zero:
+        begin(instance, cell, 0.0)
+        from_zero = _follow(instance, cell.holds)[0][-1]
+    begin(instance, cell, cell.start_time)
+    other, _ = _follow(instance, cell.other_holds)
+    begin(instance, cell, 0.0)
+    size = min(cell.period, sum(hold.size * hold.count for hold in cell.holds))
+    _, periods = _follow(instance, (Hold(size, BASELINE_STEPS, *cell.holds[0].inputs),))
+    sizes = [hold.size for hold in cell.holds for _ in range(hold.count)]
+    inputs = [hold.inputs for hold in cell.holds for _ in range(hold.count)]
+    return Observation(
+        sizes=np.array(sizes),
+        inputs=np.array(inputs),
+        outputs=outputs,
+        other=other[-1],
+        from_zero=from_zero,
+        replayed=replayed,
+        worst_step=max(cost / max(1.0, size / cell.period) for size, cost in costs),
+        period_cost=median(cost for _, cost in periods) * cell.period / size,
+    )
+
+
+def begin(instance: Instance, cell: Cell, start_time: float) -> None:
+    """Initialise the FMU for a cell; Refusal when it does not take the parameters."""
+    first = dict(zip(INPUTS, cell.holds[0].inputs, strict=True))
+    instance.start({**cell.settings, **first}, start_time=start_time)
+
+
+def _follow(instance: Instance, holds: Sequence[Hold]) -> tuple[Array, list[tuple[float, float]]]:
+    """Return the outputs at all points, and size and CPU time (s) of every step."""
+    block = instance.block(NAMES)
+    clock = time.thread_time
+    costs = []
+    with instance.explained():
+        rows = [block.read()]
+        for hold in holds:
+            instance.set_inputs(hold.inputs)
+            for _ in range(hold.count):
+                began = clock()
+                instance.step_by(hold.size)
+                costs.append((hold.size, clock() - began))
+                rows.append(block.read())
+    return np.array(rows), costs
+
+
+def _replayed(instance: Instance, cell: Cell) -> bool:
+    """Whether every second step, taken again from a stored state, repeats itself."""
+    begin(instance, cell, 0.0)
+    block = instance.block(NAMES)
+    slave = instance.slave
+    equal = True
+    with instance.explained():
+        for hold in cell.holds:
+            instance.set_inputs(hold.inputs)
+            for index in range(hold.count):
+                if index % 2:
+                    instance.step_by(hold.size)
+                    continue
+                present = instance.time
+                state = slave.getFMUstate()
+                data = slave.serializeFMUstate(state)
+                slave.freeFMUstate(state)
+                instance.step_by(hold.size)
+                first = block.read()
+                state = slave.deSerializeFMUstate(data)
+                slave.setFMUstate(state)
+                slave.freeFMUstate(state)
+                instance.time = present
+                instance.step_by(hold.size)
+                equal = equal and block.read() == first
+    return equal

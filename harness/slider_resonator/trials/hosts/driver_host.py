@@ -1,0 +1,108 @@
+"""The C driver: a process that holds nothing but the driver and the FMU's binary."""
+
+from __future__ import annotations
+
+import atexit
+import platform
+import shutil
+import subprocess
+import tempfile
+import zipfile
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+
+from slider_resonator.trials.hosts.compiler import SOURCES, compile_program, native_compiler
+from slider_resonator.trials.hosts.job import Job, Rows, describe, serve
+
+BINARY = {
+    "Linux": ("linux64", ".so"),
+    "Darwin": ("darwin64", ".dylib"),
+    "Windows": ("win64", ".dll"),
+}
+
+
+def run(job: Job) -> Rows:
+    """Step the FMU in a driver compiled for this machine."""
+    return drive(job, [str(native_driver())], *BINARY[platform.system()], str)
+
+
+def drive(
+    job: Job,
+    command: Sequence[str],
+    folder: str,
+    suffix: str,
+    path_for_driver: Callable[[Path], str],
+) -> Rows:
+    """Run `command`, a driver, on the FMU's binary in binaries/`folder`: see `converse`."""
+    return converse(Path(job.fmu), commands(job), command, folder, suffix, path_for_driver)
+
+
+def converse(
+    fmu: Path,
+    said_to_driver: str,
+    command: Sequence[str],
+    folder: str,
+    suffix: str,
+    path_for_driver: Callable[[Path], str],
+) -> Rows:
+    """Tell `command`, a driver, what to do with the FMU's binary; return the numbers it prints.
+
+    `path_for_driver` tells how the driver names a file. Raises RuntimeError with the driver's
+    messages.
+    """
+    description = describe(str(fmu))
+    with tempfile.TemporaryDirectory(prefix="slider-resonator-") as name:
+        unpacked = Path(name)
+        with zipfile.ZipFile(fmu) as archive:
+            archive.extractall(unpacked)
+        library = unpacked / "binaries" / folder / f"{description.identifier}{suffix}"
+        arguments = [path_for_driver(library), description.guid, (unpacked / "resources").as_uri()]
+        said, complained = unpacked / "stdout.txt", unpacked / "stderr.txt"
+        # Files, not pipes: Wine's server keeps what it inherits open long after the driver's end.
+        with said.open("w") as stdout, complained.open("w") as stderr:
+            done = subprocess.run(
+                [*command, *arguments],
+                input=said_to_driver,
+                stdout=stdout,
+                stderr=stderr,
+                text=True,
+                check=False,
+            )
+        if done.returncode != 0:
+            problem = complained.read_text(errors="replace").strip()
+            raise RuntimeError(f"the driver ended with {done.returncode}: {problem}")
+        return [[float(value) for value in line.split()] for line in said.read_text().splitlines()]
+
+
+def commands(job: Job) -> str:
+    """Return the job in the language of the driver."""
+    references = describe(job.fmu).references
+    lines = [
+        f"{'integer' if isinstance(value, int) else 'real'} {references[name]} {value!r}"
+        for name, value in job.first().items()
+    ]
+    lines.append("initialize")
+    get = " ".join(["get", *(str(references[name]) for name in job.outputs)])
+    for index in range(job.steps):
+        for name, values in job.inputs.items():
+            lines.append(f"real {references[name]} {values[index]!r}")
+        lines += [f"step {job.step!r} 1", get]
+    return "\n".join(lines) + "\n"
+
+
+@cache
+def native_driver() -> Path:
+    """Compile the driver, once per process, and return it."""
+    return compile_program(native_compiler(), SOURCES / "driver.c", fleeting_folder() / "driver")
+
+
+def fleeting_folder() -> Path:
+    """Return a new folder that goes when this process ends."""
+    folder = Path(tempfile.mkdtemp(prefix="slider-resonator-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+if __name__ == "__main__":
+    serve(run)

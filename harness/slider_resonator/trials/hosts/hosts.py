@@ -1,0 +1,89 @@
+"""The hosts, where each is found, and which FMUs it can load."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.trials.hosts.compiler import compiler_version, native_compiler, zig_compiler
+
+OWN_ENVIRONMENT = Path(".venv-hosts")
+"""Where `make hosts` puts CoFmuPy, which pins old versions of fmpy and pythonfmu."""
+
+INSTALL = "`make hosts` installs it"
+
+
+@dataclass(frozen=True)
+class Host:
+    """A simulator, run as `python -m slider_resonator.trials.hosts.MODULE`.
+
+    `version` raises HarnessError where the host is missing. `loads_python` tells whether it can
+    load an FMU that needs Python in the process, `couples` whether it runs the native FMU behind
+    the Python one.
+    """
+
+    name: str
+    module: str
+    version: Callable[[], str]
+    python: Path = Path(sys.executable)
+    loads_python: bool = True
+    couples: bool = False
+
+
+def package_version(package: str, python: Path = Path(sys.executable)) -> str:
+    """Return the version of a package in the environment of `python`.
+
+    Raises HarnessError where the environment or the package is missing.
+    """
+    if not python.is_file():
+        raise HarnessError(f"{package}: there is no {python}; {INSTALL}")
+    question = f"from importlib.metadata import version; print(version({package!r}))"
+    told = subprocess.run([python, "-c", question], capture_output=True, text=True, check=False)
+    if told.returncode != 0:
+        raise HarnessError(f"{package}: not installed beside {python}; {INSTALL}")
+    return told.stdout.strip()
+
+
+def wine_version() -> str:
+    """Return the versions of ziglang and Wine; HarnessError where either is missing."""
+    if shutil.which("wine") is None:
+        raise HarnessError(f"wine: not found; {INSTALL} where it may call apt-get")
+    told = subprocess.run(["wine", "--version"], capture_output=True, text=True, check=False)
+    wine = told.stdout.split()[0].removeprefix("wine-") if told.stdout else "of unknown version"
+    return f"{compiler_version(zig_compiler())}, Wine {wine}"
+
+
+def hosts(own_environment: Path = OWN_ENVIRONMENT) -> tuple[Host, ...]:
+    """Return all hosts, the one that others are compared with first."""
+    own = own_environment / ("Scripts" if sys.platform == "win32" else "bin") / "python"
+    return (
+        Host("fmpy", "fmpy_host", lambda: package_version("fmpy")),
+        Host("libcosimpy", "libcosim_host", lambda: package_version("libcosimpy")),
+        Host("pathsim-fmi", "pathsim_host", lambda: package_version("pathsim-fmi")),
+        Host("cofmupy", "cofmupy_host", lambda: package_version("cofmupy", own), own),
+        Host(
+            "fmuloader",
+            "fmuloader_host",
+            lambda: package_version("fmuloader"),
+            loads_python=False,  # it wants the model-exchange functions, which pythonfmu lacks
+        ),
+        Host(
+            "fmu_manipulation_toolbox",
+            "container_host",
+            lambda: package_version("fmu-manipulation-toolbox"),
+            loads_python=False,
+            couples=True,
+        ),
+        Host(
+            "C driver",
+            "driver_host",
+            lambda: compiler_version(native_compiler()),
+            loads_python=False,
+        ),
+        Host("C driver in Wine", "wine_host", wine_version, loads_python=False),
+    )

@@ -1,0 +1,41 @@
+"""The host table: Markdown that a README holds between two marks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from slider_resonator.output.marked_text import write_marked
+from slider_resonator.trials.hosts.runs import CASES, Comparison, HostResult
+
+BEGIN, END = "<!-- hosts -->", "<!-- end of hosts -->"
+HEAD = ("host", "version", "FMU", *(case.title for case in CASES))
+
+
+def host_table(results: Sequence[HostResult]) -> str:
+    """Return the table: a row for each FMU in each host, the largest deviation for each case."""
+    lines = [_line(HEAD), _line(["---"] * len(HEAD))]
+    for result in results:
+        cells = [_cell(result.comparisons[case]) for case in CASES]
+        lines.append(_line([result.host, result.version, result.fmu, *cells]))
+    return "\n".join(lines)
+
+
+def write_table(path: Path, table: str) -> None:
+    """Write the table to `path`, between the marks where the file has them, as `write_marked`."""
+    write_marked(path, table, BEGIN, END)
+
+
+def shown(comparison: Comparison) -> str:
+    """Return the deviation with one digit, or that there is none."""
+    if comparison.deviation is None:
+        return "failed"
+    return f"{comparison.deviation:.0e}" if comparison.deviation else "0"
+
+
+def _cell(comparison: Comparison) -> str:
+    return shown(comparison) if comparison.passed else f"**{shown(comparison)}**"
+
+
+def _line(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(cells) + " |"

@@ -1,0 +1,39 @@
+"""The C driver for Windows, cross-compiled, with the FMU's Windows binary under Wine."""
+
+from __future__ import annotations
+
+import os
+from functools import cache
+from pathlib import Path, PureWindowsPath
+
+from slider_resonator.trials.hosts.compiler import SOURCES, WINDOWS, compile_program, zig_compiler
+from slider_resonator.trials.hosts.driver_host import BINARY, drive, fleeting_folder
+from slider_resonator.trials.hosts.job import Job, Rows, serve
+
+LIKE_THE_FMU = ("-g0", "-s")
+"""As the FMU is built: with other options ziglang would first build another C library."""
+
+
+def run(job: Job) -> Rows:
+    """Step the FMU's Windows binary."""
+    return drive(job, ["wine", str(windows_driver())], *BINARY["Windows"], seen_from_windows)
+
+
+def seen_from_windows(path: Path) -> str:
+    """Return an absolute path as Wine shows it, on drive Z."""
+    return str(PureWindowsPath(f"Z:{path.as_posix()}"))
+
+
+@cache
+def windows_driver() -> Path:
+    """Cross-compile the driver, once per process, and return it."""
+    compiler = [*zig_compiler(), *WINDOWS]
+    program = fleeting_folder() / "driver.exe"
+    return compile_program(compiler, SOURCES / "driver.c", program, LIKE_THE_FMU)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("WINEDEBUG", "-all")
+    # Without these a new Wine prefix asks to download Mono and Gecko.
+    os.environ.setdefault("WINEDLLOVERRIDES", "mscoree=;mshtml=")
+    serve(run)

@@ -1,0 +1,47 @@
+"""All mutants of a Python FMU, and samples of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from random import Random
+
+from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.names import unknown_name
+from slider_resonator.trials.mutants.archive import DESCRIPTION, PythonFmu
+from slider_resonator.trials.mutants.enumerate_source import source_mutants
+from slider_resonator.trials.mutants.faults import fault_mutants, missing_names
+from slider_resonator.trials.mutants.mutant import Mutant
+from slider_resonator.trials.mutants.units import unit_mutants
+
+
+def fmu_mutants(fmu: PythonFmu, files: Sequence[str] = ()) -> list[Mutant]:
+    """Return the mutants of all files, or of some, in the order of files and lines.
+
+    The same FMU gives the same mutants in the same order. Raises HarnessError for an unknown file
+    and FmuError for a component that the faults do not fit.
+    """
+    missing = missing_names(fmu.modules)
+    if missing:
+        raise FmuError(f"the component lacks what faults are made with: {', '.join(missing)}")
+    known = [*fmu.modules, DESCRIPTION]
+    for file in files:
+        if file not in known:
+            raise HarnessError(unknown_name("module", file, known))
+    found = []
+    for file in known:
+        if files and file not in files:
+            continue
+        if file == DESCRIPTION:
+            found += unit_mutants(fmu.text(DESCRIPTION))
+            continue
+        path, text = fmu.path_of(file), fmu.modules[file]
+        found += source_mutants(file, path, text) + fault_mutants(file, path, text)
+    return found
+
+
+def sample(mutants: Sequence[Mutant], count: int, seed: int) -> list[Mutant]:
+    """Return `count` of the mutants in their order, the same ones for the same seed."""
+    if count >= len(mutants):
+        return list(mutants)
+    chosen = Random(seed).sample(range(len(mutants)), count)
+    return [mutants[index] for index in sorted(chosen)]

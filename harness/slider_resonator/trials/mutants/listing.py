@@ -1,0 +1,114 @@
+"""A mutation run as text for people and as plain data for JSON."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from slider_resonator.trials.mutants.mutant import KINDS, Mutant
+from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutationRun, Verdict
+
+MOST_REJECTIONS = 12
+"""Rows of the table of what rejects: the rest is in the JSON document."""
+
+
+def print_run(console: Console, run: MutationRun) -> None:
+    """Print counts by kind and by file, what rejects most, the survivors and the rate."""
+    console.print(_table("kind", run))
+    console.print(_table("file", run))
+    console.print(_rejections(run))
+    for verdict in run.having(SURVIVED):
+        heading = Text.assemble(("SURVIVED ", "bold red"), verdict.mutant.name)
+        console.print(heading, Text(f"     {verdict.reason}"), Text(verdict.mutant.diff), sep="\n")
+    for status, meaning in STATUSES.items():
+        console.print(f"{status:12} {run.counts[status]:5}  {meaning}")
+    console.print(summary(run), markup=False, soft_wrap=True)
+
+
+def summary(run: MutationRun) -> str:
+    """Return the result in a sentence."""
+    counts = run.counts
+    changing = counts["rejected"] + counts[SURVIVED]
+    rate = "none changes a result" if run.rate is None else f"{run.rate:.2%}"
+    return (
+        f"{run.fmu}: rejected {counts['rejected']} of the {changing} mutants that change a result: "
+        f"{rate} ({len(run.verdicts)} tried of {run.made}, {run.probes} probes, "
+        f"{run.wall_time:.0f} s)"
+    )
+
+
+def print_mutants(console: Console, mutants: list[Mutant]) -> None:
+    """Print each mutant with its diff."""
+    for mutant in mutants:
+        console.print(Text(f"{mutant.name} [{mutant.kind}]", "bold"), Text(mutant.diff), sep="\n")
+    console.print(f"{len(mutants)} mutants")
+
+
+def run_as_plain(run: MutationRun) -> dict[str, Any]:
+    """Return everything about a run; passing is for whoever set the rate to judge."""
+    return {
+        "fmu": run.fmu,
+        "made": run.made,
+        "tried": len(run.verdicts),
+        "probes": run.probes,
+        "rate": run.rate,
+        "counts": run.counts,
+        "kinds": dict(run.tally("kind")),
+        "files": dict(run.tally("file")),
+        "rejections": dict(run.rejections()),
+        "wall_time": run.wall_time,
+        "mutants": [_plain(verdict) for verdict in run.verdicts],
+    }
+
+
+def mutant_as_plain(mutant: Mutant) -> dict[str, Any]:
+    """Return what identifies a mutant, and its diff."""
+    return {
+        "name": mutant.name,
+        "file": mutant.file,
+        "line": mutant.line,
+        "column": mutant.column,
+        "kind": mutant.kind,
+        "change": mutant.change,
+        "diff": mutant.diff,
+    }
+
+
+def _plain(verdict: Verdict) -> dict[str, Any]:
+    outcome = {
+        "status": verdict.status,
+        "scene": verdict.scene,
+        "quantity": verdict.quantity,
+        "reason": verdict.reason,
+    }
+    return mutant_as_plain(verdict.mutant) | outcome
+
+
+def _table(key: str, run: MutationRun) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table.add_column(key)
+    for status in STATUSES:
+        table.add_column(status, justify="right")
+    if key == "kind":
+        table.add_column("what is changed")
+    for name, counts in run.tally(key):
+        told = [KINDS[name]] if key == "kind" else []
+        table.add_row(name, *(str(counts[status]) for status in STATUSES), *told)
+    return table
+
+
+def _rejections(run: MutationRun) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table.add_column("rejected first by")
+    table.add_column("mutants", justify="right")
+    found = run.rejections()
+    for what, count in found[:MOST_REJECTIONS]:
+        table.add_row(what, str(count))
+    rest = sum(count for _, count in found[MOST_REJECTIONS:])
+    if rest:
+        table.add_row(f"{len(found) - MOST_REJECTIONS} others", str(rest))
+    return table

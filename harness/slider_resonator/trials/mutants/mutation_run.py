@@ -1,0 +1,179 @@
+"""Trying mutants: which scenes can see them, whether they are rejected, and if not, why."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+
+from slider_resonator.checks.verdict import place
+from slider_resonator.errors import FmuError
+from slider_resonator.trials.mutants.archive import PythonFmu
+from slider_resonator.trials.mutants.mutant import Mutant
+from slider_resonator.trials.mutants.points import probe_points, scene_points
+from slider_resonator.trials.mutants.probes import write_probes
+from slider_resonator.trials.mutants.reach import Reach, reaches
+from slider_resonator.trials.mutants.trial import Passed, Point, Rejection, trial
+from slider_resonator.trials.mutants.verdict import (
+    EQUIVALENT,
+    NOT_REACHED,
+    REJECTED,
+    SURVIVED,
+    MutationRun,
+    Verdict,
+)
+
+TIME_LIMIT = 30.0
+"""Seconds for a mutant and a scene or point of a sweep; the slowest built-in one takes a few."""
+PROBES = 39
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class Course:
+    """Points, the cheapest first, with the statements that each executes."""
+
+    points: tuple[Point, ...]
+    reach: tuple[Reach, ...]
+
+    @classmethod
+    def of(cls, points: Sequence[Point], reach: Sequence[Reach]) -> Course:
+        """Sort points by their cost."""
+        pairs = sorted(zip(points, reach, strict=True), key=lambda pair: pair[1].cost)
+        return cls(tuple(p for p, _ in pairs), tuple(r for _, r in pairs))
+
+    def through(self, mutant: Mutant) -> list[Point]:
+        """Return the points at which a mutant can make a difference."""
+        if mutant.statement is None:
+            return list(self.points)
+        place = (mutant.file, mutant.statement)
+        pairs = zip(self.points, self.reach, strict=True)
+        return [point for point, reach in pairs if place in reach.places]
+
+
+@dataclass(frozen=True)
+class _Bench:
+    """All that a mutant is tried with."""
+
+    fmu: PythonFmu
+    scenes: Course
+    probes: Course
+    time_limit: float
+    folder: Path
+
+
+def run_mutants(
+    path: Path,
+    fmu: PythonFmu,
+    mutants: Sequence[Mutant],
+    scene_files: Sequence[Path],
+    *,
+    made: int,
+    jobs: int,
+    probes: int = PROBES,
+    seed: int = 0,
+    time_limit: float = TIME_LIMIT,
+    progress: Progress = lambda label, share: None,
+) -> MutationRun:
+    """Try mutants of the FMU at `path` on scenes, survivors on probes, `jobs` at a time.
+
+    Raises FmuError when the unchanged FMU is rejected, and SceneError as `scene_points` does.
+    """
+    began = time.perf_counter()
+    with tempfile.TemporaryDirectory(prefix="slider-resonator-mutants-") as name:
+        folder = Path(name)
+        points = scene_points(scene_files, progress)
+        progress("the unchanged FMU", 0.0)
+        _check_original(path, points, time_limit)
+        probe_files = write_probes(folder, probes, seed)
+        probing = probe_points(path, probe_files, time_limit)
+        reach = reaches(fmu, [*points, *probing], time_limit, jobs)
+        bench = _Bench(
+            fmu,
+            Course.of(points, reach[: len(points)]),
+            Course.of(probing, reach[len(points) :]),
+            time_limit,
+            folder,
+        )
+        verdicts = _all(bench, mutants, jobs, progress)
+    return MutationRun(str(path), made, len(probing), verdicts, time.perf_counter() - began)
+
+
+def _check_original(path: Path, points: Sequence[Point], time_limit: float) -> None:
+    """Raise FmuError unless the unchanged FMU passes: else a rejection would say nothing."""
+    outcome = trial(path, points, time_limit)
+    if isinstance(outcome, Rejection):
+        where = f"scene {outcome.scene}: " * bool(outcome.scene)
+        what = f"{outcome.quantity}: " * bool(outcome.quantity)
+        raise FmuError(
+            f"{path} is rejected before anything is changed: {where}{what}{outcome.reason}"
+        )
+
+
+def _all(
+    bench: _Bench, mutants: Sequence[Mutant], jobs: int, progress: Progress
+) -> tuple[Verdict, ...]:
+    verdicts: dict[int, Verdict] = {}
+    with ThreadPoolExecutor(jobs) as pool:
+        futures: dict[Future[Verdict], int] = {
+            pool.submit(_verdict, bench, mutant, index): index
+            for index, mutant in enumerate(mutants)
+        }
+        try:
+            for future in as_completed(futures):
+                verdict = future.result()
+                verdicts[futures[future]] = verdict
+                progress(f"{verdict.status}: {verdict.mutant.name}", len(verdicts) / len(mutants))
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+    return tuple(verdicts[index] for index in range(len(mutants)))
+
+
+def _verdict(bench: _Bench, mutant: Mutant, number: int) -> Verdict:
+    scenes, probes = bench.scenes.through(mutant), bench.probes.through(mutant)
+    if not scenes and not probes:
+        return Verdict(mutant, NOT_REACHED, "no scene and no probe executes the statement")
+    faulty = bench.folder / f"mutant_{number}.fmu"
+    bench.fmu.write(faulty, {mutant.path: mutant.new})
+    try:
+        seen = trial(faulty, scenes, bench.time_limit)
+        if isinstance(seen, Rejection):
+            return Verdict(mutant, REJECTED, seen.reason, seen.scene, seen.quantity)
+        if mutant.kind == "unit":
+            return Verdict(mutant, SURVIVED, "the interface is accepted with that unit")
+        probed = trial(faulty, probes, bench.time_limit)
+    finally:
+        faulty.unlink()
+    if isinstance(probed, Rejection):
+        return Verdict(mutant, SURVIVED, _survival(scenes, seen, probed))
+    return Verdict(mutant, EQUIVALENT, _equivalence(len(scenes), len(probes), seen, probed))
+
+
+def _survival(scenes: Sequence[Point], seen: Passed, probed: Rejection) -> str:
+    """Say which probe differs, and what the scenes saw of it."""
+    what = f"{probed.quantity}: " if probed.quantity else "cannot be run: "
+    if not scenes:
+        return f"no scene executes the statement, but {probed.scene} does: {what}{probed.reason}"
+    return (
+        f"in {probed.scene}: {what}{probed.reason}; the {len(scenes)} scenes that execute the "
+        f"statement pass, {_nearest(seen)}"
+    )
+
+
+def _equivalence(scenes: int, probes: int, seen: Passed, probed: Passed) -> str:
+    return (
+        f"{scenes} scenes and {probes} probes execute the statement; nearest to its limit in a "
+        f"scene is {_nearest(seen)}; in a probe {_nearest(probed)}"
+    )
+
+
+def _nearest(passed: Passed) -> str:
+    check = passed.nearest
+    if check is None or check.severity == 0.0:
+        return "none: nothing differs"
+    where = f"{check.scene}{place(check.at, ' at ')}"
+    return f"{check.quantity} in {where} with {check.severity:.2g} of what is allowed"

@@ -1,0 +1,118 @@
+"""Which statements of the component a scene executes, so that no mutant is run in vain.
+
+A copy of the FMU notes each statement as it comes by.
+"""
+
+from __future__ import annotations
+
+import ast
+import sys
+import tempfile
+import time
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from slider_resonator.checks.compare import measure_all
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
+from slider_resonator.trials.mutants.archive import PythonFmu
+from slider_resonator.trials.mutants.enumerate_source import Function, blocks
+from slider_resonator.trials.mutants.trial import Point
+
+Place = tuple[str, int]
+"""Module and line in which a statement begins."""
+
+_NOTED = "_noted_lines"
+_LOADING = "_lines_noted_at_loading"
+_SHELL = "slave.py"
+"""The module whose caches are no results: they say what is to be done when the process ends."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """The statements that a scene executes, and the CPU seconds that it takes to do so."""
+
+    places: frozenset[Place]
+    cost: float
+
+
+def reaches(fmu: PythonFmu, points: Sequence[Point], time_limit: float, jobs: int) -> list[Reach]:
+    """Return what each scene, or point of a sweep, executes; `jobs` processes share the work.
+
+    Raises FmuError when the FMU cannot run one of them.
+    """
+    with tempfile.TemporaryDirectory(prefix="slider-resonator-mutants-") as folder:
+        noting = Path(folder) / "noting.fmu"
+        noted = {fmu.path_of(name): noting_source(text) for name, text in fmu.modules.items()}
+        fmu.write(noting, noted)
+        shares = [points[i::jobs] for i in range(jobs)]
+        with ThreadPoolExecutor(jobs) as pool:
+            parts = list(pool.map(partial(_observe, noting, time_limit), shares))
+    found: list[Reach] = [Reach(frozenset(), 0.0)] * len(points)
+    for index, part in enumerate(parts):
+        found[index::jobs] = part
+    return found
+
+
+def noting_source(text: str) -> str:
+    """Return a module's source with a note of its line before each statement of a function."""
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(node, Function):
+            _note(node.body)
+    last = max((i for i, s in enumerate(tree.body) if _is_future(s)), default=-1)
+    tree.body[last + 1 : last + 1] = ast.parse(f"{_NOTED} = set()").body
+    tree.body += ast.parse(f"{_LOADING} = frozenset({_NOTED})").body
+    return ast.unparse(ast.fix_missing_locations(tree))
+
+
+def _is_future(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.ImportFrom) and statement.module == "__future__"
+
+
+def _note(body: list[ast.stmt]) -> None:
+    for index in range(len(body) - 1, -1, -1):
+        statement = body[index]
+        if isinstance(statement, Function):
+            continue  # its own body is noted on its own
+        for block in blocks(statement):
+            _note(block)
+        body[index:index] = ast.parse(f"{_NOTED}.add({statement.lineno})").body
+
+
+def _observe(noting: Path, time_limit: float, points: Sequence[Point]) -> list[Reach]:
+    found = []
+    for ran in isolated_runs(noting, points, noted_while_measuring, time_limit):
+        if ran.error is not None:
+            raise ran.error
+        found.append(ran.result)
+    return found
+
+
+def noted_while_measuring(side: FmuSide) -> Reach:
+    """Measure what the scene expects, in the process of a noting FMU, and return its reach."""
+    modules = {
+        f"{name.rpartition('.')[2]}.py": vars(module)
+        for name, module in sys.modules.items()
+        if hasattr(module, _LOADING)
+    }
+    for name, module in modules.items():
+        module[_NOTED].clear()
+        if name != _SHELL:
+            _forget_results(module)
+    began = time.process_time()
+    measure_all(side)
+    cost = time.process_time() - began
+    places = ((n, line) for n, m in modules.items() for line in m[_NOTED] | m[_LOADING])
+    return Reach(frozenset(places), cost)
+
+
+def _forget_results(namespace: Mapping[str, object]) -> None:
+    """Empty the caches of pure functions: what they skip would look as if it were not reached."""
+    for thing in namespace.values():
+        clear = getattr(thing, "cache_clear", None)
+        if clear is not None:
+            clear()

@@ -1,0 +1,85 @@
+"""What became of a mutant, and of all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from slider_resonator.trials.mutants.mutant import Mutant
+
+REJECTED = "rejected"
+SURVIVED = "survived"
+EQUIVALENT = "equivalent"
+NOT_REACHED = "not reached"
+
+STATUSES: Mapping[str, str] = {
+    REJECTED: "by a scene: a check fails, or it cannot be run",
+    SURVIVED: "passes every scene, though results change",
+    EQUIVALENT: "no result changes by more than the allowed deviation, in any scene or probe",
+    NOT_REACHED: "no scene and no probe executes the changed statement",
+}
+"""How a mutant may end, and what that means."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How a mutant ended and why, and for a rejected one by which scene and quantity.
+
+    A rejected one without a quantity could not be run.
+    """
+
+    mutant: Mutant
+    status: str
+    reason: str
+    scene: str = ""
+    quantity: str = ""
+
+
+@dataclass(frozen=True)
+class MutationRun:
+    """The verdicts on the mutants of an FMU that were tried, out of `made` ones.
+
+    `probes` is how many were used; `wall_time` is in s.
+    """
+
+    fmu: str
+    made: int
+    probes: int
+    verdicts: tuple[Verdict, ...]
+    wall_time: float
+
+    def having(self, status: str) -> list[Verdict]:
+        """Return the verdicts with this status."""
+        return [verdict for verdict in self.verdicts if verdict.status == status]
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Return status to count."""
+        return {status: len(self.having(status)) for status in STATUSES}
+
+    @property
+    def rate(self) -> float | None:
+        """Rejected ones as a share of all that change a result; None where none does."""
+        rejected, survived = self.counts[REJECTED], self.counts[SURVIVED]
+        return rejected / (rejected + survived) if rejected + survived else None
+
+    def tally(self, key: str) -> list[tuple[str, dict[str, int]]]:
+        """Return the counts for each `kind` or `file` of mutants, in their order."""
+        names = dict.fromkeys(getattr(verdict.mutant, key) for verdict in self.verdicts)
+        return [
+            (name, _counts([v for v in self.verdicts if getattr(v.mutant, key) == name]))
+            for name in names
+        ]
+
+    def rejections(self) -> list[tuple[str, int]]:
+        """Return what rejected mutants, scene and quantity, with how many, most first."""
+        found: dict[str, int] = {}
+        for verdict in self.having(REJECTED):
+            what = f"{verdict.scene.partition(' at ')[0]}: {verdict.quantity or 'cannot be run'}"
+            what = what if verdict.scene else "cannot be opened or freed"
+            found[what] = found.get(what, 0) + 1
+        return sorted(found.items(), key=lambda item: (-item[1], item[0]))
+
+
+def _counts(verdicts: Sequence[Verdict]) -> dict[str, int]:
+    return {status: sum(v.status == status for v in verdicts) for status in STATUSES}

@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import base64
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+from slider_resonator.checks.reports.html_report import write_html
+from tests.harness.verdicts import BAD, BROKEN, GOOD, TIMES
+
+
+class Tags(HTMLParser):
+    """Collects the tags of a page and the attributes that load something."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.loaded: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.loaded += [value or "" for name, value in attrs if name in ("src", "href")]
+
+
+def page(folder: Path, *validations: object, error: str = "") -> tuple[str, Tags]:
+    path = folder / "report.html"
+    write_html(path, validations, error)  # type: ignore[arg-type]
+    text = path.read_text(encoding="utf-8")
+    tags = Tags()
+    tags.feed(text)
+    return text, tags
+
+
+def test_what_differs_is_drawn_and_nothing_is_loaded(tmp_path: Path) -> None:
+    text, tags = page(tmp_path, GOOD, BAD)
+    (source,) = tags.loaded
+    head, _, data = source.partition(",")
+    assert head == "data:image/png;base64"
+    assert base64.b64decode(data).startswith(b"\x89PNG")
+    assert len(TIMES) > 128, "the picture has a whole run and a part of it"
+    assert "from 0.0125 s on, most at 0.05 s" in text
+    assert "off by 0.0067 m/s" in text
+    assert "good.fmu" in text
+    assert "bad.fmu" in text
+    assert len(re.findall("<tr title=", text)) == 4, "all checks are listed"
+
+
+def test_what_an_fmu_prints_is_no_markup(tmp_path: Path) -> None:
+    text, tags = page(tmp_path, BROKEN)
+    assert "b" not in tags.tags
+    assert "could not be run" in text
+    assert "lift_off at phase 0.4: the FMU crashed" in text
+
+
+def test_an_error_before_any_fmu_is_shown(tmp_path: Path) -> None:
+    text, _ = page(tmp_path, error="mine.toml: not TOML")
+    assert "Could not run: mine.toml: not TOML" in text

@@ -1,0 +1,32 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from slider_resonator.checks.reports.json_report import validations_as_json, write_json
+from tests.harness.verdicts import BAD, BROKEN, GOOD
+
+
+def test_one_fmu_stands_alone_and_several_are_listed() -> None:
+    alone = json.loads(validations_as_json([GOOD]))
+    assert (alone["fmu"], alone["passed"], alone["exit_code"]) == ("good.fmu", True, 0)
+    several = json.loads(validations_as_json([GOOD, BAD, BROKEN]))
+    assert several["passed"] is False
+    assert [fmu["exit_code"] for fmu in several["fmus"]] == [0, 1, 2]
+    assert "crashed" in several["fmus"][2]["errors"][0]["reason"]
+
+
+def test_a_check_says_by_how_much_and_where() -> None:
+    passed, _, signal = json.loads(validations_as_json([BAD]))["checks"]
+    assert passed["verdict"] == "pass"
+    assert signal["first_time"] == 0.0125
+    assert signal["deviation"] == 3e-4
+    assert "from 0.0125 s on" in signal["verdict"]
+
+
+def test_a_file_holds_the_same(tmp_path: Path) -> None:
+    path = tmp_path / "report.json"
+    write_json(path, [BAD])
+    assert path.read_text() == validations_as_json([BAD]) + "\n"
+    write_json(path, [], "mine.toml: not TOML")
+    assert json.loads(path.read_text()) == {"passed": False, "error": "mine.toml: not TOML"}

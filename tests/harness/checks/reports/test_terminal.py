@@ -1,0 +1,109 @@
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+
+from rich.console import Console
+
+from slider_resonator.checks.compare import Check
+from slider_resonator.checks.reports.terminal import print_validation
+from slider_resonator.checks.validate import Validation
+from slider_resonator.output.console import WIDTH_OF_A_LOG
+
+GOOD = Check(
+    *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),
+    *(1e-10, 1e-7, True, "both must agree", "", {"phase": 0.0}),
+)
+BAD = Check(
+    *("phase_sweep", "steady_velocity", "m/s", None, "located_events", 0.15),
+    *(None, None, False, "both must agree", "no steady motion", {"phase": 0.4}),
+)
+
+
+WIDEST = (
+    Check(
+        *("table_1_high_frequency", "steady_status", "", "load_above_friction", "value"),
+        *("load_above_friction", None, None, True, "why", "", {}),
+    ),
+    Check(
+        *("phase_sweep", "predicted_blocking_force", "N", -1.2345678e-05, "at least"),
+        *(-1.2345678e-05, 1.2e-10, 1.3e-07, True, "why", "", {"phase": 2.4083}),
+    ),
+    Check(
+        *("phase_sweep", "resonator_displacement", "m", 0.00012345678, "located_events"),
+        *(0.00012345678, 1.2e-10, 1.3e-07, True, "why", "", {"phase": 2.4083}),
+    ),
+)
+
+
+def printed(*checks: Check, details: bool = False, fmu: str = "my.fmu") -> str:
+    console = Console(file=io.StringIO(), width=WIDTH_OF_A_LOG)
+    print_validation(console, Validation(fmu, checks, 1.5), details=details)
+    assert isinstance(console.file, io.StringIO)
+    return console.file.getvalue()
+
+
+def test_the_table_shows_units_and_the_summary() -> None:
+    text = printed(GOOD)
+    assert "steady_velocity, m/s" in text
+    assert "located" in text
+    assert "1 of 1 checks passed" in text
+    assert "FAIL" not in text
+
+
+def test_the_summary_is_one_line_with_the_file_as_it_is_called() -> None:
+    fmu = f"a{'/very' * 40}/long/path[old].fmu"
+    assert printed(GOOD, fmu=fmu).splitlines()[-1] == f"{fmu}: 1 of 1 checks passed in 1.5 s"
+
+
+def test_the_longest_rows_fit_a_log_unwrapped() -> None:
+    text = printed(*WIDEST)
+    assert len(text.splitlines()) == 2 + 1 + 2 + 1 + 3 + 3, text
+    assert "predicted_blocking_force, N" in text
+    assert "resonator_displacement*, m" in text
+    assert "* the peak of a signal" in text
+    assert text.count("load_above_friction") == 2
+
+
+def test_minus_zero_and_noise_are_0() -> None:
+    (row,) = [
+        line
+        for line in printed(replace(GOOD, fmu=-0.0, reference=-1.7e-14)).splitlines()
+        if "steady_velocity" in line
+    ]
+    assert row.split()[4:6] == ["0", "0"], row
+
+
+def test_of_a_sweep_the_worst_point_is_shown_with_its_reason() -> None:
+    text = printed(GOOD, BAD)
+    assert "phase_sweep, 2 points" in text
+    assert "worst at" in text
+    assert text.count("phase 0.4") == 2, "in the table and as a failure"
+    assert "phase 0 " not in text
+    assert "FAIL phase_sweep: steady_velocity at phase 0.4: both must agree" in text
+    assert "no steady motion" in text
+    assert "1 failed" in text
+
+
+def test_details_show_every_point_and_why() -> None:
+    text = printed(GOOD, BAD, details=True)
+    assert "phase 0 " in text
+    assert text.count("both must agree") >= 2
+
+
+def test_many_scenes_have_a_line_each_and_their_failures_in_full() -> None:
+    good = [replace(GOOD, scene=f"scene_{n}", why=f"reason {n}") for n in range(9)]
+    near = replace(GOOD, scene="scene_0", quantity="blocking_force", deviation=0.9e-7)
+    text = printed(*good, near, replace(BAD, scene="scene_9"))
+    rows = [line.split() for line in text.splitlines() if " of " in line and "pass" in line[-6:]]
+    assert len(rows) == 9, "one line a scene"
+    assert rows[0] == ["scene_0", "2", "of", "2", "blocking_force", "9.0e-08", "1.0e-07", "pass"]
+    assert "FAIL scene_9: steady_velocity at phase 0.4: both must agree" in text
+    assert text.count("steady_velocity") == 9 + 2, "a line each, and two of what fails"
+    assert "10 of 11 checks passed" in text
+    assert "reason" not in text
+
+
+def test_with_details_many_scenes_are_shown_check_by_check() -> None:
+    text = printed(*(replace(GOOD, scene=f"scene_{n}") for n in range(9)), details=True)
+    assert text.count("both must agree") == 9

@@ -1,0 +1,267 @@
+"""Verdicts, on stand-ins for the FMU so that every kind of wrong result can be made."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from slider_resonator.checks.compare import Check, check, measure, wanted
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.measures.tube import Tube, no_tube
+from slider_resonator.checks.reference_side import ReferenceSide
+from slider_resonator.checks.verdict import sentence
+from slider_resonator.errors import SceneError
+from slider_resonator.scenes.schema import ExpectTable
+
+WAVE = np.sin(np.linspace(0.0, 50.0, 1000))
+
+
+def fmu(**parts: Any) -> FmuSide:
+    scene = SimpleNamespace(name="scene", source="scene.toml")
+    return cast(FmuSide, SimpleNamespace(scene=scene, **parts))
+
+
+def steady(velocity: float | None, status: str = "steady") -> FmuSide:
+    motion = SimpleNamespace(steady_velocity=velocity, status=status, periods=37, reason="because")
+    return fmu(steady=motion)
+
+
+def reference(**parts: Any) -> ReferenceSide:
+    return cast(ReferenceSide, SimpleNamespace(scene=fmu().scene, **parts))
+
+
+def judge(
+    fmu_side: FmuSide,
+    reference_side: ReferenceSide | None = None,
+    smallest: float = 0.0,
+    **expect: Any,
+) -> Check:
+    table = ExpectTable.model_validate({"why": "test", **expect})
+    sides = measure(table, fmu_side), wanted(table, reference_side or reference())
+    return check(table, *sides, scene="scene", at={}, smallest=smallest)
+
+
+class RecordOf(dict[str, np.ndarray]):
+    """Outputs by name at 1000 points, 1 ms apart."""
+
+    times = 1e-3 * np.arange(1000)
+
+
+@pytest.mark.parametrize(("velocity", "passed"), [(0.1 + 9e-9, True), (0.1 + 2e-7, False)])
+def test_a_number_may_deviate_by_the_relative_tolerance(velocity: float, passed: bool) -> None:
+    verdict = judge(steady(velocity), quantity="steady_velocity", value=0.1, relative=1e-6)
+    assert verdict.passed is passed
+    assert verdict.allowed == pytest.approx(1e-7)
+    assert verdict.deviation == pytest.approx(velocity - 0.1, rel=1e-6)
+
+
+def test_with_a_tolerance_of_0_only_equality_passes() -> None:
+    expect = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
+    assert judge(steady(0.0), **expect).passed
+    assert not judge(steady(1e-300), **expect).passed
+
+
+@pytest.mark.parametrize("velocity", [float("nan"), float("inf"), None])
+def test_what_is_no_number_fails(velocity: float | None) -> None:
+    verdict = judge(steady(velocity), quantity="steady_velocity", value=0.1, relative=1e9)
+    assert not verdict.passed
+    assert verdict.severity == float("inf")
+
+
+def test_a_missing_result_carries_its_reason() -> None:
+    verdict = judge(steady(None), quantity="steady_velocity", value=0.1, relative=1e-6)
+    assert verdict.note == "because"
+
+
+def test_a_reference_without_a_result_fails() -> None:
+    side = reference(steady_velocity=None)
+    expect = {"quantity": "steady_velocity", "reference": "located_events", "relative": 1.0}
+    assert not judge(steady(0.1), side, **expect).passed
+
+
+def test_words_must_be_equal() -> None:
+    stuck = steady(0.0, "stuck")
+    assert judge(stuck, quantity="steady_status", value="stuck").passed
+    assert not judge(stuck, quantity="steady_status", value="steady").passed
+
+
+def test_bounds_are_one_sided() -> None:
+    assert judge(steady(0.1), quantity="steady_periods", at_most=37).passed
+    assert not judge(steady(0.1), quantity="steady_periods", at_most=36).passed
+    assert judge(steady(0.1), quantity="steady_periods", at_least=37).passed
+    assert not judge(steady(0.1), quantity="steady_periods", at_least=38).passed
+
+
+@pytest.mark.parametrize(
+    ("signal", "passed"),
+    [
+        (WAVE, True),
+        (WAVE * (1.0 + 5e-9), True),
+        (WAVE * (1.0 + 5e-8), False),
+        (-WAVE, False),
+        (np.roll(WAVE, 1), False),
+        (np.where(np.arange(1000) == 500, np.nan, WAVE), False),
+    ],
+)
+def test_a_signal_is_judged_by_its_largest_deviation(signal: np.ndarray, passed: bool) -> None:
+    side = reference(signal=lambda referee, name: WAVE)
+    verdict = judge(
+        fmu(record=RecordOf(position=signal)),
+        side,
+        quantity="position",
+        reference="located_events",
+        relative=1e-8,
+    )
+    assert verdict.passed is passed
+    assert verdict.allowed == 1e-8
+
+
+def test_a_comparison_that_makes_no_sense_could_not_run() -> None:
+    class Refusing:
+        scene = fmu().scene
+
+        @property
+        def averaged_velocity(self) -> float:
+            raise ValueError("frequency_ratio = 3.0: the closed form allows only 1")
+
+    with pytest.raises(SceneError, match=r"scene.toml: steady_velocity cannot be compared"):
+        judge(
+            steady(0.1),
+            cast(ReferenceSide, Refusing()),
+            quantity="steady_velocity",
+            reference="closed_form",
+            relative=1e-6,
+        )
+
+
+def judge_position(signal: np.ndarray, expected: np.ndarray, **expect: Any) -> Check:
+    return judge(
+        fmu(record=RecordOf(position=signal)),
+        reference(signal=lambda referee, name: expected),
+        quantity="position",
+        reference="located_events",
+        **expect,
+    )
+
+
+def test_a_failed_signal_says_from_where_on_and_where_most() -> None:
+    signal = WAVE.copy()
+    signal[300] += 1e-6
+    signal[700] += 1e-3
+    verdict = judge_position(signal, WAVE, relative=1e-8)
+    assert (verdict.first_time, verdict.worst_time) == pytest.approx((0.3, 0.7))
+    assert judge_position(WAVE, WAVE, relative=1e-8).first_time is None
+    lost = np.where(np.arange(1000) >= 500, np.nan, WAVE)
+    assert judge_position(lost, WAVE, relative=1e-8).first_time == 0.5
+
+
+@pytest.mark.parametrize(("noise", "passed"), [(9e-13, True), (2e-12, False)])
+def test_near_a_reference_of_zero_the_absolute_tolerance_counts(noise: float, passed: bool) -> None:
+    for expected in (np.zeros(1000), 1e-17 * WAVE):
+        verdict = judge_position(expected + noise, expected, relative=1e-8, absolute=1e-12)
+        assert verdict.passed is passed
+        assert verdict.deviation is not None
+        assert np.isfinite(verdict.deviation), "a share of next to nothing means nothing"
+
+
+def test_what_does_not_oscillate_has_no_frequency_and_fails() -> None:
+    for still in (np.ones(1000), np.full(1000, np.nan)):
+        verdict = judge(
+            fmu(record=RecordOf(velocity=still)),
+            quantity="ripple_frequency",
+            value=557.0,
+            relative=1e-6,
+        )
+        assert not verdict.passed
+        assert "ripple_frequency does not exist" in verdict.note
+
+
+def test_a_scene_that_does_not_allow_a_measure_could_not_run() -> None:
+    record = RecordOf(velocity=WAVE[:10])
+    record.times = RecordOf.times[:10]
+    with pytest.raises(SceneError, match=r"ripple_frequency cannot be measured: .* 16 points"):
+        judge(fmu(record=record), quantity="ripple_frequency", value=557.0, relative=1e-6)
+
+
+@pytest.mark.parametrize(("velocity", "passed"), [(9e-10, True), (2e-9, False)])
+def test_a_reference_next_to_zero_counts_as_its_smallest_size(
+    velocity: float, passed: bool
+) -> None:
+    expect = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
+    verdict = judge(steady(velocity), smallest=1e-3, **expect)
+    assert verdict.passed is passed
+    assert verdict.allowed == pytest.approx(1e-9)
+    assert not judge(steady(velocity), **expect).passed
+    assert not judge(steady(velocity), smallest=1e-3, **expect, absolute=0.0).passed, (
+        "the scene has the last word"
+    )
+
+
+def test_the_smallest_size_loosens_nothing_else() -> None:
+    expect = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
+    assert judge(steady(0.1), smallest=1e-3, **expect).allowed == pytest.approx(1e-7)
+
+
+@pytest.mark.parametrize(("noise", "passed"), [(9e-12, True), (2e-11, False)])
+def test_a_signal_next_to_zero_counts_as_its_smallest_size(noise: float, passed: bool) -> None:
+    verdict = judge(
+        fmu(record=RecordOf(position=np.full(1000, noise))),
+        reference(signal=lambda referee, name: np.zeros(1000)),
+        smallest=1e-3,
+        quantity="position",
+        reference="located_events",
+        relative=1e-8,
+    )
+    assert verdict.passed is passed
+    assert verdict.deviation == pytest.approx(noise / 1e-3)
+
+
+def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
+    tube = Tube(WAVE, np.minimum(np.roll(WAVE, 1), WAVE), np.maximum(np.roll(WAVE, 1), WAVE))
+    asked = []
+
+    def around(referee: str, name: str, share: float) -> Tube:
+        asked.append((referee, name, share))
+        return tube
+
+    def judged(signal: np.ndarray) -> Check:
+        return judge(
+            fmu(record=RecordOf(position=signal)),
+            reference(tube=around),
+            quantity="position",
+            reference="located_events",
+            relative=1e-8,
+            tube=0.01,
+        )
+
+    assert judged(np.roll(WAVE, 1)).passed
+    assert asked == [("located_events", "position", 0.01)]
+    late = judged(np.roll(WAVE, 2))
+    assert not late.passed
+    assert "outside a tube of 0.01 drive periods to each side by" in sentence(late)
+    assert not judged(-WAVE).passed
+
+
+@pytest.mark.parametrize(("shift", "passed"), [(9e-4, True), (2e-3, False), (np.nan, False)])
+def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) -> None:
+    events = np.floor(np.linspace(0.0, 20.0, 1000))
+    found = events.copy()
+    found[600:620] += shift
+    side = fmu(record=RecordOf(last_event_time=0.5 * found), drive_period=0.5)
+    verdict = judge(
+        side,
+        reference(event_times=lambda referee: no_tube(events)),
+        quantity="event_times",
+        reference="located_events",
+        tube=1e-3,
+    )
+    assert verdict.passed is passed
+    assert verdict.allowed == 1e-3
+    if not passed:
+        assert verdict.first_time == 0.6
+    if shift == 2e-3:
+        said = "off by 0.002 drive periods, 2 times the allowed 0.001; from 0.6 s on"
+        assert sentence(verdict).startswith(said)

@@ -1,0 +1,83 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.checks.compare import Check
+from slider_resonator.checks.validate import validate, worst_of_sweeps
+from slider_resonator.errors import SceneError
+from slider_resonator.scenes.scene import find_scene
+
+HEAD = 'name = "mine"\ntitle = "Mine"\n'
+EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / "mine.toml"
+    path.write_text(HEAD + text)
+    return path
+
+
+def test_a_right_value_passes_and_a_wrong_one_fails(python_fmu: Path, tmp_path: Path) -> None:
+    (right,) = validate([python_fmu], [write(tmp_path, EXPECT.format(0.126667))])
+    assert right.passed
+    (wrong,) = validate([python_fmu], [write(tmp_path, EXPECT.format(0.12673))])
+    assert not wrong.passed, "0.05 % off must be noticed"
+    assert wrong.checks[0].fmu == pytest.approx(0.126667, rel=1e-6)
+
+
+def test_a_sweep_is_judged_at_every_point(python_fmu: Path, tmp_path: Path) -> None:
+    sweep = '[sweep]\nvariable = "phase"\nvalues = [0.0, 0.4]\n'
+    (result,) = validate([python_fmu], [write(tmp_path, EXPECT.format(0.126667) + sweep)])
+    assert [dict(check.at) for check in result.checks] == [{"phase": 0.0}, {"phase": 0.4}]
+    assert [check.passed for check in result.checks] == [True, False]
+    ((worst, points),) = worst_of_sweeps(result.checks)
+    assert (worst.at, points) == ({"phase": 0.4}, 2)
+
+
+def test_a_scene_that_expects_nothing_cannot_be_validated(python_fmu: Path, tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="expects nothing"):
+        validate([python_fmu], [write(tmp_path, "")])
+
+
+def test_a_broken_scene_is_noticed_before_anything_runs(tmp_path: Path) -> None:
+    with pytest.raises(SceneError):
+        validate([tmp_path / "no.fmu"], [write(tmp_path, "[runs]\n")])
+
+
+def test_progress_names_the_scene_at_work(python_fmu: Path, tmp_path: Path) -> None:
+    told: list[tuple[str, float]] = []
+    path = write(tmp_path, EXPECT.format(0.126667))
+    validate([python_fmu], [path], lambda scene, share: told.append((scene, share)))
+    assert told == [("mine", 0.0), ("", 1.0)]
+
+
+def test_a_failure_is_worse_than_any_pass() -> None:
+    def made(passed: bool, deviation: float) -> Check:
+        return Check("s", "q", "1", 1.0, "value", 1.0, deviation, 1.0, passed, "why")
+
+    ((worst, _),) = worst_of_sweeps([made(True, 0.9), made(False, 0.1), made(True, 0.5)])
+    assert not worst.passed
+
+
+@pytest.mark.parametrize(
+    "scene", ["blocking_force_table_1", "stuck", "overload", "changing_inputs", "lift_off"]
+)
+def test_a_scene_of_each_kind_passes(python_fmu: Path, scene: str) -> None:
+    (result,) = validate([python_fmu], [find_scene(scene)])
+    failed = [
+        (check.quantity, check.fmu, check.reference) for check in result.checks if not check.passed
+    ]
+    assert not failed
+
+
+def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) -> None:
+    copy = tmp_path / "copy.fmu"
+    copy.write_bytes(python_fmu.read_bytes())
+    scene = write(tmp_path, EXPECT.format(0.126667))
+    told: list[float] = []
+    results = validate([python_fmu, copy], [scene], lambda name, share: told.append(share))
+    assert [result.fmu for result in results] == [str(python_fmu), str(copy)]
+    assert all(result.passed and len(result.checks) == 1 for result in results)
+    assert told == sorted(told)

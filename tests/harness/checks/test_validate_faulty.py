@@ -1,0 +1,107 @@
+"""Whatever an FMU does, `validate` ends, names the cause and goes on with the others."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.checks.validate import Validation, validate
+from slider_resonator.fmu.isolation.isolated_runs import MOST_DEATHS
+from tests.harness import faulty_fmus
+from tests.harness.faulty_fmus import compiled
+
+
+def judged(fmu: Path, *scenes: Path, time_limit: float = 60.0) -> Validation:
+    (validation,) = validate([fmu], scenes, time_limit=time_limit)
+    return validation
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    return faulty_fmus.scene(tmp_path)
+
+
+def test_a_missing_file(tmp_path: Path, scene: Path) -> None:
+    validation = judged(tmp_path / "no.fmu", scene)
+    assert validation.exit_code == 2
+    assert "no.fmu: no such file" in validation.troubles[0].reason
+
+
+@pytest.mark.parametrize(
+    ("define", "reason"),
+    [
+        ("IN_STEP=LEAVE", "exit code 0"),
+        ("IN_INSTANTIATE=CRASH", "the FMU crashed in fmi2Instantiate"),
+        ("IN_INSTANTIATE=LOOP", "no answer within the time limit of 2 s in fmi2Instantiate"),
+        ("IN_FREE=CRASH", "fmi2FreeInstance"),
+    ],
+)
+def test_a_crash_or_an_endless_loop_elsewhere(
+    native_fmu: Path, tmp_path: Path, scene: Path, define: str, reason: str
+) -> None:
+    fmu = compiled(native_fmu, tmp_path / "faulty.fmu", define)
+    validation = judged(fmu, scene, time_limit=2.0)
+    assert validation.exit_code == 2
+    (trouble,) = validation.troubles
+    assert reason in trouble.reason
+
+
+def test_an_fmu_that_does_nothing_fails_and_what_it_prints_harms_nothing(
+    native_fmu: Path, tmp_path: Path, scene: Path
+) -> None:
+    validation = judged(compiled(native_fmu, tmp_path / "still.fmu", "IN_STEP=PRINT"), scene)
+    assert validation.exit_code == 1
+    (curves,) = validation.curves
+    assert curves.check is validation.checks[0]
+    assert curves.fmu.shape == curves.reference.shape == curves.times.shape == (17,)
+    assert not curves.fmu.any(), "it never moves"
+
+
+def test_what_lies_in_the_present_folder_is_not_imported(
+    native_fmu: Path, tmp_path: Path, scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "numpy.py").write_text("raise RuntimeError('a script of the user')")
+    monkeypatch.chdir(tmp_path)
+    validation = judged(native_fmu.resolve(), scene)
+    assert validation.exit_code == 0, validation.troubles
+
+
+def test_an_fmu_that_keeps_crashing_is_given_up(native_fmu: Path, tmp_path: Path) -> None:
+    names = [f"scene_{number}" for number in range(MOST_DEATHS + 2)]
+    scenes = [faulty_fmus.scene(tmp_path, name) for name in names]
+    fmu = compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
+    validation = judged(fmu, *scenes)
+    assert [trouble.scene for trouble in validation.troubles] == [*names[:MOST_DEATHS], ""]
+    assert validation.troubles[-1].reason.endswith("not run: scene_3, scene_4")
+
+
+def test_a_refused_scene_does_not_keep_others_from_being_judged(
+    native_fmu: Path, tmp_path: Path, scene: Path
+) -> None:
+    refused = faulty_fmus.scene(tmp_path, "refused")
+    refused.write_text(refused.read_text() + "\n[device]\nfriction_faces = 7\n")
+    validation = judged(native_fmu, refused, scene)
+    assert validation.exit_code == 2
+    (trouble,) = validation.troubles
+    assert trouble.scene == "refused"
+    assert "friction_faces = 7 refused" in trouble.reason
+    assert [(c.scene, c.passed) for c in validation.checks] == [("short", True)]
+
+
+def test_a_broken_fmu_beside_a_good_one(native_fmu: Path, tmp_path: Path, scene: Path) -> None:
+    broken = compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
+    codes = [validation.exit_code for validation in validate([broken, native_fmu], [scene])]
+    assert codes == [2, 0]
+
+
+def test_nothing_is_left_behind(
+    native_fmu: Path, tmp_path: Path, scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    crash = compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    validate([crash, native_fmu], [scene])
+    assert not list(folder.iterdir()), "an FMU that crashes does not tidy up what it unpacked"

@@ -1,0 +1,72 @@
+"""`validate` takes an FMU that another tool has made, as it is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.checks.validate import Validation, validate
+from tests.harness import faulty_fmus
+from tests.harness.foreign_fmus import foreign
+
+STEADY = """
+[[expect]]
+quantity = "steady_velocity"
+value = 0.126667
+relative = 1e-6
+why = "table 1"
+
+[[expect]]
+quantity = "blocking_force"
+value = 0.0851861
+relative = 1e-5
+why = "table 1"
+
+[[expect]]
+quantity = "event_times"
+reference = "located_events"
+tube = 1e-9
+why = "no event is early or late"
+"""
+
+
+@pytest.fixture(scope="module")
+def stranger(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return foreign(native_fmu, tmp_path_factory.mktemp("foreign") / "foreign.fmu")
+
+
+def judged(fmu: Path, folder: Path, more: str) -> Validation:
+    scene = faulty_fmus.scene(folder)
+    scene.write_text(scene.read_text() + more)
+    (validation,) = validate([fmu], [scene])
+    return validation
+
+
+def test_references_order_and_missing_capabilities_do_not_matter(
+    stranger: Path, tmp_path: Path
+) -> None:
+    validation = judged(stranger, tmp_path, STEADY)
+    assert validation.exit_code == 0, (validation.troubles, validation.checks)
+    assert len(validation.checks) == 4
+
+
+def test_a_run_with_unequal_steps_is_refused_where_the_fmu_takes_equal_ones(
+    stranger: Path, tmp_path: Path
+) -> None:
+    jump = "\n[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.05]] }\n"
+    validation = judged(stranger, tmp_path, jump)
+    assert validation.exit_code == 2
+    (trouble,) = validation.troubles
+    assert "canHandleVariableCommunicationStepSize = false" in trouble.reason
+    assert "allowed is one size" in trouble.reason
+
+
+def test_bent_bristles_need_unequal_steps(stranger: Path, tmp_path: Path) -> None:
+    lugre = '\n[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\nrelative = 0.5\nwhy = "x"\n'
+    device = "\n[device]\nfriction_law = 1\n"
+    scene = faulty_fmus.scene(tmp_path)
+    scene.write_text(scene.read_text().replace("located_events", "bristle_state") + lugre + device)
+    (validation,) = validate([stranger], [scene])
+    assert validation.exit_code == 2
+    assert "canHandleVariableCommunicationStepSize = false" in validation.troubles[0].reason

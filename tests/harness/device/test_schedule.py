@@ -1,0 +1,146 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from slider_resonator.device.held_inputs import HeldInputs, check_contiguous
+from slider_resonator.device.schedule import (
+    MOST_STEPS,
+    Signal,
+    communication_points,
+    constant,
+    ramp,
+    schedule,
+    step_count,
+    steps,
+)
+
+
+def test_steps_hold_their_value_until_the_next_and_jump_to_the_right() -> None:
+    signal = steps([(0.0, 1.0), (0.5, 2.0)])
+    assert [signal.at(t) for t in (-1.0, 0.0, 0.4999, 0.5, 9.0)] == [1.0, 1.0, 1.0, 2.0, 2.0]
+    assert signal.jumps == (0.5,)
+
+
+def test_ramp_is_a_polyline_without_jumps() -> None:
+    signal = ramp([(0.0, 1.0), (1.0, 1.0), (2.0, 3.0)])
+    assert [signal.at(t) for t in (-1.0, 0.5, 1.5, 2.0, 5.0)] == [1.0, 1.0, 2.0, 3.0, 3.0]
+    assert signal.jumps == ()
+
+
+@given(
+    st.lists(st.tuples(st.floats(0, 10), st.floats(-1e3, 1e3)), min_size=1, max_size=6),
+    st.lists(st.floats(-1, 12), min_size=1, max_size=20),
+    st.booleans(),
+)
+def test_many_values_are_those_of_each_time_to_the_last_digit(
+    points: list[tuple[float, float]], times: list[float], hold: bool
+) -> None:
+    ascending = sorted(dict(points).items())
+    signal = steps(ascending) if hold else ramp(ascending)
+    asked = np.array(sorted([*times, *signal.times]))
+    assert signal.over(asked).tolist() == [signal.at(time) for time in asked.tolist()]
+
+
+@pytest.mark.parametrize(
+    ("times", "values", "said"),
+    [
+        ((), (), "at least one point"),
+        ((0.0, 1.0), (1.0,), "as many values"),
+        ((0.0, 0.0), (1.0, 2.0), "increase strictly"),
+        ((0.0, 1.0), (1.0, float("nan")), "finite"),
+    ],
+)
+def test_a_signal_that_makes_no_sense_is_refused(
+    times: tuple[float, ...], values: tuple[float, ...], said: str
+) -> None:
+    with pytest.raises(ValueError, match=said):
+        Signal(times, values)
+
+
+def test_communication_points_end_exactly_at_the_stop_time() -> None:
+    points = communication_points(1.0, 0.3)
+    assert points.tolist() == pytest.approx([0.0, 0.3, 0.6, 0.9, 1.0])
+    assert points[-1] == 1.0
+
+
+def test_a_stop_time_that_is_a_multiple_of_the_step_but_for_rounding_adds_no_sliver() -> None:
+    points = communication_points(0.1 * 3, 0.1)
+    assert len(points) == 4, f"three steps of 0.1 make 0.3, got {points}"
+
+
+@given(
+    stop=st.floats(0.1, 10.0),
+    step=st.floats(0.01, 3.0),
+    jumps=st.lists(st.floats(0.0, 10.0), max_size=5),
+)
+def test_communication_points_contain_every_jump_inside(
+    stop: float, step: float, jumps: list[float]
+) -> None:
+    points = communication_points(stop, step, jumps)
+    assert points[0] == 0.0
+    assert points[-1] == stop
+    assert np.all(np.diff(points) > 0.0)
+    assert np.diff(points).max() <= step * (1.0 + 1e-6)
+    assert {t for t in jumps if 0.0 < t < stop} <= set(points.tolist())
+
+
+@pytest.mark.parametrize(("stop", "step"), [(1e9, 1e-4), (1.0, 1e-300), (float("inf"), 1.0)])
+def test_more_steps_than_memory_can_hold_are_refused_before_they_are_made(
+    stop: float, step: float
+) -> None:
+    with pytest.raises(ValueError, match=f"communication steps; allowed are up to {MOST_STEPS}"):
+        communication_points(stop, step)
+
+
+@pytest.mark.parametrize(("stop", "step"), [(0.0, 1.0), (1.0, 0.0), (float("nan"), 1.0)])
+def test_times_that_are_not_positive_are_refused(stop: float, step: float) -> None:
+    with pytest.raises(ValueError, match="must be positive"):
+        step_count(stop, step)
+
+
+def test_many_jumps_on_many_points_fit_into_memory() -> None:
+    """All distances between them at once would take 24 GB."""
+    jumps = np.linspace(0.0, 1.0, 30_001)
+    points = communication_points(1.0, 1e-5, jumps.tolist())
+    assert len(points) == 120_001, "every third of the jumps is on the grid of 100 001 points"
+
+
+def test_a_refined_schedule_keeps_its_points_and_its_held_inputs() -> None:
+    made = schedule(1.0, 0.1, load=ramp([(0.0, 0.0), (1.0, 1.0)]), phase=steps([(0, 0), (0.77, 1)]))
+    fine = made.refined(0.65, 0.01)
+    assert set(made.times.tolist()) <= set(fine.times.tolist())
+    assert len(fine.times) == len(made.times) + 35 - 4, "35 points, of which 0.7 ... 0.9 were there"
+    assert fine.held() == made.held(), "more points must not make the ramp finer"
+
+
+def test_a_grid_point_just_before_a_jump_gives_way_to_it() -> None:
+    """Otherwise a whole step, or a sliver of one, would hold the old value."""
+    jump = 0.3 * (1.0 + 1e-12)
+    made = schedule(1.0, 0.1, load=steps([(0.0, 0.0), (jump, 5.0)]))
+    assert len(made.times) == 11
+    assert jump in made.times
+    assert made.sampled()[3, 1] == 5.0
+
+
+def test_held_inputs_merge_equal_neighbours() -> None:
+    made = schedule(1.0, 0.1, phase=steps([(0.0, 0.2), (0.25, 0.7)]), load=constant(0.05))
+    held = made.held()
+    assert held == [HeldInputs(0.0, 0.25, 0.2, 0.05, 1.0), HeldInputs(0.25, 1.0, 0.7, 0.05, 1.0)]
+
+
+def test_a_ramp_is_sampled_and_held_over_each_step() -> None:
+    made = schedule(0.4, 0.1, frequency_ratio=ramp([(0.0, 1.0), (0.4, 2.0)]))
+    held = made.held()
+    check_contiguous(held)
+    assert [inputs.frequency_ratio for inputs in held] == pytest.approx([1.0, 1.25, 1.5, 1.75])
+
+
+def test_more_readings_leave_the_held_inputs_alone() -> None:
+    plan = schedule(1.0, 0.25, load=ramp([(0.0, 0.0), (1.0, 4.0)]))
+    more = plan.read_at(np.array([0.1, 0.25 + 1e-12, 0.6]), 1e-9)
+    assert more.times.tolist() == [0.0, 0.1, 0.25, 0.5, 0.6, 0.75, 1.0]
+    assert more.held() == plan.held()
+    assert more.phase is plan.phase, "what is constant stays so"

@@ -1,0 +1,44 @@
+from __future__ import annotations
+
+from math import inf, nan
+
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INTEGERS, PARAMETERS
+from slider_resonator.device.values import check_integer, check_value
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "said"),
+    [
+        ("load", nan, "load = nan: allowed is a finite number"),
+        ("phase", -inf, "phase = -inf: allowed is a finite number"),
+        ("friction_law", nan, "friction_law = nan: allowed is an integer"),
+        ("fidelity", inf, "fidelity = inf: allowed is an integer"),
+        ("friction_faces", 1.5, "friction_faces = 1.5: allowed is an integer"),
+        ("fidelity", 2.0**32 + 2, "allowed is an integer up to 2147483647"),
+        ("drive_frequency", 0.0, "drive_frequency = 0.0: allowed is a number above 0"),
+    ],
+)
+def test_an_impossible_value_is_named_with_what_is_allowed(
+    name: str, value: float, said: str
+) -> None:
+    with pytest.raises(ValueError, match=said):
+        check_value(name, value)
+
+
+def test_ranges_are_left_to_the_fmu() -> None:
+    check_value("slider_mass", -1.0)
+    check_value("fidelity", 7.0)
+    check_value("load", 1e300)
+
+
+def test_all_integers_of_fmi_are_allowed() -> None:
+    check_integer("n", -(2.0**31 - 1))
+    check_integer("n", 2.0**31 - 1)
+
+
+def test_integers_are_those_of_the_device() -> None:
+    device = Device()
+    assert {n for n in PARAMETERS if isinstance(getattr(device, n), int)} == INTEGERS

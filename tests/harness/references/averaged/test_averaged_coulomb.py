@@ -1,0 +1,187 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.averaged import averaged_coulomb as coulomb
+from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.averaged.vibrating_contact import mean_load
+from slider_resonator.references.closed_forms import (
+    device_blocking_force,
+    device_steady_velocity,
+    equivalent_force,
+    loaded_velocity,
+)
+from slider_resonator.references.resolved.located_events import simulate
+from slider_resonator.steady.reference_steady import reference_steady_velocity
+
+
+@pytest.mark.parametrize("ratio", [-3.0, -1.0, 0.0, 1.0, 2.0, 5.0])
+@pytest.mark.parametrize("velocity", [-0.9, -0.2, 0.0, 0.4, 1.1])
+@pytest.mark.parametrize("alpha", [0.7, 1.4, 20.0])
+def test_mean_friction_is_the_integral_over_a_turn(
+    velocity: float, ratio: float, alpha: float
+) -> None:
+    strength, phase = 0.8, 0.6
+    turn = math.acos(max(-1.0, min(1.0, velocity / strength)))
+
+    def integral(start: float, end: float) -> float:
+        angles = start + (np.arange(100_000) + 0.5) / 100_000 * (end - start)
+        load = np.maximum(0.0, 1.0 + alpha * np.sin(ratio * angles + phase))
+        return float(load.mean()) * (end - start)
+
+    forward, backward = integral(turn, 2.0 * math.pi - turn), integral(-turn, turn)
+    mean = (forward - backward) / (2.0 * math.pi)
+    found = coulomb.mean_friction(velocity, strength, alpha, phase, ratio)
+    assert found == pytest.approx(mean, abs=3e-8), "the closed form is the mean over one turn"
+
+
+@pytest.mark.parametrize("alpha", [1.0, 1.8])
+def test_away_from_integers_only_the_mean_load_counts(alpha: float) -> None:
+    tuned = [coulomb.mean_friction(0.3, 1.0, alpha, phase, 1.37) for phase in (0.0, 1.0)]
+    still = coulomb.mean_friction(0.3, 1.0, 0.0, 0.0)
+    assert tuned[0] == tuned[1] == mean_load(alpha) * still
+
+
+@pytest.mark.parametrize("ratio", [1.0, 3.0])
+def test_a_contact_that_just_lifts_is_one_that_does_not(ratio: float) -> None:
+    for velocity in (-0.6, 0.1, 0.9):
+        closed, lifting = (
+            coulomb.mean_friction(velocity, 1.0, alpha, 0.7, ratio) for alpha in (1.0, 1.0 + 1e-9)
+        )
+        assert lifting == pytest.approx(closed, abs=2e-9), "nothing jumps where the contact lifts"
+
+
+@pytest.mark.parametrize(("alpha", "ratio"), [(0.8, 1.0), (1.8, 1.0), (1.8, 3.0), (1.8, 1.5)])
+def test_blocking_load_stops_the_motion(alpha: float, ratio: float) -> None:
+    load = coulomb.blocking_load_at_ratio(alpha, 0.7, ratio)
+    velocity = coulomb.steady_velocity_at_ratio(0.9, alpha, 0.7, ratio, load)
+    assert velocity == pytest.approx(0.0, abs=1e-12), "the velocity under the blocking load is 0"
+
+
+def test_blocking_force_of_the_device_is_that_of_the_paper_for_equal_frequencies() -> None:
+    for phase in (0.0, -0.4):
+        assert coulomb.device_blocking_force_at_ratio(Device(), phase, 1.0) == pytest.approx(
+            device_blocking_force(Device(), phase), rel=1e-12
+        )
+
+
+def steady_by_shooting(device: Device, phase: float, load: float, ratio: int) -> float:
+    """Mean velocity in m/s of the motion that repeats, by the integrator with located events."""
+    guess = coulomb.device_steady_velocity_at_ratio(device, phase, float(ratio), load)
+    found = reference_steady_velocity(device, phase, load, float(ratio), guess)
+    assert found is not None, "the device slides steadily"
+    return found
+
+
+@pytest.mark.parametrize(
+    ("alpha", "phase", "ratio", "load"),
+    [(2.0, 0.4, 1, 0.0), (2.0, 0.4, 1, 0.08), (1.3, 0.0, 3, 0.0), (6.0, 1.5, 1, 0.3)],
+)
+def test_a_lifting_contact_slides_as_the_average_says(
+    alpha: float, phase: float, ratio: int, load: float
+) -> None:
+    """Table 1 at its drive frequency and at four times that, the fast velocity kept."""
+    errors = []
+    for factor in (1.0, 4.0):
+        device = Device(
+            fidelity=1,
+            normal_amplitude=alpha,
+            base_amplitude=1e-4 / factor,
+            drive_frequency=3500.0 * factor,
+            resonator_frequency=3500.0 * factor,
+        )
+        average = coulomb.device_steady_velocity_at_ratio(device, phase, float(ratio), load)
+        error = average - steady_by_shooting(device, phase, load, ratio)
+        errors.append(error / equivalent_force(device).velocity_amplitude)
+    assert abs(errors[0]) < 0.01, "1 % of the fast velocity"
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05), "averages err by 1 / Omega"
+
+
+def test_ratio_one_is_the_theory_of_the_paper() -> None:
+    for load in (-0.3, 0.0, 0.5):
+        assert coulomb.steady_velocity_at_ratio(1.3, 0.8, 0.7, 1.0, load) == pytest.approx(
+            loaded_velocity(1.3, 0.8, 0.7, load), rel=1e-12
+        )
+    assert coulomb.device_steady_velocity_at_ratio(Device(), 0.4, 1.0, 0.05) == pytest.approx(
+        device_steady_velocity(Device(), 0.4, 0.05), rel=1e-12
+    )
+
+
+@pytest.mark.parametrize(
+    ("ratio", "phase", "velocity"),
+    [
+        (1, 0.0, 0.6966),
+        (1, 1.5, 0.7719),
+        (3, 0.0, -0.2780),
+        (3, 1.5, 0.2036),
+        (5, 0.0, -0.1169),
+        (5, 1.5, -0.1795),
+        (7, 0.0, 0.1297),
+        (7, 1.5, -0.0600),
+    ],
+)
+def test_odd_ratios_meet_the_exact_motion_of_table_1(
+    ratio: int, phase: float, velocity: float
+) -> None:
+    found = coulomb.device_steady_velocity_at_ratio(Device(), phase, ratio) / (2.0 / 11.0)
+    assert found == pytest.approx(velocity, abs=5e-4), "in x0 w0, the average errs by 1 / Omega"
+
+
+def test_linear_acceleration_is_the_slope_at_rest() -> None:
+    step = 1e-5
+    for velocity in (0.0, step):
+        exact = coulomb.slow_acceleration(velocity, 0.9, 0.6, 0.8)
+        linear = coulomb.linear_slow_acceleration(velocity, 0.9, 0.6, 0.8)
+        assert linear == pytest.approx(exact, abs=1e-9), "(6) is (4) for small velocities"
+
+
+def test_linear_beat_is_where_the_linear_slow_motion_settles() -> None:
+    strength, alpha, detuning = 1.0, 0.1, 1.5
+    times = np.linspace(0.0, 40.0 * math.pi / detuning, 4001)
+
+    def acceleration(time: float, velocity: float) -> float:
+        phase = coulomb.drifting_phase(time, detuning, 0.3)
+        return coulomb.linear_slow_acceleration(velocity, strength, alpha, phase)
+
+    position, velocity = slow_course(acceleration, times)
+    late = times > times[-1] - 2.0 * math.pi / detuning
+    assert np.ptp(velocity[late]) / 2.0 == pytest.approx(
+        coulomb.linear_beat_velocity(strength, alpha, detuning), rel=1e-4
+    )
+    assert np.ptp(position[late]) / 2.0 == pytest.approx(
+        coulomb.linear_beat_displacement(strength, alpha, detuning), rel=1e-4
+    )
+
+
+def test_a_device_from_rest_has_the_momentum_of_its_drive() -> None:
+    """Without friction, damped resonator: the mean velocity after its transient, exactly."""
+    device = Device(friction_coefficient=0.0, tangential_force=30.0, damping_ratio=0.3)
+    period = 2.0 * math.pi / device.drive_frequency
+    times = np.array([0.0, 40.0, 60.0]) * period
+    motion = simulate(device, [HeldInputs(0.0, times[-1])], times)
+    mean = (motion.position[2] - motion.position[1]) / (20.0 * period)
+    assert coulomb.slow_start(device) == pytest.approx(mean, rel=1e-6)
+
+
+def test_what_has_no_answer_is_refused_by_name() -> None:
+    with pytest.raises(ValueError, match=r"load = 1\.0"):
+        coulomb.steady_velocity_at_ratio(1.0, 1.0, 0.0, 3.0, 1.0)
+    with pytest.raises(ValueError, match=r"amplitude_ratio = -0\.2"):
+        coulomb.mean_friction(0.0, 1.0, -0.2, 0.0)
+    with pytest.raises(ValueError, match="strength = 0"):
+        coulomb.mean_friction(0.0, 0.0, 1.0, 0.0)
+    with pytest.raises(ValueError, match="detuning = 0"):
+        coulomb.linear_beat_displacement(1.0, 1.0, 0.0)
+    for linear in (
+        lambda: coulomb.linear_slow_acceleration(0.0, 1.0, 1.5, 0.0),
+        lambda: coulomb.linear_beat_velocity(1.0, 1.5, 0.1),
+    ):
+        with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
+            linear()
+    with pytest.raises(ValueError, match=r"load = 1\.6"):
+        coulomb.steady_velocity_at_ratio(1.0, 3.0, 0.0, 1.0, 1.6)

@@ -1,0 +1,174 @@
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+
+from slider_resonator.references.averaged import averaged_lugre as lugre
+from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged.vibrating_contact import mean_load
+
+CASE = LugreCase(
+    strength=0.8, amplitude_ratio=0.7, phase=0.9, friction_coefficient=0.4, damping=1.3
+)
+LIFTING = replace(CASE, amplitude_ratio=1.9)
+both_contacts = pytest.mark.parametrize("case", [CASE, LIFTING], ids=["closed", "lifting"])
+
+
+def _mean(function: Callable[[float], float], turn: float) -> float:
+    """Mean over a turn of the angle; the integrand may kink at the turning and where N vanishes."""
+    kinks = np.union1d(np.linspace(-turn, 2.0 * math.pi - turn, 41), [turn])
+    return sum(quad(function, *part, limit=200)[0] for part in pairwise(kinks)) / (2.0 * math.pi)
+
+
+@both_contacts
+@pytest.mark.parametrize("velocity", [-0.7, 0.0, 0.3, 0.79])
+def test_averages_of_the_speed_are_the_integrals(velocity: float, case: LugreCase) -> None:
+    q = case.strength
+    turn = math.acos(velocity / q)
+
+    def speed(angle: float) -> float:
+        return abs(velocity - q * math.cos(angle))
+
+    def weighted(angle: float) -> float:
+        load = max(0.0, 1.0 + case.amplitude_ratio * math.sin(angle + case.phase))
+        return (load - 1.0) * speed(angle)
+
+    assert lugre.mean_speed(velocity, q) == pytest.approx(_mean(speed, turn), abs=1e-9)
+    assert lugre.load_weighted_speed(velocity, case) == pytest.approx(
+        _mean(weighted, turn), abs=1e-9
+    )
+
+
+def test_averages_of_a_closed_contact_are_the_formulas_of_the_paper() -> None:
+    q, alpha, phi = CASE.strength, CASE.amplitude_ratio, CASE.phase
+    for velocity in (-0.5, 0.2, 1.4):
+        turn = math.acos(min(1.0, velocity / q))
+        bracket = (
+            q * math.sin(2.0 * turn) - 4.0 * velocity * math.sin(turn) - q * (math.pi - 2.0 * turn)
+        )
+        expected = alpha * math.sin(phi) / (2.0 * math.pi) * bracket
+        assert lugre.load_weighted_speed(velocity, CASE) == pytest.approx(expected, abs=1e-12)
+    assert CASE.pull == pytest.approx(0.5 * CASE.damping * q * alpha * math.sin(phi), rel=1e-12)
+
+
+@both_contacts
+@pytest.mark.parametrize("velocity", [-0.7, 0.1, 0.6])
+def test_slow_rates_are_the_full_rates_averaged_over_a_turn(
+    velocity: float, case: LugreCase
+) -> None:
+    """(11): the bristle held, the velocity V - q cos(theta) put into (9)."""
+    stiffness, bristle, frequency = 50.0, 0.003, 1.0
+    turn = math.acos(velocity / case.strength)
+
+    def rates(angle: float) -> np.ndarray:
+        fast = velocity - case.strength * math.cos(angle)
+        state = np.array([0.0, fast, bristle])
+        return lugre.full_rates(angle / frequency, state, case, stiffness, frequency)
+
+    acceleration, rate = lugre.slow_rates(velocity, bristle, case, stiffness)
+    assert acceleration == pytest.approx(_mean(lambda a: rates(a)[1], turn), abs=1e-8)
+    assert rate == pytest.approx(_mean(lambda a: rates(a)[2], turn), abs=1e-9)
+
+
+@both_contacts
+def test_slow_manifold_is_where_the_bristle_rests_and_the_rest_follows(case: LugreCase) -> None:
+    velocity, stiffness = 0.35, 100.0
+    force = lugre.slow_manifold(velocity, case)
+    acceleration, rate = lugre.stretched_rates(velocity, force, case, stiffness)
+    assert rate == pytest.approx(0.0, abs=1e-12), "(14) is the rest point of (13)"
+    assert acceleration == pytest.approx(-lugre.mean_friction(velocity, case), rel=1e-12)
+    off = lugre.stretched_rates(velocity, force + 1e-3, case, stiffness)[1]
+    assert off == pytest.approx(
+        -1e-3 * stiffness * lugre.boundary_layer_rate(velocity, case), rel=1e-9
+    ), "(15) is the decay toward it"
+
+
+def test_steady_velocity_of_the_paper_s_case() -> None:
+    velocity = lugre.steady_velocity(LugreCase())
+    assert velocity == pytest.approx(0.50827, abs=5e-6)
+    assert lugre.mean_friction(velocity, LugreCase()) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_blocking_load_stops_the_motion() -> None:
+    case = LugreCase(strength=0.5, phase=0.4)
+    assert lugre.steady_velocity(case, lugre.blocking_load(case)) == pytest.approx(0.0, abs=1e-12)
+    assert lugre.blocking_force(1.0, 0.5, 1.0, 0.4) == pytest.approx(lugre.blocking_load(case))
+
+
+@both_contacts
+def test_friction_saturates_where_nothing_reverses(case: LugreCase) -> None:
+    limit = case.friction_coefficient * mean_load(case.amplitude_ratio)
+    for velocity in (-2.0, -0.8, 0.8, 2.0):
+        assert lugre.mean_friction(velocity, case) == pytest.approx(
+            math.copysign(limit, velocity), rel=1e-12
+        ), "all LuGre friction is mu N in steady sliding one way"
+
+
+def test_linear_forms_are_the_limit_of_small_velocities() -> None:
+    weak = LugreCase(strength=1.0, amplitude_ratio=1e-4, damping=1.0)
+    assert lugre.linear_velocity(weak) == pytest.approx(lugre.steady_velocity(weak), rel=1e-3)
+    velocity = 1e-5
+    assert lugre.linear_slow_acceleration(velocity, weak) == pytest.approx(
+        -lugre.mean_friction(velocity, weak), rel=1e-3
+    )
+
+
+def test_fast_displacement_is_the_integral_of_the_fast_velocity() -> None:
+    angle, q, frequency = 0.7, 0.8, 50.0
+    integral = quad(lambda time: -q * math.cos(frequency * time), 0.0, angle / frequency)[0]
+    assert lugre.fast_displacement(angle, q, frequency) == pytest.approx(integral, rel=1e-9)
+
+
+@pytest.mark.slow
+def test_the_full_equations_slide_at_the_slow_manifold_s_velocity() -> None:
+    """A bristle far slower than the vibration, kappa = 0.025: (17) holds.
+
+    Departures decay geometrically, so three means at equal distances tell where they lead.
+    """
+    frequency, stiffness = 1000.0, 10.0
+    period = 2.0 * math.pi / frequency
+    solution = solve_ivp(
+        lugre.full_rates,
+        (0.0, 400 * period),
+        (0.0, 0.55 - 1.0, 0.0127),
+        method="DOP853",
+        t_eval=np.array([80, 100, 230, 250, 380, 400]) * period,
+        args=(LugreCase(), stiffness, frequency),
+        rtol=1e-8,
+        atol=1e-10,
+        max_step=period / 10,
+    )
+    means = np.diff(solution.y[0])[::2] / (20 * period)
+    sooner, later = np.diff(means)
+    assert 0.0 < later / sooner < 0.9, "the departure shrinks all the time"
+    limit = means[2] - later**2 / (later - sooner)
+    assert limit == pytest.approx(lugre.steady_velocity(LugreCase()), abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("strength", 0.0), ("friction_coefficient", -0.1), ("damping", -1.0), ("amplitude_ratio", -1)],
+)
+def test_what_has_no_answer_is_refused_by_name(name: str, value: float) -> None:
+    with pytest.raises(ValueError, match=name):
+        LugreCase(**{name: value})
+
+
+def test_a_load_above_friction_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"load = 0\.6"):
+        lugre.steady_velocity(LugreCase(), 0.6)
+
+
+def test_the_linear_forms_refuse_a_contact_that_lifts() -> None:
+    for linear in (
+        lambda: lugre.linear_velocity(LIFTING),
+        lambda: lugre.linear_slow_acceleration(0.0, LIFTING),
+    ):
+        with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
+            linear()

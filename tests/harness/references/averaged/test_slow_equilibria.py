@@ -1,0 +1,35 @@
+from __future__ import annotations
+
+import pytest
+
+from slider_resonator.references.averaged.averaged_lugre import (
+    LugreCase,
+    blocking_load,
+    mean_friction,
+)
+from slider_resonator.references.averaged.slow_equilibria import stable_velocity
+
+
+def test_a_monotonic_friction_has_one_velocity() -> None:
+    assert stable_velocity(lambda v: v - 0.2, 1.0, 0.1) == pytest.approx(0.1, abs=1e-12)
+
+
+def test_of_two_stable_velocities_the_one_ahead_is_taken() -> None:
+    """v^3 - 0.25 v has its stable roots at +-0.5; the shift says where the slider sets off."""
+    for shift, side in ((-1e-6, 1.0), (1e-6, -1.0)):
+        found = stable_velocity(lambda v, s=shift: v**3 - 0.25 * v + s, 1.0, 0.0)
+        assert found == pytest.approx(side * 0.5, abs=1e-4)
+
+
+def test_lugre_friction_holds_more_than_full_sliding_does() -> None:
+    case = LugreCase()
+    load = 0.45
+    assert case.friction_coefficient < load < blocking_load(case)
+    velocity = stable_velocity(lambda v: mean_friction(v, case), 1.0, load)
+    assert 0.0 < velocity < 0.2, "below the blocking load the slider still moves ahead"
+    assert mean_friction(velocity, case) + load == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_load_that_nothing_holds_is_refused() -> None:
+    with pytest.raises(ValueError, match="load = 2"):
+        stable_velocity(lambda v: v, 1.0, 2.0)

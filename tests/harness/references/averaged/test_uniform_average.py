@@ -1,0 +1,157 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from slider_resonator.device.device import Device
+from slider_resonator.references import closed_forms
+from slider_resonator.references.averaged import averaged_lugre, uniform_average
+from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
+from slider_resonator.references.averaged.averaged_coulomb import mean_friction as coulomb_friction
+from slider_resonator.references.averaged.averaged_lugre import LugreCase
+
+CASE = LugreCase()
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "frequency", "velocity"),
+    [
+        (10.0, 1000.0, 0.50828),
+        (100.0, 1000.0, 0.50936),
+        (1000.0, 1000.0, 0.55625),
+        (1e4, 1000.0, 0.65274),
+        (100.0, 100.0, 0.55625),
+        (100.0, 10.0, 0.65274),
+    ],
+)
+def test_steady_velocity_meets_the_figures(
+    stiffness: float, frequency: float, velocity: float
+) -> None:
+    found = uniform_average.steady_velocity(CASE, stiffness, frequency)
+    assert found == pytest.approx(velocity, abs=5.1e-6)
+
+
+@pytest.mark.parametrize("velocity", [-0.6, 0.0, 0.3])
+@pytest.mark.parametrize("stiffness", [20.0, 1000.0])
+@pytest.mark.parametrize(("ratio", "amplitude_ratio"), [(1, 0.8), (3, 0.8), (1, 1.9), (3, 1.9)])
+def test_mean_friction_is_that_of_an_integrated_bristle(
+    velocity: float, stiffness: float, ratio: int, amplitude_ratio: float
+) -> None:
+    """The bristle as a state under the prescribed velocity, over the turn that it repeats.
+
+    Its equation is linear, so that two turns tell from where a third one ends where it began.
+    """
+    case = LugreCase(strength=0.9, amplitude_ratio=amplitude_ratio, phase=0.7, damping=0.6)
+    frequency = 100.0
+
+    def rates(angle: float, state: np.ndarray) -> tuple[float, float]:
+        speed = velocity - case.strength * math.cos(angle)
+        bristle = speed - stiffness * abs(speed) * state[0] / case.friction_coefficient
+        friction = stiffness * state[0] + case.damping * bristle
+        load = max(0.0, 1.0 + case.amplitude_ratio * math.sin(ratio * angle + case.phase))
+        return bristle / frequency, load * friction
+
+    def turn(bristle: float) -> tuple[float, float]:
+        """Deflection after a turn and mean friction over it, from a deflection."""
+        solution = solve_ivp(
+            rates,
+            (0.0, 2.0 * math.pi),
+            (bristle, 0.0),
+            method="DOP853",
+            rtol=1e-10,
+            atol=1e-13,
+            max_step=0.02 if stiffness == 20.0 else 0.01,
+        )
+        end, friction = solution.y[:, -1]
+        return float(end), float(friction) / (2.0 * math.pi)
+
+    size = case.friction_coefficient / stiffness
+    from_none, _ = turn(0.0)
+    from_some, _ = turn(size)
+    repeating = from_none / (1.0 - (from_some - from_none) / size)
+    end, mean = turn(repeating)
+    assert end == pytest.approx(repeating, abs=1e-7 * size), "the bristle repeats"
+    found = uniform_average.mean_friction(velocity, case, stiffness, frequency, ratio)
+    assert found == pytest.approx(mean, abs=2e-7), "the explicit periodic response is the response"
+
+
+@pytest.mark.parametrize("amplitude_ratio", [1.0, 1.8])
+def test_a_soft_bristle_is_on_the_slow_manifold_of_the_paper(amplitude_ratio: float) -> None:
+    case = LugreCase(amplitude_ratio=amplitude_ratio)
+    errors = []
+    for stiffness in (10.0, 1.0):
+        found = uniform_average.steady_velocity(case, stiffness, 1000.0)
+        errors.append(abs(found - averaged_lugre.steady_velocity(case)))
+    assert errors[1] < 1e-6, "(17) is the limit of a bristle slower than the vibration"
+    assert errors[0] / errors[1] == pytest.approx(100.0, rel=0.1), "the error is of order kappa^2"
+
+
+@pytest.mark.parametrize(("phase", "order"), [(math.pi / 2.0, 1.0), (0.5, 0.5)])
+def test_a_stiff_bristle_is_coulomb_friction(phase: float, order: float) -> None:
+    """The turnover takes an angle of order kappa^(-1/2), which in quadrature cancels."""
+    target = closed_forms.steady_velocity(1.0, 1.0, phase)
+    case = LugreCase(strength=0.4, phase=phase)  # q / mu = 1: velocities in units of mu
+    errors = []
+    for stiffness in (1e8, 1e10):
+        found = uniform_average.steady_velocity(case, stiffness, 1000.0)
+        errors.append(abs(found / 0.4 - target))
+    assert errors[1] < 3e-4, "(5) is the limit of a bristle faster than the vibration"
+    assert math.log10(errors[0] / errors[1]) / 2.0 == pytest.approx(order, abs=0.02)
+
+
+@pytest.mark.parametrize("ratio", [-1, 0, 1, 2, 3, 1.37, 60])
+@pytest.mark.parametrize("amplitude_ratio", [0.7, 2.5])
+def test_a_stiff_bristle_is_coulomb_friction_at_every_velocity(
+    ratio: float, amplitude_ratio: float
+) -> None:
+    case = LugreCase(strength=1.0, amplitude_ratio=amplitude_ratio, phase=0.6, damping=0.0)
+    for velocity in (-1.5, -0.4, 0.0, 0.8):
+        expected = 0.4 * coulomb_friction(velocity, 1.0, amplitude_ratio, 0.6, ratio)
+        found = uniform_average.mean_friction(velocity, case, 1e14, 100.0, ratio)
+        assert found == pytest.approx(expected, abs=1e-6)
+
+
+def test_blocking_load_stops_the_motion() -> None:
+    blocking = uniform_average.blocking_load(CASE, 1000.0, 1000.0)
+    velocity = uniform_average.steady_velocity(CASE, 1000.0, 1000.0, load=blocking)
+    assert velocity == pytest.approx(0.0, abs=1e-10)
+
+
+def test_units_do_not_matter() -> None:
+    """Table 1 in SI units against the same case made dimensionless."""
+    device = Device(friction_law=1)
+    force = closed_forms.equivalent_force(device)
+    mass, load = device.total_mass, 2.0 * device.normal_preload
+    case = LugreCase(
+        strength=force.velocity_amplitude * mass / load,
+        phase=0.4 + force.angle,
+        friction_coefficient=0.1,
+        damping=device.bristle_damping * load / mass,
+    )
+    scaled = uniform_average.steady_velocity(case, 1e5 * load / mass, 3500.0)
+    assert uniform_average.device_steady_velocity(device, 0.4) == pytest.approx(
+        scaled * load / mass, rel=1e-9
+    )
+
+
+def test_a_device_with_stiff_bristles_is_the_coulomb_device() -> None:
+    device = Device(bristle_stiffness=1e13, bristle_damping=0.0)
+    for ratio in (1, 3):
+        assert uniform_average.device_steady_velocity(device, 0.4, 0.02, ratio) == pytest.approx(
+            device_steady_velocity_at_ratio(device, 0.4, ratio, 0.02), rel=1e-4
+        )
+    assert uniform_average.device_blocking_force(device, 0.0) == pytest.approx(0.085222, abs=1e-5)
+
+
+@pytest.mark.parametrize(("stiffness", "frequency"), [(0.0, 1.0), (1.0, 0.0), (math.nan, 1.0)])
+def test_what_has_no_answer_is_refused_by_name(stiffness: float, frequency: float) -> None:
+    with pytest.raises(ValueError, match="must be greater than 0"):
+        uniform_average.mean_friction(0.1, CASE, stiffness, frequency)
+
+
+def test_a_load_above_friction_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"load = -0\.6"):
+        uniform_average.steady_velocity(CASE, 10.0, 10.0, load=-0.6)

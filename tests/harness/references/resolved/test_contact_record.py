@@ -1,0 +1,42 @@
+from __future__ import annotations
+
+from slider_resonator.references.resolved.contact import LIFTED, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from slider_resonator.references.resolved.contact_record import ContactRecord
+
+
+def record_of(*modes: int) -> ContactRecord:
+    record = ContactRecord()
+    for index, mode in enumerate(modes):
+        record.enter(mode, float(index))
+    return record
+
+
+def test_first_mode_is_no_event() -> None:
+    record = record_of(STICK)
+    assert (record.sticks, record.reversals, record.event_times) == (0, 0, [])
+
+
+def test_sliding_on_in_the_same_direction_is_no_reversal() -> None:
+    assert record_of(STICK, SLIP_FORWARD, STICK, SLIP_FORWARD, LIFTED, SLIP_FORWARD).reversals == 0
+
+
+def test_opposite_slide_is_a_reversal_directly_after_a_stick_and_after_a_flight() -> None:
+    assert record_of(SLIP_FORWARD, SLIP_BACKWARD).reversals == 1
+    assert record_of(SLIP_FORWARD, STICK, SLIP_BACKWARD).reversals == 1
+    assert record_of(SLIP_BACKWARD, LIFTED, STICK, SLIP_FORWARD).reversals == 1
+
+
+def test_sticks_and_event_times_are_those_of_changes_only() -> None:
+    record = record_of(SLIP_FORWARD, STICK, STICK, LIFTED, STICK)
+    assert record.sticks == 2, "re-entering the present mode is no new stick"
+    assert record.event_times == [1.0, 3.0, 4.0]
+
+
+def test_stick_time_adds_up_in_stick_only() -> None:
+    record = record_of(STICK)
+    record.stay(0.5)
+    record.enter(SLIP_FORWARD, 0.5)
+    record.stay(2.0)
+    record.enter(STICK, 2.5)
+    record.stay(0.25)
+    assert record.stick_time == 0.75

@@ -1,0 +1,130 @@
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD, STICK
+from slider_resonator.references.resolved.equations import equations_of, initial_state
+
+TABLE_1 = Device()
+DIRECT = replace(TABLE_1, tangential_force=0.7)
+STATE = np.array([0.3, -0.2, 1e-4, 0.5])
+LOAD, THETA, ANGLE = 0.05, 0.6, 1.1
+
+
+@pytest.mark.parametrize("mode", [-1, 1, LIFTED])
+def test_slopes_satisfy_the_two_equations_of_motion(mode: int) -> None:
+    time, ratio = 2e-4, 1.3
+    slopes = equations_of(DIRECT).slopes(mode, LOAD, THETA, ANGLE, ratio)(time, STATE)
+    _, acceleration, _, resonator = slopes
+    theta, angle = THETA + 3500.0 * time, ANGLE + ratio * 3500.0 * time
+    drive = 1e-4 * 3500.0**2 * math.sin(theta)
+    friction = 0.0 if mode == LIFTED else mode * 0.2 * (1.0 + math.sin(angle))
+    momentum = 1.1 * acceleration + 0.1 * (resonator - drive)
+    direct = 0.7 * math.sin(theta)
+    assert momentum == pytest.approx(direct - friction - LOAD, abs=1e-11), "(26) with load"
+    internal = 0.1 * (resonator + acceleration - drive)
+    spring = 35.0 * STATE[3] + 1.225e6 * STATE[2]
+    assert internal == pytest.approx(-spring, rel=1e-12), "(27)"
+    assert slopes[0] == STATE[1]
+    assert slopes[2] == STATE[3]
+
+
+def test_a_stuck_slider_does_not_accelerate_and_the_resonator_follows_its_own_equation() -> None:
+    slopes = equations_of(TABLE_1).slopes(STICK, LOAD, THETA, ANGLE, 1.0)(0.0, STATE)
+    drive = 1e-4 * 3500.0**2 * math.sin(THETA)
+    assert slopes[:3] == [0.0, 0.0, STATE[3]]
+    own = drive - 350.0 * STATE[3] - 3500.0**2 * STATE[2]
+    assert slopes[3] == pytest.approx(own), "(27) with X'' = 0"
+
+
+@pytest.mark.parametrize(
+    ("velocity", "direction"), [(0.1, 1.0), (-0.1, -1.0), (0.0, 0.0)], ids=["+", "-", "rest"]
+)
+def test_without_a_mode_friction_follows_the_sign_of_velocity(
+    velocity: float, direction: float
+) -> None:
+    state = np.array([0.0, velocity, 0.0, 0.0])
+    slopes = equations_of(TABLE_1).slopes(None, 0.0, 0.0, ANGLE, 1.0)(0.0, state)
+    assert slopes[1] == pytest.approx(-direction * 0.2 * (1.0 + math.sin(ANGLE)))
+
+
+def test_contact_forces_of_each_mode() -> None:
+    equations = equations_of(replace(DIRECT, normal_amplitude=2.0))
+    theta, angle = np.array([THETA]), np.array([ANGLE])
+    normal, friction = equations.contact_forces(SLIP_FORWARD, LOAD, theta, angle, STATE[None])
+    assert normal == pytest.approx(1.0 + 2.0 * math.sin(ANGLE))
+    assert friction == pytest.approx(0.2 * normal), "faces mu N"
+    _, held = equations.contact_forces(STICK, LOAD, theta, angle, STATE[None])
+    spring = 35.0 * STATE[3] + 1.225e6 * STATE[2]
+    assert held == pytest.approx(spring + 0.7 * math.sin(THETA) - LOAD), "all that pulls"
+    open_contact = equations.contact_forces(LIFTED, LOAD, theta, angle, STATE[None])
+    assert not np.any(open_contact), "no force through an open contact"
+
+
+@pytest.mark.parametrize("device", [TABLE_1, DIRECT, replace(DIRECT, base_amplitude=0.0)])
+def test_fidelity_1_has_the_equivalent_force_of_the_closed_forms(device: Device) -> None:
+    equations = equations_of(replace(device, fidelity=1))
+    force = equivalent_force(device)
+    theta = np.linspace(0.0, 6.0, 13)
+    found = equations.needed_force(LOAD, theta, 0.0 * theta, 0.0 * theta)
+    expected = force.amplitude * np.sin(theta - force.angle) - LOAD
+    assert found == pytest.approx(expected, rel=1e-12), "F_T* sin(theta - theta1) - load, (33)"
+    displacement, velocity = equations.resonator_motion(theta, np.zeros((13, 4)))
+    turned = theta - force.resonator_angle
+    assert displacement == pytest.approx(force.resonator_amplitude * np.sin(turned), rel=1e-9)
+    assert velocity == pytest.approx(3500.0 * force.resonator_amplitude * np.cos(turned), rel=1e-9)
+    assert equations.inertia == 1.1, "slider and resonator move as one in (33)"
+
+
+def test_initial_state_of_the_resonator_counts_in_fidelity_2_only() -> None:
+    device = Device(
+        initial_position=1.0,
+        initial_velocity=2.0,
+        initial_resonator_displacement=3.0,
+        initial_resonator_velocity=4.0,
+    )
+    assert initial_state(device) == (1.0, 2.0, 3.0, 4.0)
+    assert initial_state(replace(device, fidelity=1)) == (1.0, 2.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("damping_ratio", "rate"), [(0.0, 3500.0 * math.sqrt(11.0)), (2.0, None)], ids=["0", "over"]
+)
+def test_fastest_rate_is_that_of_the_resonator_on_a_free_slider(
+    damping_ratio: float, rate: float | None
+) -> None:
+    device = Device(slider_mass=0.01, damping_ratio=damping_ratio)
+    equations = equations_of(device)
+    roots = np.roots([1.0, 2.0 * damping_ratio * 3500.0 * 11.0, 3500.0**2 * 11.0])
+    assert equations.fastest_rate(1.0) == pytest.approx(rate or np.abs(roots).max())
+    assert equations.fastest_rate(-1e3) == pytest.approx(3.5e6), "or that of the normal load"
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"friction_law": 1}, "friction_law = 1"),
+        ({"fidelity": 0}, "fidelity = 0"),
+        ({"normal_preload": -1.0}, r"normal_preload = -1\.0 N must be at least 0"),
+        ({"normal_amplitude": math.nan}, "normal_amplitude = nan N"),
+        (
+            {
+                "fidelity": 1,
+                "damping_ratio": 0.0,
+                "resonator_frequency": 3500.0 / math.sqrt(1.1),
+            },
+            r"damping_ratio = 0\.0 .* greater than 0",
+        ),
+    ],
+)
+def test_what_the_equations_do_not_cover_is_refused(
+    parameters: dict[str, float], message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        equations_of(Device.from_mapping(parameters))

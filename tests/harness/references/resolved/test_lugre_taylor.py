@@ -1,0 +1,188 @@
+from __future__ import annotations
+
+import importlib
+import math
+import sys
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved import lugre_system, taylor
+from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from tests.harness.references.lugre_problems import (
+    DURATION,
+    PROBLEMS,
+    STIFF,
+    TIMES,
+    assert_agree,
+    constant,
+)
+
+QUIET = Device(base_amplitude=0.0, normal_amplitude=0.0, resonator_mass=1e-9, bristle_damping=0.0)
+"""A slider that nothing shakes, its resonator too light to matter."""
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_bristle_from_the_path_is_the_integrated_bristle(name: str) -> None:
+    device, held = PROBLEMS[name]
+    path = simulate_lugre(device, held, TIMES)
+    assert_agree(simulate_lugre(device, held, TIMES, bristle="state"), path, allowed=1e-12)
+
+
+@pytest.mark.parametrize("name", [*PROBLEMS, *STIFF])
+def test_tolerance_is_below_rounding(name: str) -> None:
+    device, held = (PROBLEMS | STIFF)[name]
+    exact = simulate_lugre(device, held, TIMES)
+    assert_agree(exact, simulate_lugre(device, held, TIMES, tolerance=1e-17), allowed=1e-12)
+
+
+@pytest.mark.parametrize("name", [*PROBLEMS, *STIFF])
+def test_cutting_the_inputs_changes_nothing(name: str) -> None:
+    device, held = (PROBLEMS | STIFF)[name]
+    cuts = np.sqrt(np.arange(1.0, 20.0) / 20.0) * DURATION
+    pieces: list[HeldInputs] = []
+    for inputs in held:
+        within = cuts[(cuts > inputs.start) & (cuts < inputs.stop)]
+        edges = [inputs.start, *within.tolist(), inputs.stop]
+        pieces += [replace(inputs, start=start, stop=stop) for start, stop in pairwise(edges)]
+    whole = simulate_lugre(device, held, TIMES)
+    assert_agree(whole, simulate_lugre(device, pieces, TIMES), allowed=1e-12)
+
+
+@pytest.mark.parametrize("stiffness", [1e3, 1e5, 1e8])
+@pytest.mark.parametrize("faces", [1, 2])
+def test_presliding_rings_at_the_bristle_frequency(stiffness: float, faces: int) -> None:
+    device = replace(QUIET, bristle_stiffness=stiffness, friction_faces=faces)
+    frequency = math.sqrt(faces * stiffness / (device.slider_mass + device.resonator_mass))
+    amplitude = 1e-7 * device.friction_coefficient / stiffness
+    device = replace(device, initial_velocity=amplitude * frequency)
+    period = 2.0 * math.pi / frequency
+    times = np.linspace(0.0, 3.3 * period, 100)
+    motion = simulate_lugre(device, [HeldInputs(0.0, times[-1])], times)
+    np.testing.assert_allclose(
+        motion.position,
+        amplitude * np.sin(frequency * times),
+        atol=2e-6 * amplitude,
+        err_msg="a motion far below break-away is that of a mass on springs faces N s0",
+    )
+    assert motion.reversals == 7, "the velocity reverses every half period"
+
+
+def test_presliding_is_damped_by_the_bristles() -> None:
+    stiffness, damping = 1e5, 50.0
+    device = replace(QUIET, bristle_stiffness=stiffness, bristle_damping=damping)
+    mass = device.slider_mass + device.resonator_mass
+    decay = damping / mass
+    frequency = math.sqrt(2.0 * stiffness / mass - decay**2)
+    device = replace(device, initial_velocity=1e-12)
+    motion = simulate_lugre(device, constant(), TIMES)
+    expected = 1e-12 / frequency * np.exp(-decay * TIMES) * np.sin(frequency * TIMES)
+    np.testing.assert_allclose(
+        motion.position,
+        expected,
+        atol=1e-5 * np.abs(expected).max(),
+        err_msg="the damping of small motions is faces N s1",
+    )
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+@pytest.mark.parametrize("stiffness", [1e4, 1e8])
+def test_steady_sliding_stretches_the_bristle_to_its_limit(
+    direction: float, stiffness: float
+) -> None:
+    device = replace(QUIET, bristle_stiffness=stiffness, initial_velocity=5.0 * direction)
+    motion = simulate_lugre(device, constant(), TIMES)
+    assert motion.bristle_deflection[-1] == pytest.approx(0.1 * direction / stiffness, rel=1e-12), (
+        "in steady sliding z = mu / s0 along the motion"
+    )
+    assert motion.friction_force[-1] == pytest.approx(0.2 * direction, rel=1e-12), "F = faces mu N"
+
+
+def test_bristle_relaxes_along_the_path() -> None:
+    device = replace(
+        QUIET, bristle_stiffness=50.0, initial_velocity=1.0, initial_bristle_deflection=-3e-3
+    )
+    motion = simulate_lugre(device, constant(), TIMES)
+    expected = 2e-3 - 5e-3 * np.exp(-500.0 * motion.position)
+    np.testing.assert_allclose(
+        motion.bristle_deflection, expected, rtol=1e-12, atol=1e-16, err_msg="dz/dx = 1 - s0 z / mu"
+    )
+
+
+def test_bristle_keeps_evolving_in_flight() -> None:
+    device = replace(QUIET, bristle_stiffness=1e3, initial_velocity=0.01, normal_preload=0.0)
+    motion = simulate_lugre(device, constant(), TIMES)
+    expected = 1e-4 * -np.expm1(-1e4 * 0.01 * TIMES)
+    assert (motion.contact_mode == 2).all(), "without preload the contact is open"
+    assert not motion.friction_force.any(), "an open contact has no friction"
+    np.testing.assert_allclose(motion.velocity, 0.01, rtol=1e-9, err_msg="nothing brakes a flight")
+    np.testing.assert_allclose(
+        motion.bristle_deflection, expected, rtol=1e-9, err_msg="z follows (8) without contact too"
+    )
+
+
+@pytest.mark.parametrize(
+    ("parameters", "least", "most"),
+    [({}, 3.0, 30.0), ({"normal_amplitude": 2.0}, 3.0, 30.0), ({"fidelity": 1}, 8.0, 12.0)],
+    ids=["closed", "lifts", "rigid"],
+)
+def test_stiff_bristles_approach_coulomb(
+    parameters: dict[str, float], least: float, most: float
+) -> None:
+    """A reversal lacks friction over a path of mu / s0, for a time that falls as s0^-1/2."""
+    device = Device.from_mapping({**parameters, "bristle_damping": 0.0})
+    coulomb = taylor.simulate(device, constant(phase=0.4), TIMES)
+    errors = []
+    for stiffness in (1e6, 1e8, 1e10):
+        stiff = replace(device, bristle_stiffness=stiffness)
+        motion = simulate_lugre(stiff, constant(phase=0.4), TIMES)
+        errors.append(float(np.abs(motion.velocity - coulomb.velocity).max()))
+        assert motion.reversals == coulomb.reversals, "the same reversals"
+    ratios = [sooner / later for sooner, later in pairwise(errors)]
+    assert all(least < ratio < most for ratio in ratios), (
+        f"velocities {errors} off Coulomb's: 100 times the stiffness brings them about 10 closer"
+    )
+    assert errors[-1] < 5e-6, f"friction is Coulomb's, velocities differ by {errors[-1]} m/s"
+
+
+def test_contact_mode_is_the_sign_of_the_velocity_or_lifted() -> None:
+    device, held = PROBLEMS["ratio 1.37, lift-off"]
+    motion = simulate_lugre(device, held, TIMES)
+    lifted = motion.normal_force == 0.0
+    assert 0.2 < lifted.mean() < 0.5, "about a third of the time the contact is open"
+    assert (motion.contact_mode[lifted] == 2).all(), "lifted where the normal force is 0"
+    signs = np.sign(motion.velocity[~lifted][1:])
+    assert (motion.contact_mode[~lifted][1:] == signs).all(), "else the sign of the velocity"
+    assert motion.sticks == 0, "bristles never stick"
+
+
+def test_slider_at_rest_without_drive_stays() -> None:
+    motion = simulate_lugre(QUIET, constant(), TIMES)
+    assert not motion.velocity.any(), "nothing moves it"
+    assert motion.reversals == 0, "no motion, no reversal"
+
+
+def test_samples_lie_at_starts_stops_and_cuts() -> None:
+    device, held = PROBLEMS["schedule"]
+    edges = np.array([inputs.start for inputs in held] + [DURATION])
+    motion = simulate_lugre(device, held, edges)
+    assert motion.position.shape == edges.shape, "one sample for each time wanted"
+    assert simulate_lugre(device, held, np.empty(0)).position.shape == (0,), "none wanted, none got"
+
+
+def test_friction_coefficient_of_zero_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"friction_coefficient = 0\.0"):
+        simulate_lugre(Device(friction_coefficient=0.0), constant(), TIMES)
+
+
+def test_missing_heyoka_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "heyoka", None)
+    lugre_system.lugre_integrator.cache_clear()
+    with pytest.raises(ModuleNotFoundError, match="slider-resonator\\[referee\\]"):
+        simulate_lugre(Device(), constant(), TIMES)
+    monkeypatch.undo()
+    assert importlib.import_module("heyoka"), "later tests need it again"

@@ -1,0 +1,248 @@
+from __future__ import annotations
+
+import importlib
+import sys
+from dataclasses import replace
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.averaged.averaged_coulomb import slow_start
+from slider_resonator.references.resolved import located_events, taylor
+from slider_resonator.references.resolved.trajectory import Trajectory
+from tests.problems import DURATION, PROBLEMS, SIGNALS
+
+PERIOD = 2.0 * np.pi / 3500.0
+TIMES = np.linspace(0.0, DURATION, 1501)
+QUICK = ("table 1", "lift-off with sticking", "undamped, sticking resonance", "schedule")
+ALL = pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in PROBLEMS],
+)
+
+
+@cache
+def run(name: str, tolerance: float = taylor.ROUNDING) -> Trajectory:
+    problem = PROBLEMS[name]
+    return taylor.simulate(problem.device, problem.held, TIMES, tolerance=tolerance)
+
+
+def assert_agree(first: Trajectory, second: Trajectory, allowed: float) -> None:
+    for signal in SIGNALS:
+        expected = getattr(first, signal)
+        found = np.abs(getattr(second, signal) - expected).max()
+        peak = np.abs(expected).max()
+        assert found <= allowed * peak, f"{signal} deviates by {found:.1e}, its peak is {peak:.1e}"
+    assert (first.reversals, first.sticks) == (second.reversals, second.sticks), "event counts"
+
+
+@ALL
+def test_tolerance_is_below_rounding(name: str) -> None:
+    assert_agree(run(name), run(name, tolerance=1e-17), allowed=1e-12)
+
+
+def test_error_falls_with_the_tolerance_down_to_rounding() -> None:
+    exact = run("lift-off with sticking")
+    errors = [
+        np.abs(run("lift-off with sticking", tolerance).velocity - exact.velocity).max()
+        for tolerance in (1e-4, 1e-7, 1e-10, 1e-13)
+    ]
+    assert all(later < 0.1 * sooner for sooner, later in pairwise(errors)), (
+        f"errors {errors} must fall with the tolerance: located events keep the order"
+    )
+
+
+@ALL
+def test_cutting_the_inputs_changes_nothing(name: str) -> None:
+    problem = PROBLEMS[name]
+    cuts = np.sqrt(np.arange(1.0, 40.0) / 40.0) * DURATION
+    pieces: list[HeldInputs] = []
+    for inputs in problem.held:
+        within = cuts[(cuts > inputs.start) & (cuts < inputs.stop)]
+        edges = [inputs.start, *within.tolist(), inputs.stop]
+        pieces += [replace(inputs, start=start, stop=stop) for start, stop in pairwise(edges)]
+    cut = taylor.simulate(problem.device, pieces, TIMES)
+    assert len(pieces) > 30, "the inputs must really be cut"
+    assert_agree(run(name), cut, allowed=5e-12)
+
+
+@ALL
+def test_friction_obeys_its_law(name: str) -> None:
+    device = PROBLEMS[name].device
+    motion = run(name)
+    limit = device.friction_faces * device.friction_coefficient * motion.normal_force
+    sliding = np.abs(motion.contact_mode) == 1
+    assert (np.abs(motion.friction_force) <= limit * (1.0 + 1e-12) + 1e-12).all(), (
+        "friction never exceeds faces mu N"
+    )
+    np.testing.assert_allclose(
+        motion.friction_force[sliding],
+        (motion.contact_mode * limit)[sliding],
+        rtol=1e-12,
+        atol=1e-15,
+        err_msg="in a slip friction is faces mu N against the velocity",
+    )
+    assert (motion.velocity[motion.contact_mode == 0] == 0.0).all(), "a stick does not move"
+    assert (motion.velocity * motion.contact_mode)[sliding].min(initial=0.0) >= -1e-15, (
+        "the contact mode of a slip is the sign of the velocity"
+    )
+    assert not motion.friction_force[motion.contact_mode == 2].any(), "no friction in flight"
+
+
+@ALL
+def test_energy_balance_closes(name: str) -> None:
+    """Energy of the masses and the spring against the work of drives, load, friction, damper."""
+    problem = PROBLEMS[name]
+    device = problem.device
+    if device.fidelity == 1:
+        device = replace(device, resonator_mass=0.0, base_amplitude=0.0, tangential_force=0.4)
+    start, stop = problem.held[0].start, problem.held[0].start + 12.0 * PERIOD
+    inputs = replace(problem.held[0], start=start, stop=stop)
+    times = np.unique(
+        np.concatenate(
+            [
+                np.linspace(start, stop, 2001),
+                taylor.simulate(device, [inputs], np.empty(0)).event_times,
+            ]
+        )
+    )
+    nodes, weights = np.polynomial.legendre.leggauss(5)
+    half = 0.5 * np.diff(times)
+    points = (times[:-1, None] + half[:, None] * (nodes + 1.0)).ravel()
+    ends = taylor.simulate(device, [inputs], np.array([start, stop]))
+    motion = taylor.simulate(device, [inputs], points)
+    power = _power(device, inputs, points, motion).reshape(-1, len(nodes))
+    work = float((half[:, None] * weights * power).sum())
+    energy = _energy(device, stop, ends, -1) - _energy(device, start, ends, 0)
+    turnover = float((half[:, None] * weights * np.abs(power)).sum())
+    scale = max(turnover, _energy(device, start, ends, 0))
+    assert energy == pytest.approx(work, abs=1e-10 * scale), "what the drives put in must be there"
+
+
+def _base_velocity(device: Device, time: NDArray[np.float64] | float) -> NDArray[np.float64]:
+    """Velocity of the resonator's base relative to the slider."""
+    return np.asarray(
+        device.base_amplitude * device.drive_frequency * np.cos(device.drive_frequency * time)
+    )
+
+
+def _energy(device: Device, time: float, motion: Trajectory, index: int) -> float:
+    velocity = motion.velocity[index]
+    mass_velocity = velocity + motion.resonator_velocity[index] + _base_velocity(device, time)
+    return float(
+        0.5 * device.slider_mass * velocity**2
+        + 0.5 * device.resonator_mass * mass_velocity**2
+        + 0.5 * device.stiffness * motion.resonator_displacement[index] ** 2
+    )
+
+
+def _power(
+    device: Device, inputs: HeldInputs, time: NDArray[np.float64], motion: Trajectory
+) -> NDArray[np.float64]:
+    """Power of everything that acts on the masses, W.
+
+    The force between base and resonator also moves with the base, so the base does work.
+    """
+    spring = device.stiffness * motion.resonator_displacement
+    damper = device.damping * motion.resonator_velocity
+    direct = device.tangential_force * np.sin(device.drive_frequency * (time - inputs.start))
+    base = _base_velocity(device, time - inputs.start)
+    return np.asarray(
+        (direct - inputs.load - motion.friction_force) * motion.velocity
+        - damper * motion.resonator_velocity
+        - (spring + damper) * base
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("inputs", "expected"),
+    [
+        ({}, 0.12666700),
+        ({"phase": 0.4, "load": 0.05}, 0.0986951),
+        ({"phase": 0.4, "frequency_ratio": 3.0}, -0.0362968),
+    ],
+    ids=["table 1", "phase and load", "ratio 3"],
+)
+def test_long_run_approaches_the_measured_steady_velocity(
+    inputs: dict[str, float], expected: float
+) -> None:
+    """Departures decay geometrically, so three means at equal distances tell where they lead."""
+    start = Device(initial_velocity=1.005 * expected - slow_start(Device()))
+    ends = np.array([230, 240, 710, 720, 1190, 1200]) * PERIOD
+    motion = taylor.simulate(start, [HeldInputs(0.0, ends[-1], **inputs)], ends)
+    means = np.diff(motion.position)[::2] / (10 * PERIOD)
+    sooner, later = np.diff(means)
+    assert 0.0 < later / sooner < 0.9, "the departure shrinks all the time"
+    limit = means[2] - later**2 / (later - sooner)
+    assert limit == pytest.approx(expected, rel=2e-6), "mean velocity after the transient"
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_located_events_by_another_method_agree(name: str) -> None:
+    problem = PROBLEMS[name]
+    held = [replace(inputs, stop=min(inputs.stop, 0.06)) for inputs in problem.held]
+    held = [inputs for inputs in held if inputs.start < inputs.stop]
+    times = np.linspace(0.0, 0.06, 301)
+    exact = taylor.simulate(problem.device, held, times)
+    other = located_events.simulate(problem.device, held, times)
+    assert_agree(exact, other, allowed=1e-8)
+    assert other.event_times == pytest.approx(exact.event_times, rel=1e-10, abs=1e-14)
+
+
+def _between(least: float, greatest: float) -> st.SearchStrategy[float]:
+    return st.floats(least, greatest, allow_subnormal=False)
+
+
+@pytest.mark.slow
+@settings(max_examples=60)
+@given(
+    parameters=st.fixed_dictionaries(
+        {
+            "slider_mass": _between(0.01, 2.0),
+            "resonator_mass": _between(0.001, 0.5),
+            "resonator_frequency": _between(300.0, 9000.0),
+            "damping_ratio": _between(0.0, 2.0),
+            "normal_amplitude": _between(0.0, 3.0),
+            "base_amplitude": _between(-9.0, -4.0).map(lambda power: 10.0**power),
+            "tangential_force": st.one_of(_between(-1.0, -0.01), _between(0.01, 1.0)),
+            "friction_coefficient": _between(0.05, 0.8),
+            "fidelity": st.sampled_from([1, 2]),
+            # From rest a release can fall within rounding of its limit, where counts are open.
+            "initial_velocity": st.one_of(_between(-0.1, -0.01), _between(0.01, 0.1)),
+        }
+    ),
+    inputs=st.lists(
+        st.tuples(_between(0.001, 0.01), _between(-4, 4), _between(-0.3, 0.3), _between(-8, 8)),
+        min_size=1,
+        max_size=4,
+    ),
+)
+def test_random_devices_agree_with_the_other_method(
+    parameters: dict[str, float], inputs: list[tuple[float, float, float, float]]
+) -> None:
+    stops = np.cumsum([duration for duration, *_ in inputs]).tolist()
+    held = [
+        HeldInputs(start, stop, *values)
+        for start, stop, (_, *values) in zip([0.0, *stops[:-1]], stops, inputs, strict=True)
+    ]
+    device = Device.from_mapping(parameters)
+    times = np.linspace(0.0, stops[-1], 101)
+    exact = taylor.simulate(device, held, times)
+    assert_agree(exact, located_events.simulate(device, held, times), allowed=1e-7)
+
+
+def test_missing_heyoka_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "heyoka", None)
+    unused_tolerance = 1.5e-9  # the compiled system of the usual one is kept
+    with pytest.raises(ModuleNotFoundError, match=r"slider-resonator\[referee\]"):
+        taylor.simulate(Device(), [HeldInputs(0.0, 0.1)], np.empty(0), tolerance=unused_tolerance)
+    monkeypatch.undo()
+    assert importlib.import_module("heyoka"), "the import works again"

@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.scenes.run_plot import SMOOTH, ZOOM_PERIODS, plot_run, schedule_to_plot
+from slider_resonator.scenes.scene import Scene, find_scene, read_scene
+
+
+@pytest.fixture
+def scene() -> Scene:
+    return read_scene(find_scene("changing_inputs"))
+
+
+def test_a_run_becomes_a_picture(instance: Instance, scene: Scene, tmp_path: Path) -> None:
+    record = run(instance, scene.parameters, scene.schedule())
+    for suffix in (".png", ".svg", ".pdf"):
+        plot_run(record, scene, tmp_path / f"run{suffix}")
+    picture = imread(tmp_path / "run.png")
+    assert picture.shape[1] == 1200
+    assert np.ptp(picture[..., :3]) > 0.5, "something must be drawn"
+    assert "velocity" in (tmp_path / "run.svg").read_text()
+
+
+def test_a_coarse_run_is_drawn_without_its_fast_motion(instance: Instance, tmp_path: Path) -> None:
+    path = find_scene("long_run")
+    scene = read_scene(path)
+    record = run(instance, scene.parameters, scene.schedule())
+    plot_run(record, scene, tmp_path / "run.png")
+    assert imread(tmp_path / "run.png").shape[0] < 700
+
+
+@pytest.mark.parametrize("name", ["table_1", "long_run", "changing_inputs"])
+def test_the_last_drive_periods_are_drawn_smoothly_under_the_same_inputs(name: str) -> None:
+    scene = read_scene(find_scene(name))
+    period = 2.0 * np.pi / scene.device.drive_frequency
+    own, shown = scene.schedule(), schedule_to_plot(scene)
+    late = shown.times[shown.times >= own.times[-1] - (ZOOM_PERIODS - 0.5) * period]
+    assert np.diff(late).max() <= 1.01 * period / SMOOTH * (1.0 + 1e-6)
+    assert len(shown.times) <= len(own.times) + ZOOM_PERIODS * SMOOTH + 1
+    assert shown.held() == own.held(), "the motion must be that of the scene"
+
+
+def test_the_lines_and_constant_inputs_are_named(instance: Instance, tmp_path: Path) -> None:
+    scene = read_scene(find_scene("table_1"), {"load": 0.05, "phase": 0.4})
+    record = run(instance, scene.parameters, schedule_to_plot(scene))
+    plot_run(record, scene, tmp_path / "run.svg")
+    text = (tmp_path / "run.svg").read_text()
+    assert "steady, averaged theory" in text
+    assert "phase 0.4 rad, load 0.05 N" in text
+    assert "frequency_ratio" not in text, "it is at its start"

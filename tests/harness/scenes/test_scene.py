@@ -1,0 +1,296 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.errors import SceneError
+from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, sweep_points
+
+HEAD = 'name = "mine"\ntitle = "Mine"\n'
+RUN = "[run]\ndrive_periods = 10\nsteps_per_period = 4\n"
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / "mine.toml"
+    path.write_text(text)
+    return path
+
+
+def refusal(folder: Path, text: str) -> str:
+    path = write(folder, text)
+    with pytest.raises(SceneError) as caught:
+        read_scene(path)
+    message = str(caught.value)
+    assert str(path) in message, "an error names the file"
+    return message
+
+
+@pytest.mark.parametrize("name", built_in_scenes())
+def test_built_in_scenes_are_sound_and_named_as_their_file(name: str) -> None:
+    scene = read_scene(find_scene(name))
+    assert scene.name == name
+    assert scene.title
+    assert scene.description
+    assert scene.expect, "a built-in scene must expect something"
+    assert all(expect.why for expect in scene.expect)
+
+
+def test_the_scenes_that_the_paper_calls_for_are_built_in() -> None:
+    assert set(built_in_scenes()) >= {
+        *("table_1", "table_1_high_frequency", "phase_sweep", "load_speed", "blocking_force"),
+        *("ratio_3", "detuned_beat", "pushed_at_rest", "lift_off", "changing_inputs"),
+    }
+
+
+def test_a_scene_of_a_name_and_a_title_is_table_1(tmp_path: Path) -> None:
+    scene = read_scene(write(tmp_path, HEAD + RUN))
+    assert scene.device.base_amplitude == 1e-4
+    assert scene.values == {"phase": 0.0, "load": 0.0, "frequency_ratio": 1.0}
+    schedule = scene.schedule()
+    assert len(schedule.times) == 41
+    assert schedule.times[-1] == pytest.approx(10 * 2 * 3.141592653589793 / 3500)
+
+
+def test_inputs_of_every_kind(tmp_path: Path) -> None:
+    (tmp_path / "load.csv").write_text("time,load\n0,0.0\n0.1,0.05\n")
+    scene = read_scene(
+        write(
+            tmp_path,
+            HEAD
+            + '[inputs]\nphase = { steps = [[0, 0], [0.01, 0.4]] }\nload = { csv = "load.csv" }\n'
+            "frequency_ratio = { ramp = [[0, 1], [1, 2]] }\n"
+            "[run]\nstop_time = 0.1\nstep_size = 0.007\n",
+        )
+    )
+    signals = scene.signals
+    assert signals["phase"].at(0.01) == 0.4
+    assert signals["load"].at(0.05) == pytest.approx(0.025)
+    assert signals["frequency_ratio"].at(0.5) == pytest.approx(1.5)
+    assert 0.01 in scene.schedule().times, "a step of an input is a communication point"
+
+
+def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Path) -> None:
+    (tmp_path / "l.csv").write_text("time,value\n0,1\n0.05,2\n")
+    text = '[inputs]\nload = { csv = "l.csv", between = "hold" }\n'
+    load = read_scene(write(tmp_path, HEAD + text + RUN)).signals["load"]
+    assert (load.at(0.049), load.jumps) == (1.0, (0.05,))
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("[device]\nslider_mas = 1.0\n", ["device", "slider_mas", "'slider_mass'"]),
+        ("[device]\nslider_mass = true\n", ["device.slider_mass", "True", "allowed is a number"]),
+        ("[device]\nslider_mass = nan\n", ["device.slider_mass", "nan", "finite"]),
+        ("[device]\nfriction_faces = 1.5\n", ["friction_faces", "1.5", "integer"]),
+        ("[devices]\nslider_mass = 1.0\n", ["devices", "did you mean 'device'?"]),
+        ("[inputs]\nphse = 1.0\n", ["inputs.phse", "did you mean 'phase'?"]),
+        ('[inputs]\nphase = "1"\n', ["inputs.phase", "'1'", "allowed is a number"]),
+        (
+            "[inputs]\nphase = { steps = [[0, 1, 2]] }\n",
+            ["inputs.phase.steps[0]", "a list of 2 numbers"],
+        ),
+        ("[inputs]\nphase = { steps = [[1, 0], [0, 1]] }\n", ["inputs.phase", "increase"]),
+        ("[inputs]\nphase = { step = [[0, 0]] }\n", ["inputs.phase.step", "'steps'"]),
+        ("[inputs]\nphase = {}\n", ["inputs.phase", "exactly one"]),
+        ('[inputs]\nload = { csv = "no.csv" }\n', ["inputs.load", "no.csv", "No such file"]),
+        ("[run]\nstop_time = 1.0\n", ["run", "step_size or steps_per_period"]),
+        ("[run]\nstop_time = -1.0\nstep_size = 0.1\n", ["run.stop_time", "-1.0", "above 0"]),
+        ('[sweep]\nvariable = "lod"\nvalues = [1]\n', ["sweep.variable", "'load'"]),
+        ('[sweep]\nvariable = "load"\nvalues = []\n', ["sweep.values", "at least one"]),
+        ('[sweep]\nvariable = "fidelity"\nvalues = [1.5]\n', ["sweep", "1.5", "an integer"]),
+        ("[device]\ndrive_frequency = 0\n", ["device", "drive_frequency = 0.0", "above 0"]),
+        ("[run]\nstop_time = 1e9\nstep_size = 1e-4\n", ["run", "1e+09", "1e+13", "3000000"]),
+        ("[run]\nstop_time = 1\nsteps_per_period = 1e308\n", ["run", "communication steps"]),
+        ("device = 3\n", ["device = 3", "a table"]),
+        ("run = 3\n", ["run = 3", "a table"]),
+        ("expect = 3\n", ["expect = 3", "headed [[expect]]"]),
+        ('[expect]\nwhy = "x"\n', ["expect", "headed [[expect]]"]),
+        ("[inputs]\nphase = { steps = 3 }\n", ["inputs.phase.steps = 3", "a list"]),
+        ("[inputs]\nphase = { csv = 3 }\n", ["inputs.phase.csv = 3", "a text in quotes"]),
+        (
+            '[inputs]\nphase = { csv = "a.csv", between = "x" }\n',
+            ["inputs.phase.between = 'x'", "'linear' or 'hold'"],
+        ),
+        ("name = 3\n", ["not TOML"]),
+    ],
+)
+def test_a_mistake_is_named_with_its_key_its_value_and_what_is_allowed(
+    tmp_path: Path, text: str, parts: list[str]
+) -> None:
+    message = refusal(tmp_path, HEAD + text)
+    for part in parts:
+        assert part in message, f"{part!r} is missing in: {message}"
+    for jargon in ("Input should", "valid", "pattern", "Tuple", "dictionary", "validation"):
+        assert jargon not in message, f"{jargon!r} is the schema's word: {message}"
+
+
+def test_a_name_that_is_no_word_is_refused_in_words(tmp_path: Path) -> None:
+    message = refusal(tmp_path, 'name = "a b"\ntitle = "x"\n')
+    assert "name = 'a b': allowed is a word of letters, digits, _ and -" in message
+
+
+@pytest.mark.parametrize(
+    ("expect", "parts"),
+    [
+        ('quantity = "velocty"', ["quantity", "did you mean 'velocity'?"]),
+        ('quantity = "velocity"\nvalue = 1.0', ["signal", "needs a reference"]),
+        (
+            'quantity = "event_times"\nreference = "taylor"\nrelative = 1e-6',
+            ["event_times needs a tube"],
+        ),
+        (
+            'quantity = "position"\nreference = "averaged"\nrelative = 1e-6\ntube = 0.01',
+            ["tube = 0.01", "located_events, taylor, bristle_state"],
+        ),
+        (
+            'quantity = "position"\nreference = "taylor"\nrelative = 1e-6\ntube = 0.5',
+            ["tube", "0.5", "0.25"],
+        ),
+        ('quantity = "steady_velocity"', ["exactly one of reference, value"]),
+        ('quantity = "steady_velocity"\nvalue = 1.0\nat_most = 2.0', ["exactly one"]),
+        ('quantity = "steady_velocity"\nreference = "paper"', ["reference for steady_velocity"]),
+        ('quantity = "steady_velocity"\nvalue = "fast"', ["number", "'fast'"]),
+        ('quantity = "steady_velocity"\nvalue = true', ["expect[0].value = True", "finite number"]),
+        ('quantity = "steady_velocity"\nvalue = nan', ["expect[0].value = nan", "finite number"]),
+        ('quantity = "steady_velocity"\nvalue = 0.1', ["steady_velocity", "needs a tolerance"]),
+        ('quantity = "velocity"\nreference = "taylor"', ["velocity", "a share of the peak"]),
+        (
+            'quantity = "velocity"\nreference = "taylor"\nabsolute = 1e-6',
+            ["velocity is a signal", "relative, not absolute"],
+        ),
+        ('quantity = "steady_velocity"\nvalue = 1.0\nrelative = -1.0', ["expect[0].relative"]),
+        ('quantity = "steady_status"\nat_most = 1.0', ["cannot have a bound"]),
+        (
+            'quantity = "position"\nreference = "located_events"\nrelative = 1e-8',
+            ["[run] is missing"],
+        ),
+    ],
+)
+def test_an_expectation_that_cannot_be_judged_is_refused(
+    tmp_path: Path, expect: str, parts: list[str]
+) -> None:
+    message = refusal(tmp_path, HEAD + f'[[expect]]\n{expect}\nwhy = "test"\n')
+    for part in parts:
+        assert part in message, f"{part!r} is missing in: {message}"
+
+
+def test_an_expectation_without_a_reason_is_refused(tmp_path: Path) -> None:
+    text = '[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\n'
+    assert "expect[0].why: is missing" in refusal(tmp_path, HEAD + text)
+
+
+@pytest.mark.parametrize(
+    "expect",
+    [
+        'quantity = "reversals"\nvalue = 3',
+        'quantity = "steady_status"\nvalue = "stuck"',
+        'quantity = "contact_mode"\nreference = "taylor"',
+        'quantity = "steady_velocity"\nat_most = 1.0',
+        'quantity = "steady_velocity"\nvalue = 0.0\nabsolute = 0.0',
+    ],
+)
+def test_counts_words_and_bounds_need_no_tolerance_and_0_is_one(
+    tmp_path: Path, expect: str
+) -> None:
+    scene = read_scene(write(tmp_path, HEAD + RUN + f'[[expect]]\n{expect}\nwhy = "test"\n'))
+    assert len(scene.expect) == 1
+
+
+def test_steady_quantities_need_constant_inputs(tmp_path: Path) -> None:
+    text = (
+        "[inputs]\nphase = { steps = [[0, 0], [1, 1]] }\n"
+        '[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\nrelative = 1e-6\nwhy = "test"\n'
+    )
+    assert "constant inputs" in refusal(tmp_path, HEAD + text)
+
+
+def test_all_mistakes_are_reported_at_once(tmp_path: Path) -> None:
+    message = refusal(tmp_path, HEAD + "[inputs]\nphse = 1.0\nlod = 2.0\n")
+    assert "phse" in message
+    assert "lod" in message
+
+
+def test_an_unknown_scene_suggests_the_nearest() -> None:
+    with pytest.raises(SceneError, match="did you mean 'table_1'"):
+        find_scene("table1")
+
+
+def test_a_missing_scene_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="no such scene file"):
+        find_scene(str(tmp_path / "no.toml"))
+
+
+def test_a_directory_is_named_as_one(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="is a directory; allowed is a scene file"):
+        find_scene(str(tmp_path))
+
+
+def test_a_scene_knows_the_files_it_was_read_from(tmp_path: Path) -> None:
+    (tmp_path / "load.csv").write_text("time,load\n0,0.0\n")
+    path = write(tmp_path, HEAD + '[inputs]\nload = { csv = "load.csv" }\n')
+    assert read_scene(path).files == (path, tmp_path / "load.csv")
+
+
+def test_a_scene_without_a_run_says_where_to_find_one(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"no \[run\].*the command scenes"):
+        read_scene(write(tmp_path, HEAD)).schedule()
+
+
+def test_a_sweep_varies_parameters_and_inputs(tmp_path: Path) -> None:
+    sweep = '[sweep]\nvariable = "{}"\nvalues = [1.0, 2.0]\n'
+    path = write(tmp_path, HEAD + "[inputs]\nload = 0.3\n" + sweep.format("load"))
+    points = list(sweep_points(read_scene(path), path))
+    assert [(at, point.values["load"]) for at, point in points] == [
+        ({"load": 1.0}, 1.0),
+        ({"load": 2.0}, 2.0),
+    ]
+    path = write(tmp_path, HEAD + sweep.format("slider_mass"))
+    points = list(sweep_points(read_scene(path), path))
+    assert [point.device.slider_mass for _, point in points] == [1.0, 2.0]
+
+
+def test_drive_periods_follow_the_drive_frequency_of_the_scene(tmp_path: Path) -> None:
+    scene = read_scene(write(tmp_path, HEAD + "[device]\ndrive_frequency = 35000.0\n" + RUN))
+    assert scene.stop_time == pytest.approx(10 * 2 * 3.141592653589793 / 35000)
+
+
+@pytest.mark.parametrize(
+    ("need", "parts"),
+    [
+        ("", ["need: needs at least one of", "steady_velocity", "event_times"]),
+        ("friction_law = 'free'", ["need: needs at least one of"]),
+        ("positon = { rel = 0.1 }", ["need.positon", "did you mean 'position'?"]),
+        ("position = {}", ["need.position", "needs a tolerance: abs, rel or both"]),
+        ("position = 0.1", ["need.position = 0.1", "such as { rel = 0.01 }"]),
+        ("position = { rel = 0.0 }", ["need.position.rel = 0.0", "allowed is a number above 0"]),
+        ("position = { abs = -1e-6 }", ["need.position.abs = -1e-06", "a number above 0"]),
+        ("position = { rel = nan }", ["need.position.rel = nan", "a finite number"]),
+        ("position = { relative = 0.1 }", ["need.position.relative", "did you mean 'rel'?"]),
+        ("position = { rel = 0.1 }\nfriction_law = 'any'", ["need.friction_law = 'any'", "'free'"]),
+    ],
+)
+def test_a_need_that_cannot_be_judged_is_refused(
+    tmp_path: Path, need: str, parts: list[str]
+) -> None:
+    message = refusal(tmp_path, HEAD + RUN + f"[need]\n{need}\n")
+    for part in parts:
+        assert part in message, f"{part!r} is missing in: {message}"
+
+
+def test_needs_are_measured_in_a_run_or_under_constant_inputs(tmp_path: Path) -> None:
+    said = refusal(tmp_path, HEAD + "[need]\nbeat = { rel = 0.1 }\n")
+    assert "need.beat is measured in a run: [run] is missing" in said
+    inputs = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
+    said = refusal(tmp_path, HEAD + inputs + "[need]\nblocking_force = { rel = 0.1 }\n")
+    assert "need.blocking_force needs constant inputs" in said
+
+
+def test_an_allowed_error_has_an_absolute_and_a_relative_part(tmp_path: Path) -> None:
+    text = HEAD + RUN + "[need]\nposition = { abs = 1e-6, rel = 0.1 }\nvelocity = { abs = 2.0 }\n"
+    scene = read_scene(write(tmp_path, text))
+    assert scene.need is not None
+    assert scene.need.friction_law == "given"
+    assert scene.need.needs["position"].at(-2.0) == 0.2 + 1e-6
+    assert scene.need.needs["velocity"].at(5.0) == 2.0

@@ -1,0 +1,135 @@
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.steady.periodic import (
+    Facts,
+    FmuPeriodMap,
+    Obstacle,
+    read_facts,
+    repeating_periods,
+)
+
+
+def facts(**values: float) -> Facts:
+    table_1 = {
+        "phase": 0.0,
+        "load": 0.0,
+        "frequency_ratio": 1.0,
+        "drive_frequency": 3500.0,
+        "normal_preload": 1.0,
+        "normal_amplitude": 1.0,
+        "friction_faces": 2.0,
+        "friction_coefficient": 0.1,
+        "friction_law": 0.0,
+        "bristle_stiffness": 1e5,
+        "bristle_damping": 10.0,
+        "fidelity": 2.0,
+        "slider_mass": 1.0,
+        "resonator_mass": 0.1,
+        "resonator_frequency": 3500.0,
+        "damping_ratio": 0.05,
+    }
+    return Facts({**table_1, **values}, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0, 1.5, 4.0])
+def test_mean_normal_force_is_that_of_the_clipped_sine(amplitude: float) -> None:
+    angle = (np.arange(200_000) + 0.5) / 200_000 * 2.0 * pi
+    mean = np.maximum(0.0, 1.0 + amplitude * np.sin(angle)).mean()
+    assert facts(normal_amplitude=amplitude).mean_normal_force == pytest.approx(mean, rel=1e-9)
+
+
+def test_without_frequency_the_normal_force_is_constant() -> None:
+    still = facts(frequency_ratio=0.0, phase=-pi / 6.0)
+    assert still.mean_normal_force == pytest.approx(0.5)
+    assert facts(frequency_ratio=0.0, phase=-2.0, normal_amplitude=3.0).mean_normal_force == 0.0
+
+
+def test_a_beat_is_named_with_its_frequency() -> None:
+    found = repeating_periods(facts(frequency_ratio=1.001), 20)
+    assert isinstance(found, Obstacle)
+    assert found.status == "slow_beat"
+    assert "slow beat at 0.557042 Hz" in found.reason
+    assert repeating_periods(facts(frequency_ratio=1.5), 20) == 2
+
+
+@pytest.mark.parametrize(
+    ("ratio", "status"),
+    [
+        (1.0999, "slow_beat"),
+        (2.9001, "slow_beat"),
+        (-0.9871, "slow_beat"),
+        (1.1001, "no_common_period"),
+        (1.37, "no_common_period"),
+        (-2.4567, "no_common_period"),
+    ],
+)
+def test_only_a_ratio_next_to_an_integer_beats_slowly(ratio: float, status: str) -> None:
+    found = repeating_periods(facts(frequency_ratio=ratio), 20)
+    assert isinstance(found, Obstacle)
+    assert found.status == status
+    assert f"frequency_ratio = {ratio!r} is no p/q with q <= 20" in found.reason
+    assert ("Hz" in found.reason) == (status == "slow_beat"), "a fast beat is none"
+
+
+def test_facts_are_read_back_from_the_fmu(instance: Instance) -> None:
+    read = read_facts(instance, {"friction_faces": 1.0, "load": 0.05})
+    assert (read["friction_faces"], read["load"], read["slider_mass"]) == (1.0, 0.05, 1.0)
+    assert read.friction_limit == pytest.approx(0.1)
+    assert np.isfinite(read.steady_velocity)
+
+
+def test_the_map_is_a_run_of_the_fmu_and_counts_its_periods(instance: Instance) -> None:
+    read = read_facts(instance, {})
+    period_map = FmuPeriodMap(instance, {}, read, 2)
+    first, moved = period_map(np.array([0.1, 1e-4, -0.2]), 0.01)
+    second, further = period_map(first, 0.01)
+    assert period_map.periods == 4
+    four = FmuPeriodMap(instance, {}, read, 4)
+    end, displacement = four(np.array([0.1, 1e-4, -0.2]), 0.01)
+    assert end == pytest.approx(second, rel=1e-11), "phases repeat, so maps can be chained"
+    assert displacement == pytest.approx(moved + further, rel=1e-11)
+
+
+def test_the_warm_up_gives_state_size_and_mean(instance: Instance) -> None:
+    period_map = FmuPeriodMap(instance, {}, read_facts(instance, {}), 1)
+    warm = period_map.warm_up(0.1, 0.0)
+    assert period_map.periods == 20
+    assert np.all(warm.scale >= np.abs(warm.state))
+    assert 0.0 < warm.mean_velocity < 0.3
+
+
+def test_a_device_at_rest_still_has_a_scale(instance: Instance) -> None:
+    values = {"base_amplitude": 0.0}
+    period_map = FmuPeriodMap(instance, values, read_facts(instance, values), 1)
+    warm = period_map.warm_up(0.0, 0.0)
+    assert np.all(warm.state == 0.0)
+    assert np.all(warm.scale > 0.0)
+    assert period_map.stick_fraction == 1.0
+
+
+@pytest.mark.parametrize("stiffness", [50.0, 1e5])
+def test_maps_with_a_bristle_can_be_chained(instance: Instance, stiffness: float) -> None:
+    """What is read at the end of a period must start the next one as if there were no end."""
+    values = {"friction_law": 1.0, "bristle_stiffness": stiffness, "tolerance": 1e-12}
+    read = read_facts(instance, values)
+    period_map = FmuPeriodMap(instance, values, read, 1)
+    assert period_map.names[-1] == "bristle_deflection"
+    first, moved = period_map(np.array([0.1, 1e-4, -0.2, 0.3 / stiffness * 0.1]), 0.01)
+    second, further = period_map(first, 0.01)
+    end, displacement = FmuPeriodMap(instance, values, read, 2)(
+        np.array([0.1, 1e-4, -0.2, 0.3 / stiffness * 0.1]), 0.01
+    )
+    assert end == pytest.approx(second, rel=1e-9)
+    assert displacement == pytest.approx(moved + further, rel=1e-9)
+
+
+def test_averaged_motion_and_coulomb_friction_have_no_bristle(instance: Instance) -> None:
+    values: dict[str, float]
+    for values in ({}, {"fidelity": 0.0}):
+        assert len(FmuPeriodMap(instance, values, read_facts(instance, values), 1).names) == 3

@@ -1,0 +1,72 @@
+from __future__ import annotations
+
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.steady.reference_steady import (
+    reference_blocking_force,
+    reference_steady_velocity,
+)
+
+TABLE_1 = Device()
+
+
+@pytest.mark.parametrize(
+    ("phase", "load", "ratio", "velocity"),
+    [(0.0, 0.0, 1.0, 0.12666700), (0.4, 0.05, 1.0, 0.0986951), (0.4, 0.0, 3.0, -0.0362968)],
+)
+def test_figures_of_taylor_integration_are_met(
+    phase: float, load: float, ratio: float, velocity: float
+) -> None:
+    found = reference_steady_velocity(TABLE_1, phase, load, ratio)
+    assert found == pytest.approx(velocity, rel=1e-6)
+
+
+def test_the_blocking_force_of_table_1() -> None:
+    assert reference_blocking_force(TABLE_1, 0.0, 1.0) == pytest.approx(0.0851861, rel=1e-6)
+
+
+def test_fidelity_1_has_a_single_state() -> None:
+    found = reference_steady_velocity(Device(fidelity=1), 0.0, 0.0, 1.0)
+    assert found == pytest.approx(0.126667, rel=1e-4)
+
+
+def test_a_ratio_without_a_common_period_has_none() -> None:
+    assert reference_steady_velocity(TABLE_1, 0.0, 0.0, 1.001) is None
+    assert reference_blocking_force(TABLE_1, 0.0, 1.001) is None
+
+
+def test_a_load_above_friction_has_none() -> None:
+    assert reference_steady_velocity(TABLE_1, 0.0, 0.25, 1.0) is None
+
+
+def test_blocking_force_without_preload() -> None:
+    """The load then comes from the amplitude alone, and gives friction its scale."""
+    found = reference_blocking_force(Device(normal_preload=0.0), 0.4, 1.0)
+    assert found is not None
+    assert 0.0 < found < 0.2
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "fidelity", "velocity"),
+    [
+        (50.0, 2, 0.1969505012),
+        (1e4, 2, -0.0488497920),
+        (1e6, 2, 0.1282110732),
+        (1e8, 2, 0.1271163723),
+        (1e4, 1, -0.0491765734),
+    ],
+)
+def test_lugre_figures_of_taylor_integration_are_met(
+    stiffness: float, fidelity: int, velocity: float
+) -> None:
+    device = Device(friction_law=1, bristle_stiffness=stiffness, fidelity=fidelity)
+    found = reference_steady_velocity(device, 0.0, 0.0, 1.0, velocity + 0.01)
+    assert found == pytest.approx(velocity, abs=5e-8)
+
+
+def test_the_blocking_force_of_bristles_stops_them() -> None:
+    device = Device(friction_law=1, bristle_stiffness=1e4)
+    force = reference_blocking_force(device, 0.4, 1.0)
+    assert force is not None
+    assert reference_steady_velocity(device, 0.4, force, 1.0) == pytest.approx(0.0, abs=1e-7)

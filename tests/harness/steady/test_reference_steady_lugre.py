@@ -1,0 +1,107 @@
+"""Steady motion on bristles by shooting with the Taylor referee, and what averages say of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.averaged import averaged_lugre, uniform_average
+from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from slider_resonator.steady.reference_steady import (
+    reference_blocking_force,
+    reference_steady_velocity,
+)
+from tests.harness.references.lugre_problems import unit_device
+
+QUICK = (0.1, 10.0)
+KAPPAS = [
+    pytest.param(kappa, marks=() if kappa in QUICK else pytest.mark.slow)
+    for kappa in (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+]
+
+
+def steady_velocity(
+    device: Device, phase: float, load: float = 0.0, ratio: float = 1.0, guess: float = 0.0
+) -> float:
+    found = reference_steady_velocity(device, phase, load, ratio, guess, simulate=simulate_lugre)
+    assert found is not None, "there is a steady motion"
+    return found
+
+
+def blocking_force(device: Device, phase: float, guess: float) -> float:
+    found = reference_blocking_force(device, phase, 1.0, guess, simulate=simulate_lugre)
+    assert found is not None, "there is a load that stops the device"
+    return found
+
+
+@pytest.mark.parametrize("fidelity", [1, 2])
+def test_a_run_goes_on_as_the_steady_motion_does(fidelity: int) -> None:
+    """Strong friction, so that 250 drive periods forget the start."""
+    device = Device(friction_law=1, fidelity=fidelity, friction_coefficient=2.0)
+    steady = steady_velocity(device, 0.4, 0.1)
+    period = 2.0 * math.pi / device.drive_frequency
+    times = np.array([250.0, 270.0]) * period
+    means = []
+    for side in (-1.0, 1.0):
+        fast = equivalent_force(device).velocity_amplitude
+        start = replace(device, initial_velocity=steady + side * 0.2 * fast - fast)
+        run = simulate_lugre(start, [HeldInputs(0.0, times[-1], 0.4, 0.1)], times)
+        means.append(float(np.diff(run.position)[0]) / (20.0 * period))
+    assert means == pytest.approx([steady, steady], abs=1e-4 * fast), "a long run ends there too"
+
+
+@pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
+@pytest.mark.parametrize("kappa", KAPPAS)
+def test_uniform_averages_err_by_the_inverse_frequency(
+    kappa: float, amplitude_ratio: float
+) -> None:
+    """Soft to hard bristles, closed and lifting: velocity and blocking force."""
+    errors = []
+    for frequency in (1000.0, 4000.0):
+        device = unit_device(kappa, frequency, amplitude_ratio)
+        velocity = uniform_average.device_steady_velocity(device, 1.0)
+        force = uniform_average.device_blocking_force(device, 1.0)
+        errors.append(
+            (
+                velocity - steady_velocity(device, 1.0, guess=velocity),
+                force - blocking_force(device, 1.0, guess=force),
+            )
+        )
+    for coarse, fine in zip(*errors, strict=True):
+        assert abs(coarse) < 2e-3, "of v_q, or of N0"
+        assert coarse / fine == pytest.approx(4.0, rel=0.02), "averages err by 1 / Omega"
+
+
+def test_ratio_three_with_the_resonator() -> None:
+    device = Device(friction_law=1)
+    average = uniform_average.device_steady_velocity(device, 0.4, 0.02, 3)
+    found = steady_velocity(device, 0.4, 0.02, 3.0, guess=average)
+    fast = equivalent_force(device).velocity_amplitude
+    assert found == pytest.approx(average, abs=5e-3 * fast)
+
+
+def test_a_load_that_nothing_holds_has_no_steady_motion() -> None:
+    device = unit_device(1.0, 1000.0, 1.0)
+    assert reference_steady_velocity(device, 0.0, 3.0, 1.0, simulate=simulate_lugre) is None
+
+
+@pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
+def test_soft_bristles_are_on_the_slow_manifold(amplitude_ratio: float) -> None:
+    """kappa = 0.01: what the paper's averages say, also of a contact that lifts."""
+    device = unit_device(0.01, 4000.0, amplitude_ratio)
+    case = LugreCase(amplitude_ratio=amplitude_ratio, phase=1.0)
+    velocity = averaged_lugre.steady_velocity(case)
+    force = averaged_lugre.blocking_load(case)
+    assert steady_velocity(device, 1.0, guess=velocity) == pytest.approx(velocity, abs=3e-4), (
+        "(17), up to errors of 1 / Omega"
+    )
+    assert blocking_force(device, 1.0, guess=force) == pytest.approx(force, abs=3e-4), (
+        "(24), up to errors of 1 / Omega"
+    )

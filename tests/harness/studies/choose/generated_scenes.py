@@ -1,0 +1,158 @@
+"""Scenes at random: devices that averaging suits and others, inputs and needs of every kind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, pi
+from pathlib import Path
+
+import numpy as np
+
+from slider_resonator.device.device import Device
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.scenes.scene import Scene, read_scene
+
+COUNT = 200
+STEADY_SHARE = 0.2
+LONGEST = {0: 50_000.0, 1: 8000.0}
+"""Drive periods of the longest run, by friction law."""
+MOST_LOOKS = 3000
+"""Communication points of a scene in its own step."""
+
+
+@dataclass
+class Draw:
+    """Random numbers of one scene."""
+
+    rng: np.random.Generator
+
+    def log(self, low: float, high: float) -> float:
+        return float(np.exp(self.rng.uniform(np.log(low), np.log(high))))
+
+    def uniform(self, low: float, high: float) -> float:
+        return float(self.rng.uniform(low, high))
+
+    def chance(self, share: float) -> bool:
+        return bool(self.rng.uniform() < share)
+
+    def one_of(self, *values: float) -> float:
+        return values[int(self.rng.integers(len(values)))]
+
+
+def generated_scene(seed: int, folder: Path) -> Scene:
+    """Return the scene of a seed, written to and read from a file in `folder`."""
+    draw = Draw(np.random.default_rng([20261121, seed]))
+    device = _device(draw)
+    steady = draw.chance(STEADY_SHARE)
+    law = int(device["friction_law"])
+    periods = draw.log(30.0, LONGEST[law])
+    duration = periods * 2.0 * pi / device["drive_frequency"]
+    inputs = _inputs(draw, Device.from_mapping(device), duration, steady)
+    lines = [f'name = "scene_{seed}"', f'title = "Scene {seed}"', "[device]"]
+    lines += [f"{name} = {value!r}" for name, value in device.items()]
+    lines += ["[inputs]", *(f"{name} = {value}" for name, value in inputs.items())]
+    if not steady:
+        per_period = min(draw.one_of(1.0, 4.0, 16.0), MOST_LOOKS / periods)
+        lines += ["[run]", f"stop_time = {duration!r}", f"steps_per_period = {per_period!r}"]
+    beats = _beats(inputs)
+    tightest = 1e-4 if any("ramp" in given for given in inputs.values()) else 1e-5
+    fast = equivalent_force(Device.from_mapping(device)).velocity_amplitude
+    lines += ["[need]", *_needs(draw, steady, beats, tightest, fast)]
+    if law == 1 and draw.chance(0.5):
+        lines.append('friction_law = "free"')
+    path = folder / f"scene_{seed}.toml"
+    path.write_text("\n".join(lines) + "\n")
+    return read_scene(path)
+
+
+def _device(draw: Draw) -> dict[str, float]:
+    """Return a device whose drive is 0.5 to 100 000 times its friction."""
+    slider, share = draw.log(0.1, 10.0), draw.log(0.005, 0.5)
+    frequency = draw.log(100.0, 35_000.0)
+    preload = draw.log(0.1, 30.0)
+    lift = draw.chance(0.1)
+    coefficient, faces = draw.log(0.02, 1.0), draw.one_of(1, 2)
+    device = {
+        "slider_mass": slider,
+        "resonator_mass": slider * share / (1.0 - share),
+        "drive_frequency": frequency,
+        "resonator_frequency": frequency * (1.0 if draw.chance(0.6) else draw.log(0.5, 2.0)),
+        "damping_ratio": draw.log(1e-3, 0.3),
+        "normal_preload": preload,
+        "normal_amplitude": preload * (draw.uniform(1.0, 2.0) if lift else draw.uniform(0.0, 1.0)),
+        "friction_coefficient": coefficient,
+        "friction_faces": int(faces),
+        "base_amplitude": 1e-4,
+        "friction_law": int(draw.chance(0.45)),
+    }
+    force = equivalent_force(Device.from_mapping(device))
+    strength = draw.log(30.0, 1e5) if draw.chance(0.7) else draw.log(0.5, 30.0)
+    wanted = strength * faces * coefficient * preload
+    device["base_amplitude"] *= wanted / force.amplitude
+    fast = force.velocity_amplitude * wanted / force.amplitude
+    if device["friction_law"]:
+        kappa = draw.log(1e-2, 1e4)
+        device["bristle_stiffness"] = kappa * coefficient * frequency / fast
+        device["bristle_damping"] = draw.log(1e-2, 1.0) * coefficient / fast
+    return device
+
+
+def _inputs(draw: Draw, device: Device, duration: float, steady: bool) -> dict[str, str]:
+    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
+    alpha = device.normal_amplitude / device.normal_preload
+    angle = equivalent_force(device).angle
+    phase = draw.uniform(-pi, pi)
+    blocking = 2.0 / pi * friction * alpha * np.sin(phase + angle)
+    kind = draw.one_of(0, 0, 1, 2, 3)
+    if kind == 0:
+        load = 0.0
+    elif kind == 1:
+        load = blocking * draw.uniform(0.9, 1.1)
+    elif kind == 2:
+        load = blocking * draw.uniform(-1.0, 1.0)
+    else:
+        load = friction * draw.uniform(-0.7, 0.7)
+    inputs = {"phase": repr(phase), "load": repr(float(load))}
+    ratio = draw.one_of(0, 0, 0, 0, 1, 2, 3)
+    if ratio == 1:
+        inputs["frequency_ratio"] = repr(draw.one_of(2.0, 3.0, 5.0, 1.5, 0.0))
+    elif ratio == 2 and not steady:
+        inputs["frequency_ratio"] = repr(1.0 + draw.one_of(-1, 1) * draw.log(1e-4, 0.05))
+    elif ratio == 3 and not steady:
+        inputs["frequency_ratio"] = repr(draw.uniform(0.2, 3.0))
+    if steady or draw.chance(0.5):
+        return inputs
+    times = np.sort([draw.uniform(0.0, duration) for _ in range(ceil(draw.uniform(0.0, 3.0)))])
+    way = "steps" if draw.chance(0.5) else "ramp"
+    loads = [float(load)] + [float(load + friction * draw.uniform(-0.5, 0.5)) for _ in times]
+    phases = [phase] + [phase + draw.uniform(-1.0, 1.0) for _ in times]
+    for name, values in (("load", loads), ("phase", phases)):
+        if draw.chance(0.6):
+            points = zip([0.0, *times.tolist()], values, strict=True)
+            inputs[name] = f"{{ {way} = [{', '.join(f'[{t!r}, {v!r}]' for t, v in points)}] }}"
+    if way == "ramp" and draw.chance(0.2):
+        start, end = draw.uniform(0.9, 1.1), draw.uniform(0.9, 1.1)
+        inputs["frequency_ratio"] = f"{{ ramp = [[0.0, {start!r}], [{duration!r}, {end!r}]] }}"
+    return inputs
+
+
+def _needs(draw: Draw, steady: bool, beats: bool, tightest: float, fast: float) -> list[str]:
+    if steady:
+        names = ["steady_velocity", "blocking_force"]
+    else:
+        names = ["mean_velocity"] * 4 + ["position"] * 2 + ["velocity", "event_times"]
+        names += ["beat"] * 3 * beats
+    chosen = {names[int(draw.rng.integers(len(names)))] for _ in range(ceil(draw.uniform(0, 1.5)))}
+    scale = {"event_times": 1e-2, "beat": 1e-1}
+    lines = []
+    for name in sorted(chosen):
+        share = draw.log(tightest, 0.5) * scale.get(name, 1.0)
+        absolute = name.endswith("velocity") and draw.chance(0.5)
+        tolerance = f"abs = {share * fast!r}" if absolute else f"rel = {share!r}"
+        lines.append(f"{name} = {{ {tolerance} }}")
+    return lines
+
+
+def _beats(inputs: dict[str, str]) -> bool:
+    ratio = inputs.get("frequency_ratio", "1.0")
+    return "ramp" not in ratio and 0.0 < abs(float(ratio) - 1.0) < 0.1

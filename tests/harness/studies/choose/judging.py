@@ -1,0 +1,208 @@
+"""Judging a choice by whole runs: does it meet the needs, and what is the cheapest that does?
+
+Nothing of the chooser's own probe is used here but the list of candidates and their costs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+
+from slider_resonator.checks.measures.frequency import dominant_frequency
+from slider_resonator.device.schedule import Schedule, Signal, schedule
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu.drive import Instance, Record, run
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.schema import STEADY_NEEDS
+from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.studies.choose.candidate import Candidate, Model
+from slider_resonator.studies.choose.choosing import Choice, candidates
+from slider_resonator.studies.choose.cost import search_cost
+from slider_resonator.studies.choose.scales import scales_of
+
+WITHIN = 1.5
+"""How much dearer than the cheapest a choice may be."""
+STEPS_TRIED = 2
+SHOWN = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
+FINE_STEPS = 8
+MOST_POINTS = 25_000
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Errors over what is allowed of the choice, and what cheaper candidate would have done."""
+
+    choice: Choice
+    excess: Mapping[str, float]
+    cheaper: Candidate | None
+    cheaper_cost: float
+
+    @property
+    def met(self) -> bool:
+        """Whether the choice meets every need, or says rightly that nothing does."""
+        if not self.choice.meets:
+            return self.cheaper is None
+        return max(self.excess.values()) <= 1.0
+
+    @property
+    def cheap(self) -> bool:
+        return self.cheaper is None
+
+
+class Judge:
+    """What is true of a scene, from the resolved device in fine steps."""
+
+    def __init__(self, instance: Instance, scene: Scene) -> None:
+        assert scene.need is not None
+        self.instance = instance
+        self.scene = scene
+        self.needs = scene.need.needs
+        self.truth = {"fidelity": 2.0, "friction_law": float(scene.device.friction_law)}
+        self.truth |= {"tolerance": 1e-13}
+        self._found: dict[tuple[object, ...], float | None] = {}
+        self._periods: dict[tuple[object, ...], int] = {}
+        self._records: dict[Candidate, Record] = {}
+        self._true_records: dict[float, Record] = {}
+
+    def excess(self, candidate: Candidate) -> dict[str, float]:
+        """Return errors over allowed errors of a candidate by need."""
+        try:
+            return {name: self._excess(name, candidate) for name in self.needs}
+        except FmuError:
+            return {name: inf for name in self.needs}
+
+    def _excess(self, name: str, candidate: Candidate) -> float:
+        if name in STEADY_NEEDS:
+            true, found = (self._steady(name, p) for p in (self.truth, candidate.parameters))
+            if true is None or found is None:
+                return inf
+            return _over(abs(found - true), self.needs[name].at(true))
+        assert candidate.step is not None
+        record, true = self._record(candidate), self.true_record(candidate.step)
+        error, size = self._error(name, record, true, candidate.step)
+        return _over(error, self.needs[name].at(size))
+
+    def _error(self, name: str, record: Record, true: Record, step: float) -> tuple[float, float]:
+        period = 2.0 * np.pi / self.scene.device.drive_frequency
+        if name == "mean_velocity":
+            return abs(record.final(name) - true.final(name)), abs(true.final(name))
+        if name == "beat":
+            ratio = self.scene.signals["frequency_ratio"].at(0.0)
+            beats = abs(ratio - round(ratio)) / period * 0.5 * float(record.times[-1])
+            if not (0.0 < abs(ratio - round(ratio)) < 0.1 and beats >= 2.0):
+                return inf, 0.0
+            found, there = (_beat(r, step) for r in (record, true))
+            return abs(found - there), there
+        looks = self.scene.schedule().times
+        at, there = (np.searchsorted(r.times, looks) for r in (record, true))
+        assert np.array_equal(record.times[at], true.times[there]), "both are seen at the looks"
+        if name == "event_times":
+            if record.final("reversals") != true.final("reversals"):
+                return inf, period
+            events = true["last_event_time"]
+            shown = record["last_event_time"][at]
+            return float(np.abs(shown[:, None] - np.unique(events)).min(axis=1).max()), period
+        difference = record[name][at] - true[name][there]
+        return float(np.abs(difference).max()), float(np.abs(true[name][there]).max())
+
+    def _record(self, candidate: Candidate) -> Record:
+        if candidate not in self._records:
+            own = replace(self.scene, step_size=candidate.step).schedule()
+            values = {**self.scene.parameters, **candidate.parameters}
+            self._records[candidate] = run(self.instance, values, own, outputs=SHOWN)
+        return self._records[candidate]
+
+    def true_record(self, step: float) -> Record:
+        """Return the resolved run with inputs nearly as they vary, at the points of a run too."""
+        if step not in self._true_records:
+            own = replace(self.scene, step_size=step).schedule()
+            looks = self.scene.schedule().times
+            signals = self.scene.signals
+            times = np.union1d(own.times, looks)
+            if not all(signal.hold for signal in signals.values()):
+                stop, fine = float(own.times[-1]), step / FINE_STEPS
+                fine = max(fine, stop / MOST_POINTS)
+                fine = step / max(2, round(step / fine))
+                grid = schedule(stop, fine, **signals).times
+                corners = [t for s in signals.values() for t in s.times if 0.0 < t < stop]
+                times = np.unique(np.concatenate([times, grid, corners]))
+                middles = np.append(0.5 * (times[1:] + times[:-1]), times[-1])
+                signals = {
+                    name: s if s.hold else Signal(tuple(times), tuple(map(s.at, middles)))
+                    for name, s in signals.items()
+                }
+            values = {**self.scene.parameters, **self.truth}
+            course = Schedule(times, **signals)
+            self._true_records[step] = run(self.instance, values, course, outputs=SHOWN)
+        return self._true_records[step]
+
+    def search_cost(self, candidate: Candidate) -> float:
+        """Return the cost (s) of finding the steady needs with a candidate."""
+        names = [name for name in self.needs if name in STEADY_NEEDS]
+        for name in names:
+            self._steady(name, candidate.parameters)
+        periods = sum(self._periods[name, *candidate.parameters.values()] for name in names)
+        if not names:
+            return 0.0
+        scales = scales_of(self.scene)
+        return search_cost(candidate.model, candidate.tolerance, periods, scales)
+
+    def _steady(self, name: str, parameters: Mapping[str, float]) -> float | None:
+        key = name, *parameters.values()
+        if key not in self._found:
+            self._found[key], self._periods[key] = self._search(name, parameters)
+        return self._found[key]
+
+    def _search(self, name: str, parameters: Mapping[str, float]) -> tuple[float | None, int]:
+        values = {**self.scene.values, **parameters}
+        if parameters["fidelity"] == 0:
+            self.instance.start(values)
+            return self.instance.value(name), 0
+        if name == "steady_velocity":
+            motion = find_steady(self.instance, values)
+            settles = motion.status in ("steady", "stuck")
+            return motion.steady_velocity if settles else None, motion.periods
+        del values["load"]
+        blocked = find_blocking(self.instance, values)
+        settles = blocked.status == "blocked"
+        return blocked.blocking_force if settles else None, blocked.periods
+
+
+def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
+    """Return the verdict on a choice.
+
+    Costs are those of the counts that `slider_resonator.studies.choose.cost` weighs. Of the
+    candidates below two thirds of its cost, or of all where it says that none suffices, the finest
+    of each model are run: a coarser one of the same model is not better.
+    """
+    referee = Judge(instance, scene)
+    excess = referee.excess(Candidate(choice.model, choice.tolerance, choice.step))
+    bound = choice.cost / WITHIN if choice.meets else inf
+    finest: dict[Model, dict[float | None, tuple[Candidate, float]]] = {}
+    for candidate, cost in candidates(instance, scene):
+        cost += referee.search_cost(candidate)
+        if cost < bound:
+            finest.setdefault(candidate.model, {})[candidate.step] = candidate, cost
+    for steps in finest.values():
+        for step in sorted(steps, key=lambda step: step or 0.0)[:STEPS_TRIED]:
+            candidate, cost = steps[step]
+            if max(referee.excess(candidate).values()) <= 1.0:
+                return Verdict(choice, excess, candidate, cost)
+    return Verdict(choice, excess, None, inf)
+
+
+def _over(error: float, allowed: float) -> float:
+    return error / allowed if allowed > 0.0 else inf if error > 0.0 else 0.0
+
+
+def _beat(record: Record, step: float) -> float:
+    """Return the frequency (Hz) from the later half of the points at equal steps (s)."""
+    grid = step * np.arange(int(record.times[-1] / step * (1.0 + 1e-9)) + 1)
+    grid = grid[grid <= record.times[-1]]
+    later = grid[len(grid) // 2 :]
+    at = np.searchsorted(record.times, later)
+    return dominant_frequency(later, record["mean_velocity"][at])

@@ -1,0 +1,35 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.studies.choose.candidate import TOLERANCES, Candidate, Model
+from slider_resonator.studies.choose.cost import run_cost
+from slider_resonator.studies.choose.scales import scales_of
+from tests.harness.studies.choose.scene_text import scene_of
+
+
+def test_what_is_more_exact_costs_more(tmp_path: Path) -> None:
+    scales = scales_of(scene_of(tmp_path, ""))
+    models = [Model(fidelity, law) for law in (0, 1) for fidelity in (0, 1, 2)]
+    costs = [run_cost(Candidate(model, 1e-8, 1.0), scales, 10.0, 10) for model in models]
+    assert costs[0] < costs[1] < costs[2] < costs[4] < costs[5]
+    assert costs[0] < costs[3] < costs[4]
+    tolerances = [run_cost(Candidate(models[5], t, 1.0), scales, 10.0, 10) for t in TOLERANCES]
+    assert tolerances == sorted(tolerances)
+
+
+def test_resolved_motion_costs_by_the_period_and_averaged_motion_does_not(tmp_path: Path) -> None:
+    slow = scales_of(scene_of(tmp_path, ""))
+    fast = scales_of(
+        scene_of(
+            tmp_path,
+            "[device]\ndrive_frequency = 35000.0\nresonator_frequency = 35000.0\n"
+            "base_amplitude = 1e-5\n",
+        )
+    )
+    resolved, averaged = (Candidate(Model(fidelity, 0), 1e-8, 100.0) for fidelity in (2, 0))
+    for candidate, ratio in ((resolved, 10.0), (averaged, 1.0)):
+        costs = [run_cost(candidate, scales, 100.0, 1) for scales in (fast, slow)]
+        assert costs[0] / costs[1] == pytest.approx(ratio, rel=1e-2)

@@ -1,0 +1,102 @@
+"""The choice for 200 scenes at random, each judged by whole runs."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.references.resolved import located_events
+from slider_resonator.studies.choose.choosing import choose_with
+from tests.harness.studies.choose.generated_scenes import COUNT, generated_scene
+from tests.harness.studies.choose.judging import Judge, Verdict, judge
+
+CHUNK = 25
+REFEREED = (46, 50)
+"""Short scenes with Coulomb friction, whose inputs do not vary but by jumps."""
+
+
+def verdicts(instance: Instance, seeds: range, folder: Path) -> list[Verdict]:
+    """Choose and judge, and print what the table of a run shows: share met, share cheap, time."""
+    found, longest = [], 0.0
+    for seed in seeds:
+        scene = generated_scene(seed, folder)
+        began = time.process_time()
+        choice = choose_with(instance, scene)
+        longest = max(longest, time.process_time() - began)
+        found.append(judge(instance, scene, choice))
+    print(
+        f"scenes {seeds.start} to {seeds.stop - 1}: "
+        f"{sum(v.met for v in found)} of {len(found)} meet their needs, "
+        f"{sum(v.cheap for v in found)} within 1.5 of the cheapest, "
+        f"the longest answer took {longest:.2f} s of CPU time"
+    )
+    return found
+
+
+def described(verdict: Verdict, seed: int) -> str:
+    choice = verdict.choice
+    return (
+        f"scene {seed}: {choice.model.name}, step {choice.step}, tolerance {choice.tolerance:g}, "
+        f"{choice.reason}; errors over allowed {dict(verdict.excess)}; cost {choice.cost:.3g} s, "
+        f"cheaper {verdict.cheaper} at {verdict.cheaper_cost:.3g} s"
+    )
+
+
+def judged(instance: Instance, seeds: range, folder: Path) -> None:
+    found = verdicts(instance, seeds, folder)
+    told = [described(verdict, seed) for verdict, seed in zip(found, seeds, strict=True)]
+    wrong = [text for verdict, text in zip(found, told, strict=True) if not verdict.met]
+    dear = [text for verdict, text in zip(found, told, strict=True) if not verdict.cheap]
+    assert not wrong, "\n".join(["chosen, but does not meet the needs:", *wrong])
+    assert len(dear) <= 0.1 * len(found), "\n".join(["more than 1.5 of the cheapest:", *dear])
+
+
+def test_choices_for_the_first_scenes_meet_the_needs_at_little_cost(
+    instance: Instance, tmp_path: Path
+) -> None:
+    judged(instance, range(10), tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(0, COUNT, CHUNK))
+def test_choices_meet_the_needs_at_little_cost(
+    instance: Instance, tmp_path: Path, first: int
+) -> None:
+    judged(instance, range(first, first + CHUNK), tmp_path)
+
+
+def test_the_scenes_span_what_averaging_suits_and_what_it_does_not(tmp_path: Path) -> None:
+    scenes = [generated_scene(seed, tmp_path) for seed in range(COUNT)]
+    devices = [scene.device for scene in scenes]
+    assert 0.3 < np.mean([device.friction_law for device in devices]) < 0.6
+    assert min(device.damping_ratio for device in devices) < 0.002
+    assert min(device.drive_frequency for device in devices) < 150.0
+    assert any(device.normal_amplitude > device.normal_preload for device in devices)
+    ratios = [scene.signals["frequency_ratio"].at(0.0) for scene in scenes]
+    assert any(0.0 < abs(ratio - 1.0) < 0.01 for ratio in ratios)
+    assert sum(not all(s.hold for s in scene.signals.values()) for scene in scenes) > 20
+    needed = {name for scene in scenes if scene.need for name in scene.need.needs}
+    assert len(needed) == 7, "every need is asked for"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", REFEREED)
+def test_the_judge_agrees_with_a_referee_that_shares_no_code(
+    instance: Instance, tmp_path: Path, seed: int
+) -> None:
+    scene = generated_scene(seed, tmp_path)
+    assert scene.step_size is not None
+    assert scene.device.friction_law == 0
+    assert all(signal.hold for signal in scene.signals.values())
+    record = Judge(instance, scene).true_record(scene.step_size)
+    schedule = scene.schedule()
+    at = np.searchsorted(record.times, schedule.times)
+    true = located_events.simulate(scene.device, schedule.held(), schedule.times)
+    for name in ("position", "velocity"):
+        reference = getattr(true, name)
+        off = float(np.abs(record[name][at] - reference).max() / np.abs(reference).max())
+        assert off < 1e-9, f"{name} is off by {off:.2g} of its peak"

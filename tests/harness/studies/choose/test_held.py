@@ -1,0 +1,60 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.studies.choose.held import as_meant, as_run, vary
+from tests.harness.studies.choose.scene_text import scene_of
+
+RAMP = (
+    "[inputs]\nload = { ramp = [[0, 0], [0.03, 0.3], [0.1, 0]] }\n"
+    "phase = { steps = [[0, 0.2], [0.051, 0.7]] }\n"
+    "frequency_ratio = { ramp = [[0, 1], [0.05, 1.5]] }\n"
+    "[run]\nstop_time = 0.1\nstep_size = 0.007\n"
+)
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Scene:
+    return scene_of(tmp_path, RAMP)
+
+
+def test_a_run_holds_what_the_schedule_of_the_scene_samples(scene: Scene) -> None:
+    held, schedule = as_run(scene, 0.1, 0.007), scene.schedule()
+    assert np.array_equal(held.times, schedule.times)
+    assert np.array_equal(held.values, schedule.sampled())
+
+
+@pytest.mark.parametrize("step", [0.011, 0.002])
+def test_inputs_as_meant_give_their_impulse_exactly(scene: Scene, step: float) -> None:
+    held = as_meant(scene, 0.1, step)
+    lengths = np.diff(held.times)
+    load, _, ratio = (lengths @ held.values[:-1, column] for column in (1, 0, 2))
+    assert load == pytest.approx(0.5 * 0.3 * 0.1, rel=1e-12)
+    assert ratio == pytest.approx(0.05 * 1.25 + 0.05 * 1.5, rel=1e-12)
+
+
+def test_a_stretch_carries_the_turns_before_it_in_its_phase(scene: Scene) -> None:
+    held = as_meant(scene, 0.08, 0.001, 0.06)
+    stretch = held.stretch(0.06, 0.08, np.array([0.0651]), 100.0)
+    assert stretch.times[0] == 0.0
+    assert stretch.times[-1] == pytest.approx(0.02)
+    assert np.abs(stretch.times - 0.0051).min() < 1e-15
+    assert stretch.frequency_ratio.at(0.0) == 1.5
+    assert stretch.phase.at(0.0) == pytest.approx(0.7 + (100.0 * 0.06 * 1.5) % (2.0 * np.pi))
+    assert stretch.load.at(0.0201) == pytest.approx(0.3 * 2.0 / 7.0, abs=0.003)
+
+
+def test_only_what_changes_within_the_run_other_than_by_jumps_varies(tmp_path: Path) -> None:
+    run = "[run]\nstop_time = 0.1\nstep_size = 0.01\n"
+    for text, varies in (
+        ("load = 1.0", False),
+        ("load = { steps = [[0, 0], [0.05, 1]] }", False),
+        ("load = { ramp = [[0, 0], [0.05, 1]] }", True),
+        ("load = { ramp = [[0.2, 0], [0.3, 1]] }", False),
+        ("load = { ramp = [[0.05, 2], [0.07, 2]] }", False),
+    ):
+        assert vary(scene_of(tmp_path, f"[inputs]\n{text}\n{run}"), 0.1) is varies, text

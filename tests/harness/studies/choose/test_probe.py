@@ -1,0 +1,63 @@
+"""How much of a scene is resolved to confirm a choice."""
+
+from __future__ import annotations
+
+from math import inf
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.fmu.drive import Instance
+from slider_resonator.studies.choose.candidate import Candidate, Model
+from slider_resonator.studies.choose.probe import CAUTION, HEAD_PERIODS, SHORT, Probe
+from tests.harness.studies.choose.scene_text import scene_of
+
+RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.1\n[need]\n{} = {{ rel = 0.1 }}\n"
+
+
+@pytest.mark.parametrize(
+    ("periods", "inputs", "device", "covers"),
+    [
+        (SHORT, "", "", "whole"),
+        (20_000, "", "", "windows"),
+        (1e6, "load = { ramp = [[0, 0], [100, 0.1]] }", "", "windows"),
+        (20_000, "frequency_ratio = 1.01", "", "whole"),
+        (1e6, "frequency_ratio = 1.01", "", "beginning"),
+        (20_000, "", "damping_ratio = 1e-3", "whole"),
+        (1e6, "", "damping_ratio = 1e-3", "beginning"),
+        (1e6, "", "base_amplitude = 1e-7", "beginning"),
+        (20_000, "", "friction_law = 1\ndamping_ratio = 1e-3", "beginning"),
+    ],
+)
+def test_a_scene_is_resolved_in_windows_where_averaged_motion_can_tell_what_lies_between(
+    instance: Instance, tmp_path: Path, periods: float, inputs: str, device: str, covers: str
+) -> None:
+    """Not beats that are faster than the windows lie, a long memory, nor friction that sticks."""
+    text = f"[inputs]\n{inputs}\n[device]\n{device}\n{RUN.format(periods, 'mean_velocity')}"
+    probe = Probe(instance, scene_of(tmp_path, text))
+    assert probe.covers == covers
+    if covers == "whole":
+        assert probe.probed_duration == probe.duration
+    else:
+        assert probe.probed_duration <= HEAD_PERIODS * probe.scales.period * (1.0 + 1e-12)
+
+
+def test_of_a_scene_that_only_its_beginning_tells_nothing_but_the_device_is_confirmed(
+    instance: Instance, tmp_path: Path
+) -> None:
+    text = f"[inputs]\nfrequency_ratio = 1.01\n{RUN.format(1e6, 'position')}"
+    probe = Probe(instance, scene_of(tmp_path, text))
+    step = probe.scene.step_size
+    averaged = probe.run_errors(Candidate(Model(0, 0), 1e-8, step))["position"]
+    resolved = probe.run_errors(Candidate(Model(2, 0), 1e-8, step))["position"]
+    assert averaged.error == inf
+    assert "too long" in averaged.reason
+    grown = CAUTION * 1e6 / HEAD_PERIODS
+    assert resolved.error == pytest.approx(grown * 1e-12 * resolved.size)
+
+
+def test_the_resolved_periods_are_counted(instance: Instance, tmp_path: Path) -> None:
+    probe = Probe(instance, scene_of(tmp_path, RUN.format(500, "mean_velocity")))
+    for fidelity in (0, 1, 2):
+        probe.run_errors(Candidate(Model(fidelity, 0), 1e-8, probe.duration))
+    assert probe.drive_periods == pytest.approx(3 * 500.0)

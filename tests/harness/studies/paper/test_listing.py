@@ -1,0 +1,63 @@
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+from slider_resonator.studies.paper import figure_2
+from slider_resonator.studies.paper.claim import AGREES, DISAGREES, Claim, near
+from slider_resonator.studies.paper.listing import (
+    verdicts,
+    write_claims,
+    write_figures,
+    write_tables,
+)
+from slider_resonator.studies.paper.table import PaperTable
+
+CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, AGREES, "it | does", True)
+
+
+def test_claims_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
+    wrong = replace(CLAIM, name="other", verdict=DISAGREES, confirmed=False)
+    write_claims(tmp_path, [("All", [CLAIM.plain(), wrong.plain()])], "a.fmu", "guid")
+    claims = json.loads((tmp_path / "claims.json").read_text(encoding="utf-8"))["claims"]
+    assert [claim["confirmed"] for claim in claims] == [True, False]
+    table = (tmp_path / "claims.md").read_text(encoding="utf-8")
+    assert "| It moves | (5) | v m per s 0.5 | agrees | it \\| does |" in table
+    assert "**NOT CONFIRMED**" in table
+
+
+def test_verdicts_are_counted() -> None:
+    wrong = replace(CLAIM, confirmed=False)
+    assert verdicts([CLAIM.plain(), CLAIM.plain(), wrong.plain()]) == (
+        "3 statements: 2 agrees, 1 not confirmed."
+    )
+
+
+def test_figures_are_listed_with_their_captions(tmp_path: Path) -> None:
+    write_figures(tmp_path, [figure_2.FIGURE], "a.fmu", "guid")
+    text = (tmp_path / "FIGURES.md").read_text(encoding="utf-8")
+    assert "(figure_2.png)" in text
+    assert figure_2.FIGURE.caption in text
+
+
+def test_near_is_relative() -> None:
+    assert near(-1.01, -1.0, 0.02)
+    assert not near(1.03, 1.0, 0.02)
+
+
+def test_tables_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
+    columns = {"kappa": "kappa", "error": "theory / FMU - 1"}
+    table = PaperTable("forces", "Forces", "In N.", columns, {"error": 0.1}, {}, lambda i, p: {})
+    right = {"rows": [{"kappa": 1.0, "error": -0.05}, {"kappa": 10.0, "error": 0.02}]}
+    write_tables(tmp_path, [(table, right)], "a.fmu", "guid")
+    text = (tmp_path / "TABLES.md").read_text(encoding="utf-8")
+    assert "## forces: Forces" in text
+    assert "| kappa | theory / FMU - 1 |\n|---|---|\n| 1 | -0.05 |\n| 10 | 0.02 |" in text
+    assert "Largest theory / FMU - 1: 0.05, allowed 0.1." in text
+    content = json.loads((tmp_path / "forces.json").read_text(encoding="utf-8"))
+    assert content["rows"] == right["rows"]
+    assert (content["largest"], content["allowed"]) == ({"error": 0.05}, {"error": 0.1})
+    wrong = {"rows": [{"kappa": 1.0, "error": -0.5}]}
+    write_tables(tmp_path, [(table, wrong)], "a.fmu", "guid")
+    assert "**NOT CONFIRMED**" in (tmp_path / "TABLES.md").read_text(encoding="utf-8")

@@ -1,0 +1,103 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.studies.sweep.grid import Sweep, read_grid
+
+
+def _read(tmp_path: Path, text: str) -> Sweep:
+    path = tmp_path / "grid.toml"
+    path.write_text(text, encoding="utf-8")
+    return read_grid(path)
+
+
+def test_the_last_axis_varies_fastest_and_ends_are_exact(tmp_path: Path) -> None:
+    sweep = _read(
+        tmp_path, "[grid]\nphase = [0.0, 1.0]\nload = { from = 0.0, to = 0.3, count = 3 }"
+    )
+    assert sweep.task.names == ("phase", "load")
+    assert sweep.points == ((0, 0), (0, 0.15), (0, 0.3), (1, 0), (1, 0.15), (1, 0.3))
+    assert sweep.is_grid
+
+
+def test_a_log_axis_has_equal_ratios(tmp_path: Path) -> None:
+    axis = '{ from = 1e3, to = 1e7, count = 5, spacing = "log" }'
+    sweep = _read(tmp_path, f"[grid]\nbristle_stiffness = {axis}")
+    assert [v for (v,) in sweep.points] == pytest.approx([1e3, 1e4, 1e5, 1e6, 1e7], rel=1e-14)
+
+
+def test_grid_list_and_random_are_combined(tmp_path: Path) -> None:
+    text = (
+        "[grid]\nphase = [0.0, 1.0]\n[list]\nload = [0.0, 0.1]\nfrequency_ratio = [1, 3]\n"
+        "[random]\ncount = 5\nseed = 7\ndamping_ratio = { from = 0.01, to = 0.1 }"
+    )
+    sweep = _read(tmp_path, text)
+    assert sweep.task.names == ("phase", "load", "frequency_ratio", "damping_ratio")
+    assert len(sweep.points) == 2 * 2 * 5
+    assert {point[1:3] for point in sweep.points} == {(0.0, 1.0), (0.1, 3.0)}, "side by side"
+    assert all(0.01 <= point[3] <= 0.1 for point in sweep.points)
+    assert not sweep.is_grid
+
+
+def test_a_seed_gives_the_same_sample_and_another_seed_another(tmp_path: Path) -> None:
+    def sample(seed: int) -> tuple[tuple[float, ...], ...]:
+        text = f"[random]\ncount = 3\nseed = {seed}\nload = {{ from = 0, to = 1 }}"
+        return _read(tmp_path, text).points
+
+    assert sample(1) == sample(1)
+    assert sample(1) != sample(2)
+    assert sample(1)[0][0] == 0.13436424411240122, "the first number of Python's generator"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "nothing is varied"),
+        ("[grid]\nfase = [1.0]", "unknown parameter or input 'fase'; did you mean 'phase'"),
+        ("[grid]\nphase = 1.0", r"grid\.phase = 1\.0: allowed is a list"),
+        ("[grid]\nphase = []", r"grid\.phase = \[\]: allowed is a list"),
+        ("[grid]\nphase = [nan]", r"grid\.phase = nan: allowed is a finite number"),
+        ("[grid]\nphase = { from = 0, to = 1 }", r"grid\.phase\.count is missing: allowed is"),
+        ("[grid]\nphase = { to = 1, count = 2 }", r"grid\.phase\.from is missing: allowed is"),
+        ("[grid]\nphase = { from = 0, to = 1, count = 1 }", r"count = 1: allowed is a whole"),
+        ("[grid]\nphase = { from = 0, to = 1, cuont = 2 }", "unknown key 'cuont'"),
+        ('[grid]\nphase = { from = 0, to = 1, count = 2, spacing = "log" }', "numbers above 0"),
+        ("[grid]\nfriction_law = [0.5]", "friction_law = 0.5: allowed is an integer"),
+        ("[grid]\nphase = [0]\n[list]\nphase = [1]", "phase is given more than once"),
+        ("[grid]\nphase = [0]\n[fixed]\nphase = 1", "phase is given more than once"),
+        ("[fixed]\nload = 'a'\n[grid]\nphase = [0]", "load = 'a': allowed is a finite number"),
+        ("[list]\nphase = [0]\nload = [0, 1]", r"the lengths differ \(phase 1, load 2\)"),
+        ("[random]\nload = { from = 0, to = 1 }", r"random\.count is missing: allowed is"),
+        ("[random]\ncount = 2\nseed = 1", r"\[random\]: no variable"),
+        ("measures = ['speed']\n[grid]\nphase = [0]", "unknown measure 'speed'"),
+        ("measures = ['velocity.men']\n[grid]\nphase = [0]", "did you mean 'mean'"),
+        ("measures = ['velocty.rms']\n[grid]\nphase = [0]", "did you mean 'velocity'"),
+        ("measures = [['speed']]\n[grid]\nphase = [0]", r"measure \['speed'\]: allowed is a name"),
+        ("measures = []\n[grid]\nphase = [0]", r"measures = \[\]"),
+        ("title = 3\n[grid]\nphase = [0]", "title = 3: allowed is a text"),
+        ("grit = 1", "unknown key 'grit'; did you mean 'grid'"),
+        ("grid = 1", "grid = 1: allowed is a table"),
+        ("[grid]\nphase = [0]\n[run]\nskip_periods = 100", "below drive_periods = 100"),
+        ("[grid]\nphase = [0]\n[run]\nsteps_per_period = 0", "steps_per_period = 0: allowed"),
+        (
+            "[grid]\nphase = { from = 0, to = 1, count = 100000 }\n"
+            "load = { from = 0, to = 1, count = 100000 }",
+            "10000000000 points; allowed are 10000000",
+        ),
+        ("[grid", "not TOML"),
+    ],
+)
+def test_a_grid_that_makes_no_sense_is_refused_with_name_value_and_what_is_allowed(
+    text: str, words: str, tmp_path: Path
+) -> None:
+    with pytest.raises(HarnessError, match=words) as refusal:
+        _read(tmp_path, text)
+    assert "grid.toml: " in str(refusal.value)
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(HarnessError, match=r"none\.toml: cannot be read"):
+        read_grid(tmp_path / "none.toml")

@@ -1,0 +1,56 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.studies.sweep import picture
+from slider_resonator.studies.sweep.grid import read_grid
+from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
+from slider_resonator.studies.sweep.table import table_columns
+from slider_resonator.studies.sweep.worker import Row
+
+AXIS = "{ from = 0.0, to = 1.0, count = 8 }"
+
+
+@pytest.mark.parametrize(
+    ("text", "drawn"),
+    [
+        (f"[grid]\nphase = {AXIS}", "line"),
+        (f"[grid]\nphase = {AXIS}\nload = [0.0, 0.1]", "line"),
+        (f"[grid]\nphase = {AXIS}\nload = {AXIS}", "pcolormesh"),
+        ("[list]\nphase = [0.0, 0.1]\nload = [0.0, 0.1]", "scatter"),
+    ],
+)
+def test_lines_maps_and_samples_are_drawn_with_gaps_for_failures(
+    text: str, drawn: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    used: list[str] = []
+    methods = {"line": "plot", "pcolormesh": "pcolormesh", "scatter": "scatter"}
+    for kind, method in methods.items():
+        original = getattr(picture.Axes, method)
+
+        def noted(
+            *args: object, _kind: str = kind, _do: object = original, **more: object
+        ) -> object:
+            used.append(_kind)
+            return _do(*args, **more)  # type: ignore[operator]
+
+        monkeypatch.setattr(picture.Axes, method, noted)
+    (tmp_path / "grid.toml").write_text(text, encoding="utf-8")
+    sweep = read_grid(tmp_path / "grid.toml")
+    rows: dict[int, Row] = {
+        n: (n, [float(n) - 3.0, "steady"], None) for n in range(len(sweep.points))
+    }
+    rows[1] = (1, [None, None], "refused")
+    draw_sweep(sweep, table_columns(sweep.task, sweep.points, rows), tmp_path / "a.png")
+    assert used[0] == drawn, "a colour bar may follow"
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_three_variables_have_no_picture(tmp_path: Path) -> None:
+    path = tmp_path / "grid.toml"
+    path.write_text("[grid]\nphase = [0]\nload = [0]\nfriction_law = [0]", encoding="utf-8")
+    with pytest.raises(HarnessError, match=r"3 variables.*allowed are one"):
+        check_picture(read_grid(path))

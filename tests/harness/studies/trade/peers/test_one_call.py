@@ -1,0 +1,27 @@
+"""One call of heyoka: what it covers, and what it is charged for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.studies.trade.peer_methods import peer_methods
+from slider_resonator.studies.trade.peers.registry import peers
+from tests.harness.studies.trade.scenes import RAMP, TABLE_1, task
+
+
+def test_one_call_of_heyoka_covers_no_inputs_that_vary(tmp_path: Path) -> None:
+    ramp = task(tmp_path, RAMP)
+    peer = next(peer for peer in peers(ramp) if peer.family == "heyoka at its fastest")
+    with pytest.raises(ValueError, match="inputs vary"):
+        peer.follow(ramp.device, ramp.held(4), ramp.readings(4))
+
+
+def test_being_led_into_motion_is_not_charged(tmp_path: Path) -> None:
+    short = task(tmp_path, TABLE_1, most_periods=4)
+    by_family = {method.label.family: method for method in peer_methods(short)}
+    led = by_family["heyoka at its fastest"].run(4)
+    assert led.start_cpu is not None
+    assert led.start_cpu > 0.0
+    assert by_family["Moreau-Jean"].run(4).start_cpu is None, "it starts by itself"

@@ -1,0 +1,58 @@
+"""Every peer follows the same motion."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.references.resolved import taylor
+from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from slider_resonator.studies.trade.motion import errors, windows
+from slider_resonator.studies.trade.peers.peer import Peer, motion_of
+from slider_resonator.studies.trade.peers.registry import peers
+from slider_resonator.studies.trade.task import Task
+from tests.harness.studies.trade.scenes import LUGRE, TABLE_1, task
+
+PERIODS = 4
+UNDAMPED_RESONANCE = """
+[device]
+damping_ratio = 0.0
+resonator_mass = 1.0
+resonator_frequency = 2474.8737341529163
+"""
+EXACT = {"heyoka", "DOP853 with", "LSODA with", "CVODE with", "LSODA, bristle", "CVODE BDF"}
+"""Families whose error is what their tolerance asks for."""
+
+
+def most_exact(task: Task) -> list[Peer]:
+    by_family = {peer.family: peer for peer in peers(task)}
+    return [peer for peer in by_family.values() if not peer.family.startswith("DOP853 on sgn")]
+
+
+@pytest.mark.parametrize("text", [TABLE_1, LUGRE])
+def test_the_last_setting_of_each_family_is_near_the_referee(tmp_path: Path, text: str) -> None:
+    short = task(tmp_path, text, most_periods=PERIODS)
+    simulate = simulate_lugre if short.device.friction_law else taylor.simulate
+    run = simulate(short.device, short.truth(PERIODS), short.readings(PERIODS))
+    truth = windows(short, motion_of(run, located=True), PERIODS)
+    for peer in most_exact(short):
+        if peer.family.startswith("Radau"):
+            continue
+        motion = peer.follow(short.device, short.held(PERIODS), short.readings(PERIODS))
+        found = errors(short, motion, truth, PERIODS)
+        exact = any(peer.family.startswith(family) for family in EXACT)
+        allowed = 1e-6 if exact else 5e-2
+        compared = "slow_displacement" if peer.family.startswith("averaged") else "velocity"
+        assert found[compared] < allowed, f"{peer.family}: {found}"
+        assert ("event_times" in found) == ("event_times" not in peer.missing), peer.family
+
+
+def test_a_width_in_fast_velocities_needs_a_steady_vibration(tmp_path: Path) -> None:
+    resonant = task(tmp_path, UNDAMPED_RESONANCE, most_periods=PERIODS)
+    by_family = {peer.family: peer for peer in peers(resonant)}
+    assert "Moreau-Jean" in by_family, "the others follow resonance as it grows"
+    with pytest.raises(ValueError, match="there is no steady state"):
+        by_family["tanh, LSODA"].follow(
+            resonant.device, resonant.held(PERIODS), resonant.readings(PERIODS)
+        )

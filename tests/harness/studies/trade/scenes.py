@@ -1,0 +1,42 @@
+"""Tasks that the tests of the trade share, short ones."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from slider_resonator.scenes.scene import read_scene
+from slider_resonator.studies.trade.task import Task, task_of
+
+HEAD = 'name = "mine"\ntitle = "Mine"\n'
+
+
+def task(folder: Path, text: str, most_periods: int | None = None) -> Task:
+    path = folder / "mine.toml"
+    path.write_text(HEAD + text)
+    return task_of(read_scene(path), {}, most_periods)
+
+
+TABLE_1 = ""
+LUGRE = "[device]\nfriction_law = 1\nbristle_stiffness = 1e4\n"
+RAMP = """
+[inputs]
+load = { ramp = [[0.0, 0.0], [0.02, 0.1]] }
+[run]
+drive_periods = 16
+steps_per_period = 8
+"""
+JUMPS = """
+[inputs]
+load = { steps = [[0.0, 0.0], [0.0101, 0.05]] }
+[run]
+drive_periods = 16
+steps_per_period = 8
+"""
+BEAT = """
+[inputs]
+frequency_ratio = 1.05
+[run]
+drive_periods = 1600
+steps_per_period = 1
+"""
+STICKING = "[device]\nbase_amplitude = 5e-8\n"

@@ -1,0 +1,34 @@
+"""The page: self-contained, with the ratios at its top and what is missing at its end."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from slider_resonator.studies.trade.page import write_trades
+from slider_resonator.studies.trade.plots import draw_picture
+from slider_resonator.studies.trade.result import Omission
+from tests.harness.studies.trade.test_needs import TRADE
+
+
+def test_a_page_stands_alone(tmp_path: Path) -> None:
+    gone = Omission("s", "slow <method>", "all", "more than its budget")
+    trade = replace(TRADE, title="A & B", uncertainty=2e-7, omissions=(gone,))
+    write_trades(tmp_path / "index.html", [trade])
+    text = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "http" not in text.replace("http-equiv", ""), "nothing is fetched"
+    assert text.index("at an error of 1e-09 in position") < text.index("data:image/png")
+    assert "A &amp; B" in text
+    assert "slow &lt;method&gt;" in text
+    assert "an uncertainty of 2e-07" in text
+    assert "averaged: not reached" in text
+
+
+def test_a_quantity_that_nobody_has_gets_no_plot(tmp_path: Path) -> None:
+    write_trades(tmp_path / "index.html", [TRADE])
+    assert (tmp_path / "index.html").read_text(encoding="utf-8").count("<img") == 1
+
+
+def test_the_picture_is_drawn_where_a_quantity_is_missing_too(tmp_path: Path) -> None:
+    draw_picture(TRADE, tmp_path / "trade.png")
+    assert (tmp_path / "trade.png").read_bytes().startswith(b"\x89PNG")

@@ -1,0 +1,21 @@
+"""Shooting with any integrator, within a budget."""
+
+from __future__ import annotations
+
+from math import inf
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.references.resolved import taylor
+from slider_resonator.studies.trade.shooting import shoot
+from tests.harness.studies.trade.scenes import TABLE_1, task
+
+
+def test_any_integrator_can_be_shot_with(tmp_path: Path) -> None:
+    table_1 = task(tmp_path, TABLE_1)
+    found = shoot(table_1, "steady_velocity", taylor.simulate, 1e-9, inf)
+    assert found.value == pytest.approx(0.12666700, rel=1e-7)
+    assert 30 <= found.periods <= 100, "a long run needs thousands"
+    with pytest.raises(RuntimeError, match="more than its budget of 0 s"):
+        shoot(table_1, "steady_velocity", taylor.simulate, 1e-9, 0.0)

@@ -1,0 +1,85 @@
+"""What counts as a change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from slider_resonator.checks.compare import Check, Measurement
+from slider_resonator.checks.verdict import sentence
+from slider_resonator.errors import SceneError
+from slider_resonator.scenes.scene import Scene, find_scene, read_scene
+from slider_resonator.trials.baseline.judge import compared
+
+TIMES = np.linspace(0.0, 0.1, 48)
+WAVE = 1e-3 * np.sin(500.0 * TIMES)
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return read_scene(find_scene("table_1"))
+
+
+def judged(scene: Scene, name: str, golden: Any, now: Any, tolerance: float = 1e-8) -> Check:
+    def measured(value: Any) -> Mapping[str, Measurement]:
+        times = TIMES[: len(value)] if isinstance(value, np.ndarray) else None
+        return {name: Measurement(value, times=times)}
+
+    (one,) = compared(scene, {}, measured(golden), measured(now), tolerance)
+    return one.check
+
+
+@pytest.mark.parametrize(
+    ("name", "golden", "now", "passed"),
+    [
+        ("steady_velocity", 0.1, 0.1 * (1 + 9e-9), True),
+        ("steady_velocity", 0.1, 0.1 * (1 + 2e-8), False),
+        ("steady_velocity", 0.0, 1e-12, True),
+        ("steady_velocity", 0.0, 1e-9, False),
+        ("steady_velocity", None, None, True),
+        ("steady_velocity", 0.1, None, False),
+        ("steady_velocity", None, 0.1, False),
+        ("steady_status", "steady", "steady", True),
+        ("steady_status", "steady", "unstable", False),
+        ("reversals", 199.0, 199.0, True),
+        ("reversals", 199.0, 200.0, False),
+        ("position", WAVE, WAVE * (1 + 9e-9), True),
+        ("position", WAVE, WAVE * (1 + 2e-8), False),
+        ("position", WAVE, np.roll(WAVE, 1), False),
+        ("contact_mode", np.sign(WAVE), np.sign(WAVE), True),
+        ("contact_mode", np.sign(WAVE), -np.sign(WAVE), False),
+        ("event_times", 557.0 * TIMES, 557.0 * TIMES + 9e-9, True),
+        ("event_times", 557.0 * TIMES, 557.0 * TIMES + 2e-8, False),
+    ],
+)
+def test_what_counts_as_a_change(
+    scene: Scene, name: str, golden: Any, now: Any, passed: bool
+) -> None:
+    verdict = judged(scene, name, golden, now)
+    assert verdict.passed is passed, sentence(verdict)
+    assert verdict.against == "baseline"
+
+
+def test_a_change_says_by_how_much_and_where(scene: Scene) -> None:
+    now = WAVE.copy()
+    now[20:] += 1e-6
+    verdict = judged(scene, "position", WAVE, now)
+    assert verdict.first_time == TIMES[20]
+    assert sentence(verdict).startswith("off by 0.001 of the peak")
+
+
+def test_other_points_are_no_change_but_another_run(scene: Scene) -> None:
+    with pytest.raises(SceneError, match="has other points"):
+        judged(scene, "position", WAVE, WAVE[:20])
+
+
+def test_what_is_new_or_gone_has_changed(scene: Scene) -> None:
+    golden = {"reversals": Measurement(199.0)}
+    (new,) = compared(scene, {}, {}, golden, 1e-8)
+    (gone,) = compared(scene, {}, golden, {}, 1e-8)
+    assert not new.check.passed
+    assert not gone.check.passed
+    assert "does not allow it" in sentence(gone.check)

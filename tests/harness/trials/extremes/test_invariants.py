@@ -1,0 +1,123 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.trials.extremes.cell import Cell, Hold, Model
+from slider_resonator.trials.extremes.judge import MOST_COST, judge
+from slider_resonator.trials.extremes.observe import NAMES, Observation, observe
+from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFUSED
+
+TABLE_1 = Cell("table 1", "as it is", Model(2, 0), {}, (Hold(1e-4, 60),))
+
+
+@pytest.fixture(scope="module")
+def seen(native_fmu: Path) -> Observation:
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        return observe(instance, TABLE_1)
+
+
+def changed(seen: Observation, name: str, change: float) -> Observation:
+    """Add to one output, at the last point only."""
+    outputs = seen.outputs.copy()
+    outputs[-1, NAMES.index(name)] += change
+    return replace(seen, outputs=outputs)
+
+
+def test_table_1_passes(seen: Observation) -> None:
+    verdict = judge(TABLE_1, seen)
+    assert verdict.verdict == PASSED, verdict.reason
+    assert {"momentum", "phase of the normal load", "referee"} <= {c.name for c in verdict.checks}
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "check"),
+    [
+        ("position", float("nan"), "finite"),
+        ("steady_velocity", float("inf"), "finite"),
+        ("normal_force", 1e-6, "phase of the normal load"),
+        ("friction_force", 1.0, "friction bound"),
+        ("velocity", 0.1, "momentum"),
+        ("velocity", 1e-7, "referee"),
+        ("position", 1e-9, "other steps"),
+        ("stick_fraction", 1.5, "counts and shares"),
+        ("reversals", -100.0, "counts and shares"),
+    ],
+)
+def test_a_wrong_motion_fails(seen: Observation, name: str, change: float, check: str) -> None:
+    verdict = judge(TABLE_1, changed(seen, name, change))
+    assert verdict.verdict == FAILED
+    assert check in verdict.reason, "the reason names the bound that was broken"
+
+
+def test_energy_must_not_grow(native_fmu: Path) -> None:
+    free = {"base_amplitude": 0.0, "damping_ratio": 0.0, "friction_coefficient": 0.0}
+    parameters = {**free, "initial_resonator_displacement": 1e-4}
+    cell = Cell("free", "ringing", Model(2, 0), parameters, (Hold(1e-4, 60),))
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        rung = observe(instance, cell)
+    assert judge(cell, rung).verdict == PASSED, "an undamped resonator keeps its energy"
+    verdict = judge(cell, changed(rung, "resonator_displacement", 1e-6))
+    assert "energy" in verdict.reason
+
+
+def test_a_replay_that_differs_fails(seen: Observation) -> None:
+    assert "replay" in judge(TABLE_1, replace(seen, replayed=False)).reason
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "x.fmu: load = 0.0 refused: allowed is a finite number",
+        "x.fmu: base_amplitude = 0.0001 refused: allowed is a finite number of at least 0 m",
+        "doStep: communicationStepSize = 0.0001 refused: it takes more than 9; allowed is less",
+    ],
+)
+def test_a_refusal_names_thing_value_and_what_is_allowed(seen: Observation, words: str) -> None:
+    assert judge(TABLE_1, replace(seen, refusal=words)).verdict == REFUSED
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "x.fmu: fmi2DoStep failed with status 3 (error).",
+        "the parameters are refused: allowed are smaller ones",
+        "base_amplitude = 0.0001 refused",
+        "base_amplitude = 1.0 refused: allowed is a finite number of at least 0 m",
+        "doStep: communicationStepSize = 7.0 refused: allowed is a finite number above 0",
+        "a finer fidelity refused: allowed is 1 or 2",
+    ],
+)
+def test_any_other_refusal_fails(seen: Observation, words: str) -> None:
+    assert judge(TABLE_1, replace(seen, refusal=words)).verdict == FAILED
+
+
+def test_a_step_that_costs_too_much_fails(seen: Observation) -> None:
+    dear = replace(seen, worst_step=2.0 * MOST_COST * seen.period_cost)
+    assert "cost of a step" in judge(TABLE_1, dear).reason
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
+def test_a_tolerance_is_a_bound(native_fmu: Path, tolerance: float) -> None:
+    parameters = {"tolerance": tolerance}
+    cell = Cell("tolerance", "as it is", Model(2, 1), parameters, (Hold(1e-4, 60),))
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        rung = observe(instance, cell)
+    assert judge(cell, rung).verdict == PASSED
+    peak = float(np.abs(rung.signal("resonator_velocity")).max())
+    verdict = judge(cell, changed(rung, "resonator_velocity", 2.0 * tolerance * peak))
+    assert "referee" in verdict.reason, "twice the tolerance is too much"
+
+
+def test_the_phase_is_followed_through_changes_of_ratio(native_fmu: Path) -> None:
+    holds = (Hold(1e-4, 7, 0.4, 0.0, 3.0), Hold(1e-4, 7, 1.0, 0.0, -0.5), Hold(1e-4, 7))
+    cell = Cell("ratio", "changes", Model(1, 0), {}, holds)
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
+        verdict = judge(cell, observe(instance, cell))
+    assert verdict.verdict == PASSED, verdict.reason
+    assert np.isfinite(verdict.cost_ratio)

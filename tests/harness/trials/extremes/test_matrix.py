@@ -1,0 +1,85 @@
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+
+from slider_resonator.trials.extremes.cell import MODELS, Cell, Hold, Model
+from slider_resonator.trials.extremes.matrix import all_cells
+
+AXES = {
+    "Omega": {f"1e{n}" for n in range(1, 8)},
+    "q": {f"1e{n}" for n in range(-6, 4)},
+    "alpha": {"0", "1", "1 - 1e-12", "1 + 1e-12", "100"},
+    "mu": {"0", "1e-09", "10"},
+    "r_m": {"1e-12", "1 - 1e-9"},
+    "xi": {"0", "1e-12", "1", "100"},
+    "resonance": {
+        f"{cause} {where} {mode}, xi {xi}"
+        for cause in ("drive", "load")
+        for where in ("at", "1 ulp below", "1 ulp above")
+        for mode in ("stick", "slip")
+        for xi in ("0", "1e-12")
+    },
+    "critical damping": {
+        f"{where} {mode}"
+        for where in ("at", "1 ulp below", "1 ulp above")
+        for mode in ("stick", "slip")
+    },
+    "frequency ratio": {
+        *("0", "1 - 1e-12", "1 + 1e-12", "1e-6", "100", "-1", "pi", "changes every step"),
+    },
+    "blocking load": {"1 - 1e-12", "1", "1 + 1e-12"},
+    "load at full friction": {"1 - 1e-12", "1", "1 + 1e-12"},
+    "bristle stiffness": {f"1e{n}" for n in range(-3, 15)},
+    "bristle damping": {"0", "1e6"},
+    "tolerance": {f"1e{n}" for n in range(-14, -1)},
+    "communication step": {
+        *(f"1e{n} s" for n in range(-12, 5)),
+        *("smallest denormal", "random, 1e-12 to 1e-2 s", "10 periods and 1e-15 s in turn"),
+    },
+    "start time": {"1e12 s"},
+    "drive periods": {"1e+08"},
+    "grazing release": {"peak below the limit", "peak at the limit", "peak above the limit"},
+    "simultaneous": {"drive peaks where the load vanishes", "no force at all"},
+    "inputs jump every step": {"seed 1"},
+    "state restored": {"mid-stick"},
+}
+"""The values that every axis must have at least."""
+
+
+@pytest.mark.parametrize("axis", AXES)
+def test_every_value_is_there(axis: str) -> None:
+    assert {cell.value for cell in all_cells() if cell.axis == axis} >= AXES[axis]
+
+
+def test_what_a_device_can_be_is_run_by_every_model_that_knows_it() -> None:
+    for axis in ("Omega", "q", "alpha", "mu", "r_m", "xi", "resonance", "communication step"):
+        counts = Counter(cell.value for cell in all_cells() if cell.axis == axis)
+        assert set(counts.values()) == {len(MODELS)}, axis
+
+
+def test_long_runs_are_asked_for() -> None:
+    added = {cell.name for cell in all_cells(long=True)} - {cell.name for cell in all_cells()}
+    assert added == {
+        *(f"drive periods: 1e+08: Coulomb, fidelity {n}" for n in (1, 2)),
+        *(f"drive periods: 1e+06: LuGre, fidelity {n}" for n in (1, 2)),
+    }
+
+
+def test_names_are_unique() -> None:
+    counts = Counter(cell.name for cell in all_cells(long=True))
+    assert [name for name, count in counts.items() if count > 1] == []
+
+
+def test_other_steps_cover_the_same_times() -> None:
+    for cell in all_cells():
+        total = sum(hold.size * hold.count for hold in cell.holds)
+        other = sum(hold.size * hold.count for hold in cell.other_holds)
+        assert abs(other - total) <= 1e-12 * total, cell.name
+        assert cell.other_holds != cell.holds, cell.name
+
+
+def test_steps_that_cannot_be_cut_are_kept() -> None:
+    cell = Cell("step", "denormal", Model(2, 0), {}, (Hold(5e-324), Hold(1e-3)))
+    assert [hold.count for hold in cell.other_holds] == [1, 3]

@@ -1,0 +1,57 @@
+"""Every cell of the matrix: it passes, or is refused with name, value and what is allowed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.trials.extremes.cell import Cell
+from slider_resonator.trials.extremes.judge import MOST_COST
+from slider_resonator.trials.extremes.matrix import all_cells
+from slider_resonator.trials.extremes.run import Matrix, run_matrix
+from slider_resonator.trials.extremes.verdict import FAILED, REFEREE, REFUSED
+
+EVERY = 9
+"""The Python FMU runs each ninth cell here: it takes minutes for all of them."""
+
+LUGRE = {f"LuGre, fidelity {n}" for n in range(3)}
+STEADY_FORCE = {f"{law}, fidelity {n}" for law in ("Coulomb", "LuGre") for n in range(2)}
+UNDAMPED = ("drive at slip, xi 0", "drive 1 ulp below slip, xi 0", "drive 1 ulp above slip, xi 0")
+
+WITHOUT_MEANING = {
+    # Without friction a bristle bends at no rate (8).
+    *(f"mu: 0: {model}" for model in LUGRE),
+    *(f"free ringing: xi 0, mu 0: {model}" for model in LUGRE),
+    # The steady force of an undamped resonator at its resonance is unbounded.
+    *(f"resonance: {value}: {model}" for value in UNDAMPED for model in STEADY_FORCE),
+    # Damper and bristles turn a slider of a nanogram within 1e-11 s.
+    "r_m: 1 - 1e-9: LuGre, fidelity 2",
+}
+
+
+def judged(fmu: Path, cells: list[Cell]) -> Matrix:
+    matrix = run_matrix(fmu, cells, lambda _name, _share: None)
+    failed = [f"{one.name}: {one.reason}" for one in matrix.verdicts if one.verdict == FAILED]
+    assert failed == []
+    assert [one.name for one in matrix.verdicts] == [cell.name for cell in cells], "none skipped"
+    refused = {one.name for one in matrix.verdicts if one.verdict == REFUSED}
+    assert refused == WITHOUT_MEANING & {cell.name for cell in cells}
+    return matrix
+
+
+@pytest.mark.slow
+def test_native(native_fmu: Path) -> None:
+    matrix = judged(native_fmu, all_cells())
+    assert sum(matrix.counts.values()) == len(all_cells())
+    refereed = sum(one.has(REFEREE) for one in matrix.verdicts)
+    assert refereed >= 700, "most cells are held against a reference that shares no code"
+    assert f"{refereed} cells held against a reference" in matrix.summary
+    assert matrix.dearest is not None
+    assert f"(bound {MOST_COST:g})" in matrix.summary, "the worst cost of a step is printed"
+    assert matrix.dearest.cost_ratio <= MOST_COST
+
+
+@pytest.mark.slow
+def test_python(python_fmu: Path) -> None:
+    judged(python_fmu, all_cells()[::EVERY])

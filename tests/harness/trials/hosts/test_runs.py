@@ -1,0 +1,99 @@
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.device.interface import INPUTS, OUTPUTS
+from slider_resonator.trials.hosts import runs
+from slider_resonator.trials.hosts.hosts import Host
+from slider_resonator.trials.hosts.job import Answer
+from slider_resonator.trials.hosts.runs import (
+    ALLOWED,
+    CASES,
+    ask,
+    by_case,
+    compare,
+    coupled,
+    table_1_jobs,
+)
+
+FMU = Path("some.fmu")
+
+
+def host(folder: Path, script: str) -> Host:
+    """A host whose interpreter is a shell script with the arguments -P -m MODULE JOBS ANSWERS."""
+    program = folder / "host"
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(0o755)
+    return Host("broken", "broken_host", lambda: "1", program)
+
+
+def test_every_case_is_run_and_every_input_changes() -> None:
+    jobs = table_1_jobs(FMU)
+    assert {(job.start["friction_law"], job.start["fidelity"]) for job in jobs} == {
+        (law, fidelity) for law in (0, 1) for fidelity in (0, 1, 2)
+    }
+    for job in jobs:
+        assert list(job.inputs) == list(INPUTS)
+        assert all(len(set(values)) == 2 for values in job.inputs.values())
+        assert {len(values) for values in job.inputs.values()} == {job.steps}
+        assert list(job.outputs) == list(OUTPUTS)
+
+
+def test_a_host_that_dies_leaves_the_answers_before(tmp_path: Path) -> None:
+    answer = '{"rows": [[1.0]], "error": null}'
+    broken = host(tmp_path, f"echo '{answer}' > \"$5\"; echo 'cannot go on' >&2; exit 3")
+    first, second, *_ = answers = ask(broken, table_1_jobs(FMU))
+    assert len(answers) == len(CASES)
+    assert first == Answer([[1.0]])
+    assert second.error == "the host ended with 3: cannot go on"
+
+
+def test_a_host_that_hangs_is_ended_with_all_it_started(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(runs, "TIME_LIMIT", 0.5)
+    began = time.monotonic()
+    (answer,) = ask(host(tmp_path, "sleep 60"), table_1_jobs(FMU)[:1])
+    assert answer.error is not None
+    assert answer.error.startswith("the host ended after 0.5 s")
+    assert time.monotonic() - began < 20.0
+
+
+def test_deviations_count_in_shares_of_each_peak() -> None:
+    ours = [[2.0, 0.0], [-4.0, 0.0]]
+    assert compare(ours, Answer(ours)).deviation == 0.0
+    other = compare(ours, Answer([[2.0, 0.0], [-4.0, 1e-12]]))
+    assert other.deviation == 1e-12, "a signal without peak counts as it is"
+    assert other.passed
+    wrong = compare(ours, Answer([[2.0 + 1e-9, 0.0], [-4.0, 0.0]]))
+    assert wrong.deviation == pytest.approx(2.5e-10)
+    assert not wrong.passed
+    assert ALLOWED == 1e-11
+
+
+def test_an_answer_that_cannot_be_compared_fails() -> None:
+    refused = compare([[1.0]], Answer([], "load = nan refused"))
+    assert refused.error == "load = nan refused"
+    short = compare([[1.0], [2.0]], Answer([[1.0]]))
+    assert short.error == "(1, 1) values, not (2, 1)"
+    not_a_number = compare([[1.0]], Answer([[math.nan]]))
+    assert not any(found.passed for found in (refused, short, not_a_number))
+
+
+def test_cases_keep_their_order() -> None:
+    theirs = [Answer([[1.0]])] * (len(CASES) - 1) + [Answer([], "last")]
+    compared = by_case([[[1.0]]] * len(CASES), theirs)
+    assert [case for case, comparison in compared.items() if comparison.error] == [CASES[-1]]
+
+
+def test_the_leaders_blocking_force_becomes_the_load() -> None:
+    jobs = table_1_jobs(FMU)[:1]
+    row = [0.0] * len(OUTPUTS)
+    row[list(OUTPUTS).index("blocking_force")] = 0.07
+    (job,) = coupled(jobs, [[row] * jobs[0].steps])
+    assert set(job.inputs["load"]) == {0.07}
+    assert job.inputs["phase"] == jobs[0].inputs["phase"]

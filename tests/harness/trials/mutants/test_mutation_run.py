@@ -1,0 +1,78 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.errors import FmuError
+from slider_resonator.scenes.scene import find_scene
+from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
+from slider_resonator.trials.mutants.enumerate_fmu import fmu_mutants
+from slider_resonator.trials.mutants.mutant import Mutant
+from slider_resonator.trials.mutants.mutation_run import run_mutants
+from slider_resonator.trials.mutants.verdict import EQUIVALENT, NOT_REACHED, REJECTED, SURVIVED
+from tests.harness import faulty_fmus
+
+SCENES = ("changing_inputs", "input_jumps", "initial_state", "stick_slip", "lugre", "lift_off")
+
+HARMFUL = (
+    ("coulomb.py", "each 50th stop or release that is found is passed over"),
+    ("coulomb.py", "reversals are not counted"),
+    ("contact.py", "lift-off and touchdown are noticed at the next step only"),
+    ("stick.py", "a stick is never released"),
+    ("component.py", "the normal phase jumps by 0.01 rad when phase changes"),
+    ("component.py", "changed inputs act one communication step late"),
+    ("component.py", "slider_mass acts 1 % too large"),
+    ("component.py", "bristle_stiffness acts 1 % too large"),
+    ("modelDescription.xml", "unit of load becomes 1/m"),
+    ("device.py", "+ becomes -"),
+)
+HARMLESS = ("component.py", "tolerance acts 1 % too large")
+
+
+@pytest.fixture(scope="module")
+def fmu(python_fmu: Path) -> PythonFmu:
+    return read_python_fmu(python_fmu)
+
+
+def chosen(fmu: PythonFmu, wanted: list[tuple[str, str]]) -> list[Mutant]:
+    made = {(m.file, m.change): m for m in fmu_mutants(fmu)}
+    return [made[key] for key in wanted]
+
+
+@pytest.mark.slow
+def test_the_original_passes_and_known_faults_are_rejected(
+    fmu: PythonFmu, python_fmu: Path
+) -> None:
+    mutants = chosen(fmu, [*HARMFUL, HARMLESS])
+    scenes = [find_scene(scene) for scene in SCENES]
+    run = run_mutants(python_fmu, fmu, mutants, scenes, made=99, jobs=2, probes=13)
+    statuses = {verdict.mutant.name: verdict.status for verdict in run.verdicts}
+    assert statuses == {
+        m.name: EQUIVALENT if m.change == HARMLESS[1] else REJECTED for m in mutants
+    }, [verdict.reason for verdict in run.verdicts]
+    assert run.rate == 1.0
+
+
+def test_what_scenes_do_not_see_survives_with_a_reason(
+    fmu: PythonFmu, python_fmu: Path, tmp_path: Path
+) -> None:
+    short = faulty_fmus.scene(tmp_path)  # neither a load nor bristles, and only the position
+    load = next(m for m in fmu_mutants(fmu) if m.change == "load acts 1 % too large")
+    refused = next(m for m in fmu_mutants(fmu, ["values.py"]) if "raise refused" in m.change)
+    run = run_mutants(python_fmu, fmu, [load, refused], [short], made=2, jobs=1, probes=2)
+    survivor, unreached = run.verdicts
+    assert survivor.status == SURVIVED
+    assert "probe_" in survivor.reason
+    assert "the 1 scenes that execute the statement pass" in survivor.reason
+    assert unreached.status == NOT_REACHED
+    assert run.rate == 0.0
+
+
+def test_an_fmu_that_is_rejected_itself_is_refused(fmu: PythonFmu, tmp_path: Path) -> None:
+    (mutant,) = chosen(fmu, [("component.py", "slider_mass acts 1 % too large")])
+    faulty = tmp_path / "faulty.fmu"
+    fmu.write(faulty, {mutant.path: mutant.new})
+    scene = faulty_fmus.scene(tmp_path)
+    with pytest.raises(FmuError, match=r"rejected before anything is changed: scene short: pos"):
+        run_mutants(faulty, read_python_fmu(faulty), [mutant], [scene], made=1, jobs=1)

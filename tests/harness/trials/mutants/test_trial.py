@@ -1,0 +1,87 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
+from slider_resonator.trials.mutants.points import probe_points, scene_points
+from slider_resonator.trials.mutants.trial import Passed, Point, Rejection, trial
+from tests.harness import faulty_fmus
+
+Faulty = Callable[[str, str, str], Path]
+
+
+@pytest.fixture(scope="module")
+def points(tmp_path_factory: pytest.TempPathFactory) -> list[Point]:
+    scene = faulty_fmus.scene(tmp_path_factory.mktemp("scene"))
+    return scene_points([scene], lambda label, share: None)
+
+
+@pytest.fixture
+def faulty(python_fmu: Path, tmp_path: Path) -> Faulty:
+    fmu: PythonFmu = read_python_fmu(python_fmu)
+
+    def make(file: str, old: str, new: str) -> Path:
+        assert old in fmu.modules[file]
+        out = tmp_path / "faulty.fmu"
+        fmu.write(out, {fmu.path_of(file): fmu.modules[file].replace(old, new, 1)})
+        return out
+
+    return make
+
+
+def test_the_original_passes(python_fmu: Path, points: list[Point]) -> None:
+    outcome = trial(python_fmu, points, 60.0)
+    assert isinstance(outcome, Passed), outcome
+    assert outcome.nearest is not None
+    assert outcome.nearest.severity < 1.0
+
+
+def test_a_failed_check_rejects(faulty: Faulty, points: list[Point]) -> None:
+    fmu = faulty("plant.py", "drive=force / total", "drive=1.01 * force / total")
+    outcome = trial(fmu, points, 60.0)
+    assert isinstance(outcome, Rejection)
+    assert (outcome.scene, outcome.quantity) == ("short", "position")
+    assert "off by" in outcome.reason
+
+
+@pytest.mark.parametrize(
+    ("new", "reason"),
+    [
+        ("while True: pass", "no answer within the time limit"),
+        ("import ctypes; ctypes.string_at(0)", "crashed in fmi2DoStep"),
+        ("raise RuntimeError('broken')", "broken"),
+    ],
+)
+def test_a_hang_a_crash_and_an_error_reject(
+    faulty: Faulty, points: list[Point], new: str, reason: str
+) -> None:
+    first = "    plant, window, arc = held.plant, held.window, held.arc\n"
+    outcome = trial(faulty("coulomb.py", first, f"{first}    {new}\n"), points, 3.0)
+    assert isinstance(outcome, Rejection)
+    assert reason in outcome.reason
+    assert not outcome.quantity
+
+
+def test_an_fmu_that_cannot_be_loaded_is_rejected(faulty: Faulty, points: list[Point]) -> None:
+    outcome = trial(faulty("clock.py", "class Clock", "1 / 0\nclass Clock"), points, 60.0)
+    assert isinstance(outcome, Rejection)
+    assert not outcome.scene
+
+
+def test_a_probe_sees_an_output_that_is_wrong_in_the_run_only(
+    faulty: Faulty, python_fmu: Path, tmp_path: Path
+) -> None:
+    probe = tmp_path / "probe.toml"
+    probe.write_text(
+        'name = "probe"\ntitle = "Nothing but its outputs"\n'
+        "[run]\ndrive_periods = 2\nsteps_per_period = 8\n"
+    )
+    points = probe_points(python_fmu, [probe], 60.0)
+    assert isinstance(trial(python_fmu, points, 60.0), Passed)
+    wrong = faulty("outputs.py", "view.moment.psi - ratio", "view.moment.psi + ratio")
+    outcome = trial(wrong, points, 60.0)
+    assert isinstance(outcome, Rejection)
+    assert outcome.quantity in ("steady_velocity", "blocking_force")

@@ -1,0 +1,62 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.output.json_output import to_json
+from slider_resonator.trials.mutants.enumerate_source import source_mutants
+from slider_resonator.trials.mutants.listing import run_as_plain, summary
+from slider_resonator.trials.mutants.page import write_mutants
+from slider_resonator.trials.mutants.verdict import (
+    EQUIVALENT,
+    NOT_REACHED,
+    REJECTED,
+    SURVIVED,
+    MutationRun,
+    Verdict,
+)
+
+MUTANTS = source_mutants("a.py", "p/a.py", "def f(a, b):\n    return a < b * 2.0 + 1\n")
+STATUSES = (REJECTED, REJECTED, REJECTED, SURVIVED, EQUIVALENT, NOT_REACHED)
+
+
+@pytest.fixture
+def run() -> MutationRun:
+    pairs = zip(MUTANTS, STATUSES, strict=False)
+    verdicts = [
+        Verdict(m, s, "because", *(("stuck", "velocity") if s == REJECTED else ()))
+        for m, s in pairs
+    ]
+    return MutationRun("my.fmu", 100, 39, tuple(verdicts), 2.0)
+
+
+def test_the_rate_counts_only_what_changes_a_result(run: MutationRun) -> None:
+    assert run.rate == 0.75
+    assert "rejected 3 of the 4 mutants that change a result: 75.00%" in summary(run)
+    assert MutationRun("my.fmu", 1, 0, (), 0.0).rate is None
+
+
+def test_counts_by_kind_and_what_rejects(run: MutationRun) -> None:
+    assert dict(run.tally("file"))["a.py"] == run.counts
+    assert sum(sum(counts.values()) for _, counts in run.tally("kind")) == len(run.verdicts)
+    assert run.rejections() == [("stuck: velocity", 3)]
+
+
+def test_plain_data_can_be_written_as_json(run: MutationRun) -> None:
+    plain = run_as_plain(run)
+    assert plain["counts"] == run.counts
+    assert plain["mutants"][0]["diff"].startswith("--- a.py")
+    assert to_json(plain)
+
+
+def test_the_page_shows_each_survivor_with_diff_and_reason(
+    run: MutationRun, tmp_path: Path
+) -> None:
+    write_mutants(tmp_path / "page.html", run)
+    page = (tmp_path / "page.html").read_text()
+    (survivor,) = run.having(SURVIVED)
+    assert f"<details open><summary>{survivor.mutant.name}".replace("> b", "&gt; b") in page
+    assert page.count("because") == 3, "rejected ones are counted, not listed"
+    assert 'class="pass">+    return' in page
+    assert "http" not in page, "the page needs nothing beside it"
