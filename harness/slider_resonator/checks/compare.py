@@ -5,37 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.deviation import mismatch_share, peak, share_of
-from slider_resonator.checks.measures.frequency import NoOscillation
 from slider_resonator.checks.measures.tube import Tube, no_tube
-from slider_resonator.checks.quantities import QUANTITIES, Quantity
-from slider_resonator.errors import SceneError
-
-if TYPE_CHECKING:
-    # The process that an FMU is measured in judges nothing, and needs no references.
-    from slider_resonator.checks.reference_side import ReferenceSide
-    from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.checks.measuring import Measurement
+from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.vocabulary import QUANTITIES, Quantity
 
 Array = NDArray[np.float64]
 Value = float | str | None
-
-
-@dataclass(frozen=True)
-class Measurement:
-    """What an FMU gives for an expectation: number, word, None or a signal (n,).
-
-    `note` says why there is None; a signal has the `times` (s), shape (n,), of its points.
-    """
-
-    value: Any
-    note: str = ""
-    times: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -73,43 +55,6 @@ class Check:
         if self.allowed:
             return self.deviation / self.allowed
         return 0.0 if self.passed else float("inf")
-
-
-def measure(expect: ExpectTable, fmu: FmuSide) -> Measurement:
-    """Measure what is expected of the FMU; SceneError when the scene does not allow it."""
-    quantity = QUANTITIES[expect.quantity]
-    try:
-        value = quantity.measure(fmu)
-    except (NoOscillation, np.linalg.LinAlgError, ArithmeticError) as error:
-        return Measurement(None, f"{expect.quantity} does not exist: {error}")
-    except (ValueError, RuntimeError) as error:
-        where = f"{fmu.scene.source}: {expect.quantity}"
-        raise SceneError(f"{where} cannot be measured: {error}") from error
-    if quantity.kind == "signal":
-        return Measurement(value, times=fmu.record.times[-len(value) :])
-    return Measurement(value, _note(expect, value, fmu))
-
-
-def measure_all(fmu: FmuSide) -> tuple[Measurement, ...]:
-    """Measure everything that the scene expects of the FMU; SceneError as `measure` raises it."""
-    return tuple(measure(expect, fmu) for expect in fmu.scene.expect)
-
-
-def wanted(expect: ExpectTable, reference: ReferenceSide) -> Any:
-    """Return what the reference says: number, word, None, signal (n,) or a tube around one.
-
-    Raises SceneError when the comparison makes no sense.
-    """
-    if expect.reference is None:
-        return next(v for v in (expect.value, expect.at_most, expect.at_least) if v is not None)
-    quantity = QUANTITIES[expect.quantity]
-    try:
-        if expect.tube is not None and not quantity.in_periods:
-            return reference.tube(expect.reference, expect.quantity, expect.tube)
-        return quantity.references[expect.reference](reference)
-    except (ValueError, RuntimeError, ModuleNotFoundError) as error:
-        where = f"{reference.scene.source}: {expect.quantity}"
-        raise SceneError(f"{where} cannot be compared: {error}") from error
 
 
 def check(
@@ -226,10 +171,3 @@ def _against(expect: ExpectTable) -> str:
     return {(True, False): "at most", (False, True): "at least"}.get(
         (expect.at_most is not None, expect.at_least is not None), "value"
     )
-
-
-def _note(expect: ExpectTable, measured: Value, fmu: FmuSide) -> str:
-    """Say why there is nothing to compare."""
-    if measured is not None:
-        return ""
-    return fmu.steady.reason if expect.quantity == "steady_velocity" else fmu.blocking.reason

@@ -12,15 +12,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.checks.compare import Check, Measurement, check, measure_all, wanted
+from slider_resonator.checks.compare import Check, check
+from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.natural_scale import smallest_reference
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT, isolated_runs
 from slider_resonator.scenes.scene import Scene, read_scene, sweep_points
 from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 Array = NDArray[np.float64]
 
@@ -131,7 +133,7 @@ class _Judge:
 
         def meanwhile(point: _Point) -> None:
             told(point.scene.name, len(references) / len(points))
-            references[id(point)] = [_wanted(e, point.reference) for e in point.scene.expect]
+            references[id(point)] = [_expected(e, point.reference) for e in point.scene.expect]
 
         runs = isolated_runs(self.path, points, measure_all, self.time_limit, meanwhile)
         with closing(runs):
@@ -171,9 +173,9 @@ class _Judge:
             self.troubles.append(Trouble(point.scene.name, str(error), point.at))
 
 
-def _wanted(expect: ExpectTable, reference: ReferenceSide) -> Any:
+def _expected(expect: ExpectTable, reference: ReferenceSide) -> Any:
     try:
-        return wanted(expect, reference)
+        return expected_value(expect, reference)
     except SceneError as error:
         return error
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from slider_resonator.checks.compare import Check, Value
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.output.readable import readable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 TITLE = "Slider-resonator validation"
 """What a report is called unless its command calls it otherwise."""

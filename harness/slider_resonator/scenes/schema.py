@@ -7,11 +7,10 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
-from slider_resonator.checks.measures.tube import WIDEST
-from slider_resonator.checks.quantities import QUANTITIES, Quantity
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.names import unknown_name
+from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, Quantity
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
@@ -99,7 +98,7 @@ class ExpectTable(_Table):
     at_least: Number | None = None
     absolute: NotNegative = 0.0
     relative: NotNegative = 0.0
-    tube: Annotated[float, Field(strict=True, gt=0.0, lt=WIDEST)] | None = None
+    tube: Annotated[float, Field(strict=True, gt=0.0, lt=MAX_TUBE)] | None = None
     why: str
 
     @field_validator("quantity")
@@ -146,8 +145,8 @@ class ExpectTable(_Table):
             if self.tube is None or given:
                 raise ValueError(f"{self.quantity} needs a tube, a share of the period, alone")
             return
-        if self.tube is not None and self.reference not in quantity.referees:
-            allowed = ", ".join(quantity.referees) or "none"
+        if self.tube is not None and self.reference not in quantity.tube_references:
+            allowed = ", ".join(quantity.tube_references) or "none"
             raise ValueError(
                 f"tube = {self.tube!r}: references of {self.quantity} that allow one: {allowed}"
             )

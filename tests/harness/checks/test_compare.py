@@ -8,9 +8,11 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from slider_resonator.checks.compare import Check, check, measure, wanted
+from slider_resonator.checks.compare import Check, check
+from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.tube import Tube, no_tube
+from slider_resonator.checks.measuring import measure
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.errors import SceneError
@@ -40,7 +42,7 @@ def judge(
     **expect: Any,
 ) -> Check:
     table = ExpectTable.model_validate({"why": "test", **expect})
-    sides = measure(table, fmu_side), wanted(table, reference_side or reference())
+    sides = measure(table.quantity, fmu_side), expected_value(table, reference_side or reference())
     return check(table, *sides, scene="scene", at={}, smallest=smallest)
 
 

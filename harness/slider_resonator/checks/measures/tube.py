@@ -9,9 +9,6 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-WIDEST = 0.25
-"""Share of a drive period that a tube stays below: at half a period it holds a reversed sign."""
-
 
 @dataclass(frozen=True)
 class Tube:

@@ -7,12 +7,12 @@ from html import escape
 from pathlib import Path
 
 from slider_resonator.checks.compare import Check, Value
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.checks.reports.deviation_plot import deviation_png
 from slider_resonator.checks.validate import Curves, Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.output.html_page import write_page
 from slider_resonator.output.readable import readable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MOST_PICTURES = 40
 """Pictures for each FMU, of the worst point of a sweep only: a hopeless FMU fails everywhere."""

@@ -11,10 +11,10 @@ from rich.table import Table
 from rich.text import Text
 
 from slider_resonator.checks.compare import Check, Value
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import place, sentence
 from slider_resonator.output.readable import readable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 FEW_SCENES = 3
 """Up to so many scenes are shown check by check; of more only what has failed."""

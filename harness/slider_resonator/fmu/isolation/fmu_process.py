@@ -14,8 +14,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
-from slider_resonator.checks.compare import measure_all
 from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.measuring import measure_all
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.isolated import Answer, Request
 from slider_resonator.fmu.isolation.last_words import last_words

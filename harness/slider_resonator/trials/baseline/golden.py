@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.checks.compare import Measurement, measure
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.checks.measuring import Measurement, measure
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MOST_POINTS = 48
 """Points that are kept of a run, evenly spaced over its communication points."""
@@ -45,7 +44,7 @@ def measure_golden(fmu: FmuSide) -> Golden:
     found = {}
     for name in _quantities(fmu):
         try:
-            measured = measure(_asked(name), fmu)
+            measured = measure(name, fmu)
         except SceneError:
             continue
         found[name] = _decimated(measured) if name in SIGNALS else measured
@@ -59,11 +58,6 @@ def _quantities(fmu: FmuSide) -> Iterator[str]:
         yield from (*SIGNALS, *OF_A_RUN)
     if all(signal.times == (0.0,) for signal in fmu.scene.signals.values()):
         yield from OF_CONSTANT_INPUTS
-
-
-def _asked(name: str) -> ExpectTable:
-    """Return an expectation of a quantity, whatever it is compared with."""
-    return ExpectTable.model_construct(quantity=name, why="")
 
 
 def _decimated(measured: Measurement) -> Measurement:

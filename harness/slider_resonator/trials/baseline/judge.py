@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from slider_resonator.checks.compare import Check, Measurement, check
+from slider_resonator.checks.compare import Check, check
+from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.natural_scale import smallest_reference
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 from slider_resonator.trials.baseline.golden import SIGNALS, Golden, order
 
 TOLERANCE = 1e-8

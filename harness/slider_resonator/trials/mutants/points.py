@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.checks.compare import wanted
+from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
@@ -28,7 +28,7 @@ def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) 
             raise SceneError(f"{file}: scene {scene.name} expects nothing: [[expect]] is missing")
         for at, point in sweep_points(scene, file):
             reference = ReferenceSide(point)
-            told = tuple(wanted(expect, reference) for expect in point.expect)
+            told = tuple(expected_value(expect, reference) for expect in point.expect)
             points.append(Point(file, at, point, told))
     return points
 

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.checks.compare import Check, Measurement, check, measure_all
+from slider_resonator.checks.compare import Check, check
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.deviation import peak
+from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.verdict import place, sentence
 from slider_resonator.fmu.isolation.isolated_runs import isolated_runs

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from slider_resonator.checks.compare import Check, Measurement
+from slider_resonator.checks.compare import Check
+from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import Scene, find_scene, read_scene
