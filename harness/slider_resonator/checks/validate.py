@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Trouble:
+class RunFailure:
     """What could not be run: a scene, at a point of its sweep, or without a scene the whole FMU."""
 
     scene: str
@@ -50,24 +50,24 @@ class Curves:
 class Validation:
     """All verdicts on an FMU, in the order of the scenes, and the seconds that they took.
 
-    `troubles` is what could not be judged, `curves` are the signals that differ.
+    `run_failures` is what could not be judged, `curves` are the signals that differ.
     """
 
     fmu: str
     checks: tuple[Check, ...]
     wall_time: float
-    troubles: tuple[Trouble, ...] = ()
+    run_failures: tuple[RunFailure, ...] = ()
     curves: tuple[Curves, ...] = ()
 
     @property
     def passed(self) -> bool:
         """True when everything could be judged and every check has passed."""
-        return not self.troubles and all(check.passed for check in self.checks)
+        return not self.run_failures and all(check.passed for check in self.checks)
 
     @property
     def exit_code(self) -> int:
         """0 for a pass, 1 for a failed check, 2 when something could not be run."""
-        return 2 if self.troubles else int(not self.passed)
+        return 2 if self.run_failures else int(not self.passed)
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def validate(
     The references are computed once for all FMUs; their time counts for the first. `progress` is
     told the scene at work and the share of all the work that is done. An FMU that does not answer
     within `time_limit` (s) for a scene, or point of a sweep, is ended. Raises SceneError when a
-    scene file is at fault; what is wrong with an FMU is among its validation's troubles.
+    scene file is at fault; what is wrong with an FMU is among its validation's run_failures.
     """
     points = [point for path in scene_files for point in _points(path)]
     validations = []
@@ -121,7 +121,7 @@ class _Judge:
         self.path = path
         self.time_limit = time_limit
         self.checks: list[Check] = []
-        self.troubles: list[Trouble] = []
+        self.run_failures: list[RunFailure] = []
         self.curves: list[Curves] = []
 
     def validation(
@@ -139,14 +139,14 @@ class _Judge:
         with closing(runs):
             for ran in runs:
                 if ran.error is not None:
-                    self._trouble(ran.error, ran.point)
+                    self._run_failure(ran.error, ran.point)
                 elif ran.point is not None:
                     self._judge(ran.point, ran.result, references[id(ran.point)])
         return Validation(
             str(self.path),
             tuple(self.checks),
             perf_counter() - began,
-            tuple(self.troubles),
+            tuple(self.run_failures),
             tuple(self.curves),
         )
 
@@ -157,7 +157,7 @@ class _Judge:
             point.scene.expect, measurements, references, strict=True
         ):
             if isinstance(reference, SceneError):
-                self._trouble(reference, point)
+                self._run_failure(reference, point)
                 continue
             smallest = smallest_reference(expect.quantity, point.scene.device)
             verdict = check(expect, measured, reference, point.scene.name, point.at, smallest)
@@ -166,11 +166,11 @@ class _Judge:
             if curves is not None:
                 self.curves.append(curves)
 
-    def _trouble(self, error: Exception, point: _Point | None) -> None:
+    def _run_failure(self, error: Exception, point: _Point | None) -> None:
         if point is None:
-            self.troubles.append(trouble_of_fmu(self.path, error))
+            self.run_failures.append(failure_of_fmu(self.path, error))
         else:
-            self.troubles.append(Trouble(point.scene.name, str(error), point.at))
+            self.run_failures.append(RunFailure(point.scene.name, str(error), point.at))
 
 
 def _expected(expect: ExpectTable, reference: ReferenceSide) -> Any:
@@ -180,10 +180,10 @@ def _expected(expect: ExpectTable, reference: ReferenceSide) -> Any:
         return error
 
 
-def trouble_of_fmu(path: Path, error: Exception) -> Trouble:
+def failure_of_fmu(path: Path, error: Exception) -> RunFailure:
     """Return what is wrong with an FMU as a whole, with its file named."""
     text = str(error)
-    return Trouble("", text if text.startswith(f"{path}") else f"{path}: {text}", {})
+    return RunFailure("", text if text.startswith(f"{path}") else f"{path}: {text}", {})
 
 
 def curves_of(verdict: Check, measured: Measurement, reference: Any) -> Curves | None:

@@ -17,7 +17,7 @@ def test_runs_that_agree() -> None:
 def test_the_first_of_the_worst_runs_is_kept() -> None:
     failed = replace(GOOD, checks=(replace(PASSED, passed=False),))
     assert repeated([GOOD, failed, GOOD]).worst is failed
-    crashed = replace(GOOD, troubles=(CRASH,))
+    crashed = replace(GOOD, run_failures=(CRASH,))
     one = repeated([GOOD, failed, crashed, crashed])
     assert one.worst is crashed
     assert one.verdicts == (1, 1, 2)

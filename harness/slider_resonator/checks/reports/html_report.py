@@ -40,9 +40,9 @@ def _section(validation: Validation) -> list[str]:
         f'<p><span class="{colour}">{verdict}</span>: {passed} of {len(validation.checks)} checks '
         f"passed in {validation.wall_time:.1f} s</p>",
     ]
-    for trouble in validation.troubles:
-        where = f"{trouble.scene}{place(trouble.at, ' at ')}: " * bool(trouble.scene)
-        parts.append(f'<p class="fail">{escape(where + trouble.reason)}</p>')
+    for run_failure in validation.run_failures:
+        where = f"{run_failure.scene}{place(run_failure.at, ' at ')}: " * bool(run_failure.scene)
+        parts.append(f'<p class="fail">{escape(where + run_failure.reason)}</p>')
     worst = [check for check, _ in worst_of_sweeps(failed)]
     pictures = {id(curves.check): curves for curves in validation.curves}
     for index, check in enumerate(worst):

@@ -50,8 +50,8 @@ def print_validation(
             console.print(Text.assemble(("FAIL ", "bold red"), text, f"\n     {sentence(check)}"))
     failed = sum(not check.passed for check in validation.checks)
     verdict = f"[bold red]{failed} failed[/], " if failed else ""
-    if validation.troubles:
-        verdict += f"[bold red]{len(validation.troubles)} could not be run[/], "
+    if validation.run_failures:
+        verdict += f"[bold red]{len(validation.run_failures)} could not be run[/], "
     console.print(
         f"{escape(validation.fmu)}: {verdict}{len(validation.checks) - failed} of "
         f"{len(validation.checks)} checks passed in {validation.wall_time:.1f} s",

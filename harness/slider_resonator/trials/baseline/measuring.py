@@ -7,7 +7,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
-from slider_resonator.checks.validate import Trouble, trouble_of_fmu
+from slider_resonator.checks.validate import RunFailure, failure_of_fmu
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
 from slider_resonator.fmu.opening import open_fmu
@@ -33,7 +33,7 @@ class Measured:
     """What an FMU gave in each scene that could be run to its end, and what could not be run."""
 
     scenes: Mapping[Path, Recorded]
-    troubles: tuple[Trouble, ...]
+    run_failures: tuple[RunFailure, ...]
 
 
 def measure_scenes(
@@ -49,7 +49,7 @@ def measure_scenes(
         for at, scene in sweep_points(read_scene(file), file)
     ]
     found: dict[Path, dict[At, Golden]] = {}
-    troubles: list[Trouble] = []
+    run_failures: list[RunFailure] = []
     told = 0
 
     def meanwhile(point: _Point) -> None:
@@ -62,17 +62,17 @@ def measure_scenes(
         with closing(isolated_runs(fmu, points, measure_golden, time_limit, meanwhile)) as runs:
             for ran in runs:
                 if ran.point is None:
-                    troubles.append(trouble_of_fmu(fmu, ran.error or HarnessError()))
+                    run_failures.append(failure_of_fmu(fmu, ran.error or HarnessError()))
                 elif ran.error is not None:
                     point = ran.point
-                    troubles.append(Trouble(point.scene.name, str(ran.error), point.at))
+                    run_failures.append(RunFailure(point.scene.name, str(ran.error), point.at))
                 else:
                     found.setdefault(ran.point.file, {})[key(ran.point.at)] = ran.result
     progress("", 1.0)
     whole = {file for file in files if len(found.get(file, ())) == _count(points, file)}
     return Measured(
         {file: Recorded(found[file], told_of[file]) for file in files if file in whole},
-        tuple(troubles),
+        tuple(run_failures),
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 
-from slider_resonator.checks.validate import Curves, Trouble, Validation, curves_of
+from slider_resonator.checks.validate import Curves, RunFailure, Validation, curves_of
 from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
@@ -45,7 +45,7 @@ def record(
     *,
     replace: bool = False,
     time_limit: float = TIME_LIMIT,
-) -> tuple[tuple[str, ...], tuple[Trouble, ...]]:
+) -> tuple[tuple[str, ...], tuple[RunFailure, ...]]:
     """Record scenes; return the names of those written and what could not be run.
 
     Raises HarnessError, before anything is run, where a scene is recorded already and `replace` is
@@ -72,7 +72,7 @@ def record(
             write_recorded(folder / scene.name, measured.scenes[file])
             shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
     written = (s.name for s, file in zip(scenes, files, strict=True) if file in measured.scenes)
-    return tuple(written), measured.troubles
+    return tuple(written), measured.run_failures
 
 
 def check(
@@ -86,7 +86,7 @@ def check(
 ) -> Validation:
     """Compare an FMU with what is recorded of scenes, of all that are without `files`.
 
-    What has changed is kept for `accept`; where it cannot be, that is a trouble beside the
+    What has changed is kept for `accept`; where it cannot be, that is a run_failure beside the
     verdicts. Raises HarnessError where nothing is recorded or a record cannot be read, FmuError
     for a file that is no FMU.
     """
@@ -96,7 +96,7 @@ def check(
     golden = {file: _recorded(folder, scene) for file, scene in scenes.items()}
     measured = measure_scenes(fmu, files, folder, progress, time_limit)
     verdicts: list[Compared] = []
-    troubles = list(measured.troubles)
+    run_failures = list(measured.run_failures)
     for file, scene in scenes.items():
         shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
         if file not in measured.scenes:
@@ -104,7 +104,7 @@ def check(
         try:
             found = _compare(scene, golden[file], measured.scenes[file], tolerance)
         except SceneError as error:
-            troubles.append(Trouble(scene.name, str(error), {}))
+            run_failures.append(RunFailure(scene.name, str(error), {}))
             continue
         verdicts += found
         if not all(verdict.check.passed for verdict in found):
@@ -112,13 +112,13 @@ def check(
                 _keep(folder, scene.name, measured.scenes[file])
             except HarnessError as error:
                 reason = f"what has changed could not be kept for accept: {error}"
-                troubles.append(Trouble(scene.name, reason, {}))
+                run_failures.append(RunFailure(scene.name, reason, {}))
     curves = (curves_of(one.check, one.measured, one.golden) for one in verdicts)
     return Validation(
         str(fmu),
         tuple(verdict.check for verdict in verdicts),
         perf_counter() - began,
-        tuple(troubles),
+        tuple(run_failures),
         tuple(curve for curve in curves if isinstance(curve, Curves)),
     )
 
