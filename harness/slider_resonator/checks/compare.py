@@ -1,4 +1,4 @@
-"""Judging one expectation: what the FMU gives, what it should be, whether that is near enough."""
+"""Comparing the measurement of one quantity with its expected value: the check and its verdict."""
 
 from __future__ import annotations
 
@@ -13,22 +13,28 @@ from numpy.typing import NDArray
 from slider_resonator.checks.measures.deviation import mismatch_share, peak, share_of
 from slider_resonator.checks.measures.tube import Tube, no_tube
 from slider_resonator.checks.measuring import Measurement
+from slider_resonator.checks.tolerance import Tolerance
+from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.schema import ExpectTable
-from slider_resonator.scenes.vocabulary import QUANTITIES, Quantity
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 Array = NDArray[np.float64]
 Value = float | str | None
 
+AT_MOST = "at most"
+AT_LEAST = "at least"
+
 
 @dataclass(frozen=True)
 class Check:
-    """One expectation with its verdict.
+    """One comparison with its verdict.
 
     For a signal, `fmu` and `reference` are peaks, and `deviation` and `allowed` shares of the
-    reference's peak; for a number, and for times of events, they carry its unit. `at` says what a
-    sweep has varied. A signal that fails is beyond what is allowed from `first_time` (s) on and
-    farthest at `worst_time` (s). A deviation is counted from the edge of a tube, where there is
-    one; `tube` is its half width in drive periods.
+    reference's peak; for a number, and for times of events, they carry its unit. `against` is the
+    name of the reference, "value", or for a bound `AT_MOST` or `AT_LEAST`. `at` is what a sweep
+    varies. A signal that fails is beyond what is allowed from `first_time` (s) on and farthest at
+    `worst_time` (s). A deviation is counted from the edge of a tube, where there is one; `tube` is
+    its half width in drive periods.
     """
 
     scene: str
@@ -57,117 +63,109 @@ class Check:
         return 0.0 if self.passed else float("inf")
 
 
-def check(
-    expect: ExpectTable,
-    measured: Measurement,
-    wanted: Any,
-    scene: str,
-    at: Mapping[str, float],
-    smallest: float = 0.0,
-) -> Check:
-    """Compare a measurement with what is wanted, and judge.
+@dataclass(frozen=True)
+class Comparison:
+    """What a quantity is compared with, how exactly, and why."""
 
-    A reference nearer to zero than `smallest`, in its unit, counts as that, unless the scene says
-    what is allowed in absolute terms.
-    """
-    quantity = QUANTITIES[expect.quantity]
-    if "absolute" in expect.model_fields_set:
-        smallest = 0.0
+    quantity: str
+    against: str
+    tolerance: Tolerance
+    why: str
+
+    @classmethod
+    def of(cls, expect: ExpectTable) -> Comparison:
+        """Return the comparison that a scene file asks for."""
+        bounds = {AT_MOST: expect.at_most, AT_LEAST: expect.at_least}
+        bound = next((name for name, value in bounds.items() if value is not None), "value")
+        against = expect.reference or bound
+        return cls(expect.quantity, against, Tolerance.of(expect), expect.why)
+
+
+@dataclass(frozen=True)
+class _Difference:
+    """The part of a check that follows from the two values."""
+
+    fmu: Value
+    reference: Value
+    deviation: float | None
+    allowed: float | None
+    passed: bool
+    first_time: float | None = None
+    worst_time: float | None = None
+
+
+def compare(
+    comparison: Comparison, measured: Measurement, expected: Any, point: ScenePoint
+) -> Check:
+    """Compare a measurement with the expected value: number, word, None, signal (n,) or a tube."""
+    quantity = QUANTITIES[comparison.quantity]
+    floor = comparison.tolerance.smallest_reference(comparison.quantity, point.scene.device)
     if quantity.kind == "signal":
-        return _signal_check(expect, quantity, measured, wanted, scene, at, smallest)
-    deviation, allowed = _distance(expect, measured.value, wanted, smallest)
+        difference = _difference_of_signals(comparison, measured, expected, floor)
+    else:
+        difference = _difference_of_values(comparison, measured.value, expected, floor)
     return Check(
-        scene=scene,
-        quantity=expect.quantity,
+        scene=point.scene.name,
+        quantity=comparison.quantity,
         unit=quantity.unit,
-        fmu=measured.value,
-        against=_against(expect),
-        reference=wanted,
-        deviation=deviation,
-        allowed=allowed,
-        passed=_verdict(measured.value, wanted, deviation, allowed),
-        why=expect.why,
+        against=comparison.against,
+        why=comparison.why,
         note=measured.note,
-        at=at,
+        at=point.at,
+        tube=comparison.tolerance.tube,
+        **vars(difference),
     )
 
 
-def _signal_check(
-    expect: ExpectTable,
-    quantity: Quantity,
-    measured: Measurement,
-    wanted: Array | Tube,
-    scene: str,
-    at: Mapping[str, float],
-    smallest: float,
-) -> Check:
+def _difference_of_values(
+    comparison: Comparison, measured: Value, expected: Value, floor: float
+) -> _Difference:
+    """Compare numbers or words; a value that does not exist fails."""
+    if isinstance(measured, str | None) or isinstance(expected, str | None):
+        passed = measured is not None and measured == expected
+        return _Difference(measured, expected, None, None, passed)
+    tolerance = comparison.tolerance
+    deviation = _excess(comparison.against, measured - expected)
+    allowed = (tolerance.absolute or 0.0) + tolerance.relative * max(abs(expected), floor)
+    return _Difference(measured, expected, deviation, allowed, deviation <= allowed)
+
+
+def _excess(against: str, difference: float) -> float:
+    """Return the size of a difference; for a bound, by how much it is exceeded; NaN of NaN."""
+    if against == AT_MOST:
+        return max(difference, 0.0)
+    if against == AT_LEAST:
+        return max(-difference, 0.0)
+    return abs(difference)
+
+
+def _difference_of_signals(
+    comparison: Comparison, measured: Measurement, expected: Array | Tube, floor: float
+) -> _Difference:
     """Compare two signals; a value that is not finite fails."""
-    tube = wanted if isinstance(wanted, Tube) else no_tube(wanted)
+    quantity, tolerance = QUANTITIES[comparison.quantity], comparison.tolerance
+    tube = expected if isinstance(expected, Tube) else no_tube(expected)
     outside = tube.outside(measured.value)
     size = peak(tube.middle)
-    floor = expect.absolute / expect.relative if expect.absolute else max(0.0, smallest - size)
-    allowed = expect.relative
+    allowed = tolerance.relative
     if quantity.exact:
         deviation, limit = mismatch_share(outside), 0.5
     elif quantity.in_periods:
-        allowed = limit = expect.tube or 0.0
+        allowed = limit = tolerance.tube or 0.0
         deviation = peak(outside)
     else:
-        deviation, limit = share_of(peak(outside), size + floor), allowed * (size + floor)
+        near_zero = tolerance.absolute / allowed if tolerance.absolute else max(0.0, floor - size)
+        scale = size + near_zero
+        deviation, limit = share_of(peak(outside), scale), allowed * scale
     passed = deviation <= allowed
     first = worst = None
     if not passed and measured.times is not None:
         first, worst = _places(outside, limit, measured.times)
-    return Check(
-        scene=scene,
-        quantity=expect.quantity,
-        unit=quantity.unit,
-        fmu=peak(measured.value),
-        against=_against(expect),
-        reference=size,
-        deviation=deviation,
-        allowed=allowed,
-        passed=passed,
-        why=expect.why,
-        at=at,
-        first_time=first,
-        worst_time=worst,
-        tube=expect.tube,
-    )
+    return _Difference(peak(measured.value), size, deviation, allowed, passed, first, worst)
 
 
-def _places(error: Array, allowed: float, times: Array) -> tuple[float, float]:
-    """Return the times (s) at which errors (n,) first exceed what is allowed and are largest."""
-    beyond = ~(error <= allowed)
+def _places(error: Array, limit: float, times: Array) -> tuple[float, float]:
+    """Return the times (s) at which errors (n,) first exceed the limit and are largest."""
+    beyond = ~(error <= limit)
     size = np.where(np.isfinite(error), error, np.inf)
     return float(times[np.argmax(beyond)]), float(times[np.argmax(size)])
-
-
-def _distance(
-    expect: ExpectTable, measured: Value, wanted: Value, smallest: float
-) -> tuple[float | None, float | None]:
-    """Return deviation and what is allowed; for a bound, by how much it is exceeded."""
-    if isinstance(measured, str) or isinstance(wanted, str) or wanted is None or measured is None:
-        return None, None
-    difference = measured - wanted
-    if expect.at_most is not None:
-        difference = max(0.0, difference)
-    if expect.at_least is not None:
-        difference = max(0.0, -difference)
-    return abs(difference), expect.absolute + expect.relative * max(abs(wanted), smallest)
-
-
-def _verdict(
-    measured: Value, wanted: Value, deviation: float | None, allowed: float | None
-) -> bool:
-    if deviation is None or allowed is None:
-        return measured is not None and measured == wanted
-    return deviation <= allowed
-
-
-def _against(expect: ExpectTable) -> str:
-    if expect.reference is not None:
-        return expect.reference
-    return {(True, False): "at most", (False, True): "at least"}.get(
-        (expect.at_most is not None, expect.at_least is not None), "value"
-    )

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
 import pytest
 
-from slider_resonator.checks.compare import Check, check
+from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.tube import Tube, no_tube
 from slider_resonator.checks.measuring import measure
+from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.verdict import sentence
+from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
+from slider_resonator.scenes.scene import ScenePoint, scene_from
 from slider_resonator.scenes.schema import ExpectTable
 
+TABLE_1 = {"name": "scene", "title": "Scene"}
+STILL = {**TABLE_1, "device": {"base_amplitude": 0.0}}
+"""A device without a natural scale of velocities and displacements."""
 WAVE = np.sin(np.linspace(0.0, 50.0, 1000))
 
 
@@ -38,12 +45,12 @@ def reference(**parts: Any) -> ReferenceSide:
 def judge(
     fmu_side: FmuSide,
     reference_side: ReferenceSide | None = None,
-    smallest: float = 0.0,
+    content: Mapping[str, Any] = STILL,
     **expect: Any,
 ) -> Check:
     table = ExpectTable.model_validate({"why": "test", **expect})
     sides = measure(table.quantity, fmu_side), expected_value(table, reference_side or reference())
-    return check(table, *sides, scene="scene", at={}, smallest=smallest)
+    return compare(Comparison.of(table), *sides, ScenePoint(scene_from(content, "scene.toml")))
 
 
 class RecordOf(dict[str, np.ndarray]):
@@ -95,6 +102,12 @@ def test_bounds_are_one_sided() -> None:
     assert not judge(steady(0.1), quantity="steady_periods", at_most=36).passed
     assert judge(steady(0.1), quantity="steady_periods", at_least=37).passed
     assert not judge(steady(0.1), quantity="steady_periods", at_least=38).passed
+
+
+@pytest.mark.parametrize("bound", ["at_most", "at_least"])
+def test_what_is_no_number_is_within_no_bound(bound: str) -> None:
+    expect = {"quantity": "steady_velocity", bound: 0.1}
+    assert not judge(steady(float("nan")), **expect).passed
 
 
 @pytest.mark.parametrize(
@@ -188,37 +201,42 @@ def test_a_scene_that_does_not_allow_a_measure_could_not_run() -> None:
         judge(fmu(record=record), quantity="ripple_frequency", value=557.0, relative=1e-6)
 
 
-@pytest.mark.parametrize(("velocity", "passed"), [(9e-10, True), (2e-9, False)])
-def test_a_reference_next_to_zero_counts_as_its_smallest_size(
-    velocity: float, passed: bool
+@pytest.mark.parametrize(("share", "passed"), [(9e-7, True), (2e-6, False)])
+def test_a_reference_near_zero_counts_as_a_share_of_its_natural_scale(
+    share: float, passed: bool
 ) -> None:
+    smallest = smallest_reference("steady_velocity", Device())
+    velocity = share * smallest
     expect = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
-    verdict = judge(steady(velocity), smallest=1e-3, **expect)
+    verdict = judge(steady(velocity), content=TABLE_1, **expect)
     assert verdict.passed is passed
-    assert verdict.allowed == pytest.approx(1e-9)
+    assert verdict.allowed == pytest.approx(1e-6 * smallest)
     assert not judge(steady(velocity), **expect).passed
-    assert not judge(steady(velocity), smallest=1e-3, **expect, absolute=0.0).passed, (
+    assert not judge(steady(velocity), content=TABLE_1, **expect, absolute=0.0).passed, (
         "the scene has the last word"
     )
 
 
-def test_the_smallest_size_loosens_nothing_else() -> None:
+def test_the_natural_scale_loosens_nothing_else() -> None:
     expect = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
-    assert judge(steady(0.1), smallest=1e-3, **expect).allowed == pytest.approx(1e-7)
+    assert judge(steady(0.1), content=TABLE_1, **expect).allowed == pytest.approx(1e-7)
 
 
-@pytest.mark.parametrize(("noise", "passed"), [(9e-12, True), (2e-11, False)])
-def test_a_signal_next_to_zero_counts_as_its_smallest_size(noise: float, passed: bool) -> None:
+@pytest.mark.parametrize(("share", "passed"), [(9e-9, True), (2e-8, False)])
+def test_a_signal_near_zero_counts_as_a_share_of_its_natural_scale(
+    share: float, passed: bool
+) -> None:
+    noise = share * smallest_reference("position", Device())
     verdict = judge(
         fmu(record=RecordOf(position=np.full(1000, noise))),
         reference(signal=lambda referee, name: np.zeros(1000)),
-        smallest=1e-3,
+        content=TABLE_1,
         quantity="position",
         reference="located_events",
         relative=1e-8,
     )
     assert verdict.passed is passed
-    assert verdict.deviation == pytest.approx(noise / 1e-3)
+    assert verdict.deviation == pytest.approx(share)
 
 
 def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:

@@ -72,6 +72,19 @@ def test_a_scene_of_each_kind_passes(python_fmu: Path, scene: str) -> None:
     assert not failed
 
 
+@pytest.mark.parametrize("build", ["native_fmu", "python_fmu"])
+def test_repeated_validations_of_a_correct_fmu_give_equal_checks(
+    request: pytest.FixtureRequest, build: str
+) -> None:
+    fmu: Path = request.getfixturevalue(build)
+    scenes = [find_scene(name) for name in ("changing_inputs", "lugre", "lift_off", "phase_sweep")]
+    first, *others = validate([fmu] * 4, scenes)
+    assert first.passed
+    for other in others:
+        assert other.checks == first.checks, "every verdict and number must be the same"
+        assert not other.run_failures
+
+
 def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) -> None:
     copy = tmp_path / "copy.fmu"
     copy.write_bytes(python_fmu.read_bytes())

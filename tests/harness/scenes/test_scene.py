@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, sweep_points
+from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 RUN = "[run]\ndrive_periods = 10\nsteps_per_period = 4\n"
@@ -241,14 +241,14 @@ def test_a_scene_without_a_run_says_where_to_find_one(tmp_path: Path) -> None:
 def test_a_sweep_varies_parameters_and_inputs(tmp_path: Path) -> None:
     sweep = '[sweep]\nvariable = "{}"\nvalues = [1.0, 2.0]\n'
     path = write(tmp_path, HEAD + "[inputs]\nload = 0.3\n" + sweep.format("load"))
-    points = list(sweep_points(read_scene(path), path))
-    assert [(at, point.values["load"]) for at, point in points] == [
+    points = read_scene(path).points()
+    assert [(point.at, point.scene.values["load"]) for point in points] == [
         ({"load": 1.0}, 1.0),
         ({"load": 2.0}, 2.0),
     ]
     path = write(tmp_path, HEAD + sweep.format("slider_mass"))
-    points = list(sweep_points(read_scene(path), path))
-    assert [point.device.slider_mass for _, point in points] == [1.0, 2.0]
+    points = read_scene(path).points()
+    assert [point.scene.device.slider_mass for point in points] == [1.0, 2.0]
 
 
 def test_drive_periods_follow_the_drive_frequency_of_the_scene(tmp_path: Path) -> None:

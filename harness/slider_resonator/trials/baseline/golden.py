@@ -12,7 +12,7 @@ from slider_resonator.checks.measuring import Measurement, measure
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-MOST_POINTS = 48
+MAX_POINTS = 48
 """Points that are kept of a run, evenly spaced over its communication points."""
 
 SIGNALS = (
@@ -63,7 +63,7 @@ def _quantities(fmu: FmuSide) -> Iterator[str]:
 def _decimated(measured: Measurement) -> Measurement:
     assert measured.times is not None
     count = len(measured.times)
-    kept = np.unique(np.rint(np.linspace(0, count - 1, min(count, MOST_POINTS))).astype(int))
+    kept = np.unique(np.rint(np.linspace(0, count - 1, min(count, MAX_POINTS))).astype(int))
     return replace(measured, value=measured.value[kept], times=measured.times[kept])
 
 

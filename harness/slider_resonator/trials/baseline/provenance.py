@@ -15,7 +15,7 @@ import numpy as np
 from slider_resonator import __version__
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.scenes.scene import Scene, built_in_scenes
-from slider_resonator.trials.baseline.golden import MOST_POINTS
+from slider_resonator.trials.baseline.golden import MAX_POINTS
 
 FMU_DIGEST = "fmu_sha256"
 SCENE_DIGEST = "scene_sha256"
@@ -24,7 +24,7 @@ BUILT_IN = "built in"
 """Stands for the file of a scene of the harness."""
 
 Provenance = Mapping[str, str]
-"""What is told, in the order of the file."""
+"""What is recorded beside the results, in the order of the file."""
 
 
 def provenance(fmu: Fmu, scene: Scene, folder: Path) -> dict[str, str]:
@@ -40,7 +40,7 @@ def provenance(fmu: Fmu, scene: Scene, folder: Path) -> dict[str, str]:
         "scene": scene.name,
         SCENE_FILE: BUILT_IN if _is_built_in(scene) else _seen_from(folder, scene.files[0]),
         SCENE_DIGEST: scene_digest(scene),
-        "points_kept": str(MOST_POINTS),
+        "points_kept": str(MAX_POINTS),
         "harness": __version__,
         "fmpy": fmpy.__version__,
         "numpy": np.__version__,
