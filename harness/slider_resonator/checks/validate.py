@@ -18,7 +18,7 @@ from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
-from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT, isolated_runs
+from slider_resonator.fmu.isolation.tasks import TIME_LIMIT, isolated_runs
 from slider_resonator.scenes.scene import Scene, read_scene, sweep_points
 from slider_resonator.scenes.schema import ExpectTable
 

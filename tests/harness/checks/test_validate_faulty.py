@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import Validation, validate
-from slider_resonator.fmu.isolation.isolated_runs import MOST_DEATHS
+from slider_resonator.fmu.isolation.tasks import MOST_DEATHS
 from tests.harness import faulty_fmus
 from tests.harness.faulty_fmus import compiled
 

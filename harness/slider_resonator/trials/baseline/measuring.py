@@ -9,7 +9,7 @@ from pathlib import Path
 
 from slider_resonator.checks.validate import Trouble, trouble_of_fmu
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
+from slider_resonator.fmu.isolation.tasks import isolated_runs
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.scenes.scene import Scene, read_scene, sweep_points
 from slider_resonator.trials.baseline.golden import Golden, measure_golden

@@ -9,7 +9,7 @@ from pathlib import Path
 from slider_resonator.checks.compare import wanted
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
+from slider_resonator.fmu.isolation.tasks import isolated_runs
 from slider_resonator.scenes.scene import read_scene, sweep_points
 from slider_resonator.trials.mutants.probes import allowed_share
 from slider_resonator.trials.mutants.trial import Point, see

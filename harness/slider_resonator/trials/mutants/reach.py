@@ -17,7 +17,7 @@ from pathlib import Path
 
 from slider_resonator.checks.compare import measure_all
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
+from slider_resonator.fmu.isolation.tasks import isolated_runs
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.enumerate_source import Function, blocks
 from slider_resonator.trials.mutants.trial import Point

@@ -16,7 +16,7 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.verdict import place, sentence
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
+from slider_resonator.fmu.isolation.tasks import isolated_runs
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import ExpectTable
 

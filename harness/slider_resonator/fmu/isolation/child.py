@@ -1,6 +1,6 @@
 """The process that an FMU is measured in: whatever the FMU does to it, the verdict survives.
 
-`python -m slider_resonator.fmu.isolation.isolated FMU SECONDS` reads pickled requests from its
+`python -m slider_resonator.fmu.isolation.child FMU SECONDS` reads pickled requests from its
 standard input (a scene file, what a sweep varies, what to measure) and writes a pickled answer for
 each to its standard output. What the FMU prints goes to standard error. A call that takes longer
 than SECONDS ends the process.
@@ -98,6 +98,6 @@ def _write(answer: Answer, file: BinaryIO) -> None:
 
 if __name__ == "__main__":
     # Under its real name, so that what is pickled here is known where it is read.
-    from slider_resonator.fmu.isolation.isolated import main as serve
+    from slider_resonator.fmu.isolation.child import main as serve
 
     serve()

@@ -17,8 +17,8 @@ from typing import IO, Any
 from slider_resonator.checks.compare import measure_all
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.isolation.isolated import Answer, Request
-from slider_resonator.fmu.isolation.last_words import last_words
+from slider_resonator.fmu.isolation.child import Answer, Request
+from slider_resonator.fmu.isolation.crash_report import last_words
 from slider_resonator.fmu.isolation.process_group import end_group
 from slider_resonator.fmu.isolation.temporary_files import temporary_files_in
 
@@ -54,7 +54,7 @@ class FmuProcess:
                     sys.executable,
                     "-P",
                     "-m",
-                    "slider_resonator.fmu.isolation.isolated",
+                    "slider_resonator.fmu.isolation.child",
                     str(fmu),
                     repr(time_limit),
                 ],

@@ -9,7 +9,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.isolation.fmu_process import FmuDied, FmuProcess
+from slider_resonator.fmu.isolation.process import FmuDied, FmuProcess
 from slider_resonator.scenes.scene import Scene
 
 TIME_LIMIT = 120.0

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from slider_resonator.fmu.isolation.last_words import last_words
+from slider_resonator.fmu.isolation.crash_report import last_words
 
 STACK = (
     "stepping\nFatal Python error: Aborted\n\nCurrent thread 0x1 (most recent call first):\n"
