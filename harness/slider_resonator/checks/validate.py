@@ -13,12 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.checks.compare import Check, Measurement, check, measure_all, wanted
+from slider_resonator.checks.fmu_side import task_in_scene
 from slider_resonator.checks.measures.tube import Tube
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
-from slider_resonator.fmu.isolation.tasks import TIME_LIMIT, isolated_runs
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.scenes.scene import Scene, read_scene, sweep_points
 from slider_resonator.scenes.schema import ExpectTable
 
@@ -72,7 +74,6 @@ class Validation:
 class _Point:
     """A scene, or one of the points of its sweep, with its references."""
 
-    file: Path
     at: Mapping[str, float]
     scene: Scene
     reference: ReferenceSide
@@ -109,7 +110,7 @@ def _points(path: Path) -> Iterator[_Point]:
     if not scene.expect:
         raise SceneError(f"{path}: scene {scene.name} expects nothing: [[expect]] is missing")
     for at, point in sweep_points(scene, path):
-        yield _Point(path, at, point, ReferenceSide(point))
+        yield _Point(at, point, ReferenceSide(point))
 
 
 class _Judge:
@@ -133,13 +134,21 @@ class _Judge:
             told(point.scene.name, len(references) / len(points))
             references[id(point)] = [_wanted(e, point.reference) for e in point.scene.expect]
 
-        runs = isolated_runs(self.path, points, measure_all, self.time_limit, meanwhile)
-        with closing(runs):
-            for ran in runs:
-                if ran.error is not None:
-                    self._trouble(ran.error, ran.point)
-                elif ran.point is not None:
-                    self._judge(ran.point, ran.result, references[id(ran.point)])
+        tasks = [(point, task_in_scene(point.scene, measure_all)) for point in points]
+        with closing(
+            run_tasks(
+                self.path,
+                tasks,
+                self.time_limit,
+                name=lambda point: point.scene.name,
+                meanwhile=meanwhile,
+            )
+        ) as finished:
+            for one in finished:
+                if one.error is not None:
+                    self._trouble(one.error, one.item)
+                elif one.item is not None:
+                    self._judge(one.item, one.result, references[id(one.item)])
         return Validation(
             str(self.path),
             tuple(self.checks),

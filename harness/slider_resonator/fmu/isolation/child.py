@@ -1,9 +1,9 @@
-"""The process that an FMU is measured in: whatever the FMU does to it, the verdict survives.
+"""The process of an isolated FMU: runs tasks on one instance, whatever the FMU does to it.
 
-`python -m slider_resonator.fmu.isolation.child FMU SECONDS` reads pickled requests from its
-standard input (a scene file, what a sweep varies, what to measure) and writes a pickled answer for
-each to its standard output. What the FMU prints goes to standard error. A call that takes longer
-than SECONDS ends the process.
+`python -m slider_resonator.fmu.isolation.child FMU SECONDS` reads requests from its standard input
+and writes messages to its standard output, both pickled. The FMU itself sees an empty standard
+input, and what it prints goes to standard error. A call that takes longer than SECONDS ends the
+process with a traceback, also inside native code.
 """
 
 from __future__ import annotations
@@ -12,92 +12,80 @@ import faulthandler
 import os
 import pickle
 import sys
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, BinaryIO
+import traceback
+from collections.abc import Iterator
+from functools import partial
+from typing import BinaryIO
 
-from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.isolation.messages import Failure, Message, Progress, Request, Result
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.scenes.scene import read_scene
-
-
-@dataclass(frozen=True)
-class Request:
-    """A scene file, values that replace those in it, and the function that measures in it."""
-
-    scene: Path
-    at: Mapping[str, float]
-    measure: Callable[[FmuSide], Any]
-
-
-@dataclass(frozen=True)
-class Answer:
-    """What was measured, or what went wrong.
-
-    The first answer, before any request, has neither: the FMU has been instantiated.
-    """
-
-    result: Any = None
-    error: str = ""
 
 
 def main() -> None:
-    """Instantiate the FMU and answer requests until there are no more."""
+    """Instantiate the FMU and run tasks until there are no more requests."""
     path, limit = sys.argv[1], float(sys.argv[2])
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
+    requests, messages = _take_standard_streams()
     faulthandler.enable()
     faulthandler.dump_traceback_later(limit, exit=True)
     try:
         with open_fmu(path) as fmu, instantiate(fmu) as instance:
             faulthandler.cancel_dump_traceback_later()
-            _write(Answer(), answers)
-            for request in _requests():
-                with _limited(limit):
-                    answer = _answer(instance, request)
-                _write(answer, answers)
+            _send(messages, Result())
+            for request in _read(requests):
+                faulthandler.dump_traceback_later(limit, exit=True)
+                message = _run(instance, request, messages)
+                faulthandler.cancel_dump_traceback_later()
+                _send(messages, message)
             faulthandler.dump_traceback_later(limit, exit=True)
     except HarnessError as error:
-        _write(Answer(error=str(error)), answers)
+        _send(messages, Failure(error))
 
 
-@contextmanager
-def _limited(seconds: float) -> Iterator[None]:
-    """End the process, with a traceback, when the block takes longer: also inside native code."""
-    faulthandler.dump_traceback_later(seconds, exit=True)
-    try:
-        yield
-    finally:
-        faulthandler.cancel_dump_traceback_later()
+def _take_standard_streams() -> tuple[BinaryIO, BinaryIO]:
+    """Return standard input and output under other descriptors, out of the FMU's way."""
+    requests, messages = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    os.dup2(2, 1)
+    return requests, messages
 
 
-def _requests() -> Iterator[Request]:
+def _read(requests: BinaryIO) -> Iterator[Request]:
     while True:
         try:
-            yield pickle.load(sys.stdin.buffer)
+            yield pickle.load(requests)
         except EOFError:
             return
 
 
-def _answer(instance: Instance, request: Request) -> Answer:
+def _run(instance: Instance, request: Request, messages: BinaryIO) -> Message:
+    task = request.task
+    if request.reports_progress:
+        task = partial(task, progress=lambda share: _send(messages, Progress(share)))
     try:
-        scene = read_scene(request.scene, request.at)
-        return Answer(request.measure(FmuSide(instance, scene)))
+        return Result(task(instance))
     except HarnessError as error:
-        return Answer(error=str(error))
+        return Failure(error)
+    except Exception:
+        return _internal(traceback.format_exc())
 
 
-def _write(answer: Answer, file: BinaryIO) -> None:
-    pickle.dump(answer, file)
-    file.flush()
+def _send(messages: BinaryIO, message: Message) -> None:
+    try:
+        content = pickle.dumps(message)
+    except Exception:  # pickle raises anything
+        content = pickle.dumps(_internal(traceback.format_exc()))
+    messages.write(content)
+    messages.flush()
+
+
+def _internal(trace: str) -> Failure:
+    """Return the failure of a task that raised what only a programming error can raise."""
+    return Failure(RuntimeError(f"a task failed in the process of the FMU:\n{trace}"))
 
 
 if __name__ == "__main__":
-    # Under its real name, so that what is pickled here is known where it is read.
-    from slider_resonator.fmu.isolation.child import main as serve
-
-    serve()
+    main()

@@ -1,105 +1,90 @@
-"""An FMU in many scenes: in a process of its own, and in another after each that it has ended."""
+"""Many tasks on an isolated FMU, whose process is replaced when a task ends or breaks it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
-from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.errors import FmuError
-from slider_resonator.fmu.isolation.process import FmuDied, FmuProcess
-from slider_resonator.scenes.scene import Scene
+from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
 
-TIME_LIMIT = 120.0
-"""Seconds for an FMU and a scene or point of a sweep; the slowest built-in one takes a few."""
-MOST_DEATHS = 3
-"""After so many crashes or missed time limits the rest of the scenes is not run."""
+MAX_CRASHES = 3
+"""Crashes or missed time limits after which no more tasks are run."""
 
-
-class Runnable(Protocol):
-    """A scene, or a point of its sweep: the file, what is varied, and what comes of it."""
-
-    @property
-    def file(self) -> Path:
-        """The scene's file."""
-
-    @property
-    def at(self) -> Mapping[str, float]:
-        """What a sweep has varied."""
-
-    @property
-    def scene(self) -> Scene:
-        """The scene, with that in it."""
-
-
-PointType = TypeVar("PointType", bound=Runnable)
+Item = TypeVar("Item")
 
 
 @dataclass(frozen=True)
-class Ran(Generic[PointType]):
-    """A point with its `result`, or the `error` that there is instead.
+class Finished(Generic[Item]):
+    """The `result` of the task of an item, or the `error` in its place.
 
-    Without a point the error is about the FMU as a whole.
+    Without an item the error is about the FMU as a whole.
     """
 
-    point: PointType | None
+    item: Item | None
     result: Any = None
-    error: FmuError | None = None
+    error: HarnessError | None = None
 
 
-def isolated_runs(
+def run_tasks(
     fmu: Path,
-    points: Sequence[PointType],
-    measure: Callable[[FmuSide], Any],
+    tasks: Sequence[tuple[Item, Task]],
     time_limit: float,
-    meanwhile: Callable[[PointType], None] = lambda point: None,
-) -> Generator[Ran[PointType], None, None]:
-    """Yield what `measure`, a function of a module, gives at each point.
+    *,
+    name: Callable[[Item], str],
+    meanwhile: Callable[[Item], None] = lambda item: None,
+    max_crashes: int | None = MAX_CRASHES,
+) -> Generator[Finished[Item], None, None]:
+    """Run a task for each item, one after the other, and yield what came of each.
 
-    `meanwhile` is called for a point while the FMU is at work on it. A scene in which the FMU has
-    crashed or exceeded `time_limit` (s) is not gone on with, and after `MOST_DEATHS` none is.
+    `meanwhile` is called for an item while the FMU is at work on it. After a crash or a missed
+    `time_limit` (s) the other items of that `name` are left out, and after `max_crashes` all.
     """
-    process: FmuProcess | None = None
-    deaths: list[Path] = []
+    process: IsolatedFmu | None = None
+    crashed: set[str] = set()
+    crashes = 0
     try:
-        for index, point in enumerate(points):
-            if point.file in deaths:
+        for index, (item, task) in enumerate(tasks):
+            if name(item) in crashed:
                 continue
             if process is None:
                 try:
-                    process = FmuProcess(fmu, time_limit)
+                    process = IsolatedFmu(fmu, time_limit)
                 except FmuError as error:
-                    yield Ran(None, error=error)
+                    yield Finished(None, error=error)
                     return
             try:
-                process.ask(point.file, point.at, measure)
-                meanwhile(point)
-                result = process.answer()
-            except FmuError as error:
+                process.submit(task)
+                meanwhile(item)
+                result = process.result()
+            except HarnessError as error:
                 process.kill()
                 process = None
                 if isinstance(error, FmuDied):
-                    deaths.append(point.file)
-                yield Ran(point, error=error)
+                    crashed.add(name(item))
+                    crashes += 1
+                yield Finished(item, error=error)
             else:
-                yield Ran(point, result)
-            if len(deaths) == MOST_DEATHS:
-                rest = [p.scene.name for p in points[index + 1 :] if p.file not in deaths]
-                if rest:
-                    yield Ran(None, error=_given_up(rest))
+                yield Finished(item, result)
+            if crashes == max_crashes:
+                rest = [name(other) for other, _ in tasks[index + 1 :]]
+                left_out = [one for one in dict.fromkeys(rest) if one not in crashed]
+                if left_out:
+                    yield Finished(None, error=_gave_up(crashes, left_out))
                 return
         if process is not None:
             try:
                 process.close()
             except FmuDied as error:
-                yield Ran(None, error=error)
+                yield Finished(None, error=error)
     finally:
         if process is not None:
             process.kill()
 
 
-def _given_up(names: Sequence[str]) -> FmuError:
-    rest = ", ".join(dict.fromkeys(names))
-    return FmuError(f"given up after {MOST_DEATHS} crashes or missed time limits; not run: {rest}")
+def _gave_up(crashes: int, names: Sequence[str]) -> FmuError:
+    return FmuError(
+        f"given up after {crashes} crashes or missed time limits; not run: {', '.join(names)}"
+    )

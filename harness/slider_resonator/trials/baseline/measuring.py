@@ -7,9 +7,10 @@ from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
+from slider_resonator.checks.fmu_side import task_in_scene
 from slider_resonator.checks.validate import Trouble, trouble_of_fmu
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.tasks import isolated_runs
+from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.scenes.scene import Scene, read_scene, sweep_points
 from slider_resonator.trials.baseline.golden import Golden, measure_golden
@@ -59,15 +60,24 @@ def measure_scenes(
 
     with open_fmu(fmu) as opened:
         told_of = {file: provenance(opened, read_scene(file), folder) for file in files}
-        with closing(isolated_runs(fmu, points, measure_golden, time_limit, meanwhile)) as runs:
-            for ran in runs:
-                if ran.point is None:
-                    troubles.append(trouble_of_fmu(fmu, ran.error or HarnessError()))
-                elif ran.error is not None:
-                    point = ran.point
-                    troubles.append(Trouble(point.scene.name, str(ran.error), point.at))
+        tasks = [(point, task_in_scene(point.scene, measure_golden)) for point in points]
+        with closing(
+            run_tasks(
+                fmu,
+                tasks,
+                time_limit,
+                name=lambda point: point.scene.name,
+                meanwhile=meanwhile,
+            )
+        ) as finished:
+            for one in finished:
+                point = one.item
+                if point is None:
+                    troubles.append(trouble_of_fmu(fmu, one.error or HarnessError()))
+                elif one.error is not None:
+                    troubles.append(Trouble(point.scene.name, str(one.error), point.at))
                 else:
-                    found.setdefault(ran.point.file, {})[key(ran.point.at)] = ran.result
+                    found.setdefault(point.file, {})[key(point.at)] = one.result
     progress("", 1.0)
     whole = {file for file in files if len(found.get(file, ())) == _count(points, file)}
     return Measured(

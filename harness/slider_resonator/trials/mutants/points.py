@@ -7,9 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from slider_resonator.checks.compare import wanted
+from slider_resonator.checks.fmu_side import task_in_scene
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
-from slider_resonator.fmu.isolation.tasks import isolated_runs
+from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.scenes.scene import read_scene, sweep_points
 from slider_resonator.trials.mutants.probes import allowed_share
 from slider_resonator.trials.mutants.trial import Point, see
@@ -29,7 +30,7 @@ def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) 
         for at, point in sweep_points(scene, file):
             reference = ReferenceSide(point)
             told = tuple(wanted(expect, reference) for expect in point.expect)
-            points.append(Point(file, at, point, told))
+            points.append(Point(at, point, told))
     return points
 
 
@@ -38,14 +39,15 @@ def probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> list[Po
 
     Those that it refuses are left out: no mutant can be told from it there.
     """
-    asked = [Point(file, {}, read_scene(file), ()) for file in files]
+    points = [Point({}, read_scene(file), ()) for file in files]
+    tasks = [(point, task_in_scene(point.scene, see)) for point in points]
     return [
         replace(
-            ran.point,
-            wanted=tuple(measurement.value for measurement in ran.result.measured),
-            course=ran.result.course,
-            share=allowed_share(ran.point.scene.device),
+            one.item,
+            wanted=tuple(measurement.value for measurement in one.result.measured),
+            course=one.result.course,
+            share=allowed_share(one.item.scene.device),
         )
-        for ran in isolated_runs(fmu, asked, see, time_limit)
-        if ran.point is not None and ran.error is None
+        for one in run_tasks(fmu, tasks, time_limit, name=lambda point: point.name)
+        if one.item is not None and one.error is None
     ]

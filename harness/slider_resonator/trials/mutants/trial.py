@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.checks.compare import Check, Measurement, check, measure_all
-from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.fmu_side import FmuSide, task_in_scene
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.verdict import place, sentence
-from slider_resonator.fmu.isolation.tasks import isolated_runs
+from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import ExpectTable
 
@@ -48,7 +48,6 @@ class Point:
     `share` of an output's peak.
     """
 
-    file: Path
     at: Mapping[str, float]
     scene: Scene
     wanted: tuple[Any, ...]
@@ -95,14 +94,15 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
     """
     nearest: Check | None = None
     wants_course = any(point.course for point in points)
-    runs = isolated_runs(fmu, points, see if wants_course else _see_expected, time_limit)
-    with closing(runs):
-        for ran in runs:
-            if ran.error is not None or ran.point is None:
-                return Rejection(ran.point.name if ran.point else "", "", str(ran.error))
-            for verdict in _checks(ran.point, ran.result):
+    measure = see if wants_course else _see_expected
+    tasks = [(point, task_in_scene(point.scene, measure)) for point in points]
+    with closing(run_tasks(fmu, tasks, time_limit, name=lambda point: point.name)) as finished:
+        for one in finished:
+            if one.error is not None or one.item is None:
+                return Rejection(one.item.name if one.item else "", "", str(one.error))
+            for verdict in _checks(one.item, one.result):
                 if not verdict.passed:
-                    return Rejection(ran.point.name, verdict.quantity, sentence(verdict))
+                    return Rejection(one.item.name, verdict.quantity, sentence(verdict))
                 if nearest is None or verdict.severity > nearest.severity:
                     nearest = verdict
     return Passed(nearest)
