@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from math import pi
+from typing import Any
 
 from slider_resonator.fmu.drive import Instance, Record, run
 from slider_resonator.scenes.scene import Scene
@@ -46,3 +47,15 @@ class FmuSide:
     def drive_period(self) -> float:
         """Drive period in seconds."""
         return 2.0 * pi / self.scene.device.drive_frequency
+
+
+def task_in_scene(scene: Scene, measure: Callable[[FmuSide], Any]) -> Callable[[Instance], Any]:
+    """Return the task, for an isolated FMU, of measuring in a scene.
+
+    `measure` must be picklable: a function of a module.
+    """
+    return partial(_measure, scene=scene, measure=measure)
+
+
+def _measure(instance: Instance, scene: Scene, measure: Callable[[FmuSide], Any]) -> Any:
+    return measure(FmuSide(instance, scene))

@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 
 from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.expecting import expected_value
+from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measures.tube import Tube
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
-from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT, isolated_runs
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -151,14 +152,14 @@ def _validation(
     checks: list[Check] = []
     run_failures: list[RunFailure] = []
     curves: list[Curves | None] = []
-    with closing(isolated_runs(path, points, measure_all, time_limit, meanwhile)) as runs:
-        for ran in runs:
-            point = ran.point
-            if ran.error is not None or point is None:
-                run_failures.append(RunFailure.of(path, point, ran.error))
+    with closing(measure_points(path, points, measure_all, time_limit, meanwhile)) as finished:
+        for one in finished:
+            point = one.item
+            if one.error is not None or point is None:
+                run_failures.append(RunFailure.of(path, point, one.error))
                 continue
             values = expected.at(point)
-            for expect, measured, value in zip(point.scene.expect, ran.result, values, strict=True):
+            for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
                 if isinstance(value, SceneError):
                     run_failures.append(RunFailure.of(path, point, value))
                 else:

@@ -14,7 +14,7 @@ from slider_resonator.commands.reports import (
     report_options,
 )
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import progress_bar
 from slider_resonator.scenes.scene import files_of_scenes
 from slider_resonator.trials.baseline.judge import TOLERANCE

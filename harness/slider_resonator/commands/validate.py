@@ -11,7 +11,7 @@ from slider_resonator.checks.verdict import TITLE
 from slider_resonator.commands.options import default_fmus, scenes_option, time_limit_option
 from slider_resonator.commands.reports import Reports, print_verdicts, report_options
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import progress_bar
 from slider_resonator.scenes.scene import files_of_scenes
 

@@ -140,11 +140,6 @@ class ScenePoint:
     scene: Scene
     at: Mapping[str, float] = field(default_factory=dict)
 
-    @property
-    def file(self) -> Path:
-        """The file of the scene."""
-        return Path(self.scene.source)
-
 
 def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
     """Read a scene file; `values` replace those in it as in `Scene.with_values`.

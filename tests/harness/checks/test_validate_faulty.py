@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import Validation, validate
-from slider_resonator.fmu.isolation.isolated_runs import MOST_DEATHS
+from slider_resonator.fmu.isolation.tasks import MAX_CRASHES
 from tests.harness import faulty_fmus
 from tests.harness.faulty_fmus import compiled
 
@@ -69,12 +69,12 @@ def test_what_lies_in_the_present_folder_is_not_imported(
 
 
 def test_an_fmu_that_keeps_crashing_is_given_up(native_fmu: Path, tmp_path: Path) -> None:
-    names = [f"scene_{number}" for number in range(MOST_DEATHS + 2)]
+    names = [f"scene_{number}" for number in range(MAX_CRASHES + 2)]
     scenes = [faulty_fmus.scene(tmp_path, name) for name in names]
     fmu = compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
     validation = judged(fmu, *scenes)
     assert [run_failure.scene for run_failure in validation.run_failures] == [
-        *names[:MOST_DEATHS],
+        *names[:MAX_CRASHES],
         "",
     ]
     assert validation.run_failures[-1].reason.endswith("not run: scene_3, scene_4")

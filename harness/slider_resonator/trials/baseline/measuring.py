@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
+from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.validate import RunFailure
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.trials.baseline.golden import Golden, measure_golden
@@ -45,12 +45,13 @@ def measure_scenes(
 
     with open_fmu(fmu) as opened:
         origins = {scene.source: provenance(opened, scene, folder) for scene in scenes}
-        with closing(isolated_runs(fmu, all_points, measure_golden, time_limit, meanwhile)) as runs:
-            for ran in runs:
-                if ran.error is not None or ran.point is None:
-                    run_failures.append(RunFailure.of(fmu, ran.point, ran.error))
+        runs = measure_points(fmu, all_points, measure_golden, time_limit, meanwhile)
+        with closing(runs) as finished:
+            for one in finished:
+                if one.error is not None or one.item is None:
+                    run_failures.append(RunFailure.of(fmu, one.item, one.error))
                 else:
-                    found[ran.point.scene.source][key(ran.point.at)] = ran.result
+                    found[one.item.scene.source][key(one.item.at)] = one.result
     progress("", 1.0)
     return Measured(
         {

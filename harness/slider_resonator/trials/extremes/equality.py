@@ -14,7 +14,7 @@ from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.taylor import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.trials.extremes import averaged_referee
+from slider_resonator.trials.extremes import averaged_reference
 from slider_resonator.trials.extremes.cell import Cell
 from slider_resonator.trials.extremes.observe import NAMES, Observation
 from slider_resonator.trials.extremes.verdict import NO_REFEREE, REFEREE, Check
@@ -68,7 +68,7 @@ def refereed(cell: Cell) -> bool:
     """Whether the referee covers the cell at a cost that can be borne."""
     device = cell.device
     if device.fidelity == 0:
-        return averaged_referee.follows(cell)
+        return averaged_reference.follows(cell)
     if cell.start_time or len(cell.holds) > MOST_HOLDS:
         return False
     if device.fidelity == 1 and device.damping_ratio < 1e-9:
@@ -96,7 +96,7 @@ def _referee(cell: Cell, seen: Observation) -> Check:
     ]
     try:
         if cell.device.fidelity == 0:
-            return averaged_referee.compare(cell, seen, held, times, allowed_deviation(cell, seen))
+            return averaged_reference.compare(cell, seen, held, times, allowed_deviation(cell, seen))
         if cell.device.friction_law == 0:
             motion: Trajectory | LugreTrajectory = simulate(cell.device, held, times)
         else:

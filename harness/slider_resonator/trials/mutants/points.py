@@ -7,9 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from slider_resonator.checks.expecting import expected_value
+from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
 from slider_resonator.scenes.scene import read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
 from slider_resonator.trials.mutants.trial import Point, see
@@ -36,14 +36,14 @@ def probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> list[Po
 
     Those that it refuses are left out: no mutant can be told from it there.
     """
-    asked = [Point(read_scene(file)) for file in files]
+    points = [Point(read_scene(file)) for file in files]
     return [
         replace(
-            ran.point,
-            expected=tuple(measurement.value for measurement in ran.result.measured),
-            outputs=ran.result.outputs,
-            share=allowed_share(ran.point.scene.device),
+            one.item,
+            expected=tuple(measurement.value for measurement in one.result.measured),
+            outputs=one.result.outputs,
+            share=allowed_share(one.item.scene.device),
         )
-        for ran in isolated_runs(fmu, asked, see, time_limit)
-        if ran.point is not None and ran.error is None
+        for one in measure_points(fmu, points, see, time_limit)
+        if one.item is not None and one.error is None
     ]

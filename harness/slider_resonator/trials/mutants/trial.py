@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.tolerance import Tolerance
 from slider_resonator.checks.verdict import place, sentence
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
 from slider_resonator.scenes.scene import ScenePoint
 
 OUTPUTS: Mapping[str, float | None] = {
@@ -90,16 +90,17 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
     """
     nearest: Check | None = None
     with_outputs = any(point.outputs for point in points)
-    runs = isolated_runs(fmu, points, see if with_outputs else _see_expected, time_limit)
-    with closing(runs):
-        for ran in runs:
-            if ran.error is not None or ran.point is None:
-                return Rejection(ran.point.name if ran.point else "", "", str(ran.error))
-            for verdict in _checks(ran.point, ran.result):
-                if not verdict.passed:
-                    return Rejection(ran.point.name, verdict.quantity, sentence(verdict))
-                if nearest is None or verdict.severity > nearest.severity:
-                    nearest = verdict
+    measure = see if with_outputs else _see_expected
+    with closing(measure_points(fmu, points, measure, time_limit)) as finished:
+        for one in finished:
+            point = one.item
+            if one.error is not None or point is None:
+                return Rejection(point.name if point else "", "", str(one.error))
+            for check in _checks(point, one.result):
+                if not check.passed:
+                    return Rejection(point.name, check.quantity, sentence(check))
+                if nearest is None or check.severity > nearest.severity:
+                    nearest = check
     return Passed(nearest)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.trials.extremes.averaged_referee import REFERENCE, follows
+from slider_resonator.trials.extremes.averaged_reference import REFERENCE, follows
 from slider_resonator.trials.extremes.cell import Cell, Hold, Model
 from slider_resonator.trials.extremes.judge import judge
 from slider_resonator.trials.extremes.matrix import all_cells
