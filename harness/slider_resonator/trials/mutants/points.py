@@ -10,7 +10,7 @@ from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
-from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
 from slider_resonator.trials.mutants.trial import Point, see
 
@@ -31,12 +31,12 @@ def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) 
     return points
 
 
-def probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> list[Point]:
+def probe_points(fmu: Path, probes: Sequence[Scene], time_limit: float) -> list[Point]:
     """Return the probes with what the original FMU gives.
 
     Those that it refuses are left out: no mutant can be told from it there.
     """
-    points = [Point(read_scene(file)) for file in files]
+    points = [Point(probe) for probe in probes]
     return [
         replace(
             one.item,
