@@ -1,10 +1,9 @@
-"""What the FMU says about a scene: each thing is computed once, when it is first asked for."""
+"""The FMU in a scene: run, steady motion and blocking force, each computed once on first use."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property, partial
-from math import pi
 from typing import Any
 
 from slider_resonator.fmu.drive import Instance, Record, run
@@ -46,7 +45,7 @@ class FmuSide:
     @property
     def drive_period(self) -> float:
         """Drive period in seconds."""
-        return 2.0 * pi / self.scene.device.drive_frequency
+        return self.scene.drive_period
 
 
 def task_in_scene(scene: Scene, measure: Callable[[FmuSide], Any]) -> Callable[[Instance], Any]:

@@ -18,7 +18,7 @@ NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
 Point = tuple[Number, Number]
 
 STEADY_NEEDS = ("steady_velocity", "blocking_force")
-"""Needs that hold for ever under constant inputs."""
+"""Needs in the steady motion under constant inputs."""
 RUN_NEEDS = ("mean_velocity", "position", "velocity", "event_times", "beat")
 """Needs that are measured in a run."""
 
@@ -82,13 +82,13 @@ class RunTable(_Table):
 
 
 class ExpectTable(_Table):
-    """One thing that must hold: a quantity of the FMU against a reference, a value or a bound.
+    """One expectation: a quantity of the FMU against a reference, a value or a bound.
 
-    The deviation allowed is `absolute + relative * |reference|`; for a signal it is `relative`, a
+    The allowed deviation is `absolute + relative * |reference|`; for a signal it is `relative`, a
     share of the reference's peak, and an `absolute` beside it is for a reference near zero.
     Without an `absolute` a reference counts as no smaller than a hundredth of its natural scale.
-    Whoever expects a real number says how near it must be, be it 0. A `tube` leaves a signal room
-    in time, as a share of the drive period to each side; for event times it is the tolerance.
+    A real number needs a tolerance, be it 0. A `tube` allows a signal to be early or late by a
+    share of the drive period; for event times it is the tolerance.
     """
 
     quantity: str
@@ -162,7 +162,7 @@ class ExpectTable(_Table):
 
 
 class SweepTable(_Table):
-    """One parameter or input that takes several values in turn; every expectation holds at each."""
+    """One parameter or input and its values; every expectation must hold at each."""
 
     variable: str
     values: tuple[Number, ...]
@@ -190,10 +190,10 @@ class SweepTable(_Table):
 
 
 class AllowedTable(_Table):
-    """How wrong a needed quantity may be: `abs + rel * size`, where either alone may be given.
+    """Allowed error of a needed quantity: `abs + rel * size`, where either may be left out.
 
-    `abs` is in the quantity's unit. The size is that of a number, the peak of a signal and the
-    drive period for the times of events.
+    `abs` is in the quantity's unit. The size is the magnitude of a number, the peak of a signal and
+    the drive period for event times.
     """
 
     abs: Positive | None = None
@@ -218,7 +218,10 @@ class AllowedTable(_Table):
 
 
 class NeedTable(_Table):
-    """What the scene needs to know and how well; `friction_law = "free"` allows either law."""
+    """The quantities that the scene needs, and how accurately.
+
+    `friction_law = "free"` allows either law.
+    """
 
     mean_velocity: AllowedTable | None = None
     position: AllowedTable | None = None

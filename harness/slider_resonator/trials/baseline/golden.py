@@ -1,4 +1,4 @@
-"""What is recorded of an FMU in a scene."""
+"""The golden results of an FMU in a scene, and how they are measured."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ SIGNALS = (
     *("position", "velocity", "resonator_displacement", "resonator_velocity"),
     *("normal_force", "friction_force", "contact_mode", "event_times"),
 )
-"""Kept at those points; `event_times` has the last event before each."""
+"""Signals kept at those points; `event_times` is the last event before each."""
 OF_A_RUN = (
     *("mean_velocity", "stick_fraction", "reversals", "ripple_amplitude", "ripple_frequency"),
 )
-"""Kept of a run as a whole, or of its last drive periods."""
+"""Numbers kept of a run as a whole, or of its last drive periods."""
 OF_CONSTANT_INPUTS = (
     *("steady_status", "steady_velocity", "predicted_velocity"),
     *("blocking_status", "blocking_force", "predicted_blocking_force"),
 )
-"""Found by shooting, and predicted by the FMU."""
+"""Numbers and words found by shooting, and predicted by the FMU."""
 NUMBERS_AND_WORDS = (*OF_CONSTANT_INPUTS, *OF_A_RUN)
-"""All that is kept beside the signals, in the order of the files."""
+"""All that is kept besides the signals, in the order of the files."""
 
 Golden = Mapping[str, Measurement]
 """Quantity to its measurement; signals at few points."""
 
 
 def measure_golden(fmu: FmuSide) -> Golden:
-    """Measure all that the scene allows; a ripple, say, needs enough points in a drive period.
+    """Measure all quantities that the scene allows: a ripple needs enough points per period.
 
     Raises FmuError and Refusal as the FMU does.
     """

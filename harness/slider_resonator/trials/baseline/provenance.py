@@ -1,4 +1,4 @@
-"""Where golden results come from."""
+"""The provenance of golden results: FMU, scene, host and tools."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FMU_DIGEST = "fmu_sha256"
 SCENE_DIGEST = "scene_sha256"
 SCENE_FILE = "scene_file"
 BUILT_IN = "built in"
-"""Stands for the file of a scene of the harness."""
+"""In place of the file of a built-in scene."""
 
 Provenance = Mapping[str, str]
 """What is recorded beside the results, in the order of the file."""
@@ -56,7 +56,7 @@ def file_digest(file: Path) -> str:
 
 
 def scene_digest(scene: Scene) -> str:
-    """Return the SHA-256 of what a scene runs, whatever it is called and expects."""
+    """Return the SHA-256 of what a scene runs, without its names and expectations."""
     swept = (scene.sweep.variable, scene.sweep.values) if scene.sweep else None
     signals = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.signals.items())]
     runs = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size, swept)

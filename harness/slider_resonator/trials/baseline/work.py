@@ -1,4 +1,4 @@
-"""Recording golden results, checking an FMU against them, accepting what has changed."""
+"""The three commands of a baseline: record golden results, check an FMU, accept changes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from slider_resonator.trials.baseline.store import (
 )
 
 CHANGED = ".changed"
-"""Folder beside the scenes with what the last check has found instead; git ignores it."""
+"""Folder beside the scenes with the changed results of the last check; git ignores it."""
 
 
 def record(
@@ -85,11 +85,11 @@ def check(
     tolerance: float = TOLERANCE,
     time_limit: float = TIME_LIMIT,
 ) -> Validation:
-    """Compare an FMU with what is recorded of scenes, of all that are without `files`.
+    """Compare an FMU with the golden results of scenes, by default of all that are recorded.
 
-    What has changed is kept for `accept`; where it cannot be, that is a failure beside the
-    checks. Raises HarnessError where nothing is recorded or a record cannot be read, FmuError
-    for a file that is no FMU.
+    Changed results are kept for `accept`; where that fails, it is a run failure. Raises
+    HarnessError where nothing is recorded or a record cannot be read, FmuError for a file that is
+    no FMU.
     """
     began = perf_counter()
     scenes = [read_scene(file) for file in dict.fromkeys(files or recorded_files(folder))]
@@ -124,7 +124,7 @@ def check(
 
 
 def accept(fmu: Path, folder: Path, names: Sequence[str] = ()) -> tuple[str, ...]:
-    """Take over what the last check of this FMU has found changed; return the scenes' names.
+    """Accept the changes that the last check of this FMU found; return the names of the scenes.
 
     Without `names` that is every scene that has changed. Raises HarnessError for a name that is not
     among them, and where it was another FMU that was checked.
