@@ -122,7 +122,7 @@ def test_what_is_no_number_is_within_no_bound(bound: str) -> None:
     ],
 )
 def test_a_signal_is_judged_by_its_largest_deviation(signal: np.ndarray, passed: bool) -> None:
-    side = reference(signal=lambda referee, name: WAVE)
+    side = reference(signal=lambda name, output: WAVE)
     verdict = judge(
         fmu(record=RecordOf(position=signal)),
         side,
@@ -155,7 +155,7 @@ def test_a_comparison_that_makes_no_sense_could_not_run() -> None:
 def judge_position(signal: np.ndarray, expected: np.ndarray, **expect: Any) -> Check:
     return judge(
         fmu(record=RecordOf(position=signal)),
-        reference(signal=lambda referee, name: expected),
+        reference(signal=lambda name, output: expected),
         quantity="position",
         reference="located_events",
         **expect,
@@ -229,7 +229,7 @@ def test_a_signal_near_zero_counts_as_a_share_of_its_natural_scale(
     noise = share * smallest_reference("position", Device())
     verdict = judge(
         fmu(record=RecordOf(position=np.full(1000, noise))),
-        reference(signal=lambda referee, name: np.zeros(1000)),
+        reference(signal=lambda name, output: np.zeros(1000)),
         content=TABLE_1,
         quantity="position",
         reference="located_events",
@@ -241,10 +241,10 @@ def test_a_signal_near_zero_counts_as_a_share_of_its_natural_scale(
 
 def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
     tube = Tube(WAVE, np.minimum(np.roll(WAVE, 1), WAVE), np.maximum(np.roll(WAVE, 1), WAVE))
-    asked = []
+    requested = []
 
-    def around(referee: str, name: str, share: float) -> Tube:
-        asked.append((referee, name, share))
+    def around(name: str, output: str, share: float) -> Tube:
+        requested.append((name, output, share))
         return tube
 
     def judged(signal: np.ndarray) -> Check:
@@ -258,7 +258,7 @@ def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
         )
 
     assert judged(np.roll(WAVE, 1)).passed
-    assert asked == [("located_events", "position", 0.01)]
+    assert requested == [("located_events", "position", 0.01)]
     late = judged(np.roll(WAVE, 2))
     assert not late.passed
     assert "outside a tube of 0.01 drive periods to each side by" in sentence(late)
@@ -273,7 +273,7 @@ def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) 
     side = fmu(record=RecordOf(last_event_time=0.5 * found), drive_period=0.5)
     verdict = judge(
         side,
-        reference(event_times=lambda referee: no_tube(events)),
+        reference(event_times=lambda name: no_tube(events)),
         quantity="event_times",
         reference="located_events",
         tube=1e-3,

@@ -47,10 +47,10 @@ def test_a_broken_scene_is_noticed_before_anything_runs(tmp_path: Path) -> None:
 
 
 def test_progress_names_the_scene_at_work(python_fmu: Path, tmp_path: Path) -> None:
-    told: list[tuple[str, float]] = []
+    reported: list[tuple[str, float]] = []
     path = write(tmp_path, EXPECT.format(0.126667))
-    validate([python_fmu], [path], lambda scene, share: told.append((scene, share)))
-    assert told == [("mine", 0.0), ("", 1.0)]
+    validate([python_fmu], [path], lambda scene, share: reported.append((scene, share)))
+    assert reported == [("mine", 0.0), ("", 1.0)]
 
 
 def test_a_failure_is_worse_than_any_pass() -> None:
@@ -89,8 +89,8 @@ def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) ->
     copy = tmp_path / "copy.fmu"
     copy.write_bytes(python_fmu.read_bytes())
     scene = write(tmp_path, EXPECT.format(0.126667))
-    told: list[float] = []
-    results = validate([python_fmu, copy], [scene], lambda name, share: told.append(share))
+    reported: list[float] = []
+    results = validate([python_fmu, copy], [scene], lambda name, share: reported.append(share))
     assert [result.fmu for result in results] == [str(python_fmu), str(copy)]
     assert all(result.passed and len(result.checks) == 1 for result in results)
-    assert told == sorted(told)
+    assert reported == sorted(reported)
