@@ -68,7 +68,7 @@ def test_a_number_may_deviate_by_the_relative_tolerance(velocity: float, passed:
 
 
 def test_with_a_tolerance_of_0_only_equality_passes() -> None:
-    expect = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
     assert judge(steady(0.0), **expect).passed
     assert not judge(steady(1e-300), **expect).passed
 
@@ -87,7 +87,11 @@ def test_a_missing_result_carries_its_reason() -> None:
 
 def test_a_reference_without_a_result_fails() -> None:
     side = reference(steady_velocity=None)
-    expect = {"quantity": "steady_velocity", "reference": "located_events", "relative": 1.0}
+    expect: dict[str, Any] = {
+        "quantity": "steady_velocity",
+        "reference": "located_events",
+        "relative": 1.0,
+    }
     assert not judge(steady(0.1), side, **expect).passed
 
 
@@ -106,7 +110,7 @@ def test_bounds_are_one_sided() -> None:
 
 @pytest.mark.parametrize("bound", ["at_most", "at_least"])
 def test_what_is_no_number_is_within_no_bound(bound: str) -> None:
-    expect = {"quantity": "steady_velocity", bound: 0.1}
+    expect: dict[str, Any] = {"quantity": "steady_velocity", bound: 0.1}
     assert not judge(steady(float("nan")), **expect).passed
 
 
@@ -207,7 +211,7 @@ def test_a_reference_near_zero_counts_as_a_share_of_its_natural_scale(
 ) -> None:
     smallest = smallest_reference("steady_velocity", Device())
     velocity = share * smallest
-    expect = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
     verdict = judge(steady(velocity), content=TABLE_1, **expect)
     assert verdict.passed is passed
     assert verdict.allowed == pytest.approx(1e-6 * smallest)
@@ -218,7 +222,7 @@ def test_a_reference_near_zero_counts_as_a_share_of_its_natural_scale(
 
 
 def test_the_natural_scale_loosens_nothing_else() -> None:
-    expect = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
     assert judge(steady(0.1), content=TABLE_1, **expect).allowed == pytest.approx(1e-7)
 
 

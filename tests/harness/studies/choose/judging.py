@@ -111,6 +111,7 @@ class Judge:
 
     def _record(self, candidate: Candidate) -> Record:
         if candidate not in self._records:
+            assert candidate.step is not None
             own = self.scene.with_step(candidate.step).schedule()
             values = {**self.scene.parameters, **candidate.parameters}
             self._records[candidate] = run(self.instance, values, own, outputs=SHOWN)
