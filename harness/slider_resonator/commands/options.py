@@ -11,8 +11,7 @@ import click
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
-from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.output.targets import writable
 
 BUILT_FMUS = (Path("dist") / "SliderResonator.fmu", Path("dist") / "SliderResonatorPy.fmu")

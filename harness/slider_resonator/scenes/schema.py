@@ -11,7 +11,7 @@ from slider_resonator.checks.measures.tube import WIDEST
 from slider_resonator.checks.quantities import QUANTITIES, Quantity
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import unknown_name
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
