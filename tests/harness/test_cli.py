@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.public_json import assert_public_keys
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
@@ -105,6 +106,7 @@ def test_an_error_is_json_too_where_json_was_asked_for() -> None:
     result = call("steady", "no.fmu", "--json")
     assert result.exit_code == 2
     assert "no such file" in json.loads(result.stdout)["error"]
+    assert_public_keys("error", result.stdout)
 
 
 def in_a_shell(line: str, fmu: Path) -> subprocess.CompletedProcess[str]:
@@ -182,6 +184,7 @@ def test_a_bug_is_not_taken_for_a_verdict(monkeypatch: pytest.MonkeyPatch) -> No
 def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
     steady = call("steady", python_fmu, "--set", "phase=0.4", "--set", "load=0.05", "--json")
     assert steady.exit_code == 0
+    assert_public_keys("steady", steady.stdout)
     motion = json.loads(steady.stdout)
     assert motion["steady_velocity"] == pytest.approx(0.0986951, rel=1e-6)
     assert motion["periods"] <= 100
@@ -190,6 +193,7 @@ def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
     assert len(motion["multipliers"]) == 3
     blocking = call("blocking", python_fmu, "--json")
     assert blocking.exit_code == 0
+    assert_public_keys("blocking", blocking.stdout)
     assert json.loads(blocking.stdout)["blocking_force"] == pytest.approx(0.0851861, rel=1e-5)
 
 

@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.public_json import assert_public_keys
 
 
 def call(verb: str, fmu: Path, folder: Path, *options: object) -> Result:
@@ -77,6 +78,7 @@ def test_a_change_is_shown_kept_and_accepted(
     assert "one: blocking_force" in changed.stdout
     assert "times the allowed" in changed.stdout
     assert json.loads(reports[0].read_text())["exit_code"] == 1
+    assert_public_keys("validate ONE", reports[0].read_text())
     assert int(ET.parse(reports[1]).getroot().get("failures", "0")) > 5
     assert "<h1>Slider-resonator baseline</h1>" in reports[2].read_text(encoding="utf-8")
     assert call("check", other_fmu, baseline).exit_code == 1

@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from slider_resonator.studies.closed_loop import prediction
+from tests.harness.public_json import assert_public_keys
 
 
 def closed_loop(*arguments: object) -> Result:
@@ -36,6 +37,7 @@ def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
 ) -> None:
     done = closed_loop(closed_loop_package, "--out", tmp_path, "--json")
     assert done.exit_code == 0, done.output
+    assert_public_keys("closed-loop", done.stdout)
     found = json.loads(done.stdout)
     assert [entry["fidelity"] for entry in found["held"]] == [0] * 5 + [2] * 5
     for entry in found["held"]:

@@ -9,6 +9,7 @@ from click.testing import CliRunner
 from slider_resonator.cli import main
 from slider_resonator.commands import extremes
 from slider_resonator.trials.extremes.cell import Cell, Hold, Limit, Model
+from tests.harness.public_json import assert_public_keys
 
 HOLDS = (Hold(1e-4, 20),)
 GOOD = Cell("steps", "few", Model(2, 0), {}, HOLDS)
@@ -31,7 +32,9 @@ def test_results_are_written(
     assert code == 0, said
     assert "2 cells: 1 passed, 1 refused by name, 0 failed, none skipped" in said
     assert "worst cost of a step" in said
-    written = json.loads((out / "extremes.json").read_text(encoding="utf-8"))
+    document = (out / "extremes.json").read_text(encoding="utf-8")
+    assert_public_keys("extremes", document)
+    written = json.loads(document)
     verdicts = [one["verdict"] for one in written["fmus"][0]["verdicts"]]
     assert verdicts == ["passed", "refused by name"]
     assert "friction_coefficient = 0.0 refused" in (out / "extremes.md").read_text(encoding="utf-8")

@@ -8,6 +8,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from slider_resonator.commands.hosts import NATIVE, PYTHON
+from tests.harness.public_json import assert_public_keys
 
 FMPY = ("--host", "fmpy")
 
@@ -22,6 +23,7 @@ def test_the_reference_agrees_with_itself(
     out = tmp_path / "hosts.md"
     done = hosts(native_fmu, "--python-fmu", python_fmu, *FMPY, "--out", out, "--json")
     assert done.exit_code == 0, done.output
+    assert_public_keys("hosts", done.stdout)
     results = json.loads(done.stdout)
     assert [(result["host"], result["fmu"]) for result in results] == [
         ("fmpy", "native"),

@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from slider_resonator.cli import main
+from tests.harness.public_json import assert_public_keys
 
 
 def test_figures_are_written_and_told_of_as_json(native_fmu: Path, tmp_path: Path) -> None:
@@ -39,6 +40,9 @@ def test_a_claim_that_is_not_confirmed_ends_with_1(
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 1
     assert "It flies" in result.output
+    printed = CliRunner().invoke(main, ["paper", *arguments, "--json"]).stdout
+    assert_public_keys("paper --only claims", printed)
+    assert_public_keys("claims.json", (tmp_path / "claims.json").read_text(encoding="utf-8"))
 
 
 def test_a_table_that_deviates_ends_with_1(
@@ -57,3 +61,6 @@ def test_a_table_that_deviates_ends_with_1(
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 1
     assert "FAIL     lugre_device: error up to 0.3, allowed 0.1" in result.output
+    printed = CliRunner().invoke(main, ["paper", *arguments, "--json"]).stdout
+    assert_public_keys("paper --only TABLE", printed)
+    assert_public_keys("TABLE.json", (tmp_path / f"{name}.json").read_text(encoding="utf-8"))

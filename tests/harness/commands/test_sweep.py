@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from slider_resonator.cli import main
+from tests.harness.public_json import assert_public_keys
 
 
 def _grid(tmp_path: Path, text: str) -> str:
@@ -21,6 +22,7 @@ def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> 
     arguments = ["--out", str(out), "--plot", str(plot), "--fmu", str(native_fmu), "--json"]
     result = CliRunner().invoke(main, ["sweep", grid, *arguments])
     assert result.exit_code == 0, result.output
+    assert_public_keys("sweep", result.stdout)
     told = json.loads(result.stdout)
     assert (told["points"], told["found"], told["failed"]) == (3, 0, 0)
     lines = out.read_text(encoding="utf-8").splitlines()

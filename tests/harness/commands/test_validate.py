@@ -11,6 +11,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.public_json import assert_public_keys
 
 
 def call(*arguments: object, summary: Path | None = None) -> Result:
@@ -80,10 +81,20 @@ def test_a_folder_of_scenes(native_fmu: Path, tmp_path: Path) -> None:
         faulty_fmus.scene(tmp_path, name)
     result = call(native_fmu, "--scene", tmp_path, "--json")
     assert result.exit_code == 0, result.output
+    assert_public_keys("validate ONE", result.stdout)
     assert [check["scene"] for check in json.loads(result.stdout)["checks"]] == ["one", "two"]
     empty = tmp_path / "empty"
     empty.mkdir()
     assert "with scene files" in call(native_fmu, "--scene", empty).stderr
+
+
+def test_the_public_keys_of_several_fmus_stay(native_fmu: Path, tmp_path: Path) -> None:
+    crash = faulty_fmus.compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
+    scene = faulty_fmus.scene(tmp_path)
+    scene.write_text(scene.read_text() + '[sweep]\nvariable = "phase"\nvalues = [0.0, 0.4]\n')
+    result = call(native_fmu, crash, "--scene", scene, "--json")
+    assert result.exit_code == 2
+    assert_public_keys("validate SEVERAL", result.stdout)
 
 
 def test_json_takes_no_fmu_for_its_file(native_fmu: Path) -> None:
