@@ -8,7 +8,7 @@ from rich.console import Console
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import Validation
-from slider_resonator.output.console import WIDTH_OF_A_LOG
+from slider_resonator.output.console import LOG_WIDTH
 
 GOOD = Check(
     *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),
@@ -37,7 +37,7 @@ WIDEST = (
 
 
 def printed(*checks: Check, details: bool = False, fmu: str = "my.fmu") -> str:
-    console = Console(file=io.StringIO(), width=WIDTH_OF_A_LOG)
+    console = Console(file=io.StringIO(), width=LOG_WIDTH)
     print_validation(console, Validation(fmu, checks, 1.5), details=details)
     assert isinstance(console.file, io.StringIO)
     return console.file.getvalue()
