@@ -4,13 +4,13 @@ import json
 
 import pytest
 
-from slider_resonator.commands.searching import tell
+from slider_resonator.commands.searching import print_outcome
 from slider_resonator.steady.outcome import Outcome
 
 
 def test_what_was_found_is_told_in_sentences(capsys: pytest.CaptureFixture[str]) -> None:
     outcome = Outcome("steady", "stable", 0.5, 1, 40, 3, 1e-14, (0.9 + 0j, 0.1j), True)
-    assert tell(outcome, "steady velocity", 0.25, "m/s", as_json=False) == 0
+    assert print_outcome(outcome, "steady velocity", 0.25, "m/s", as_json=False) == 0
     said = capsys.readouterr().out.splitlines()
     assert said[0] == "steady velocity  0.25 m/s"
     assert said[1] == "status           steady: stable"
@@ -21,9 +21,9 @@ def test_what_was_found_is_told_in_sentences(capsys: pytest.CaptureFixture[str])
 
 def test_finding_nothing_ends_with_1_and_says_so(capsys: pytest.CaptureFixture[str]) -> None:
     outcome = Outcome("slow_beat", "no common period", 0.5)
-    assert tell(outcome, "blocking force", None, "N", as_json=False) == 1
+    assert print_outcome(outcome, "blocking force", None, "N", as_json=False) == 1
     said = capsys.readouterr().out
     assert said.startswith("blocking force   none\n")
     assert "cost" not in said, "nothing was run"
-    assert tell(outcome, "blocking force", None, "N", as_json=True) == 1
+    assert print_outcome(outcome, "blocking force", None, "N", as_json=True) == 1
     assert json.loads(capsys.readouterr().out)["status"] == "slow_beat"
