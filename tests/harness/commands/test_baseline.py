@@ -1,4 +1,4 @@
-"""A baseline as its users meet it: recorded, checked, accepted."""
+"""A baseline as its users see it: recorded, checked, accepted."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def test_an_edited_scene_must_be_recorded_anew(
     assert "record it again with --replace" in result.stderr
 
 
-def test_what_cannot_be_run_leaves_with_2(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
+def test_what_cannot_run_exits_with_2(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
     crash = faulty_fmus.compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
     report = tmp_path / "report.json"
     result = call("check", crash, baseline, "--json", report)

@@ -1,4 +1,4 @@
-"""What `choose` and `run --auto` print and leave with."""
+"""What `choose` and `run --auto` print, and their exit codes."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def test_hosts_that_are_not_installed_are_no_verdict(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "reported"),
     [
         (["--host", "matlab"], "'matlab' is not one of"),
         (["no_such.fmu"], "no_such.fmu"),
@@ -77,7 +77,7 @@ def test_hosts_that_are_not_installed_are_no_verdict(
     ],
 )
 def test_bad_arguments_are_refused(
-    arguments: list[str], said: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    arguments: list[str], reported: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     for path in (NATIVE, PYTHON):
         (tmp_path / path).parent.mkdir(exist_ok=True)
@@ -85,4 +85,4 @@ def test_bad_arguments_are_refused(
     monkeypatch.chdir(tmp_path)
     done = hosts(*arguments)
     assert done.exit_code == 2
-    assert said in done.stderr
+    assert reported in done.stderr

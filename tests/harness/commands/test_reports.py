@@ -9,7 +9,7 @@ from slider_resonator.commands.reports import Reports, print_troubles
 from slider_resonator.errors import HarnessError
 
 
-def test_what_could_not_be_run_is_told_with_its_place(capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_could_not_run_is_reported_with_its_place(capsys: pytest.CaptureFixture[str]) -> None:
     troubles = [Trouble("swept", "crashed", {"phase": 0.4}), Trouble("", "my.fmu: corrupt", {})]
     print_troubles("my.fmu", troubles)
     assert capsys.readouterr().err.splitlines() == [

@@ -1,4 +1,4 @@
-"""What `trade` writes and leaves with."""
+"""What `trade` writes, and its exit codes."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
     result = CliRunner().invoke(main, ["trade", *arguments, "--picture", str(picture), "--json"])
     assert result.exit_code == 0, result.output
     assert_public_keys("trade", result.stdout)
-    (told,) = json.loads(result.stdout)
-    assert {s["kind"] for s in told["standings"]} == {"averaged", "resolved", "peer"}
+    (document,) = json.loads(result.stdout)
+    assert {s["kind"] for s in document["standings"]} == {"averaged", "resolved", "peer"}
 
     rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
-    assert len(rows) == len(told["trade"]["rows"])
+    assert len(rows) == len(document["trade"]["rows"])
     omissions = list(csv.DictReader((out / "omissions.csv").open(encoding="utf-8")))
-    assert len(omissions) == len(told["trade"]["omissions"])
+    assert len(omissions) == len(document["trade"]["omissions"])
     short = task(tmp_path, TABLE_1, most_periods=8)
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
         methods = [*FmuMethods(short, "native", instance).methods(), *peer_methods(short)]
@@ -72,19 +72,19 @@ def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reported"),
     [
         (["tabel_1"], "did you mean 'table_1'?"),
         (["table_1", "--fmu", "missing.fmu"], "missing.fmu: no such file"),
     ],
 )
-def test_what_does_not_exist_is_told_and_leaves_nothing(
-    tmp_path: Path, arguments: list[str], told: str
+def test_what_does_not_exist_is_reported_and_nothing_written(
+    tmp_path: Path, arguments: list[str], reported: str
 ) -> None:
     out = tmp_path / "out"
     result = CliRunner().invoke(main, ["trade", *arguments, "--out", str(out)])
     assert result.exit_code == 2
-    assert told in result.stderr
+    assert reported in result.stderr
     assert not out.exists()
 
 

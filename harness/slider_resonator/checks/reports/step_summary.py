@@ -12,7 +12,7 @@ from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 
 VARIABLE = "GITHUB_STEP_SUMMARY"
-"""Environment variable with the file that the page is made of."""
+"""Environment variable with the file that GitHub renders."""
 MAX_ROWS = 50
 """Failures shown for each FMU: GitHub takes 1 MiB of summary."""
 OUTCOMES = (

@@ -37,7 +37,7 @@ def test_a_hopeless_fmu_does_not_flood_the_page(tmp_path: Path) -> None:
     assert "and 450 more" in path.read_text()
 
 
-def test_an_error_before_any_fmu_is_told(tmp_path: Path) -> None:
+def test_an_error_before_any_fmu_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "summary.md"
     append_summary(path, [], "mine.toml: not TOML")
     assert "Could not run: mine.toml: not TOML" in path.read_text()
