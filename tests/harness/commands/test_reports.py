@@ -18,6 +18,13 @@ def test_what_could_not_run_is_reported_with_its_place(capsys: pytest.CaptureFix
     ]
 
 
+def test_what_an_fmu_prints_commands_neither_terminal_nor_ci(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    print_troubles("my.fmu", [Trouble("", "crashed\x1b[2J\n::stop-commands::all", {})])
+    assert capsys.readouterr().err == "error: crashed\ufffd[2J\n: :stop-commands::all\n"
+
+
 def test_reports_are_written_even_where_the_summary_cannot_be(tmp_path: Path) -> None:
     paths = [tmp_path / name for name in ("report.xml", "report.html", "report.json")]
     junit, html, written = paths

@@ -31,9 +31,7 @@ def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> 
     assert plot.is_file()
 
 
-def test_a_failed_point_exits_with_1_and_its_error_is_reported(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_a_failed_point_is_reported_and_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     grid = _grid(tmp_path, "[list]\nfriction_coefficient = [0.1, -1]")
     arguments = ["--out", str(tmp_path / "a.csv"), "--fmu", str(native_fmu), "--workers", "1"]
     result = CliRunner().invoke(main, ["sweep", grid, *arguments])

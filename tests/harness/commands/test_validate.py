@@ -110,7 +110,7 @@ def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) 
     fmu, mine = tmp_path / "fmu.xml", tmp_path / "scene.xml"
     fmu.write_bytes(native_fmu.read_bytes())
     mine.write_text(scene.read_text())
-    for target, reported_text in (
+    for target, reason in (
         (scene, "allowed is one of .xml"),
         (mine, "allowed is a file of its own"),
         (fmu, "allowed is a file of its own"),
@@ -118,7 +118,7 @@ def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) 
         before = target.read_bytes()
         result = call(fmu, "--scene", mine, "--junit", target)
         assert result.exit_code == 2
-        assert reported_text in result.stderr
+        assert reason in result.stderr
         assert target.read_bytes() == before
 
 

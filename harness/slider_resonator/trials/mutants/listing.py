@@ -25,7 +25,7 @@ def print_run(console: Console, run: MutationRun) -> None:
     for verdict in run.having(SURVIVED):
         heading = Text.assemble(("SURVIVED ", STYLES[Style.FAIL]), verdict.mutant.name)
         reason = Text(escaped(f"     {verdict.reason}"))
-        console.print(heading, reason, Text(verdict.mutant.diff), sep="\n")
+        console.print(heading, reason, Text(escaped(verdict.mutant.diff)), sep="\n")
     for status, meaning in STATUSES.items():
         console.print(f"{status:12} {run.counts[status]:5}  {meaning}")
     console.print(summary(run), markup=False, soft_wrap=True)
@@ -46,7 +46,9 @@ def summary(run: MutationRun) -> str:
 def print_mutants(console: Console, mutants: list[Mutant]) -> None:
     """Print each mutant with its diff."""
     for mutant in mutants:
-        console.print(Text(f"{mutant.name} [{mutant.kind}]", "bold"), Text(mutant.diff), sep="\n")
+        console.print(
+            Text(f"{mutant.name} [{mutant.kind}]", "bold"), escaped(mutant.diff), sep="\n"
+        )
     console.print(f"{len(mutants)} mutants")
 
 

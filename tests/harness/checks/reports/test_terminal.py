@@ -65,6 +65,13 @@ def test_the_longest_rows_fit_a_log_unwrapped() -> None:
     assert text.count("load_above_friction") == 2
 
 
+def test_what_an_fmu_gives_cannot_command_the_terminal() -> None:
+    text = printed(replace(GOOD, fmu="\x1b[2Jstuck", passed=False), fmu="\x1b[31m.fmu")
+    assert "\x1b" not in text
+    assert "\ufffd[2Jstuck" in text
+    assert "\ufffd[31m.fmu: 1 failed, 0 of 1 checks passed" in text
+
+
 def test_minus_zero_and_noise_are_0() -> None:
     (row,) = [
         line
