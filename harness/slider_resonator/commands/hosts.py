@@ -12,11 +12,11 @@ from slider_resonator.commands.results import print_table
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
-from slider_resonator.output.table import Row, Table, numbers, texts, verdict
+from slider_resonator.output.table import Table, texts, verdict
 from slider_resonator.output.terminal import escaped
 from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
-from slider_resonator.trials.hosts.runs import ALLOWED, CASES, HostResult, run_host
-from slider_resonator.trials.hosts.table import host_table, shown, write_table
+from slider_resonator.trials.hosts.runs import ALLOWED, HostResult, run_host
+from slider_resonator.trials.hosts.table import host_table, write_table
 
 NATIVE, PYTHON = Path("dist/SliderResonator.fmu"), Path("dist/SliderResonatorPy.fmu")
 NAMES = [host.name for host in hosts()]
@@ -116,20 +116,9 @@ def _entry(result: HostResult) -> dict[str, object]:
 
 
 def _print(results: Sequence[HostResult]) -> None:
-    columns = (
-        *texts("host", "version", "FMU"),
-        *numbers(*(case.title for case in CASES)),
-        *texts(""),
-    )
-    rows: list[Row] = [
-        (
-            *(result.host, result.version, result.fmu),
-            *(shown(result.comparisons[case]) for case in CASES),
-            verdict(result.passed),
-        )
-        for result in results
-    ]
-    print_table(Table(columns, rows))
+    table = host_table(results)
+    rows = [(*row, verdict(result.passed)) for row, result in zip(table.rows, results, strict=True)]
+    print_table(Table([*table.columns, *texts("")], rows))
     for result in results:
         for case, comparison in result.comparisons.items():
             if comparison.error:

@@ -14,26 +14,22 @@ BEGIN, END = "<!-- hosts -->", "<!-- end of hosts -->"
 COLUMNS = (*texts("host", "version", "FMU"), *numbers(*(case.title for case in CASES)))
 
 
-def host_table(results: Sequence[HostResult]) -> str:
+def host_table(results: Sequence[HostResult]) -> Table:
     """Return the table: a row for each FMU in each host, the largest deviation for each case."""
     rows: list[Row] = [
         (result.host, result.version, result.fmu, *(_cell(result.comparisons[c]) for c in CASES))
         for result in results
     ]
-    return markdown.rendered(Table(COLUMNS, rows))
+    return Table(COLUMNS, rows)
 
 
-def write_table(path: Path, table: str) -> None:
-    """Write the table to `path`, between the marks where the file has them, as `write_marked`."""
-    write_marked(path, table, BEGIN, END)
-
-
-def shown(comparison: Comparison) -> str:
-    """Return the deviation with one digit, or that there is none."""
-    if comparison.deviation is None:
-        return "failed"
-    return f"{comparison.deviation:.0e}" if comparison.deviation else "0"
+def write_table(path: Path, table: Table) -> None:
+    """Write the table to `path`, between the marks if the file has them, as `write_marked`."""
+    write_marked(path, markdown.rendered(table), BEGIN, END)
 
 
 def _cell(comparison: Comparison) -> Cell:
-    return Cell(shown(comparison), Style.PLAIN if comparison.passed else Style.FAIL)
+    text = "failed"
+    if comparison.deviation is not None:
+        text = f"{comparison.deviation:.0e}" if comparison.deviation else "0"
+    return Cell(text, Style.PLAIN if comparison.passed else Style.FAIL)
