@@ -1,4 +1,4 @@
-"""The command line: every command ends with 0 (pass), 1 (fail) or 2 (could not run)."""
+"""The command line: exit code 0 (pass), 1 (fail), 2 (could not run) or 130 (interrupted)."""
 
 from __future__ import annotations
 
@@ -13,10 +13,13 @@ import click
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.console import leave
+from slider_resonator.output.console import exit_with
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.terminal import escaped
 
 COULD_NOT_RUN = 2
+INTERRUPTED = 130
+"""What a shell makes of a process that SIGINT ended."""
 COMMANDS = (
     "baseline",
     "bench",
@@ -38,13 +41,13 @@ COMMANDS = (
 )
 """Each is `<name>_command` in `slider_resonator.commands.<name>`, with _ for -.
 
-A command is loaded when it is called: all together take longer to load than most take to run."""
+A command is loaded when it is called: loading all takes longer than running most."""
 
 
 class HarnessGroup(click.Group):
-    """A group of commands that never lets an error pass for a verdict.
+    """A group of commands in which exit code 1 always means a failed verdict.
 
-    Python and click end with 1 on some errors; here 1 means that something was judged and failed.
+    Python and click exit with 1 on some errors too.
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -52,7 +55,7 @@ class HarnessGroup(click.Group):
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Load a command; None for a name that there is not."""
+        """Load a command; return None for an unknown name."""
         if cmd_name not in COMMANDS:
             return None
         name = cmd_name.replace("-", "_")
@@ -68,53 +71,55 @@ class HarnessGroup(click.Group):
         standalone_mode: bool = True,
         **extra: Any,
     ) -> NoReturn:
-        """Run a command and leave with its exit code; with --json an error is JSON too."""
+        """Run a command and exit with its code; with --json report an error as JSON too."""
         arguments = list(sys.argv[1:] if args is None else args)
         try:
             code = super().main(arguments, prog_name, complete_var, standalone_mode=False, **extra)
-        except SystemExit as end:  # click and rich leave with 1 when nobody reads their output
-            leave(COULD_NOT_RUN if end.code else 0)
+        except SystemExit as end:  # click and rich exit with 1 when nobody reads their output
+            exit_with(COULD_NOT_RUN if end.code else 0)
         except Exception as error:
+            # click raises Abort from a KeyboardInterrupt, but also from an EOFError.
+            cause = error.__cause__ or error if isinstance(error, click.Abort) else error
             with suppress(OSError):
-                message = _told(error)
+                message = _report(cause)
                 if _prints_json(arguments):
                     click.echo(to_json({"error": message}))
-            leave(COULD_NOT_RUN)
-        leave(code if isinstance(code, int) else 0)
+            exit_with(INTERRUPTED if isinstance(cause, KeyboardInterrupt) else COULD_NOT_RUN)
+        exit_with(code if isinstance(code, int) else 0)
 
 
 def _prints_json(arguments: Sequence[str]) -> bool:
-    """Whether JSON is asked for on the standard output, and not in a file named after --json."""
+    """Whether --json asks for JSON on standard output, not in a file."""
     return any(
         argument == "--json" and not after.endswith(".json")
         for argument, after in zip(arguments, [*arguments[1:], ""], strict=True)
     )
 
 
-def _told(error: Exception) -> str:
-    """Say on stderr what went wrong, and return it."""
+def _report(error: BaseException) -> str:
+    """Print on stderr what went wrong, and return it."""
     if isinstance(error, click.ClickException):
         error.show()
         return error.format_message()
-    if isinstance(error, click.Abort):
+    if isinstance(error, KeyboardInterrupt):
         message = "interrupted"
     elif isinstance(error, HarnessError):
         message = f"error: {error}"
     elif isinstance(error, OSError):
         message = f"error: {error.filename or 'standard output'}: {error.strerror}"
     else:
-        traceback.print_exc()
+        click.echo(escaped("".join(traceback.format_exception(error))), err=True, nl=False)
         return f"internal error: {error!r}"
-    click.echo(message, err=True)
+    click.echo(escaped(message), err=True)
     return message.removeprefix("error: ")
 
 
 @click.group(cls=HarnessGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="slider-resonator")
 def main() -> None:
-    """Run a slider-resonator FMU and say with numbers whether it is right.
+    """Run a slider-resonator FMU and report with numbers whether it is right.
 
-    Every command leaves with 0 (pass), 1 (fail) or 2 (could not run).
+    Exit code of every command: 0 (pass), 1 (fail), 2 (could not run), 130 (interrupted).
 
     \b
     Examples:

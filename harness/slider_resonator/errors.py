@@ -1,6 +1,9 @@
-"""What stops a command from giving a verdict. The message of each is meant for the user."""
+"""Errors that keep a command from a verdict. The message of each is written for the user."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
 
 
 class HarnessError(Exception):
@@ -8,7 +11,7 @@ class HarnessError(Exception):
 
 
 class SceneError(HarnessError):
-    """A scene file that cannot be read, or asks for something that does not exist."""
+    """A scene file that cannot be read or asks for something that does not exist."""
 
 
 class FmuError(HarnessError):
@@ -17,3 +20,12 @@ class FmuError(HarnessError):
 
 class Refusal(FmuError):
     """A call that the FMU refused; the message carries the text of the FMU's own log."""
+
+
+def unknown_name(kind: str, name: str, allowed: Iterable[str]) -> str:
+    """Return "unknown KIND 'NAME'", with the nearest of the allowed names and all of them."""
+    names = sorted(allowed)
+    by_folded = {candidate.lower(): candidate for candidate in names}
+    near = get_close_matches(name.lower(), by_folded, n=1, cutoff=0.5)
+    hint = f"; did you mean {by_folded[near[0]]!r}?" if near else ""
+    return f"unknown {kind} {name!r}{hint} (allowed: {', '.join(names)})"

@@ -1,9 +1,10 @@
-"""The command line as users and CI jobs meet it: output, JSON, exit codes."""
+"""The command line as users and CI jobs use it: output, JSON, exit codes."""
 
 from __future__ import annotations
 
 import csv
 import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -13,6 +14,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.public_json import assert_public_keys
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
@@ -51,7 +53,7 @@ def test_every_command_is_listed() -> None:
     assert sorted(line.split()[0] for line in listed) == sorted(COMMANDS)
 
 
-def test_validate_passes_with_0_and_fails_with_1(python_fmu: Path, tmp_path: Path) -> None:
+def test_validate_exits_with_0_or_1(python_fmu: Path, tmp_path: Path) -> None:
     right = call("validate", python_fmu, "--scene", scene_file(tmp_path, EXPECT.format(0.126667)))
     assert right.exit_code == 0, right.output
     assert "1 of 1 checks passed" in right.stdout
@@ -73,7 +75,7 @@ def test_validate_as_json(python_fmu: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "reported"),
     [
         (["validate", "no.fmu"], "no.fmu: no such file"),
         (["validate", "no.fmu", "--scene", "tabel_1"], "did you mean 'table_1'"),
@@ -94,10 +96,10 @@ def test_validate_as_json(python_fmu: Path, tmp_path: Path) -> None:
         (["scenes", "--jsn"], "No such option"),
     ],
 )
-def test_what_cannot_run_ends_with_2_and_says_why(arguments: list[str], said: str) -> None:
+def test_what_cannot_run_exits_with_2_and_a_reason(arguments: list[str], reported: str) -> None:
     result = call(*arguments)
     assert result.exit_code == 2
-    assert said in result.stderr
+    assert reported in result.stderr
     assert result.stdout == ""
 
 
@@ -105,6 +107,7 @@ def test_an_error_is_json_too_where_json_was_asked_for() -> None:
     result = call("steady", "no.fmu", "--json")
     assert result.exit_code == 2
     assert "no such file" in json.loads(result.stdout)["error"]
+    assert_public_keys("error", result.stdout)
 
 
 def in_a_shell(line: str, fmu: Path) -> subprocess.CompletedProcess[str]:
@@ -125,8 +128,8 @@ def in_a_shell(line: str, fmu: Path) -> subprocess.CompletedProcess[str]:
     ],
 )
 def test_output_that_cannot_be_written_is_no_verdict(python_fmu: Path, line: str) -> None:
-    said = in_a_shell(line, python_fmu).stderr.splitlines()
-    assert said == ["error: standard output: No space left on device", "code 2"]
+    errors = in_a_shell(line, python_fmu).stderr.splitlines()
+    assert errors == ["error: standard output: No space left on device", "code 2"]
 
 
 @pytest.mark.parametrize(
@@ -139,11 +142,11 @@ def test_output_that_cannot_be_written_is_no_verdict(python_fmu: Path, line: str
         "harness steady no.fmu --json 2>&1 >/dev/full | true; echo 'code 2' >&2",
     ],
 )
-def test_a_reader_that_leaves_early_is_no_error_and_no_verdict(python_fmu: Path, line: str) -> None:
+def test_a_reader_that_stops_early_is_no_error_and_no_verdict(python_fmu: Path, line: str) -> None:
     assert in_a_shell(line, python_fmu).stderr == "code 2\n"
 
 
-def test_what_cannot_even_be_complained_about_could_not_run(python_fmu: Path) -> None:
+def test_an_error_that_cannot_be_printed_exits_with_2(python_fmu: Path) -> None:
     shell = in_a_shell(
         f"{sys.executable} -m harness steady no.fmu 2>/dev/full; echo $?", python_fmu
     )
@@ -156,7 +159,7 @@ def test_a_closed_output_does_not_hide_the_verdict(python_fmu: Path) -> None:
     assert in_a_shell(line, python_fmu).stderr == "code 1\n"
 
 
-def test_the_version_is_told() -> None:
+def test_the_version_is_printed() -> None:
     result = call("--version")
     assert result.exit_code == 0
     assert "slider-resonator, version 0." in result.stdout
@@ -175,13 +178,49 @@ def test_a_bug_is_not_taken_for_a_verdict(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr("slider_resonator.commands.scenes.built_in_scenes", broken)
     result = call("scenes")
-    assert result.exit_code == 2, "Python itself would have left with 1"
+    assert result.exit_code == 2, "Python itself would have exited with 1"
     assert "KeyError" in result.stderr
+
+
+def test_an_end_of_file_inside_a_command_is_a_bug_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken() -> None:
+        raise EOFError("a pipe has closed \x1b[2J")
+
+    monkeypatch.setattr("slider_resonator.commands.scenes.built_in_scenes", broken)
+    result = call("scenes")
+    assert result.exit_code == 2
+    assert "EOFError: a pipe has closed \ufffd[2J" in result.stderr
+
+
+def test_an_interrupt_exits_with_130() -> None:
+    script = """
+import sys, time
+from slider_resonator.cli import main
+from slider_resonator.commands import scenes
+
+def wait():
+    print("ready", file=sys.stderr, flush=True)
+    time.sleep(60)
+
+scenes.built_in_scenes = wait
+main(["scenes", "--json"])
+"""
+    with subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stderr is not None
+        assert process.stderr.readline() == "ready\n"
+        process.send_signal(signal.SIGINT)
+        out, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert errors.strip() == "interrupted"
+    assert json.loads(out)["error"] == "interrupted"
 
 
 def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
     steady = call("steady", python_fmu, "--set", "phase=0.4", "--set", "load=0.05", "--json")
     assert steady.exit_code == 0
+    assert_public_keys("steady", steady.stdout)
     motion = json.loads(steady.stdout)
     assert motion["steady_velocity"] == pytest.approx(0.0986951, rel=1e-6)
     assert motion["periods"] <= 100
@@ -190,6 +229,7 @@ def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
     assert len(motion["multipliers"]) == 3
     blocking = call("blocking", python_fmu, "--json")
     assert blocking.exit_code == 0
+    assert_public_keys("blocking", blocking.stdout)
     assert json.loads(blocking.stdout)["blocking_force"] == pytest.approx(0.0851861, rel=1e-5)
 
 
@@ -201,7 +241,7 @@ def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
         ("frequency_ratio=1.37", "no_common_period"),
     ],
 )
-def test_no_steady_motion_ends_with_1_and_a_status(
+def test_no_steady_motion_exits_with_1_and_a_status(
     python_fmu: Path, settings: str, status: str
 ) -> None:
     result = call("steady", python_fmu, "--set", settings, "--json")
@@ -209,9 +249,9 @@ def test_no_steady_motion_ends_with_1_and_a_status(
     motion = json.loads(result.stdout)
     assert motion["steady_velocity"] is None
     assert motion["status"] == status
-    spoken = call("steady", python_fmu, "--set", settings)
-    assert spoken.exit_code == 1
-    assert status in spoken.stdout
+    printed = call("steady", python_fmu, "--set", settings)
+    assert printed.exit_code == 1
+    assert status in printed.stdout
 
 
 def test_a_value_that_the_fmu_refuses_could_not_run(python_fmu: Path) -> None:
@@ -220,7 +260,7 @@ def test_a_value_that_the_fmu_refuses_could_not_run(python_fmu: Path) -> None:
     assert "slider_mass = -1.0" in result.stderr
 
 
-def test_run_writes_csv_and_plot_and_tells_the_cost(python_fmu: Path, tmp_path: Path) -> None:
+def test_run_writes_csv_and_plot_and_reports_the_cost(python_fmu: Path, tmp_path: Path) -> None:
     out, plot = tmp_path / "run.csv", tmp_path / "run.png"
     result = call("run", python_fmu, "lift_off", "--out", out, "--plot", plot)
     assert result.exit_code == 0, result.output

@@ -1,4 +1,4 @@
-"""`baseline`: golden results recorded, checked and accepted."""
+"""`baseline`: record, check and accept golden results."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ dir_option = click.option(
     "folder",
     type=click.Path(path_type=Path, file_okay=False),
     required=True,
-    help="Folder of the baseline: CSV files to be kept under version control.",
+    help="Folder of the baseline: CSV files to keep under version control.",
 )
 limited = time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep.")
 
 
 @click.group("baseline")
 def baseline_command() -> None:
-    """Keep what an FMU gives under version control, and see what changes.
+    """Keep an FMU's results under version control and compare with them.
 
-    A baseline has a folder for each scene with steady velocity, blocking force, counts and some
-    points of the run in CSV files, and where they come from. validate judges an FMU by physics; a
-    baseline judges it by what it was.
+    A baseline has a folder for each scene: steady velocity, blocking force, counts, some points of
+    the run and their provenance, in CSV files. validate compares an FMU with physics; a baseline
+    compares it with its own earlier results.
 
     \b
     Examples:
@@ -50,7 +50,7 @@ def baseline_command() -> None:
 @fmu_argument
 @dir_option
 @scenes_option("all built-in")
-@click.option("--replace", is_flag=True, help="Record anew what is recorded already.")
+@click.option("--replace", is_flag=True, help="Replace scenes that are already recorded.")
 @limited
 @click.pass_context
 def record_command(
@@ -61,10 +61,10 @@ def record_command(
     replace: bool,
     time_limit: float,
 ) -> None:
-    """Record scenes, by default all that are built in.
+    """Record scenes, by default all built-in ones.
 
-    What is recorded already is not replaced unasked. Leaves with 0, or with 2 when something could
-    not be run: the scenes that could are recorded even so.
+    Recorded scenes are replaced only with --replace. Exit code: 0, or 2 when something could not
+    run; the scenes that could run are recorded.
 
     \b
     Examples:
@@ -84,16 +84,16 @@ def record_command(
 @baseline_command.command("check")
 @fmu_argument
 @dir_option
-@scenes_option("all that are recorded")
+@scenes_option("all recorded")
 @click.option(
     "--tolerance",
     type=click.FloatRange(min=0.0),
     default=TOLERANCE,
     show_default=True,
-    help="Change that counts as none: a share of a number or of a signal's peak, for times of "
-    "events of the drive period.",
+    help="Largest change that passes, relative to a number, a signal's peak or, for event times, "
+    "the drive period.",
 )
-@click.option("--details", is_flag=True, help="Show what has not changed as well.")
+@click.option("--details", is_flag=True, help="Show unchanged results too.")
 @limited
 @report_options
 @click.pass_context
@@ -109,11 +109,10 @@ def check_command(
     html: Path | None,
     json: Path | None,
 ) -> None:
-    """Compare an FMU with what is recorded: what has changed, by how much and where.
+    """Compare an FMU with the recorded results: what has changed, by how much and where.
 
-    Without --scene everything that is recorded is checked. Leaves with 0 when nothing has changed,
-    1 when something has, 2 when something could not be run. What has changed is kept, unseen by
-    git, for accept.
+    Changed results are kept, ignored by git, for accept. Exit code: 0 when nothing has changed, 1
+    when something has, 2 when something could not run.
 
     \b
     Examples:
@@ -121,7 +120,7 @@ def check_command(
       python -m harness baseline check my.fmu --dir baseline --scene table_1 --tolerance 1e-6
       python -m harness baseline check my.fmu --dir baseline --junit report.xml --html report.html
     """
-    reports = Reports.asked_for("Slider-resonator baseline", junit, html, json, {"the FMU": fmu})
+    reports = Reports.requested("Slider-resonator baseline", junit, html, json, {"the FMU": fmu})
     try:
         files = files_of_scenes(scenes) if scenes else []
         with progress_bar() as progress:
@@ -142,13 +141,13 @@ def check_command(
     "scenes",
     multiple=True,
     metavar="NAME",
-    help="A scene that has changed; may be given several times.  [default: all that have]",
+    help="A changed scene. Repeatable.  [default: all changed ones]",
 )
 def accept_command(fmu: Path, folder: Path, scenes: tuple[str, ...]) -> None:
-    """Take over what the last check of this FMU has found changed.
+    """Accept the changes that the last check of this FMU has found.
 
-    Nothing is run again. Leaves with 0, or with 2 for a scene that has not changed and for an FMU
-    that is not the one that was checked.
+    Nothing runs again. Exit code: 0, or 2 for an unchanged scene or an FMU other than the checked
+    one.
 
     \b
     Examples:

@@ -12,7 +12,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from slider_resonator.commands.options import default_fmus, json_option
+from slider_resonator.commands.options import default_fmus, fmus_argument, json_option
 from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import output, progress_bar
@@ -40,7 +40,7 @@ class Benchmarks:
 
 
 @click.command("bench")
-@click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
+@fmus_argument
 @click.option("--repeats", type=click.IntRange(min=1), default=9, show_default=True)
 @click.option(
     "--part",
@@ -59,7 +59,7 @@ def bench_command(
     The device is that of table 1 near its steady motion, errors are against Taylor integration with
     located events. Needs heyoka, and scikit-sundae for LuGre friction (pip install
     'slider-resonator[peers]'); `c-host` needs a C compiler and an FMU that runs without Python.
-    Leaves with 0, or with 2 when it could not be run.
+    Exit code: 0, or 2 when it could not run.
 
     \b
     Examples:

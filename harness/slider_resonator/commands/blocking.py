@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import SettingsCommand
-from slider_resonator.commands.searching import search_arguments, tell
+from slider_resonator.commands.searching import print_outcome, search_arguments
 from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady.blocking_force import find_blocking
@@ -25,9 +25,9 @@ def blocking_command(
 ) -> None:
     """Find the load that stops an FMU, by shooting, without a long run.
 
-    The load is one more unknown of the shooting, no displacement over the common period one more
-    equation. Leaves with 0 when it is found, 1 when there is none (the status says why), 2 when
-    the FMU could not be run. --set load=... is where the search begins.
+    The load is one more unknown of the shooting, zero displacement over the common period one more
+    equation. --set load=... is the initial guess. Exit code: 0 when it is found, 1 when there is
+    none (the status says why), 2 when the FMU could not run.
 
     \b
     Examples:
@@ -37,4 +37,4 @@ def blocking_command(
     """
     with open_fmu(fmu) as opened, instantiate(opened) as instance:
         blocking = find_blocking(instance, settings, max_denominator=max_denominator)
-    context.exit(tell(blocking, "blocking force", blocking.blocking_force, "N", as_json))
+    context.exit(print_outcome(blocking, "blocking force", blocking.blocking_force, "N", as_json))

@@ -1,4 +1,4 @@
-"""`choose`: the cheapest model that a scene's needs allow, proved by a short probe."""
+"""`choose`: find the cheapest model that meets a scene's needs, confirmed by a short probe."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from math import isfinite
 from pathlib import Path
 
 import click
-from rich import box
-from rich.console import Console
-from rich.table import Table
 
 from slider_resonator.commands.options import (
     SettingsCommand,
     check_left_to_choose,
     default_fmu,
+    fmu_option,
     json_option,
     set_option,
 )
-from slider_resonator.output.console import output
+from slider_resonator.commands.results import print_table
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.scene import find_scene, read_scene
 from slider_resonator.studies.choose import Choice, choose
 from slider_resonator.studies.choose.candidate import Model
@@ -36,11 +36,7 @@ UNITS = {
 
 @click.command("choose", cls=SettingsCommand)
 @click.argument("scene")
-@click.option(
-    "--fmu",
-    type=click.Path(path_type=Path),
-    help="FMU to try it in; by default the native one in dist.",
-)
+@fmu_option
 @set_option
 @json_option
 @click.pass_context
@@ -53,13 +49,13 @@ def choose_command(
 ) -> None:
     """Choose fidelity, friction law, tolerance and communication step for what a scene needs.
 
-    The scene, built in or from a file, says it in [need]: any of mean_velocity, position, velocity,
-    steady_velocity, blocking_force, event_times and beat, each with abs or rel, and friction_law =
-    "free" where either law will do. Laws of the errors say where to look, and a short resolved run
-    in the FMU confirms the answer. Fidelity and tolerance of the scene itself do not matter, its
-    step is how often it looks at signals; of a scene with a sweep the unvaried device is taken.
-    Leaves with 0 when something suffices, with 1 when nothing does (then the nearest is told), and
-    with 2 when the scene could not be run.
+    The scene, built in or from a file, states its needs in [need]: any of mean_velocity, position,
+    velocity, steady_velocity, blocking_force, event_times and beat, each with abs or rel, and
+    friction_law = "free" if either law will do. Error estimates select candidates, and a short
+    resolved run in the FMU confirms the choice. The scene's own fidelity and tolerance are ignored;
+    its step is the sampling step of signals. A scene with a sweep stands for its unvaried device.
+    Exit code: 0 when a model meets the needs, 1 when none does (then the nearest is shown), 2 when
+    the scene could not run.
 
     \b
     Examples:
@@ -73,24 +69,18 @@ def choose_command(
     if as_json:
         click.echo(to_json(choice))
     else:
-        _show(choice, output())
+        _print(choice)
     context.exit(0 if choice.meets else 1)
 
 
-def _show(choice: Choice, console: Console) -> None:
-    for line in choice.sentences():
-        console.print(line, soft_wrap=True)
-    needs = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in ("need", "predicted error", "allowed", "unit"):
-        needs.add_column(column)
+def _print(choice: Choice) -> None:
+    click.echo(escaped("\n".join(choice.sentences())))
+    needs = []
     for name, error in choice.error.items():
-        told = f"{error:.3g}" if isfinite(error) else "no bound"
-        needs.add_row(name, told, f"{choice.allowed[name]:.3g}", UNITS[name])
-    console.print(needs)
-    if choice.ruled_out:
-        others = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-        for column in ("ruled out", "why"):
-            others.add_column(column)
-        for model in choice.ruled_out:
-            others.add_row(Model(model.fidelity, model.friction_law).name, model.why)
-        console.print(others)
+        predicted = f"{error:.3g}" if isfinite(error) else "no bound"
+        needs.append((name, predicted, f"{choice.allowed[name]:.3g}", UNITS[name]))
+    columns = (*texts("need"), *numbers("predicted error", "allowed"), *texts("unit"))
+    print_table(Table(columns, needs))
+    others = [(Model(m.fidelity, m.friction_law).name, m.why) for m in choice.ruled_out]
+    if others:
+        print_table(Table(texts("ruled out", "why"), others))

@@ -1,4 +1,4 @@
-"""`closed-loop`: the slider in a system, its velocity held by a controller."""
+"""`closed-loop`: run the slider in a system where a controller holds its velocity."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from pathlib import Path
 
 import click
 import numpy as np
-from rich.table import Table
 
-from slider_resonator.commands.options import REPOSITORY, json_option
+from slider_resonator.commands.options import REPOSITORY, json_option, out_folder_option
+from slider_resonator.commands.results import print_table
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.atomic import replacing
-from slider_resonator.output.console import output, progress_bar
+from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
 from slider_resonator.studies.closed_loop.course import HOSTS, Course, run_loop
 from slider_resonator.studies.closed_loop.duty import Duty
@@ -25,19 +26,27 @@ from slider_resonator.studies.closed_loop.prediction import predicted_errors
 
 PACKAGE = Path("dist") / "ClosedLoop.ssp"
 NAMES = [host.name for host in HOSTS]
+HOLD_COLUMNS = (
+    *texts("host"),
+    *numbers("fidelity", "at [s]", "load [mN]", "largest", "settled after [s]", "then within"),
+    *texts(""),
+)
+AGREEMENT_COLUMNS = (
+    *texts("host"),
+    *numbers("at [s]", "load [mN]", "difference [um/s]", "largest at [s]", "predicted [um/s]"),
+    *texts(""),
+)
 
 
 @click.command("closed-loop")
 @click.argument("package", type=click.Path(path_type=Path), required=False)
-@click.option(
-    "--out", type=click.Path(path_type=Path), required=True, help="Folder for picture and data."
-)
+@out_folder_option("closed_loop.png and closed_loop.csv")
 @click.option(
     "--host",
     "chosen",
     type=click.Choice(NAMES),
     multiple=True,
-    help="Host to run it in; may be given more than once.  [default: fmpy]",
+    help="Host to run it in. Repeatable.  [default: fmpy]",
 )
 @json_option
 @click.pass_context
@@ -50,12 +59,11 @@ def closed_loop_command(
 ) -> None:
     """Hold the slider's velocity under a changing load, at fidelity 0 and at fidelity 2.
 
-    PACKAGE is an SSP package such as dist/ClosedLoop.ssp, the one that is run without it. A
-    controller FMU moves the phase; the load steps four times. After each step, and 0.6 s to settle,
-    the velocity has to stay within 2 %. From each step on, also while the loop answers, both
-    fidelities have to agree within the error that `choose` predicts for averaged motion under what
-    the controller did. Leaves with 0 when all of this holds, 1 when not, 2 when the
-    package could not be run. Writes closed_loop.png and closed_loop.csv.
+    PACKAGE is an SSP package; the default is dist/ClosedLoop.ssp. A controller FMU moves the phase;
+    the load steps four times. From 0.6 s after each step on, the velocity must stay within 2 %. At
+    all times both fidelities must agree within the error that `choose` predicts for averaged motion
+    with the controller's inputs. Exit code: 0 when both hold, 1 when one does not, 2 when the
+    package could not run.
 
     \b
     Examples:
@@ -88,7 +96,7 @@ def closed_loop_command(
         facts = {"passed": passed, "package": str(package), "duty": duty}
         click.echo(to_json({**facts, "held": held, "agreements": agreements}))
     else:
-        _show(held, agreements)
+        _print(held, agreements)
         click.echo(f"written  {out / 'closed_loop.png'}, {out / 'closed_loop.csv'}")
     context.exit(0 if passed else 1)
 
@@ -96,7 +104,7 @@ def closed_loop_command(
 def _shared(
     progress: Callable[[str, float], None], label: str, index: int, count: int, share: float
 ) -> None:
-    """Tell the progress of one host among `count`."""
+    """Report the progress of one host among `count`."""
     progress(label, (index + share) / count)
 
 
@@ -105,7 +113,7 @@ def _built() -> Path:
 
 
 def _write_csv(path: Path, courses: Sequence[Course], duty: Duty) -> None:
-    """Write the ends of the steps with what was held over them and what came out."""
+    """Write the end of each step with the inputs held over it and the outputs."""
     header = ["time [s]", "velocity_reference [m/s]"]
     columns = [courses[0].times, np.full(len(duty.times), duty.reference)]
     for course in courses:
@@ -118,37 +126,28 @@ def _write_csv(path: Path, courses: Sequence[Course], duty: Duty) -> None:
         writer.writerows(zip(*(column.tolist() for column in columns), strict=True))
 
 
-def _show(held: Sequence[Held], agreements: Sequence[Agreement]) -> None:
-    headings = ("host", "fidelity", "at", "load", "largest", "settled after", "then within", "")
-    table = Table(*headings, box=None)
-    for entry in held:
-        table.add_row(
-            entry.host,
-            str(entry.fidelity),
-            f"{entry.start:g} s",
-            f"{1e3 * entry.load:g} mN",
-            f"{entry.largest:.1%}",
-            "never" if entry.settled is None else f"{entry.settled:.2f} s",
-            f"{entry.after_settling:.2%}",
-            _verdict(entry.passed),
+def _print(held: Sequence[Held], agreements: Sequence[Agreement]) -> None:
+    holds: list[Row] = [
+        (
+            *(entry.host, str(entry.fidelity), f"{entry.start:g}", f"{1e3 * entry.load:g}"),
+            *(f"{entry.largest:.1%}", "never" if entry.settled is None else f"{entry.settled:.2f}"),
+            *(f"{entry.after_settling:.2%}", verdict(entry.passed)),
         )
-    console = output()
-    console.print(table)
-    console.print()
-    table = Table("host", "at", "load", "fidelities differ by", "at", "predicted", "", box=None)
-    for agreement in agreements:
-        predicted = agreement.predicted
-        table.add_row(
-            agreement.host,
-            f"{agreement.start:g} s",
-            f"{1e3 * agreement.load:g} mN",
-            f"{1e6 * agreement.difference:.1f} um/s",
-            f"{agreement.time:.2f} s",
-            "fidelity 0 rejected" if predicted is None else f"{1e6 * predicted:.1f} um/s",
-            _verdict(agreement.passed),
+        for entry in held
+    ]
+    print_table(Table(HOLD_COLUMNS, holds))
+    differences: list[Row] = [
+        (
+            *(entry.host, f"{entry.start:g}", f"{1e3 * entry.load:g}"),
+            *(f"{1e6 * entry.difference:.1f}", f"{entry.time:.2f}", _predicted(entry)),
+            verdict(entry.passed),
         )
-    console.print(table)
+        for entry in agreements
+    ]
+    print_table(Table(AGREEMENT_COLUMNS, differences))
 
 
-def _verdict(passed: bool) -> str:
-    return "[green]pass[/green]" if passed else "[bold red]FAIL[/bold red]"
+def _predicted(agreement: Agreement) -> str:
+    if agreement.predicted is None:
+        return "fidelity 0 rejected"
+    return f"{1e6 * agreement.predicted:.1f}"

@@ -1,4 +1,4 @@
-"""`extremes`: the stability matrix."""
+"""`extremes`: run the stability matrix."""
 
 from __future__ import annotations
 
@@ -6,10 +6,15 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import default_fmus, json_option
+from slider_resonator.commands.options import (
+    default_fmus,
+    fmus_argument,
+    json_option,
+    out_folder_option,
+)
+from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import make_folder
 from slider_resonator.trials.extremes.listing import as_plain, write_matrices
 from slider_resonator.trials.extremes.matrix import all_cells
@@ -18,26 +23,21 @@ from slider_resonator.trials.extremes.verdict import PASSED
 
 
 @click.command("extremes")
-@click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    required=True,
-    help="Folder for extremes.json, extremes.md and a picture for each FMU.",
-)
+@fmus_argument
+@out_folder_option("extremes.json, extremes.md and a picture for each FMU")
 @click.option(
     "--limit",
     type=click.FloatRange(min=0.0, min_open=True),
     default=TIME_LIMIT,
     show_default=True,
-    help="Time limit of a cell in s; a cell that exceeds it fails.",
+    help="Time limit in s for a cell; one that hangs fails.",
 )
 @click.option(
     "--long",
     is_flag=True,
-    help="Add resolved runs of 1e8 drive periods, with LuGre friction of 1e6: minutes each in the "
-    "native FMU, so give slower ones a --limit. Without it they have 1e5 and 1e3; averaged motion "
-    "always has 1e8.",
+    help="Lengthen resolved runs from 1e5 to 1e8 drive periods, with LuGre friction from 1e3 to "
+    "1e6: minutes each in the native FMU, so give slower ones a --limit. Averaged motion always "
+    "has 1e8.",
 )
 @json_option
 @click.pass_context
@@ -49,12 +49,11 @@ def extremes_command(
     long: bool,
     as_json: bool,
 ) -> None:
-    """Run FMUs at the extremes of every parameter, input and step, and judge them by physics.
+    """Run FMUs at the extremes of every parameter, input and step, and check them by physics.
 
-    The FMU runs in a process of its own. A cell passes the bounds that follow from the equations,
-    is refused by name, or fails; a hang or a crash fails its cell. Without FMUS: those that
-    build_fmu.py has built in dist. Leaves with 0 when no cell failed, 1 when one did, 2 when
-    an FMU could not be run.
+    Each cell runs in a process of its own. It passes the bounds that follow from the equations, is
+    refused by name, or fails; a hang or a crash fails its cell. Without FMUS: those in dist. Exit
+    code: 0 when no cell fails, 1 when one does, 2 when an FMU could not run.
 
     \b
     Examples:
@@ -63,18 +62,15 @@ def extremes_command(
     """
     chosen = fmus or default_fmus()
     for path in chosen:
-        with open_fmu(path):  # One that cannot be opened must not cost the matrix of another.
+        with open_fmu(path):  # before any matrix runs: one takes minutes
             pass
     make_folder(out)
     cells = all_cells(long=long)
     with progress_bar() as progress:
         matrices = [run_matrix(fmu, cells, progress, limit) for fmu in chosen]
     write_matrices(matrices, out)
-    if as_json:
-        click.echo(to_json(as_plain(matrices)))
-    else:
-        click.echo("\n".join(_sentences(matrix) for matrix in matrices))
-        click.echo(f"written {out}")
+    lines = [*map(_sentences, matrices), f"written {out}"]
+    print_result(as_plain(matrices), "\n".join(lines), as_json=as_json)
     context.exit(0 if all(matrix.passed for matrix in matrices) else 1)
 
 

@@ -1,4 +1,4 @@
-"""`hosts`: table 1 in other simulators, and the table of the README."""
+"""`hosts`: run table 1 in other simulators and write the table of the README."""
 
 from __future__ import annotations
 
@@ -6,16 +6,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
-from rich.markup import escape
-from rich.table import Table
 
 from slider_resonator.commands.options import Target, json_option
+from slider_resonator.commands.results import print_table
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.console import output, progress_bar
+from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.table import Table, texts, verdict
+from slider_resonator.output.terminal import escaped
 from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
-from slider_resonator.trials.hosts.runs import ALLOWED, CASES, HostResult, run_host
-from slider_resonator.trials.hosts.table import host_table, shown, write_table
+from slider_resonator.trials.hosts.runs import ALLOWED, HostResult, run_host
+from slider_resonator.trials.hosts.table import host_table, write_table
 
 NATIVE, PYTHON = Path("dist/SliderResonator.fmu"), Path("dist/SliderResonatorPy.fmu")
 NAMES = [host.name for host in hosts()]
@@ -30,9 +31,15 @@ NAMES = [host.name for host in hosts()]
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
     default=PYTHON,
     show_default=True,
-    help="FMU that needs Python in the process, for the hosts that have it.",
+    help="FMU that needs Python in the process, for the hosts that provide it.",
 )
-@click.option("--host", "chosen", type=click.Choice(NAMES), multiple=True, help="Run only these.")
+@click.option(
+    "--host",
+    "chosen",
+    type=click.Choice(NAMES),
+    multiple=True,
+    help="Run only this host. Repeatable.",
+)
 @click.option(
     "--own-environment",
     type=click.Path(path_type=Path, file_okay=False),
@@ -43,8 +50,8 @@ NAMES = [host.name for host in hosts()]
 @click.option(
     "--out",
     type=Target((".md",)),
-    help="Markdown file for the table; in a file that has them, the table goes between the lines "
-    "<!-- hosts --> and <!-- end of hosts -->.",
+    help="Markdown file for the table, which goes between the lines <!-- hosts --> and "
+    "<!-- end of hosts --> if the file has them.",
 )
 @json_option
 @click.pass_context
@@ -59,9 +66,10 @@ def hosts_command(
 ) -> None:
     """Run table 1 in other simulators and compare with fmpy.
 
-    Each fidelity with each friction law, 40 steps of 1 ms in which all inputs change; all outputs
-    after every step, largest deviation in shares of each signal's peak. Leaves with 0 when all
-    agree, 1 when one does not, 2 when a host is not installed (`make hosts` installs them).
+    Each fidelity runs with each friction law for 40 steps of 1 ms in which all inputs change. All
+    outputs are compared after every step; deviations are relative to each signal's peak. Exit code:
+    0 when all agree, 1 when one does not, 2 when a host is not installed (`make hosts` installs
+    them).
 
     \b
     Examples:
@@ -82,13 +90,13 @@ def hosts_command(
     if as_json:
         click.echo(to_json([_entry(result) for result in results]))
     else:
-        _show(results)
+        _print(results)
     context.exit(0 if all(result.passed for result in results) else 1)
 
 
-def _check_installed(wanted: Sequence[Host]) -> None:
+def _check_installed(selected: Sequence[Host]) -> None:
     missing = []
-    for host in wanted:
+    for host in selected:
         try:
             host.version()
         except HarnessError as error:
@@ -107,16 +115,12 @@ def _entry(result: HostResult) -> dict[str, object]:
     return entry | {"passed": result.passed, "cases": cases}
 
 
-def _show(results: Sequence[HostResult]) -> None:
-    table = Table("host", "version", "FMU", *(case.title for case in CASES), "", box=None)
-    for result in results:
-        cells = [shown(result.comparisons[case]) for case in CASES]
-        verdict = "[green]pass[/green]" if result.passed else "[bold red]FAIL[/bold red]"
-        table.add_row(result.host, result.version, result.fmu, *cells, verdict)
-    console = output()
-    console.print(table)
+def _print(results: Sequence[HostResult]) -> None:
+    table = host_table(results)
+    rows = [(*row, verdict(result.passed)) for row, result in zip(table.rows, results, strict=True)]
+    print_table(Table([*table.columns, *texts("")], rows))
     for result in results:
         for case, comparison in result.comparisons.items():
             if comparison.error:
                 where = f"{result.host}, {result.fmu} FMU, {case.title}"
-                console.print(f"{where}: {escape(comparison.error)}")
+                click.echo(escaped(f"{where}: {comparison.error}"))

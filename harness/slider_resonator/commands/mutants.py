@@ -1,4 +1,4 @@
-"""`mutants`: faulty FMUs, and how many of them `validate` rejects."""
+"""`mutants`: make faulty FMUs and count how many `validate` rejects."""
 
 from __future__ import annotations
 
@@ -32,31 +32,34 @@ from slider_resonator.trials.mutants.mutant import KINDS
 from slider_resonator.trials.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
 from slider_resonator.trials.mutants.page import write_mutants
 
-WANTED_RATE = 0.95
+MIN_RATE = 0.95
 """Share of the mutants that change a result that must be rejected for a pass."""
 
 
 @click.command("mutants")
 @click.argument("fmu", type=click.Path(path_type=Path), required=False)
-@click.option("--list", "only_list", is_flag=True, help="Show the mutants with diffs; no run.")
-@click.option("--sample", "count", type=click.IntRange(min=1), help="Try so many, drawn at random.")
 @click.option(
-    "--seed", type=int, default=0, show_default=True, help="Of the sample and of the probes."
+    "--list", "only_list", is_flag=True, help="List the mutants with diffs and run nothing."
+)
+@click.option(
+    "--sample", "count", type=click.IntRange(min=1), help="Try a random sample of this size."
+)
+@click.option(
+    "--seed", type=int, default=0, show_default=True, help="Seed of the sample and the probes."
 )
 @click.option(
     "--file",
     "files",
     multiple=True,
     metavar="MODULE",
-    help="Only mutants of this file, such as coulomb.py or modelDescription.xml; may be given "
-    "several times.",
+    help="Only mutants of this file, such as coulomb.py or modelDescription.xml. Repeatable.",
 )
 @click.option(
     "--kind",
     "kinds",
     multiple=True,
     type=click.Choice(list(KINDS)),
-    help="Only mutants of this kind; may be given several times.",
+    help="Only mutants of this kind. Repeatable.",
 )
 @scenes_option("all built-in")
 @click.option(
@@ -64,13 +67,16 @@ WANTED_RATE = 0.95
     type=click.IntRange(min=0),
     default=PROBES,
     show_default=True,
-    help="Random scenes that tell whether a survivor changes a result.",
+    help="Random scenes that show whether a survivor changes a result.",
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
 @time_limit_option(
-    TIME_LIMIT, "For a mutant and each scene, or point of a sweep; beyond, it is rejected."
+    TIME_LIMIT,
+    "For a mutant and each scene, or point of a sweep; a mutant that exceeds it is rejected.",
 )
-@click.option("--html", type=Target([".html"]), help="One page with all that was not rejected.")
+@click.option(
+    "--html", type=Target([".html"]), help="One page with all mutants that were not rejected."
+)
 @json_option
 @click.pass_context
 def mutants_command(
@@ -90,14 +96,14 @@ def mutants_command(
 ) -> None:
     """Make faulty FMUs and count how many of them `validate` rejects.
 
-    Each mutant is a copy of the Python FMU with one change: an operator, a constant, a sign, a
-    condition, a statement, an event or an input gone wrong, a parameter off by 1 %, a unit
-    mislabelled. It is run on the scenes that execute the changed statement, the cheapest first,
-    in a process of its own, until a check fails; a crash or a hang counts as rejected. What
-    survives is run on random probes against the original: where no result differs by more than
-    scenes allow it is equivalent. Without FMU: the one that build_fmu.py has built in dist.
+    Each mutant is a copy of the Python FMU with one fault: a wrong operator, constant, sign,
+    condition, statement, event, input or unit, or a parameter off by 1 %. It runs on the scenes
+    that execute the changed statement, the cheapest first, in a process of its own, until a check
+    fails; a crash or a hang counts as rejected. A survivor runs on random probes beside the
+    original: it is equivalent if no result differs by more than the scenes allow. Without FMU: the
+    Python one in dist.
 
-    Leaves with 0 when at least 95 % of the mutants that change a result are rejected, 1 when fewer
+    Exit code: 0 when at least 95 % of the mutants that change a result are rejected, 1 when fewer
     are, 2 when there is nothing to try or the unchanged FMU is rejected.
 
     \b
@@ -140,7 +146,7 @@ def mutants_command(
         click.echo(to_json(run_as_plain(run)))
     else:
         print_run(output(), run)
-    context.exit(0 if run.rate is None or run.rate >= WANTED_RATE else 1)
+    context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)
 
 
 def _python_fmu() -> Path:

@@ -11,8 +11,7 @@ import click
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
-from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.output.targets import writable
 
 BUILT_FMUS = (Path("dist") / "SliderResonator.fmu", Path("dist") / "SliderResonatorPy.fmu")
@@ -56,7 +55,7 @@ class SettingsCommand(click.Command):
     """A command with `--set`, after which several NAME=VALUE may follow."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Give each NAME=VALUE that follows another one after `--set` a `--set` of its own."""
+        """Insert `--set` before each further NAME=VALUE."""
         return super().parse_args(ctx, _each_with_its_option(args))
 
 
@@ -73,7 +72,7 @@ def _each_with_its_option(arguments: Sequence[str]) -> list[str]:
 
 
 class Target(click.ParamType[Path]):
-    """A file to write, judged before anything is run; `suffixes`, if any, are those allowed."""
+    """A file to write, checked before anything runs; `suffixes`, if any, are those allowed."""
 
     name = "FILE"
 
@@ -83,7 +82,7 @@ class Target(click.ParamType[Path]):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> Path:
-        """Return the path, or say why it cannot be written."""
+        """Return the path, or fail with the reason why it cannot be written."""
         try:
             return writable(str(value), self.suffixes)
         except HarnessError as error:
@@ -106,7 +105,7 @@ def _each_once(
 
 
 def check_left_to_choose(settings: Mapping[str, float]) -> None:
-    """Raise UsageError for a setting of what is to be chosen."""
+    """Raise UsageError for a setting of fidelity or tolerance, which are to be chosen."""
     given = [
         f"{name} = {settings[name]:g}" for name in ("fidelity", "tolerance") if name in settings
     ]
@@ -118,14 +117,22 @@ def check_left_to_choose(settings: Mapping[str, float]) -> None:
 
 fmu_argument = click.argument("fmu", type=click.Path(path_type=Path))
 
+fmus_argument = click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
+
+fmu_option = click.option(
+    "--fmu",
+    type=click.Path(path_type=Path),
+    help="FMU to run.  [default: the native one in dist]",
+)
+
 set_option = click.option(
     SET,
     "settings",
     type=Setting(),
     multiple=True,
     callback=_each_once,
-    help="Value of a parameter or input, in SI units; more NAME=VALUE may follow, and the option "
-    "may be given several times. All others keep their start value, the device of table 1.",
+    help="Set a parameter or input, in SI units; more NAME=VALUE may follow. All others keep their "
+    "start value, the device of table 1. Repeatable.",
 )
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
@@ -139,39 +146,49 @@ max_denominator_option = click.option(
 )
 
 
+def out_folder_option(contents: str) -> Callable[[FC], FC]:
+    """Return the option --out, a folder; `contents` is the help text about what goes into it."""
+    return click.option(
+        "--out",
+        type=click.Path(path_type=Path, file_okay=False),
+        required=True,
+        help=f"Folder for {contents}.",
+    )
+
+
 def scenes_option(default: str) -> Callable[[FC], FC]:
-    """Return the option --scene, given any number of times; `default` says what is without it."""
+    """Return the repeatable option --scene; `default` is the help text about its default."""
     return click.option(
         "--scene",
         "scenes",
         multiple=True,
         metavar="NAME|FILE|DIR",
-        help="A built-in scene, a scene file or a folder of scene files; may be given several "
-        f"times.  [default: {default}]",
+        help="A built-in scene, a scene file or a folder of scene files. Repeatable.  "
+        f"[default: {default}]",
     )
 
 
-def time_limit_option(default: float, words: str) -> Callable[[FC], FC]:
-    """Return the option --time-limit (s); `words` say what it limits."""
+def time_limit_option(default: float, help_text: str) -> Callable[[FC], FC]:
+    """Return the option --time-limit (s)."""
     return click.option(
         "--time-limit",
         type=click.FloatRange(min=0.0, min_open=True),
         default=default,
         show_default=True,
         metavar="SECONDS",
-        help=words,
+        help=help_text,
     )
 
 
 def default_fmu(given: Path | None) -> Path:
-    """Return the FMU that was asked for, or the first of `default_fmus`, which raises FmuError."""
+    """Return the given FMU, or the first of `default_fmus`, which raises FmuError."""
     return given if given is not None else default_fmus()[0]
 
 
 def default_fmus() -> tuple[Path, ...]:
-    """Return the FMUs that were built here or else in the repository, the native one first.
+    """Return the FMUs built in the current folder or else in the repository, the native one first.
 
-    Raises FmuError, with the command that builds them, where there is none.
+    Raises FmuError, with the command that builds them, when there is none.
     """
     for folder in (Path(), REPOSITORY):
         found = tuple(folder / fmu for fmu in BUILT_FMUS if (folder / fmu).is_file())

@@ -1,4 +1,4 @@
-"""`paper`: every figure and statement of the paper beside what the FMU gives, and tables."""
+"""`paper`: reproduce every figure and statement of the paper with the FMU, and more tables."""
 
 from __future__ import annotations
 
@@ -6,27 +6,27 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import default_fmu, json_option
+from slider_resonator.commands.options import (
+    default_fmu,
+    fmu_option,
+    json_option,
+    out_folder_option,
+)
+from slider_resonator.commands.results import print_result
 from slider_resonator.output.console import progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.studies.paper.listing import verdicts
 from slider_resonator.studies.paper.reproduce import NAMES, Outcome, reproduce
 
 
 @click.command("paper")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    required=True,
-    help="Folder to write to; what is there and still holds is kept.",
-)
+@out_folder_option("figures, tables and claims; results in it that are still valid are kept")
 @click.option(
     "--only",
     type=click.Choice(NAMES),
     multiple=True,
-    help="Make only this; may be given several times.",
+    help="Make only this. Repeatable.",
 )
-@click.option("--fmu", type=click.Path(path_type=Path), help="FMU to run instead of the built one.")
+@fmu_option
 @json_option
 @click.pass_context
 def paper_command(
@@ -34,10 +34,10 @@ def paper_command(
 ) -> None:
     """Reproduce the paper: its figures, three more, and a verdict on each of its statements.
 
-    Writes figures as PNG and SVG with captions in FIGURES.md, tables of LuGre friction as JSON and
-    in TABLES.md, and claims.md and claims.json. Runs only what is missing or has changed. Leaves
-    with 0, with 1 when a statement is not found as it is known to be or a table deviates, 2 when
-    the FMU could not be run.
+    Write figures as PNG and SVG with captions in FIGURES.md, tables of LuGre friction as JSON and
+    in TABLES.md, and claims.md and claims.json. Run only what is missing or has changed. Exit code:
+    0, 1 when a known verdict on a statement is not confirmed or a table deviates, 2 when the FMU
+    could not run.
 
     \b
     Examples:
@@ -46,7 +46,7 @@ def paper_command(
     """
     with progress_bar() as progress:
         outcome = reproduce(default_fmu(fmu), out, only, progress)
-    click.echo(to_json(outcome) if as_json else _sentences(outcome))
+    print_result(outcome, _sentences(outcome), as_json=as_json)
     context.exit(0 if outcome.confirmed else 1)
 
 

@@ -1,4 +1,4 @@
-"""Where the verdicts of a command go: the terminal and the files that were asked for."""
+"""Write the verdicts of a command to the terminal and to report files."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from slider_resonator.checks.verdict import place
 from slider_resonator.commands.options import Target
 from slider_resonator.output.console import output
 from slider_resonator.output.targets import distinct
+from slider_resonator.output.terminal import escaped
 
 PRINTED = Path("-")
 """What `--json` without a file stands for."""
@@ -30,13 +31,13 @@ class JsonTarget(Target):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> Path:
-        """Return the path, `PRINTED` as it is."""
+        """Return the path, or `PRINTED` unchecked."""
         return PRINTED if str(value) == str(PRINTED) else super().convert(value, param, ctx)
 
 
 @dataclass(frozen=True)
 class Reports:
-    """Where verdicts go, beside the terminal; None where a report was not asked for."""
+    """The report files of a command; None for a report that was not requested."""
 
     title: str
     junit: Path | None
@@ -45,7 +46,7 @@ class Reports:
     summary: Path | None
 
     @classmethod
-    def asked_for(
+    def requested(
         cls,
         title: str,
         junit: Path | None,
@@ -53,9 +54,9 @@ class Reports:
         json: Path | None,
         sources: Mapping[str, Path],
     ) -> Reports:
-        """Return the reports of these options and the environment, none of which is a source.
+        """Return the reports of these options and the environment.
 
-        Raises HarnessError for one that is.
+        Raises HarnessError for a report that would replace one of the sources.
         """
         written = None if json == PRINTED else json
         distinct({"--junit": junit, "--html": html, "--json": written}, sources)
@@ -64,11 +65,11 @@ class Reports:
 
     @property
     def prints_json(self) -> bool:
-        """Whether JSON is all that goes to standard output."""
+        """Whether only JSON goes to standard output."""
         return self.json == PRINTED
 
     def write(self, validations: Sequence[Validation], error: str = "") -> None:
-        """Write all that were asked for; HarnessError where one cannot be written."""
+        """Write all requested reports; HarnessError when one cannot be written."""
         if self.json is not None and self.json != PRINTED:
             write_json(self.json, validations, error)
         if self.junit is not None:
@@ -78,12 +79,12 @@ class Reports:
             from slider_resonator.checks.reports.html_report import write_html
 
             write_html(self.html, validations, error, title=self.title)
-        if self.summary is not None:  # last: it is not a file that the user has named
+        if self.summary is not None:  # last, for it may fail and the user has not named it
             append_summary(self.summary, validations, error, title=self.title)
 
 
 def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options --junit, --html and --json."""
+    """Add the options --junit, --html and --json to a command."""
     options = (
         click.option("--junit", type=Target([".xml"]), help="JUnit XML for a CI server."),
         click.option(
@@ -106,7 +107,7 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def print_verdicts(
     validations: Sequence[Validation], *, details: bool, as_json: bool, only_failed: bool = False
 ) -> None:
-    """Print the tables, or one JSON document, and on standard error what could not be run."""
+    """Print the tables or one JSON document, and on standard error what could not run."""
     if as_json:
         click.echo(validations_as_json(validations))
     for validation in validations:
@@ -116,9 +117,8 @@ def print_verdicts(
 
 
 def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:
-    """Print on standard error what could not be run, and where."""
-    for run_failure in run_failures:
-        where = f"{fmu}: scene {run_failure.scene}{place(run_failure.at, ' at ')}: " * bool(
-            run_failure.scene
-        )
-        click.echo(f"error: {where}{run_failure.reason}", err=True)
+    """Print on standard error what could not run, and where."""
+    for failure in run_failures:
+        scene = f"{failure.scene}{place(failure.at, ' at ')}"
+        where = f"{fmu}: scene {scene}: " if failure.scene else ""
+        click.echo(escaped(f"error: {where}{failure.reason}"), err=True)

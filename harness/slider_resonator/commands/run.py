@@ -1,4 +1,4 @@
-"""`run`: one scene, one CSV, one picture, and what it cost."""
+"""`run`: run one scene, write CSV and picture, report the cost."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from slider_resonator.commands.options import (
     json_option,
     set_option,
 )
+from slider_resonator.commands.results import print_result
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.drive import Record, instantiate, run
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record_csv import write_csv
 from slider_resonator.output.console import progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.scenes.scene import Scene, find_scene, read_scene
@@ -34,7 +34,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RunSummary:
-    """What was run and what it cost; times in s, velocities in m/s. `auto` is what --auto chose."""
+    """A run and its cost; times in s, positions in m, velocities in m/s.
+
+    `auto` is the choice of --auto.
+    """
 
     fmu: str
     scene: str
@@ -57,17 +60,17 @@ class RunSummary:
 @click.command("run", cls=SettingsCommand)
 @fmu_argument
 @click.argument("scene")
-@click.option("--out", type=Target(), help="CSV file for the run.")
+@click.option("--out", type=Target(), help="CSV file of the run.")
 @click.option(
     "--plot",
     type=Target(PICTURE_SUFFIXES),
-    help="PNG, SVG or PDF of the run, made from a second one with finer steps at the end.",
+    help="PNG, SVG or PDF of the run, drawn from a second run with finer steps at the end.",
 )
 @click.option(
     "--auto",
     is_flag=True,
-    help="Run with the cheapest fidelity, tolerance and step that the scene's [need] allows, as "
-    "the command choose finds them.",
+    help="Run with the cheapest fidelity, tolerance and step that meet the scene's [need], as the "
+    "command choose finds them.",
 )
 @set_option
 @json_option
@@ -82,11 +85,11 @@ def run_command(
     settings: dict[str, float],
     as_json: bool,
 ) -> None:
-    """Run one scene, built in or from a file, and say what it cost.
+    """Run one scene, built in or from a file, and report the cost.
 
-    Of a scene with a sweep the unvaried device is run; --set varies it. Nothing is judged: leaves
-    with 0, or with 2 when it could not be run; with --auto also with 1, and without a run, when no
-    model meets the scene's needs.
+    A scene with a sweep runs with the unvaried device; --set varies it. Nothing is judged. Exit
+    code: 0, or 2 when it could not run; with --auto 1, without a run, when no model meets the
+    scene's needs.
 
     \b
     Examples:
@@ -109,13 +112,13 @@ def run_command(
             read.schedule()
             choice = choose_with(instance, read)
             if not choice.meets:
-                click.echo(to_json(choice) if as_json else "\n".join(choice.sentences()))
+                print_result(choice, "\n".join(choice.sentences()), as_json=as_json)
                 context.exit(1)
             read = choice.applied_to(read)
 
         def run_in(schedule: Schedule) -> Record:
-            told = partial(progress, read.name)
-            return run(instance, read.parameters, schedule, progress=told)
+            report = partial(progress, read.name)
+            return run(instance, read.parameters, schedule, progress=report)
 
         record = run_in(read.schedule())
         if out is not None:
@@ -126,7 +129,7 @@ def run_command(
 
             plot_run(run_in(schedule_to_plot(read)), read, plot)
     summary = _summary(fmu, read, record, out, plot, choice)
-    click.echo(to_json(summary) if as_json else _sentences(summary, read))
+    print_result(summary, _sentences(summary, read), as_json=as_json)
 
 
 def _summary(

@@ -1,25 +1,24 @@
-"""`scenes`: what is built in, and what scenes can be made of."""
+"""`scenes`: list the built-in scenes and the vocabulary of scene files."""
 
 from __future__ import annotations
 
 import click
-from rich import box
-from rich.table import Table
 
 from slider_resonator.commands.options import json_option
-from slider_resonator.output.console import output
+from slider_resonator.commands.results import print_table
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene import built_in_scenes, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
 @click.command("scenes")
-@click.option("--quantities", is_flag=True, help="List what a scene can expect something of.")
+@click.option("--quantities", is_flag=True, help="List the quantities that a scene can check.")
 @json_option
 def scenes_command(quantities: bool, as_json: bool) -> None:
-    """List the built-in scenes, or the quantities and references for scenes of your own.
+    """List the built-in scenes, or the quantities and references for your own scenes.
 
-    The command run takes those that have a length, in simulated seconds; validate takes all.
+    The command run takes scenes with a length, in simulated seconds; validate takes all.
 
     \b
     Examples:
@@ -34,27 +33,25 @@ def scenes_command(quantities: bool, as_json: bool) -> None:
 
 
 def _list_quantities(as_json: bool) -> None:
-    rows = [
-        {
-            "name": name,
-            "kind": quantity.kind,
-            "unit": quantity.unit,
-            "meaning": quantity.meaning,
-            "references": list(quantity.references),
-            "needs_run": quantity.needs_run,
-        }
-        for name, quantity in QUANTITIES.items()
-    ]
     if as_json:
+        rows = [
+            {
+                "name": name,
+                "kind": quantity.kind,
+                "unit": quantity.unit,
+                "meaning": quantity.meaning,
+                "references": list(quantity.references),
+                "needs_run": quantity.needs_run,
+            }
+            for name, quantity in QUANTITIES.items()
+        ]
         click.echo(to_json(rows))
         return
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in ("quantity", "kind", "unit", "meaning", "references"):
-        table.add_column(column, overflow="fold")
-    for name, quantity in QUANTITIES.items():
-        references = ", ".join(quantity.references) or "-"
-        table.add_row(name, quantity.kind, quantity.unit, quantity.meaning, references)
-    output().print(table)
+    cells = [
+        (name, q.kind, q.unit, q.meaning, ", ".join(q.references) or "-")
+        for name, q in QUANTITIES.items()
+    ]
+    print_table(Table(texts("quantity", "kind", "unit", "meaning", "references"), cells))
 
 
 def _list_scenes(as_json: bool) -> None:
@@ -73,12 +70,10 @@ def _list_scenes(as_json: bool) -> None:
         ]
         click.echo(to_json(rows))
         return
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in ("scene", "title", "run", "points", "checks"):
-        table.add_column(column)
+    cells = []
     for scene in scenes:
         points = len(scene.sweep.values) if scene.sweep else 1
         length = "-" if scene.stop_time is None else f"{scene.stop_time:.3g} s"
         checks = str(points * len(scene.expect))
-        table.add_row(scene.name, scene.title, length, str(points), checks)
-    output().print(table)
+        cells.append((scene.name, scene.title, length, str(points), checks))
+    print_table(Table([*texts("scene", "title"), *numbers("run", "points", "checks")], cells))

@@ -1,11 +1,9 @@
-"""What the commands that search by shooting have in common."""
+"""Arguments and output of the commands that search by shooting."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
-
-import click
 
 from slider_resonator.commands.options import (
     fmu_argument,
@@ -13,21 +11,23 @@ from slider_resonator.commands.options import (
     max_denominator_option,
     set_option,
 )
-from slider_resonator.output.json_output import to_json
+from slider_resonator.commands.results import print_result
 from slider_resonator.output.readable import readable
 from slider_resonator.steady.outcome import Outcome
 
 
 def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the FMU and the options of a search."""
+    """Add the FMU and the options of a search to a command."""
     for parameter in (json_option, max_denominator_option, set_option, fmu_argument):
         command = parameter(command)
     return command
 
 
-def tell(outcome: Outcome, what: str, value: float | None, unit: str, as_json: bool) -> int:
-    """Print the outcome of a search and return the exit code: 1 where there is no value."""
-    click.echo(to_json(outcome) if as_json else _sentences(outcome, what, value, unit))
+def print_outcome(
+    outcome: Outcome, what: str, value: float | None, unit: str, as_json: bool
+) -> int:
+    """Print the outcome of a search and return the exit code, 1 when there is no value."""
+    print_result(outcome, _sentences(outcome, what, value, unit), as_json=as_json)
     return 1 if value is None else 0
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import SettingsCommand
-from slider_resonator.commands.searching import search_arguments, tell
+from slider_resonator.commands.searching import print_outcome, search_arguments
 from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady.steady_velocity import find_steady
@@ -25,10 +25,10 @@ def steady_command(
 ) -> None:
     """Find the steady velocity of an FMU by shooting, without a long run.
 
-    The steady motion is a fixed point of the map over one common period. Leaves with 0 when there
-    is one, 1 when there is none (the status says why), 2 when the FMU could not be run.
-    --set initial_velocity=... is where the search begins. With LuGre friction the bristle is part
-    of the state, and the FMU's tolerance, 1e-8 unless set, bounds the accuracy.
+    The steady motion is a fixed point of the map over one common period.
+    --set initial_velocity=... is the initial guess. With LuGre friction the bristle is part of the
+    state, and the FMU's tolerance, 1e-8 unless set, bounds the accuracy. Exit code: 0 when there is
+    a steady motion, 1 when there is none (the status says why), 2 when the FMU could not run.
 
     \b
     Examples:
@@ -39,4 +39,4 @@ def steady_command(
     """
     with open_fmu(fmu) as opened, instantiate(opened) as instance:
         motion = find_steady(instance, settings, max_denominator=max_denominator)
-    context.exit(tell(motion, "steady velocity", motion.steady_velocity, "m/s", as_json))
+    context.exit(print_outcome(motion, "steady velocity", motion.steady_velocity, "m/s", as_json))

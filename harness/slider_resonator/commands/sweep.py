@@ -1,4 +1,4 @@
-"""`sweep`: thousands of runs into one table."""
+"""`sweep`: collect thousands of runs in one table."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import Target, default_fmu, json_option
+from slider_resonator.commands.options import Target, default_fmu, fmu_option, json_option
+from slider_resonator.commands.results import print_result
 from slider_resonator.output.console import progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.studies.sweep.grid import read_grid
 from slider_resonator.studies.sweep.local import available_cores
@@ -18,11 +18,11 @@ from slider_resonator.studies.sweep.table import SUFFIXES
 
 @click.command("sweep")
 @click.argument("grid", type=click.Path(path_type=Path))
-@click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write, or to finish.")
+@click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
-@click.option("--fmu", type=click.Path(path_type=Path), help="FMU to run instead of the built one.")
+@fmu_option
 @click.option("--workers", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
-@click.option("--dask", metavar="ADDRESS", help="Scheduler of a cluster to run on instead.")
+@click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
 @click.option("--restart", is_flag=True, help="Discard the points of an earlier attempt.")
 @json_option
 @click.pass_context
@@ -40,9 +40,9 @@ def sweep_command(
     """Compute measures over a grid, a list or a random sample of parameters and inputs.
 
     Finished points are kept beside the table until it is written: after an interruption, even a
-    kill, the same command goes on and its table is the same, byte for byte. It does not depend on
-    the number of workers, or on where they run, either. A point that fails is a row with its error.
-    Leaves with 0, with 1 when a point failed, 2 when the sweep could not be run.
+    kill, the same command continues and writes the same table, byte for byte, with any number of
+    workers anywhere. A point that fails is a row with its error. Exit code: 0, 1 when a point
+    fails, 2 when the sweep could not run.
 
     \b
     A grid file:
@@ -53,9 +53,9 @@ def sweep_command(
       frequency_ratio = { from = 0.5, to = 5.5, count = 101 }
       phase = [0.0, 0.4, 0.8]
 
-    [list] has lists side by side, [random] count, seed and ranges; the points of all three are
+    [list] has parallel lists, [random] count, seed and ranges; the points of all three are
     combined. A range may have spacing = "log". OUTPUT.STATISTIC (mean, rms, minimum, maximum,
-    peak_to_peak, last) is of a run: [run] has drive_periods, steps_per_period and skip_periods.
+    peak_to_peak, last) needs a run: [run] has drive_periods, steps_per_period and skip_periods.
 
     \b
     Examples:
@@ -67,7 +67,7 @@ def sweep_command(
     distinct({"--out": out, "--plot": plot}, sources)
     sweep = read_grid(grid)
     if plot is not None:
-        # Here, for drawing takes longer to load than many sweeps to run.
+        # Imported here: drawing takes longer to load than many sweeps to run.
         from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
 
         check_picture(sweep)
@@ -83,13 +83,10 @@ def sweep_command(
         )
     if plot is not None:
         draw_sweep(sweep, result.columns, plot)
-    click.echo(_json(result, out) if as_json else _sentences(result, out))
-    context.exit(1 if result.failed else 0)
-
-
-def _json(result: SweepResult, out: Path) -> str:
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
-    return to_json({"out": str(out), **facts, "first_error": result.first_error})
+    document = {"out": str(out), **facts, "first_error": result.first_error}
+    print_result(document, _sentences(result, out), as_json=as_json)
+    context.exit(1 if result.failed else 0)
 
 
 def _sentences(result: SweepResult, out: Path) -> str:

@@ -1,4 +1,4 @@
-"""`trade`: what accuracy costs, for our models and for others."""
+"""`trade`: measure the cost of accuracy, of the FMUs' models and of other methods."""
 
 from __future__ import annotations
 
@@ -8,7 +8,12 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import Target, default_fmus, json_option
+from slider_resonator.commands.options import (
+    Target,
+    default_fmus,
+    json_option,
+    out_folder_option,
+)
 from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import progress_bar
@@ -27,38 +32,33 @@ from slider_resonator.studies.trade.task import Task, task_of
 
 @click.command("trade")
 @click.argument("scenes", nargs=-1)
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    required=True,
-    help="Folder for trade.csv, omissions.csv and index.html.",
-)
+@out_folder_option("trade.csv, omissions.csv and index.html")
 @click.option(
     "--fmu",
     "fmus",
     type=click.Path(path_type=Path),
     multiple=True,
-    help="FMU to measure; may be given more than once.  [default: those built in dist]",
+    help="FMU to measure. Repeatable.  [default: those in dist]",
 )
 @click.option(
     "--repeats",
     type=click.IntRange(min=1),
     default=REPEATS,
     show_default=True,
-    help="Times that each method is timed, in turn with the others; fewer where its budget ends.",
+    help="Repeats of each method, in turn with the others; fewer when its budget is spent.",
 )
 @click.option(
     "--budget",
     type=click.FloatRange(min=0.0, min_open=True),
     default=BUDGET,
     show_default=True,
-    help="CPU time in s for the longest run of a method or its search for steady motion, and as "
-    "much again for repeats.",
+    help="CPU time in s for the longest run of a method or its search for steady motion, and the "
+    "same again for repeats.",
 )
 @click.option(
     "--periods",
     type=click.IntRange(min=1),
-    help="Cut runs short to so many drive periods.",
+    help="Shorten runs to this many drive periods.",
 )
 @click.option(
     "--picture", type=Target(PICTURE_SUFFIXES), help="Picture of the first scene for the README."
@@ -68,8 +68,8 @@ from slider_resonator.studies.trade.task import Task, task_of
     "pages",
     type=Target(SUFFIXES),
     multiple=True,
-    help="Markdown or HTML file for the tables from need to model to cost; in a file that has "
-    "them, they go between the lines <!-- trade --> and <!-- end of trade -->.",
+    help="Markdown or HTML file for the tables from need to model to cost, which go between the "
+    "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
 )
 @json_option
 def trade_command(
@@ -86,11 +86,11 @@ def trade_command(
     """Measure error and cost of every model of the FMUs and of other methods on scenes.
 
     Rows are fidelities, friction laws, communication steps and tolerances, and peers on the same
-    equations; columns are the errors against Taylor integration with located events, CPU time and
-    counts. Scenes are names of built-in ones or files, without any table_1; of a sweep each point
-    is measured. Whatever fidelity a scene asks for, its full device is the truth. Scenes under
-    constant inputs run for at least 1000 drive periods. Needs heyoka, and for CVODE scikit-sundae
-    (pip install 'slider-resonator[peers]'). Leaves with 0, or with 2 when it could not be run.
+    equations; columns are errors relative to Taylor integration with located events, CPU time and
+    counts. SCENES are built-in names or files, by default table_1; each point of a sweep is
+    measured. The reference is always the scene's full device, at whatever fidelity the scene runs.
+    Scenes with constant inputs run for at least 1000 drive periods. Needs heyoka, and scikit-sundae
+    for CVODE (pip install 'slider-resonator[peers]'). Exit code: 0, or 2 when it could not run.
 
     \b
     Examples:
@@ -111,7 +111,7 @@ def trade_command(
         make_folder(out)
         for task in tasks:
             trades.append(measure_trade(task, instances, progress, repeats=repeats, budget=budget))
-            # After each scene: what took minutes to measure outlives a later one that fails.
+            # After each scene, so that a later failure does not lose minutes of measurement.
             write_rows(out / "trade.csv", trades)
             write_omissions(out / "omissions.csv", trades)
     write_trades(out / "index.html", trades)
@@ -142,6 +142,6 @@ def _print(trade: Trade) -> None:
     click.echo(title(trade))
     for target, sentences in comparisons(trade):
         click.echo(f"  {target}")
-        for words in sentences:
-            click.echo(f"    {words}")
+        for line in sentences:
+            click.echo(f"    {line}")
     click.echo(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")

@@ -1,4 +1,4 @@
-"""`validate`: scenes, references, verdicts, and reports for people and CI servers."""
+"""`validate`: compare FMUs with the references, and report to people and CI servers."""
 
 from __future__ import annotations
 
@@ -8,7 +8,12 @@ import click
 
 from slider_resonator.checks.validate import validate
 from slider_resonator.checks.verdict import TITLE
-from slider_resonator.commands.options import default_fmus, scenes_option, time_limit_option
+from slider_resonator.commands.options import (
+    default_fmus,
+    fmus_argument,
+    scenes_option,
+    time_limit_option,
+)
 from slider_resonator.commands.reports import Reports, print_verdicts, report_options
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
@@ -17,12 +22,12 @@ from slider_resonator.scenes.scene import files_of_scenes
 
 
 @click.command("validate")
-@click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
+@fmus_argument
 @scenes_option("all built-in")
 @click.option(
     "--details",
     is_flag=True,
-    help="Show every check of many scenes, every point of a sweep, and the reasons.",
+    help="Show every check of many scenes, every point of a sweep, and why it is expected.",
 )
 @time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
 @report_options
@@ -39,11 +44,11 @@ def validate_command(
 ) -> None:
     """Compare FMUs with the references, scene by scene.
 
-    Without FMUS: those that build_fmu.py has built in dist, the native one first. Leaves with 0
-    when every check passes, 1 when one fails, 2 when something could not be run: an FMU that is
-    corrupt, lacks a variable or gives one another unit, has no binary for this platform, cannot be
-    instantiated, refuses a scene, crashes or does not answer in time. The reports are written in
-    each case, and a table is appended to the file that GITHUB_STEP_SUMMARY names.
+    Without FMUS: those in dist, the native one first. Exit code: 0 when every check passes, 1 when
+    one fails, 2 when something could not run: an FMU that is corrupt, lacks a variable or gives it
+    another unit, has no binary for this platform, cannot be instantiated, refuses a scene, crashes
+    or exceeds the time limit. The reports are written in each case, and a table is appended to the
+    file that GITHUB_STEP_SUMMARY names.
 
     \b
     Examples:
@@ -54,7 +59,7 @@ def validate_command(
     """
     sources = {f"the FMU {path}": path for path in fmus}
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
-    reports = Reports.asked_for(TITLE, junit, html, json, sources)
+    reports = Reports.requested(TITLE, junit, html, json, sources)
     try:
         files = files_of_scenes(scenes)
         paths = fmus or default_fmus()

@@ -21,10 +21,9 @@ from numpy.typing import NDArray
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.values import check_integer
-from slider_resonator.errors import FmuError, Refusal
+from slider_resonator.errors import FmuError, Refusal, unknown_name
 from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.opening import Fmu
-from slider_resonator.names import unknown_name
 
 EQUAL = 1e-6
 """Relative difference up to which two communication steps are of one size."""

@@ -15,9 +15,8 @@ import fmpy
 from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.errors import FmuError
+from slider_resonator.errors import FmuError, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
-from slider_resonator.names import unknown_name
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Files that are there completely or not at all."""
+"""Atomic file replacement."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from slider_resonator.errors import HarnessError
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Yield a temporary file beside `path`, with its suffix, that takes its place at the end.
+    """Yield a temporary file beside `path`, with its suffix, that replaces it when the block ends.
 
-    When the block fails, `path` is left as it was. Raises HarnessError when it cannot be written.
+    If the block fails, `path` stays unchanged. Raises HarnessError when it cannot be written.
     """
     try:
         handle, name = tempfile.mkstemp(

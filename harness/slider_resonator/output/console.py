@@ -11,21 +11,22 @@ from typing import NoReturn
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-WIDTH_OF_A_LOG = 120
+LOG_WIDTH = 120
+"""Columns of output that does not go to a terminal."""
 
 
 def output() -> Console:
-    """Return the console for results; 120 columns wide where there is no terminal."""
+    """Return the console for results, `LOG_WIDTH` columns wide where there is no terminal."""
     terminal = sys.stdout is not None and sys.stdout.isatty()
-    return Console(file=sys.stdout, highlight=False, width=None if terminal else WIDTH_OF_A_LOG)
+    return Console(file=sys.stdout, highlight=False, width=None if terminal else LOG_WIDTH)
 
 
-def leave(code: int) -> NoReturn:
-    """End the process with `code`, whatever its output still holds and cannot be rid of.
+def exit_with(code: int) -> NoReturn:
+    """Exit with `code`, even if buffered output cannot be written.
 
-    Python itself would end with another code, and complain, when it cannot flush its streams.
+    Python itself prints an error and exits with another code when it cannot flush a stream.
     """
-    for stream in filter(None, (sys.stdout, sys.stderr)):  # None where it was closed from the start
+    for stream in filter(None, (sys.stdout, sys.stderr)):  # None for a stream closed at the start
         try:
             stream.flush()
         except OSError:
@@ -37,7 +38,7 @@ def leave(code: int) -> NoReturn:
 
 @contextmanager
 def progress_bar() -> Iterator[Callable[[str, float], None]]:
-    """Yield a function that is told what is at work and which share of it is done."""
+    """Yield a function that takes the current task and the share of the work done, 0 to 1."""
     if not sys.stderr.isatty():
         yield lambda label, share: None
         return

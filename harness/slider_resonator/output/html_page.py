@@ -1,4 +1,4 @@
-"""One HTML file that needs nothing beside it: the frame around a report's parts."""
+"""Tables, foreign text and whole pages in HTML; a page needs no other file."""
 
 from __future__ import annotations
 
@@ -7,18 +7,38 @@ from html import escape
 from pathlib import Path
 
 from slider_resonator.output.atomic import replacing
+from slider_resonator.output.printable import printable
+from slider_resonator.output.table import Cell, Column, Style, Table
 
 _STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
   color: #222 }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
 th, td { text-align: left; padding: .2rem .6rem; border-bottom: 1px solid #ddd }
-td.n { text-align: right; white-space: nowrap }
-.pass { color: #1a7f37 } .fail { color: #b3261e; font-weight: 600 } .why { color: #666 }
+.n { text-align: right; white-space: nowrap }
+.pass { color: #1a7f37 } .fail { color: #b3261e; font-weight: 600 } .note { color: #666 }
+.heading { font-weight: 600 }
 .wide { overflow-x: auto } .wide table { width: 100% }
 img { max-width: 100% } summary { cursor: pointer; margin: 1rem 0 }
 pre { background: #f6f6f6; padding: .6rem; overflow-x: auto; font-size: 12px }
 """
+
+
+def escaped(text: str) -> str:
+    """Return the text shown as it is, in an element or in the quotes of an attribute."""
+    return escape(printable(text))
+
+
+def rendered(table: Table) -> str:
+    """Return the table as HTML."""
+    head = "".join(_element("th", Cell(column.heading), column) for column in table.columns)
+    body = "\n".join(f"<tr>{_row(row, table.columns)}</tr>" for row in table.cells)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>"
+
+
+def folded(summary: str, html: str) -> str:
+    """Return HTML, such as a wide table, that a click on the summary unfolds."""
+    return f'<details><summary>{escaped(summary)}</summary><div class="wide">{html}</div></details>'
 
 
 def write_page(path: Path, title: str, parts: Sequence[str]) -> None:
@@ -26,10 +46,26 @@ def write_page(path: Path, title: str, parts: Sequence[str]) -> None:
     page = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width">',
-        f"<title>{escape(title)}</title><style>{_STYLE}</style></head><body>",
-        f"<h1>{escape(title)}</h1>",
+        f"<title>{escaped(title)}</title><style>{_STYLE}</style></head><body>",
+        f"<h1>{escaped(title)}</h1>",
         *parts,
         "</body></html>",
     ]
     with replacing(path) as temporary:
         temporary.write_text("\n".join(page) + "\n", encoding="utf-8", errors="replace")
+
+
+def _row(row: Sequence[Cell], columns: Sequence[Column]) -> str:
+    if len(row) < len(columns):
+        return f'<td colspan="{len(columns)}">{_text(row[0])}</td>'
+    return "".join(_element("td", cell, column) for cell, column in zip(row, columns, strict=True))
+
+
+def _element(tag: str, cell: Cell, column: Column) -> str:
+    number = ' class="n"' if column.numeric else ""
+    return f"<{tag}{number}>{_text(cell)}</{tag}>"
+
+
+def _text(cell: Cell) -> str:
+    text = escaped(cell.text).replace("\n", "<br>")
+    return text if cell.style is Style.PLAIN else f'<span class="{cell.style.value}">{text}</span>'

@@ -1,4 +1,8 @@
-"""Results as JSON that every reader accepts: no NaN, no infinity, complex numbers as pairs."""
+"""The JSON of all commands and result files: a schema version, no NaN, no infinity.
+
+The keys are a public interface, pinned in tests/harness/public_json.toml. A renamed field keeps its
+public key; a key that goes or changes its meaning raises the schema version.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +12,22 @@ from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import Any
 
+SCHEMA_VERSION = 1
+
 
 def to_json(result: Any) -> str:
-    """Return dataclasses, mappings, sequences and numbers as indented JSON.
+    """Return a dataclass, a mapping or a list of them as indented JSON.
 
-    A complex number becomes [real, imaginary]; what is not finite becomes null.
+    Each object at the top begins with `schema_version`. A complex number becomes [real, imaginary];
+    what is not finite becomes null.
     """
-    return json.dumps(_plain(result), indent=2, allow_nan=False)
+    return json.dumps(_versioned(_plain(result)), indent=2, allow_nan=False)
+
+
+def _versioned(document: Any) -> Any:
+    if isinstance(document, list):
+        return [_versioned(entry) for entry in document]
+    return {"schema_version": SCHEMA_VERSION, **document}
 
 
 def _plain(value: Any) -> Any:

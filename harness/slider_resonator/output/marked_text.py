@@ -1,4 +1,4 @@
-"""Text that a command writes into a file of people's own, between two marks and nowhere else."""
+"""Write text between two marks of a file that people edit."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from slider_resonator.output.atomic import replacing
 
 
 def write_marked(path: Path, text: str, begin: str, end: str) -> None:
-    """Write `text` to `path`; between the marks, and nowhere else, where the file has them.
+    """Write `text` to `path`, only between the marks if the file has them.
 
-    Raises HarnessError when the file cannot be read or written, or has only one of the marks.
+    Raises HarnessError when the file cannot be read or written, or the marks are not one pair.
     """
     content = text + "\n"
     if path.exists():
@@ -26,7 +26,7 @@ def write_marked(path: Path, text: str, begin: str, end: str) -> None:
 
 
 def _embedded(before: str, text: str, path: Path, begin: str, end: str) -> str:
-    """Return what the file had with `text` between the marks."""
+    """Return the text `before` with `text` between its marks."""
     if (
         before.count(begin) != 1
         or before.count(end) != 1

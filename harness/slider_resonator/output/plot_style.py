@@ -1,4 +1,4 @@
-"""How every picture of the harness looks."""
+"""The common style of all figures."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ CONTACT: Mapping[int, tuple[str, str]] = {
 """Contact mode to name and background."""
 
 IN_FRONT: Mapping[str, Any] = {"frameon": True, "framealpha": 0.8, "edgecolor": "none"}
-"""A legend over shaded ground."""
+"""Style of a legend over a shaded background."""
 
 _STYLE: dict[Any, Any] = {
     "font.size": 9.5,
@@ -57,19 +57,19 @@ _STYLE: dict[Any, Any] = {
 
 @contextmanager
 def style() -> Iterator[None]:
-    """Apply the common look to figures made in the block."""
+    """Apply the common style to figures made in the block."""
     with mpl.rc_context(_STYLE):
         yield
 
 
 def save(figure: Figure, path: Path, dots_per_inch: int = 150) -> None:
-    """Write a figure without needing a display; the suffix of `path` chooses the format."""
+    """Write a figure without a display, in the format of the suffix of `path`."""
     FigureCanvasAgg(figure)
     figure.savefig(path, dpi=dots_per_inch)
 
 
 def png_data_uri(figure: Figure, dots_per_inch: int = 100) -> str:
-    """Return a figure as a PNG that a page of HTML holds within itself."""
+    """Return a figure as a PNG data URI to embed in an HTML page."""
     FigureCanvasAgg(figure)
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=dots_per_inch)
@@ -77,9 +77,9 @@ def png_data_uri(figure: Figure, dots_per_inch: int = 100) -> str:
 
 
 def shade_directions(axes: Axes, abscissa: Array, modes: Array) -> list[Patch]:
-    """Shade each stretch of constant contact mode, and return the legend entries of those present.
+    """Shade each interval of constant contact mode and return the legend entries of its modes.
 
-    `abscissa` and `modes` have shape (n,); a mode holds up to the middle between two points.
+    `abscissa` and `modes` have shape (n,); a mode changes at the midpoint between two points.
     """
     changes = np.flatnonzero(np.diff(modes)) + 1
     middles = 0.5 * (abscissa[changes] + abscissa[changes - 1])

@@ -1,4 +1,4 @@
-"""Where results may go, judged before anything is run: no run is lost and no file harmed."""
+"""Check output paths before anything runs, so that no run is lost and no file overwritten."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
 
 
 def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
-    """Return the path of a file that can be written, or replaced: a regular one or none as yet.
+    """Return the path of a file that can be created, or replaced if it is a regular file.
 
-    Raises HarnessError, also for a suffix other than one of `suffixes` where some are given.
+    Raises HarnessError, also for a suffix other than one of `suffixes`, if any.
     """
     if not text:
         raise HarnessError("'' names no file; allowed is the name of a file")
@@ -39,7 +39,7 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
 
 
 def make_folder(path: Path) -> None:
-    """Make a folder for results where there is none; HarnessError when that is impossible."""
+    """Create a folder for results if it does not exist; HarnessError when that is impossible."""
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -47,9 +47,9 @@ def make_folder(path: Path) -> None:
 
 
 def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) -> None:
-    """Refuse a target, by the option's name, that is a source or another target.
+    """Check that no target, by its option's name, is a source or another target.
 
-    Raises HarnessError.
+    Raises HarnessError for one that is.
     """
     taken = dict(sources)
     for option, path in targets.items():
@@ -62,7 +62,7 @@ def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) ->
 
 
 def _same(one: Path, other: Path) -> bool:
-    """Whether two paths are one file, also under two names or before it exists."""
+    """Whether two paths are the same file, even linked or not yet created."""
     if one.exists() and other.exists():
         return one.samefile(other)
     return one.resolve() == other.resolve()

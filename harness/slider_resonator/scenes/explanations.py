@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.schema import SceneTable
 
 _ALLOWED: Mapping[str, str] = {

@@ -23,8 +23,7 @@ from slider_resonator.device.schedule import (
     step_count,
     steps,
 )
-from slider_resonator.errors import SceneError
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.csv_signal import csv_points
 from slider_resonator.scenes.explanations import explanations
 from slider_resonator.scenes.schema import (

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator, model_valida
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, Quantity
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]

@@ -1,4 +1,4 @@
-"""A baseline as its users meet it: recorded, checked, accepted."""
+"""A baseline as its users see it: recorded, checked, accepted."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.public_json import assert_public_keys
 
 
 def call(verb: str, fmu: Path, folder: Path, *options: object) -> Result:
@@ -77,6 +78,7 @@ def test_a_change_is_shown_kept_and_accepted(
     assert "one: blocking_force" in changed.stdout
     assert "times the allowed" in changed.stdout
     assert json.loads(reports[0].read_text())["exit_code"] == 1
+    assert_public_keys("validate ONE", reports[0].read_text())
     assert int(ET.parse(reports[1]).getroot().get("failures", "0")) > 5
     assert "<h1>Slider-resonator baseline</h1>" in reports[2].read_text(encoding="utf-8")
     assert call("check", other_fmu, baseline).exit_code == 1
@@ -126,7 +128,7 @@ def test_an_edited_scene_must_be_recorded_anew(
     assert "record it again with --replace" in result.stderr
 
 
-def test_what_cannot_be_run_leaves_with_2(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
+def test_what_cannot_run_exits_with_2(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
     crash = faulty_fmus.compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
     report = tmp_path / "report.json"
     result = call("check", crash, baseline, "--json", report)

@@ -6,8 +6,10 @@ import pytest
 from click.testing import CliRunner
 
 from slider_resonator.cli import main
+from slider_resonator.studies.benchmark.c_host import StepCost
 from slider_resonator.studies.benchmark.cost import Cost, Ratio
 from slider_resonator.studies.benchmark.coulomb import PAPER_TOLERANCES, CoulombBenchmark
+from tests.harness.public_json import assert_public_keys
 
 
 def test_no_absolute_tolerance_of_the_paper_s_method_stands_for_it(
@@ -27,3 +29,10 @@ def test_no_absolute_tolerance_of_the_paper_s_method_stands_for_it(
     assert "497,830-512,345" in text, "nothing is cut off in a log"
     assert "relative tolerance alone does not determine the cost" in text
     assert "at each atol" in text
+
+
+def test_the_public_keys_stay(monkeypatch: pytest.MonkeyPatch, native_fmu: Path) -> None:
+    cost = StepCost("step", 4, 1.0, 0.9, 1.2)
+    monkeypatch.setattr("slider_resonator.commands.bench.measure_steps", lambda *_: (cost,))
+    arguments = ["bench", str(native_fmu), "--part", "c-host", "--json"]
+    assert_public_keys("bench", CliRunner().invoke(main, arguments).stdout)

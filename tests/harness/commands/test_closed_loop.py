@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from slider_resonator.studies.closed_loop import prediction
+from tests.harness.public_json import assert_public_keys
 
 
 def closed_loop(*arguments: object) -> Result:
@@ -36,6 +37,7 @@ def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
 ) -> None:
     done = closed_loop(closed_loop_package, "--out", tmp_path, "--json")
     assert done.exit_code == 0, done.output
+    assert_public_keys("closed-loop", done.stdout)
     found = json.loads(done.stdout)
     assert [entry["fidelity"] for entry in found["held"]] == [0] * 5 + [2] * 5
     for entry in found["held"]:
@@ -87,7 +89,7 @@ def test_another_device_is_a_proof_that_disagrees(
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "reported"),
     [
         ("slider.fidelity", "slider.detail", "parameter set design lacks slider.fidelity"),
         ("controller.force_phase", "controller.angle", "does not run in fmpy: KeyError: 'angle'"),
@@ -99,7 +101,7 @@ def test_a_package_that_cannot_be_run_is_no_verdict(
     monkeypatch: pytest.MonkeyPatch,
     old: str,
     new: str,
-    said: str,
+    reported: str,
 ) -> None:
     temporary = tmp_path / "temporary"
     temporary.mkdir()
@@ -108,11 +110,11 @@ def test_a_package_that_cannot_be_run_is_no_verdict(
     broken = changed(closed_loop_package, tmp_path / "broken.ssp", old, new)
     done = closed_loop(broken, "--out", tmp_path)
     assert done.exit_code == 2
-    assert said in done.stderr
+    assert reported in done.stderr
     assert list(temporary.iterdir()) == [], "nothing that was unpacked is left behind"
 
 
-def test_what_is_no_package_is_said(tmp_path: Path) -> None:
+def test_what_is_no_package_is_reported(tmp_path: Path) -> None:
     done = closed_loop(tmp_path / "none.ssp", "--out", tmp_path)
     assert done.exit_code == 2
     assert "none.ssp: no such file; build it with: python build_fmu.py" in done.stderr

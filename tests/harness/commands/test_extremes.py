@@ -9,6 +9,7 @@ from click.testing import CliRunner
 from slider_resonator.cli import main
 from slider_resonator.commands import extremes
 from slider_resonator.trials.extremes.cell import Cell, Hold, Limit, Model
+from tests.harness.public_json import assert_public_keys
 
 HOLDS = (Hold(1e-4, 20),)
 GOOD = Cell("steps", "few", Model(2, 0), {}, HOLDS)
@@ -27,33 +28,35 @@ def test_results_are_written(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "new"
-    code, said = invoke(monkeypatch, [GOOD, REFUSED], str(native_fmu), "--out", str(out))
-    assert code == 0, said
-    assert "2 cells: 1 passed, 1 refused by name, 0 failed, none skipped" in said
-    assert "worst cost of a step" in said
-    written = json.loads((out / "extremes.json").read_text(encoding="utf-8"))
+    code, text = invoke(monkeypatch, [GOOD, REFUSED], str(native_fmu), "--out", str(out))
+    assert code == 0, text
+    assert "2 cells: 1 passed, 1 refused by name, 0 failed, none skipped" in text
+    assert "worst cost of a step" in text
+    document = (out / "extremes.json").read_text(encoding="utf-8")
+    assert_public_keys("extremes", document)
+    written = json.loads(document)
     verdicts = [one["verdict"] for one in written["fmus"][0]["verdicts"]]
     assert verdicts == ["passed", "refused by name"]
     assert "friction_coefficient = 0.0 refused" in (out / "extremes.md").read_text(encoding="utf-8")
     assert (out / "extremes_SliderResonator.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_a_failed_cell_ends_with_1(
+def test_a_failed_cell_exits_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    code, said = invoke(monkeypatch, [WRONG], str(native_fmu), "--out", str(tmp_path), "--json")
+    code, text = invoke(monkeypatch, [WRONG], str(native_fmu), "--out", str(tmp_path), "--json")
     assert code == 1
-    assert "it flies" in json.loads(said)["fmus"][0]["verdicts"][0]["reason"]
+    assert "it flies" in json.loads(text)["fmus"][0]["verdicts"][0]["reason"]
 
 
-def test_what_cannot_be_run_ends_with_2_before_anything_is_run(
+def test_what_cannot_run_exits_with_2_before_anything_runs(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run: list[Path] = []
     monkeypatch.setattr(extremes, "run_matrix", lambda fmu, *_: run.append(fmu))
     out = tmp_path / "out"
-    code, said = invoke(monkeypatch, [GOOD], str(native_fmu), "missing.fmu", "--out", str(out))
+    code, text = invoke(monkeypatch, [GOOD], str(native_fmu), "missing.fmu", "--out", str(out))
     assert code == 2
-    assert "missing.fmu: no such file" in said
+    assert "missing.fmu: no such file" in text
     assert run == []
     assert not out.exists()

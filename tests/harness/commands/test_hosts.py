@@ -8,6 +8,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from slider_resonator.commands.hosts import NATIVE, PYTHON
+from tests.harness.public_json import assert_public_keys
 
 FMPY = ("--host", "fmpy")
 
@@ -22,6 +23,7 @@ def test_the_reference_agrees_with_itself(
     out = tmp_path / "hosts.md"
     done = hosts(native_fmu, "--python-fmu", python_fmu, *FMPY, "--out", out, "--json")
     assert done.exit_code == 0, done.output
+    assert_public_keys("hosts", done.stdout)
     results = json.loads(done.stdout)
     assert [(result["host"], result["fmu"]) for result in results] == [
         ("fmpy", "native"),
@@ -67,7 +69,7 @@ def test_hosts_that_are_not_installed_are_no_verdict(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "reported"),
     [
         (["--host", "matlab"], "'matlab' is not one of"),
         (["no_such.fmu"], "no_such.fmu"),
@@ -75,7 +77,7 @@ def test_hosts_that_are_not_installed_are_no_verdict(
     ],
 )
 def test_bad_arguments_are_refused(
-    arguments: list[str], said: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    arguments: list[str], reported: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     for path in (NATIVE, PYTHON):
         (tmp_path / path).parent.mkdir(exist_ok=True)
@@ -83,4 +85,4 @@ def test_bad_arguments_are_refused(
     monkeypatch.chdir(tmp_path)
     done = hosts(*arguments)
     assert done.exit_code == 2
-    assert said in done.stderr
+    assert reported in done.stderr

@@ -8,6 +8,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.public_json import assert_public_keys
 
 
 def invoke(*arguments: str) -> Result:
@@ -29,6 +30,7 @@ def test_kinds_can_be_chosen(python_fmu: Path) -> None:
 def test_the_list_as_json(python_fmu: Path) -> None:
     files = ("--file", "clock.py", "--file", "modelDescription.xml")
     result = invoke(str(python_fmu), "--list", "--json", *files)
+    assert_public_keys("mutants --list", result.output)
     mutants = json.loads(result.output)["mutants"]
     assert {m["file"] for m in mutants} == {"clock.py", "modelDescription.xml"}
 
@@ -39,6 +41,7 @@ def test_rejected_mutants_pass_the_command(python_fmu: Path, tmp_path: Path) -> 
     page = tmp_path / "page.html"
     only = ("--file", "modelDescription.xml", "--sample", "2", "--seed", "1", "--probes", "1")
     result = invoke(str(python_fmu), *only, "--scene", scene, "--html", str(page), "--json")
+    assert_public_keys("mutants", result.output)
     written = json.loads(result.output)
     assert written["tried"] == 2
     assert {m["kind"] for m in written["mutants"]} == {"unit"}

@@ -29,12 +29,12 @@ def test_fmus_built_here_are_preferred(tmp_path: Path, monkeypatch: pytest.Monke
     assert options.default_fmu(None) == native, "the native FMU comes first"
 
 
-@click.command("told", cls=options.SettingsCommand)
+@click.command("echo", cls=options.SettingsCommand)
 @click.argument("names", nargs=-1)
 @options.set_option
 @options.json_option
-def told(names: tuple[str, ...], settings: dict[str, float], as_json: bool) -> None:
-    """Tell what was given."""
+def echo(names: tuple[str, ...], settings: dict[str, float], as_json: bool) -> None:
+    """Print what was given."""
     click.echo((names, settings, as_json))
 
 
@@ -47,14 +47,14 @@ def told(names: tuple[str, ...], settings: dict[str, float], as_json: bool) -> N
     ],
 )
 def test_several_settings_may_follow_one_option(arguments: list[str]) -> None:
-    result = CliRunner().invoke(told, arguments)
+    result = CliRunner().invoke(echo, arguments)
     assert result.exit_code == 0, result.output
     settings = {"phase": 0.4, "load": 0.05, "tolerance": 1e-9}
     assert result.output == f"{(('a.fmu',), settings, True)}\n"
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "reported"),
     [
         (["--set", "phase=1", "phse=1"], "did you mean 'phase'"),
         (["--set", "phase=1", "load=x"], "allowed is a number"),
@@ -63,13 +63,13 @@ def test_several_settings_may_follow_one_option(arguments: list[str]) -> None:
         (["--set"], "requires an argument"),
     ],
 )
-def test_every_setting_is_judged(arguments: list[str], said: str) -> None:
-    result = CliRunner().invoke(told, arguments)
+def test_every_setting_is_judged(arguments: list[str], reported: str) -> None:
+    result = CliRunner().invoke(echo, arguments)
     assert result.exit_code == 2
-    assert said in result.output
+    assert reported in result.output
 
 
 @pytest.mark.parametrize("arguments", [["phase=1"], ["--", "phase=1"], ["--json", "phase=1"]])
 def test_only_what_follows_the_option_is_a_setting(arguments: list[str]) -> None:
-    result = CliRunner().invoke(told, arguments)
+    result = CliRunner().invoke(echo, arguments)
     assert result.output.startswith("(('phase=1',), {},"), "it may be the name of a file"

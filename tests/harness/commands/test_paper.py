@@ -7,9 +7,10 @@ import pytest
 from click.testing import CliRunner
 
 from slider_resonator.cli import main
+from tests.harness.public_json import assert_public_keys
 
 
-def test_figures_are_written_and_told_of_as_json(native_fmu: Path, tmp_path: Path) -> None:
+def test_figures_are_written_and_listed_as_json(native_fmu: Path, tmp_path: Path) -> None:
     arguments = ["--out", str(tmp_path), "--only", "figure_7", "--fmu", str(native_fmu), "--json"]
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 0, result.output
@@ -21,12 +22,12 @@ def test_figures_are_written_and_told_of_as_json(native_fmu: Path, tmp_path: Pat
 @pytest.mark.parametrize(
     "arguments", [["--only", "figure_6"], ["--fmu", "missing.fmu", "--only", "figure_3"]]
 )
-def test_what_cannot_be_run_ends_with_2(arguments: list[str], tmp_path: Path) -> None:
+def test_what_cannot_run_exits_with_2(arguments: list[str], tmp_path: Path) -> None:
     result = CliRunner().invoke(main, ["paper", "--out", str(tmp_path), *arguments])
     assert result.exit_code == 2
 
 
-def test_a_claim_that_is_not_confirmed_ends_with_1(
+def test_an_unconfirmed_claim_exits_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from slider_resonator.studies.paper import reproduce
@@ -39,9 +40,12 @@ def test_a_claim_that_is_not_confirmed_ends_with_1(
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 1
     assert "It flies" in result.output
+    printed = CliRunner().invoke(main, ["paper", *arguments, "--json"]).stdout
+    assert_public_keys("paper --only claims", printed)
+    assert_public_keys("claims.json", (tmp_path / "claims.json").read_text(encoding="utf-8"))
 
 
-def test_a_table_that_deviates_ends_with_1(
+def test_a_table_that_deviates_exits_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from slider_resonator.studies.paper import reproduce
@@ -57,3 +61,6 @@ def test_a_table_that_deviates_ends_with_1(
     result = CliRunner().invoke(main, ["paper", *arguments])
     assert result.exit_code == 1
     assert "FAIL     lugre_device: error up to 0.3, allowed 0.1" in result.output
+    printed = CliRunner().invoke(main, ["paper", *arguments, "--json"]).stdout
+    assert_public_keys("paper --only TABLE", printed)
+    assert_public_keys("TABLE.json", (tmp_path / f"{name}.json").read_text(encoding="utf-8"))

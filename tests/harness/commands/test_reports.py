@@ -9,7 +9,7 @@ from slider_resonator.commands.reports import Reports, print_run_failures
 from slider_resonator.errors import HarnessError
 
 
-def test_what_could_not_be_run_is_told_with_its_place(capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_could_not_run_is_reported_with_its_place(capsys: pytest.CaptureFixture[str]) -> None:
     run_failures = [
         RunFailure("swept", "crashed", {"phase": 0.4}),
         RunFailure("", "my.fmu: corrupt", {}),
@@ -19,6 +19,13 @@ def test_what_could_not_be_run_is_told_with_its_place(capsys: pytest.CaptureFixt
         "error: my.fmu: scene swept at phase 0.4: crashed",
         "error: my.fmu: corrupt",
     ]
+
+
+def test_what_an_fmu_prints_commands_neither_terminal_nor_ci(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    print_run_failures("my.fmu", [RunFailure("", "crashed\x1b[2J\n::stop-commands::all", {})])
+    assert capsys.readouterr().err == "error: crashed\ufffd[2J\n: :stop-commands::all\n"
 
 
 def test_reports_are_written_even_where_the_summary_cannot_be(tmp_path: Path) -> None:

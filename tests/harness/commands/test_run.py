@@ -20,11 +20,11 @@ def call(*arguments: object) -> Result:
 def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path: Path) -> None:
     fmu = Path(shutil.copy(python_fmu, tmp_path / "copy.fmu"))
     scene = Path(shutil.copy(find_scene("lift_off"), tmp_path / "scene.toml"))
-    for target, said in ((fmu, "is the FMU"), (scene, "is the scene's file")):
+    for target, reported in ((fmu, "is the FMU"), (scene, "is the scene's file")):
         before = target.read_bytes()
         result = call(fmu, scene, "--out", target)
         assert result.exit_code == 2
-        assert said in result.stderr
+        assert reported in result.stderr
         assert target.read_bytes() == before
 
 
@@ -50,7 +50,7 @@ def test_two_results_need_two_files(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "reported"),
     [
         (["--out", "/dev/full"], "is a device"),
         (["--out", "/dev/stdout"], "is a symbolic link"),
@@ -66,15 +66,15 @@ def test_two_results_need_two_files(tmp_path: Path) -> None:
     ],
 )
 def test_mistakes_are_named_by_their_option_before_the_fmu_is_opened(
-    arguments: list[str], said: str
+    arguments: list[str], reported: str
 ) -> None:
     result = call("no.fmu", "lift_off", *arguments)
     assert result.exit_code == 2
-    assert said in result.stderr
+    assert reported in result.stderr
     assert ".toml" not in result.stderr, "the scene file is not to blame"
 
 
-def test_a_refusal_of_the_fmu_is_said_once_and_without_its_wrapping(python_fmu: Path) -> None:
+def test_a_refusal_of_the_fmu_is_reported_once_without_its_wrapping(python_fmu: Path) -> None:
     result = call(python_fmu, "lift_off", "--set", "slider_mass=-1", "--json")
     assert result.exit_code == 2
     assert result.stdout.count("slider_mass = -1.0 refused") == 1

@@ -6,10 +6,13 @@ from click.testing import CliRunner
 
 from slider_resonator.cli import main
 from slider_resonator.scenes.vocabulary import QUANTITIES
+from tests.harness.public_json import assert_public_keys
 
 
 def test_the_list_says_which_scenes_can_be_run() -> None:
-    scenes = json.loads(CliRunner().invoke(main, ["scenes", "--json"]).stdout)
+    printed = CliRunner().invoke(main, ["scenes", "--json"]).stdout
+    assert_public_keys("scenes", printed)
+    scenes = json.loads(printed)
     length = {scene["name"]: scene["stop_time"] for scene in scenes}
     assert length["blocking_force"] is None
     assert length["pushed_at_rest"] == 0.1
@@ -21,7 +24,9 @@ def test_the_list_says_which_scenes_can_be_run() -> None:
 
 
 def test_what_scenes_can_expect_is_listed() -> None:
-    listed = json.loads(CliRunner().invoke(main, ["scenes", "--quantities", "--json"]).stdout)
+    printed = CliRunner().invoke(main, ["scenes", "--quantities", "--json"]).stdout
+    assert_public_keys("scenes --quantities", printed)
+    listed = json.loads(printed)
     assert [row["name"] for row in listed] == list(QUANTITIES)
     (events,) = [row for row in listed if row["name"] == "event_times"]
     assert events["references"] == ["located_events", "taylor"]

@@ -4,26 +4,26 @@ import json
 
 import pytest
 
-from slider_resonator.commands.searching import tell
+from slider_resonator.commands.searching import print_outcome
 from slider_resonator.steady.outcome import Outcome
 
 
-def test_what_was_found_is_told_in_sentences(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_result_is_reported_in_sentences(capsys: pytest.CaptureFixture[str]) -> None:
     outcome = Outcome("steady", "stable", 0.5, 1, 40, 3, 1e-14, (0.9 + 0j, 0.1j), True)
-    assert tell(outcome, "steady velocity", 0.25, "m/s", as_json=False) == 0
-    said = capsys.readouterr().out.splitlines()
-    assert said[0] == "steady velocity  0.25 m/s"
-    assert said[1] == "status           steady: stable"
-    assert said[2].startswith("averaged theory  0.5 m/s")
-    assert "40 drive periods in 3 iterations" in said[3]
-    assert said[4] == "multipliers      0.900000, 0.100000 (magnitudes)"
+    assert print_outcome(outcome, "steady velocity", 0.25, "m/s", as_json=False) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "steady velocity  0.25 m/s"
+    assert lines[1] == "status           steady: stable"
+    assert lines[2].startswith("averaged theory  0.5 m/s")
+    assert "40 drive periods in 3 iterations" in lines[3]
+    assert lines[4] == "multipliers      0.900000, 0.100000 (magnitudes)"
 
 
-def test_finding_nothing_ends_with_1_and_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_result_is_reported_and_exits_with_1(capsys: pytest.CaptureFixture[str]) -> None:
     outcome = Outcome("slow_beat", "no common period", 0.5)
-    assert tell(outcome, "blocking force", None, "N", as_json=False) == 1
-    said = capsys.readouterr().out
-    assert said.startswith("blocking force   none\n")
-    assert "cost" not in said, "nothing was run"
-    assert tell(outcome, "blocking force", None, "N", as_json=True) == 1
+    assert print_outcome(outcome, "blocking force", None, "N", as_json=False) == 1
+    lines = capsys.readouterr().out
+    assert lines.startswith("blocking force   none\n")
+    assert "cost" not in lines, "nothing was run"
+    assert print_outcome(outcome, "blocking force", None, "N", as_json=True) == 1
     assert json.loads(capsys.readouterr().out)["status"] == "slow_beat"

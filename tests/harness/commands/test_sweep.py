@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from slider_resonator.cli import main
+from tests.harness.public_json import assert_public_keys
 
 
 def _grid(tmp_path: Path, text: str) -> str:
@@ -21,15 +22,16 @@ def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> 
     arguments = ["--out", str(out), "--plot", str(plot), "--fmu", str(native_fmu), "--json"]
     result = CliRunner().invoke(main, ["sweep", grid, *arguments])
     assert result.exit_code == 0, result.output
-    told = json.loads(result.stdout)
-    assert (told["points"], told["found"], told["failed"]) == (3, 0, 0)
+    assert_public_keys("sweep", result.stdout)
+    summary = json.loads(result.stdout)
+    assert (summary["points"], summary["found"], summary["failed"]) == (3, 0, 0)
     lines = out.read_text(encoding="utf-8").splitlines()
     assert lines[0] == "point,phase,steady_velocity,steady_velocity_status,error"
     assert float(lines[1].split(",")[2]) == pytest.approx(0.126667, abs=1e-6)
     assert plot.is_file()
 
 
-def test_a_failed_point_ends_with_1_and_its_error_is_told(native_fmu: Path, tmp_path: Path) -> None:
+def test_a_failed_point_is_reported_and_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     grid = _grid(tmp_path, "[list]\nfriction_coefficient = [0.1, -1]")
     arguments = ["--out", str(tmp_path / "a.csv"), "--fmu", str(native_fmu), "--workers", "1"]
     result = CliRunner().invoke(main, ["sweep", grid, *arguments])
@@ -51,7 +53,7 @@ def test_a_failed_point_ends_with_1_and_its_error_is_told(native_fmu: Path, tmp_
         ),
     ],
 )
-def test_what_cannot_be_run_ends_with_2(
+def test_what_cannot_run_exits_with_2(
     text: str, arguments: list[str], words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)

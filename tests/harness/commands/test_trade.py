@@ -1,9 +1,10 @@
-"""What `trade` writes and leaves with."""
+"""What `trade` writes, and its exit codes."""
 
 from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,9 @@ from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.studies.trade.fmu_methods import FmuMethods
 from slider_resonator.studies.trade.peer_methods import peer_methods
-from slider_resonator.studies.trade.result import Trade
+from slider_resonator.studies.trade.result import Omission, Trade
 from slider_resonator.studies.trade.task import Task
+from tests.harness.public_json import assert_public_keys
 from tests.harness.studies.trade.scenes import HEAD, TABLE_1, task
 from tests.harness.studies.trade.test_needs import TRADE
 
@@ -34,13 +36,14 @@ def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
     arguments += ["--budget", "0.05", "--periods", "8", "--page", str(page)]
     result = CliRunner().invoke(main, ["trade", *arguments, "--picture", str(picture), "--json"])
     assert result.exit_code == 0, result.output
-    (told,) = json.loads(result.stdout)
-    assert {s["kind"] for s in told["standings"]} == {"averaged", "resolved", "peer"}
+    assert_public_keys("trade", result.stdout)
+    (document,) = json.loads(result.stdout)
+    assert {s["kind"] for s in document["standings"]} == {"averaged", "resolved", "peer"}
 
     rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
-    assert len(rows) == len(told["trade"]["rows"])
+    assert len(rows) == len(document["trade"]["rows"])
     omissions = list(csv.DictReader((out / "omissions.csv").open(encoding="utf-8")))
-    assert len(omissions) == len(told["trade"]["omissions"])
+    assert len(omissions) == len(document["trade"]["omissions"])
     short = task(tmp_path, TABLE_1, most_periods=8)
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
         methods = [*FmuMethods(short, "native", instance).methods(), *peer_methods(short)]
@@ -69,19 +72,19 @@ def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reported"),
     [
         (["tabel_1"], "did you mean 'table_1'?"),
         (["table_1", "--fmu", "missing.fmu"], "missing.fmu: no such file"),
     ],
 )
-def test_what_does_not_exist_is_told_and_leaves_nothing(
-    tmp_path: Path, arguments: list[str], told: str
+def test_what_does_not_exist_is_reported_and_nothing_written(
+    tmp_path: Path, arguments: list[str], reported: str
 ) -> None:
     out = tmp_path / "out"
     result = CliRunner().invoke(main, ["trade", *arguments, "--out", str(out)])
     assert result.exit_code == 2
-    assert told in result.stderr
+    assert reported in result.stderr
     assert not out.exists()
 
 
@@ -101,3 +104,12 @@ def test_what_was_measured_before_a_scene_that_fails_is_kept(
     assert "the referee cannot follow it" in result.stderr
     rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
     assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
+
+
+def test_the_public_keys_stay(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measured = replace(TRADE, omissions=(Omission("s", "CVODE", "all", "not installed"),))
+    monkeypatch.setattr(command, "measure_trade", lambda *_, **__: measured)
+    arguments = ["trade", "--out", str(tmp_path), "--fmu", str(native_fmu), "--json"]
+    assert_public_keys("trade", CliRunner().invoke(main, arguments).stdout)

@@ -1,4 +1,4 @@
-"""`validate` as CI jobs meet it: exit codes and report files in every case."""
+"""`validate` as CI jobs use it: exit codes and report files in every case."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.public_json import assert_public_keys
 
 
 def call(*arguments: object, summary: Path | None = None) -> Result:
@@ -30,7 +31,7 @@ def reported(folder: Path, *arguments: object) -> tuple[Result, dict[str, object
     return result, json.loads(files[0].read_text()), ET.parse(files[1]).getroot()
 
 
-def test_a_pass_leaves_with_0(native_fmu: Path, tmp_path: Path) -> None:
+def test_a_pass_exits_with_0(native_fmu: Path, tmp_path: Path) -> None:
     result, report, junit = reported(tmp_path, native_fmu, "--scene", faulty_fmus.scene(tmp_path))
     assert result.exit_code == 0, result.output
     assert report["passed"] is True
@@ -38,7 +39,7 @@ def test_a_pass_leaves_with_0(native_fmu: Path, tmp_path: Path) -> None:
     assert (junit.get("failures"), junit.get("errors")) == ("0", "0")
 
 
-def test_a_failure_leaves_with_1(native_fmu: Path, tmp_path: Path) -> None:
+def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     still = faulty_fmus.compiled(native_fmu, tmp_path / "still.fmu", "IN_STEP=PRINT")
     result, report, junit = reported(tmp_path, still, "--scene", faulty_fmus.scene(tmp_path))
     assert result.exit_code == 1, result.output
@@ -49,7 +50,7 @@ def test_a_failure_leaves_with_1(native_fmu: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("fault", faulty_fmus.BROKEN)
-def test_what_could_not_be_run_leaves_with_2_and_all_reports(
+def test_what_could_not_run_exits_with_2_and_all_reports(
     native_fmu: Path, tmp_path: Path, fault: str
 ) -> None:
     broken, cause = faulty_fmus.BROKEN[fault]
@@ -80,10 +81,20 @@ def test_a_folder_of_scenes(native_fmu: Path, tmp_path: Path) -> None:
         faulty_fmus.scene(tmp_path, name)
     result = call(native_fmu, "--scene", tmp_path, "--json")
     assert result.exit_code == 0, result.output
+    assert_public_keys("validate ONE", result.stdout)
     assert [check["scene"] for check in json.loads(result.stdout)["checks"]] == ["one", "two"]
     empty = tmp_path / "empty"
     empty.mkdir()
     assert "with scene files" in call(native_fmu, "--scene", empty).stderr
+
+
+def test_the_public_keys_of_several_fmus_stay(native_fmu: Path, tmp_path: Path) -> None:
+    crash = faulty_fmus.compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
+    scene = faulty_fmus.scene(tmp_path)
+    scene.write_text(scene.read_text() + '[sweep]\nvariable = "phase"\nvalues = [0.0, 0.4]\n')
+    result = call(native_fmu, crash, "--scene", scene, "--json")
+    assert result.exit_code == 2
+    assert_public_keys("validate SEVERAL", result.stdout)
 
 
 def test_json_takes_no_fmu_for_its_file(native_fmu: Path) -> None:
@@ -99,7 +110,7 @@ def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) 
     fmu, mine = tmp_path / "fmu.xml", tmp_path / "scene.xml"
     fmu.write_bytes(native_fmu.read_bytes())
     mine.write_text(scene.read_text())
-    for target, said in (
+    for target, reason in (
         (scene, "allowed is one of .xml"),
         (mine, "allowed is a file of its own"),
         (fmu, "allowed is a file of its own"),
@@ -107,5 +118,5 @@ def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) 
         before = target.read_bytes()
         result = call(fmu, "--scene", mine, "--junit", target)
         assert result.exit_code == 2
-        assert said in result.stderr
+        assert reason in result.stderr
         assert target.read_bytes() == before

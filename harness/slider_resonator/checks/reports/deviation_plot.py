@@ -1,4 +1,4 @@
-"""A picture of a signal that differs from its reference: the whole run, and where it begins."""
+"""Plot a signal that deviates from its reference: the whole run and the first deviation."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from slider_resonator.output.plot_style import COLOURS, png_data_uri, style
 
 NEAR = "around the first deviation"
 ZOOM_POINTS = 64
-"""Points shown on each side of the first one that is beyond what is allowed."""
+"""Points shown on each side of the first one outside the tolerance."""
 
 
 def deviation_png(curves: Curves) -> str:
     """Return a PNG as a data URI: FMU and reference over the run and near the first deviation.
 
-    Few points, such as those of a baseline, are all in one picture and not joined: between them
-    there may be many periods.
+    Few points, such as those of a baseline, are drawn in one panel and not joined: many periods
+    may lie between them.
     """
     sparse = len(curves.times) <= ZOOM_POINTS
     first = curves.check.first_time

@@ -1,31 +1,36 @@
-"""Verdicts as one HTML file that needs nothing beside it, with pictures of what differs."""
+"""Verdicts as one HTML file that needs no other, with pictures of what differs."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from html import escape
 from pathlib import Path
 
 from slider_resonator.checks.compare import Check, Value
 from slider_resonator.checks.reports.deviation_plot import deviation_png
 from slider_resonator.checks.validate import Curves, Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
-from slider_resonator.output.html_page import write_page
+from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.readable import readable
+from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-MOST_PICTURES = 40
+MAX_PICTURES = 40
 """Pictures for each FMU, of the worst point of a sweep only: a hopeless FMU fails everywhere."""
+COLUMNS = (
+    *texts("scene", "quantity"),
+    *numbers("FMU", "reference", "off by", "allowed"),
+    *texts("", "why"),
+)
 
 
 def write_html(
     path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
 ) -> None:
-    """Write the report; `error` is what kept the command from getting as far as an FMU.
+    """Write the report; `error` is what stopped the command before it reached an FMU.
 
     Raises HarnessError when the file cannot be written.
     """
-    parts = [f'<p class="fail">Could not run: {escape(error)}</p>'] if error else []
+    parts = [f'<p class="fail">Could not run: {escaped(error)}</p>'] if error else []
     parts += [part for validation in validations for part in _section(validation)]
     write_page(path, title, parts)
 
@@ -33,58 +38,43 @@ def write_html(
 def _section(validation: Validation) -> list[str]:
     failed = [check for check in validation.checks if not check.passed]
     passed = len(validation.checks) - len(failed)
-    verdict = ("pass", "fail", "could not be run")[validation.exit_code]
+    outcome = ("pass", "fail", "could not be run")[validation.exit_code]
     colour = "pass" if validation.passed else "fail"
     parts = [
-        f"<h2>{escape(validation.fmu)}</h2>",
-        f'<p><span class="{colour}">{verdict}</span>: {passed} of {len(validation.checks)} checks '
+        f"<h2>{escaped(validation.fmu)}</h2>",
+        f'<p><span class="{colour}">{outcome}</span>: {passed} of {len(validation.checks)} checks '
         f"passed in {validation.wall_time:.1f} s</p>",
     ]
-    for run_failure in validation.run_failures:
-        where = f"{run_failure.scene}{place(run_failure.at, ' at ')}: " * bool(run_failure.scene)
-        parts.append(f'<p class="fail">{escape(where + run_failure.reason)}</p>')
-    worst = [check for check, _ in worst_of_sweeps(failed)]
+    for failure in validation.run_failures:
+        where = f"{failure.scene}{place(failure.at, ' at ')}: " if failure.scene else ""
+        parts.append(f'<p class="fail">{escaped(where + failure.reason)}</p>')
     pictures = {id(curves.check): curves for curves in validation.curves}
-    for index, check in enumerate(worst):
-        parts += _failure(check, pictures.get(id(check)) if index < MOST_PICTURES else None)
-    parts.append(_table(validation.checks))
+    for index, (check, _) in enumerate(worst_of_sweeps(failed)):
+        parts += _failure(check, pictures.get(id(check)) if index < MAX_PICTURES else None)
+    if validation.checks:
+        table = Table(COLUMNS, [_row(check) for check in validation.checks])
+        parts.append(folded(f"All {len(validation.checks)} checks", rendered(table)))
     return parts
 
 
 def _failure(check: Check, curves: Curves | None) -> list[str]:
     parts = [
-        f"<h3>{escape(check.scene)}: {escape(title(check))}</h3>",
-        f'<p>{escape(sentence(check))}<br><span class="why">{escape(check.why)}</span></p>',
+        f"<h3>{escaped(check.scene)}: {escaped(title(check))}</h3>",
+        f'<p>{escaped(sentence(check))}<br><span class="note">{escaped(check.why)}</span></p>',
     ]
     if curves is not None:
-        parts.append(f'<img alt="{escape(title(check))}" src="{deviation_png(curves)}">')
+        parts.append(f'<img alt="{escaped(title(check))}" src="{deviation_png(curves)}">')
     return parts
 
 
-def _table(checks: Sequence[Check]) -> str:
-    if not checks:
-        return ""
-    heads = ("scene", "quantity", "FMU", "reference", "off by", "allowed", "")
-    rows = "\n".join(_row(check) for check in checks)
-    head = "".join(f"<th>{name}</th>" for name in heads)
+def _row(check: Check) -> Row:
+    of_peak = " of peak" if QUANTITIES[check.quantity].relative_to_peak else ""
+    sizes = ["-" if s is None else f"{s:.2g}{of_peak}" for s in (check.deviation, check.allowed)]
+    unit = f" [{check.unit}]" if check.unit not in ("", "1") else ""
     return (
-        f'<details><summary>All {len(checks)} checks</summary><div class="wide"><table>'
-        f"<thead><tr>{head}</tr></thead><tbody>\n{rows}\n</tbody></table></div></details>"
+        *(check.scene, title(check) + unit, _value(check.fmu), _value(check.reference), *sizes),
+        *(verdict(check.passed), check.why),
     )
-
-
-def _row(check: Check) -> str:
-    of_peak = QUANTITIES[check.quantity].relative_to_peak
-    sizes = [
-        "-" if size is None else f"{size:.2g}" + " of peak" * of_peak
-        for size in (check.deviation, check.allowed)
-    ]
-    numbers = [_value(check.fmu), _value(check.reference), *sizes]
-    unit = f" [{check.unit}]" * (check.unit not in ("", "1"))
-    cells = "".join(f"<td>{escape(text)}</td>" for text in (check.scene, title(check) + unit))
-    cells += "".join(f'<td class="n">{escape(text)}</td>' for text in numbers)
-    verdict = "pass" if check.passed else "fail"
-    return f'<tr title="{escape(check.why)}">{cells}<td class="{verdict}">{verdict}</td></tr>'
 
 
 def _value(value: Value) -> str:

@@ -12,9 +12,9 @@ from slider_resonator.output.json_output import to_json
 
 
 def validations_as_json(validations: Sequence[Validation], error: str = "") -> str:
-    """Return a single FMU's verdicts as they are, those of several under `fmus`.
+    """Return the verdicts on a single FMU directly, those on several under `fmus`.
 
-    Without any there is only the `error` that kept the command from getting as far as an FMU.
+    An `error` that stopped the command before it reached an FMU is returned alone.
     """
     plain = [_plain(validation) for validation in validations]
     if error:

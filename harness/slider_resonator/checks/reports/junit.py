@@ -18,10 +18,10 @@ _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 def write_junit(
     path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
 ) -> None:
-    """Write one test suite for each FMU, with a test case for each check or what could not be run.
+    """Write one test suite for each FMU, with a test case for each check or failed run.
 
-    `error` is what kept the command from getting as far as an FMU. Raises HarnessError when the
-    file cannot be written.
+    `error` is what stopped the command before it reached an FMU. Raises HarnessError when the file
+    cannot be written.
     """
     root = ET.Element("testsuites", name=title)
     for validation in validations:

@@ -8,18 +8,26 @@ from pathlib import Path
 from slider_resonator.checks.validate import Validation
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.errors import HarnessError
+from slider_resonator.output.markdown import escaped, rendered
+from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 
 VARIABLE = "GITHUB_STEP_SUMMARY"
-"""Environment variable with the file that the page is made of."""
-MOST_ROWS = 50
+"""Environment variable with the file that GitHub renders."""
+MAX_ROWS = 50
 """Failures shown for each FMU: GitHub takes 1 MiB of summary."""
+OUTCOMES = (
+    Cell("pass", Style.PASS),
+    Cell("fail", Style.FAIL),
+    Cell("could not be run", Style.FAIL),
+)
+"""By exit code."""
 
 
 def append_summary(
     path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
 ) -> None:
     """Append a table of FMUs and one of what failed; HarnessError when that is impossible."""
-    text = _markdown(validations, error, title)
+    text = "\n\n".join([f"## {title}", *_parts(validations, error)]) + "\n\n"
     try:
         with path.open("a", encoding="utf-8") as file:
             file.write(text)
@@ -27,39 +35,33 @@ def append_summary(
         raise HarnessError(f"{VARIABLE} {path}: cannot be written: {failed.strerror}") from failed
 
 
-def _markdown(validations: Sequence[Validation], error: str, heading: str) -> str:
-    lines = [f"## {heading}", ""]
-    if error:
-        lines += [f"Could not run: {_cell(error)}", ""]
+def _parts(validations: Sequence[Validation], error: str) -> list[str]:
+    parts = [f"Could not run: {escaped(error)}"] if error else []
     if validations:
-        lines += ["| FMU | verdict | checks passed | failed | could not be run | seconds |"]
-        lines += ["|---|---|--:|--:|--:|--:|"]
-    for validation in validations:
-        failed = sum(not check.passed for check in validation.checks)
-        verdict = ("pass", "**fail**", "**could not be run**")[validation.exit_code]
-        passed, run_failures = len(validation.checks) - failed, len(validation.run_failures)
-        cells = (_cell(validation.fmu), verdict, passed, failed, run_failures)
-        lines.append(f"| {' | '.join(map(str, cells))} | {validation.wall_time:.1f} |")
-    rows = [row for validation in validations for row in _failures(validation)]
-    if rows:
-        lines += ["", "| FMU | scene | quantity | verdict |", "|---|---|---|---|", *rows]
-    return "\n".join(lines) + "\n\n"
+        columns = numbers("checks passed", "failed", "could not be run", "seconds")
+        rows = [_fmu(validation) for validation in validations]
+        parts.append(rendered(Table([*texts("FMU", "verdict"), *columns], rows)))
+    failures = [row for validation in validations for row in _failures(validation)]
+    if failures:
+        parts.append(rendered(Table(texts("FMU", "scene", "quantity", "verdict"), failures)))
+    return parts
 
 
-def _failures(validation: Validation) -> list[str]:
+def _fmu(validation: Validation) -> Row:
+    failed = sum(not check.passed for check in validation.checks)
+    counts = (len(validation.checks) - failed, failed, len(validation.run_failures))
+    seconds = f"{validation.wall_time:.1f}"
+    return (validation.fmu, OUTCOMES[validation.exit_code], *map(str, counts), seconds)
+
+
+def _failures(validation: Validation) -> list[Row]:
     found = [
         (run_failure.scene, place(run_failure.at) or "-", run_failure.reason)
         for run_failure in validation.run_failures
     ]
     found += [(c.scene, title(c), sentence(c)) for c in validation.checks if not c.passed]
-    name = _cell(Path(validation.fmu).name)
-    rows = [f"| {name} | {' | '.join(map(_cell, row))} |" for row in found[:MOST_ROWS]]
-    if len(found) > MOST_ROWS:
-        rows.append(f"| {name} | | | and {len(found) - MOST_ROWS} more |")
+    name = Path(validation.fmu).name
+    rows: list[Row] = [(name, *row) for row in found[:MAX_ROWS]]
+    if len(found) > MAX_ROWS:
+        rows.append((name, "", "", f"and {len(found) - MAX_ROWS} more"))
     return rows
-
-
-def _cell(text: str) -> str:
-    """Return a text that stays in its cell and is shown as it is."""
-    escaped = text.replace("&", "&amp;").replace("<", "&lt;").replace("\\", "\\\\")
-    return " ".join(escaped.replace("|", "\\|").replace("*", "\\*").split())

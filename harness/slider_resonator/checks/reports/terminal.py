@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from rich import box
 from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
 from rich.text import Text
 
 from slider_resonator.checks.compare import Check, Value
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import place, sentence
 from slider_resonator.output.readable import readable
+from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
+from slider_resonator.output.terminal import STYLES, escaped, rendered
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-FEW_SCENES = 3
-"""Up to so many scenes are shown check by check; of more only what has failed."""
+MAX_DETAILED = 3
+"""Number of scenes up to which every check is shown; of more only the failed ones."""
 DIGITS = 8
 """Significant digits in the table; what is asserted is the deviation, which has its own column."""
 SIGNAL = "*"
@@ -26,92 +25,86 @@ SIGNAL = "*"
 def print_validation(
     console: Console, validation: Validation, *, details: bool = False, only_failed: bool = False
 ) -> None:
-    """Print the table of verdicts, the reasons of failures, and one line that sums up.
+    """Print the table of verdicts, the reasons of failures, and a summary line.
 
-    Of a sweep the worst point is shown; with `details` every point, and why each thing is expected.
-    Many scenes have a line each, with the check that is nearest to what is allowed. What has passed
-    is left out with `only_failed`.
+    Show the worst point of a sweep; with `details` every point, and why each value is expected.
+    Give each of many scenes one line, with the check nearest to its bound. With `only_failed` leave
+    out what has passed.
     """
     scenes: dict[str, list[Check]] = {}
     for check in validation.checks:
         scenes.setdefault(check.scene, []).append(check)
-    if len(scenes) > FEW_SCENES and not (details or only_failed):
-        console.print(_overview(scenes))
+    if len(scenes) > MAX_DETAILED and not (details or only_failed):
+        console.print(rendered(_overview(scenes)))
         only_failed = True
     checks = [check for check in validation.checks if not (only_failed and check.passed)]
     rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
     if rows:
-        console.print(_table(rows, details))
+        console.print(rendered(_table(rows, details)))
     if any(_of_peak(check) for check, _ in rows):
         console.print(f"{SIGNAL} the peak of a signal; off by and allowed are shares of it")
     for check, _ in rows:
         if not check.passed:
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
-            console.print(Text.assemble(("FAIL ", "bold red"), text, f"\n     {sentence(check)}"))
+            shown = escaped(f"{text}\n     {sentence(check)}")
+            console.print(Text.assemble(("FAIL ", STYLES[Style.FAIL]), shown))
+    console.print(_summary(validation), soft_wrap=True)
+
+
+def _summary(validation: Validation) -> Text:
     failed = sum(not check.passed for check in validation.checks)
-    verdict = f"[bold red]{failed} failed[/], " if failed else ""
-    if validation.run_failures:
-        verdict += f"[bold red]{len(validation.run_failures)} could not be run[/], "
-    console.print(
-        f"{escape(validation.fmu)}: {verdict}{len(validation.checks) - failed} of "
-        f"{len(validation.checks)} checks passed in {validation.wall_time:.1f} s",
-        soft_wrap=True,
-    )
+    parts = [(f"{escaped(validation.fmu)}: ", "")]
+    for count, what in ((failed, "failed"), (len(validation.run_failures), "could not be run")):
+        if count:
+            parts += [(f"{count} {what}", STYLES[Style.FAIL]), (", ", "")]
+    count = len(validation.checks)
+    parts.append((f"{count - failed} of {count} checks passed in {validation.wall_time:.1f} s", ""))
+    return Text.assemble(*parts)
 
 
 def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
     """Return a line for each scene, with its check of the largest share of what is allowed."""
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    table.add_column("scene", overflow="fold")
-    table.add_column("passed", justify="right", no_wrap=True)
-    table.add_column("nearest to its bound", overflow="fold")
-    for heading in ("off by", "allowed"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("", no_wrap=True)
+    rows = []
     for scene, checks in scenes.items():
         passed = sum(check.passed for check in checks)
         nearest = max(checks, key=lambda check: check.severity)
-        cells = (scene, f"{passed} of {len(checks)}", nearest.quantity)
         sizes = (_size(nearest.deviation), _size(nearest.allowed))
-        table.add_row(*(Text(cell) for cell in (*cells, *sizes)), _word(passed == len(checks)))
-    return table
+        cells = (scene, f"{passed} of {len(checks)}", nearest.quantity, *sizes)
+        rows.append((*cells, verdict(passed == len(checks))))
+    columns = (
+        *(*texts("scene"), *numbers("passed"), *texts("nearest to its bound")),
+        *(*numbers("off by", "allowed"), *texts("")),
+    )
+    return Table(columns, rows)
 
 
-def _word(passed: bool) -> Text:
-    return Text("pass", "green") if passed else Text("FAIL", "bold red")
-
-
-def _table(rows: list[tuple[Check, int]], details: bool) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    table.add_column("quantity", overflow="fold")
-    swept = any(check.at for check, _ in rows)
-    if swept:
-        table.add_column("at" if details else "worst at", overflow="fold")
-    for heading in ("FMU", "reference"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("against", overflow="fold")
-    for heading in ("off by", "allowed"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("", no_wrap=True)
+def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
+    """Return a line for each check, which stands for that number of points of a sweep."""
+    swept = any(check.at for check, _ in checks)
+    where = texts("at" if details else "worst at") if swept else []
+    columns = (
+        *(*texts("quantity"), *where, *numbers("FMU", "reference"), *texts("against")),
+        *(*numbers("off by", "allowed"), *texts("")),
+    )
+    rows: list[Row] = []
     scene = ""
-    for check, points in rows:
+    for check, points in checks:
         if check.scene != scene:
-            table.add_section()
-            table.add_row(Text(check.scene + f", {points} points" * (points > 1), "bold"))
             scene = check.scene
+            rows.append([Cell(f"{scene}, {points} points" if points > 1 else scene, Style.HEADING)])
         cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
         cells += [_value(check.fmu), _value(check.reference), check.against.split("_")[0]]
         cells += [_size(check.deviation), _size(check.allowed)]
-        table.add_row(*(Text(cell) for cell in cells), _word(check.passed))
+        rows.append((*cells, verdict(check.passed)))
         if details:
-            table.add_row(Text(check.why, "dim"))
-    return table
+            rows.append([Cell(check.why, Style.NOTE)])
+    return Table(columns, rows)
 
 
 def _quantity(check: Check) -> str:
     """Return name and unit, with a mark for a signal."""
-    unit = f", {check.unit}" * (check.unit not in ("", "1"))
-    return f"{check.quantity}{SIGNAL * _of_peak(check)}{unit}"
+    unit = f", {check.unit}" if check.unit not in ("", "1") else ""
+    return f"{check.quantity}{SIGNAL if _of_peak(check) else ''}{unit}"
 
 
 def _of_peak(check: Check) -> bool:

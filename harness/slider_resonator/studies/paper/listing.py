@@ -6,8 +6,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from slider_resonator.output import markdown
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 from slider_resonator.studies.paper.figure import Data, PaperFigure
 from slider_resonator.studies.paper.table import PaperTable
 
@@ -47,11 +49,8 @@ def write_tables(
         }
         _write(folder / f"{table.name}.json", to_json(content) + "\n")
         lines += [f"## {table.name}: {table.title}", "", table.caption, ""]
-        lines.append("| " + " | ".join(table.columns.values()) + " |")
-        lines.append("|---" * len(table.columns) + "|")
-        for row in data["rows"]:
-            lines.append("| " + " | ".join(_number(row[name]) for name in table.columns) + " |")
-        lines.append("")
+        rows = [[_number(row[name]) for name in table.columns] for row in data["rows"]]
+        lines += [markdown.rendered(Table(numbers(*table.columns.values()), rows)), ""]
         for name, size in table.largest(data).items():
             verdict = "" if size <= table.bounds[name] else ", **NOT CONFIRMED**"
             meaning = table.columns[name]
@@ -75,17 +74,9 @@ def write_claims(
     lines = ["# Statements of the paper, and what was measured", "", f"FMU {fmu}, GUID {guid}."]
     lines += [verdicts(claims), ""]
     for title, group in groups:
-        lines += [f"## {title}", ""]
-        lines += ["| statement | where | measured | verdict | why |", "|---|---|---|---|---|"]
-        for claim in group:
-            numbers = "<br>".join(
-                f"{name.replace('_', ' ')} {_number(value)}"
-                for name, value in claim["numbers"].items()
-            )
-            verdict = claim["verdict"] if claim["confirmed"] else "**NOT CONFIRMED**"
-            cells = (claim["statement"], claim["where"], numbers, verdict, claim["why"])
-            lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-        lines.append("")
+        columns = texts("statement", "where", "measured", "verdict", "why")
+        table = Table(columns, [_claim_row(claim) for claim in group])
+        lines += [f"## {title}", "", markdown.rendered(table), ""]
     _write(folder / "claims.md", "\n".join(lines))
 
 
@@ -97,6 +88,16 @@ def verdicts(claims: Sequence[Mapping[str, Any]]) -> str:
         counts[name] = counts.get(name, 0) + 1
     listed = ", ".join(f"{count} {name}" for name, count in counts.items())
     return f"{len(claims)} statements: {listed}."
+
+
+def _claim_row(claim: Mapping[str, Any]) -> Row:
+    measured = "\n".join(
+        f"{name.replace('_', ' ')} {_number(value)}" for name, value in claim["numbers"].items()
+    )
+    verdict = Cell("NOT CONFIRMED", Style.FAIL)
+    if claim["confirmed"]:
+        verdict = Cell(claim["verdict"])
+    return (claim["statement"], claim["where"], measured, verdict, claim["why"])
 
 
 def _number(value: float | None) -> str:

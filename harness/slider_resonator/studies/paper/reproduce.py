@@ -9,10 +9,9 @@ from time import perf_counter
 from types import FunctionType
 from typing import Any, cast
 
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.drive import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.names import unknown_name
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.targets import make_folder

@@ -8,7 +8,7 @@ from itertools import product
 from math import exp, isfinite, log, prod
 from typing import Any
 
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import unknown_name
 
 Points = tuple[tuple[str, ...], tuple[tuple[float, ...], ...]]
 """Names that are varied, and their values point by point."""

@@ -12,8 +12,7 @@ from typing import Any
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
-from slider_resonator.errors import HarnessError
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.studies.sweep.axes import (
     AxisError,
     check_count,

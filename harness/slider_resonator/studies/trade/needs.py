@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 
 from slider_resonator.errors import HarnessError
+from slider_resonator.output import html_page, markdown
 from slider_resonator.output.marked_text import write_marked
+from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.studies.trade.fmu_methods import LAWS
 from slider_resonator.studies.trade.result import PEER, Row, Trade, cheapest
 from slider_resonator.studies.trade.summary import duration
@@ -29,7 +30,10 @@ NEEDS = (
     ("event_times", 1e-6),
 )
 """Quantity and error; those that a scene does not have are left out of its part of the table."""
-HEAD = ("need", "within", "model", "error", "native FMU", "Python FMU", "cheapest peer")
+COLUMNS = (
+    *(*texts("need"), *numbers("within"), *texts("model"), *numbers("error")),
+    *texts("native FMU", "Python FMU", "cheapest peer"),
+)
 
 
 @dataclass(frozen=True)
@@ -72,8 +76,8 @@ def write_choices(path: Path, trades: Sequence[Trade]) -> None:
     if path.suffix not in SUFFIXES:
         allowed = " or ".join(SUFFIXES)
         raise HarnessError(f"{path}: the suffix is {path.suffix!r}; allowed is {allowed}")
-    table = _markdown if path.suffix == ".md" else _html
-    write_marked(path, "\n".join(table(trade) for trade in trades), BEGIN, END)
+    part = _markdown if path.suffix == ".md" else _html
+    write_marked(path, "\n".join(part(trade) for trade in trades), BEGIN, END)
 
 
 def title(trade: Trade) -> str:
@@ -82,7 +86,7 @@ def title(trade: Trade) -> str:
 
 
 def cells(choice: Choice) -> tuple[str, ...]:
-    """Return a row of the table, as `HEAD` has it."""
+    """Return a row of the table, in the order of `COLUMNS`."""
     rows = (choice.native, choice.python, choice.peer)
     native, python, peer = ("not reached" if row is None else _cost(row) for row in rows)
     if choice.peer is not None:
@@ -99,16 +103,14 @@ def _cost(row: Row) -> str:
     return duration(row.cost) + (" / s" if row.answer == "run" else "")
 
 
+def _table(trade: Trade) -> Table:
+    return Table(COLUMNS, [cells(choice) for choice in choices(trade)])
+
+
 def _markdown(trade: Trade) -> str:
-    lines = [HEAD, ("---",) * len(HEAD), *map(cells, choices(trade))]
-    table = "\n".join("| " + " | ".join(line) + " |" for line in lines)
-    return f"\n**{title(trade)}**\n\n{table}\n"
+    return f"\n**{markdown.escaped(title(trade))}**\n\n{markdown.rendered(_table(trade))}\n"
 
 
 def _html(trade: Trade) -> str:
-    def line(tag: str, words: Sequence[str]) -> str:
-        return "<tr>" + "".join(f"<{tag}>{escape(word)}</{tag}>" for word in words) + "</tr>"
-
-    rows = "\n".join(line("td", cells(choice)) for choice in choices(trade))
-    head = line("th", HEAD)
-    return f"<h3>{escape(title(trade))}</h3>\n<table>\n{head}\n{rows}\n</table>"
+    heading = html_page.escaped(title(trade))
+    return f"<h3>{heading}</h3>\n{html_page.rendered(_table(trade))}"

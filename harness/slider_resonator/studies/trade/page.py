@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from html import escape
 from pathlib import Path
 
-from slider_resonator.output.html_page import write_page
+from slider_resonator.output.html_page import escaped, folded, rendered, write_page
+from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.studies.trade.motion import QUANTITIES
 from slider_resonator.studies.trade.needs import title
 from slider_resonator.studies.trade.plots import work_precision_png
 from slider_resonator.studies.trade.result import Omission, Row, Trade
 from slider_resonator.studies.trade.summary import comparisons, duration
 
-_HEAD = ("method", "periods", "CPU time", "least to most", "steps", "evaluations", "events")
+_COLUMNS = (
+    *texts("method"),
+    *numbers("periods", "CPU time", "range", "steps", "evaluations", "events"),
+    *numbers(*QUANTITIES),
+)
 
 
 def write_trades(path: Path, trades: Sequence[Trade]) -> None:
@@ -25,10 +29,10 @@ def write_trades(path: Path, trades: Sequence[Trade]) -> None:
 
 
 def _ratios(trade: Trade) -> list[str]:
-    parts = [f"<h2>{escape(title(trade))}</h2>"]
+    parts = [f"<h2>{escaped(title(trade))}</h2>"]
     for target, sentences in comparisons(trade):
-        items = "".join(f"<li>{escape(words)}</li>" for words in sentences)
-        parts.append(f"<p><strong>{escape(target)}</strong></p><ul>{items}</ul>")
+        items = "".join(f"<li>{escaped(words)}</li>" for words in sentences)
+        parts.append(f"<p><strong>{escaped(target)}</strong></p><ul>{items}</ul>")
     return parts
 
 
@@ -49,54 +53,38 @@ def _explanation() -> str:
 
 
 def _scene(trade: Trade) -> list[str]:
-    parts = [f"<h2>{escape(title(trade))}: in full</h2>"]
+    parts = [f"<h2>{escaped(title(trade))}: in full</h2>"]
     run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
     if trade.uncertainty:
         run += (
             f" The referee holds inputs that vary in fine steps, which leaves an uncertainty of "
             f"{trade.uncertainty:.0e} of the position: errors below it mean nothing."
         )
-    parts.append(f"<p>{escape(run)}</p>")
+    parts.append(f"<p>{escaped(run)}</p>")
     for quantity, meaning in QUANTITIES.items():
         if trade.having(quantity):
             source = work_precision_png(trade, quantity)
-            parts.append(f"<h3>{escape(quantity)}</h3>")
-            parts.append(f'<img alt="{escape(meaning)} over CPU time" src="{source}">')
-    parts.append(_table(trade.rows))
+            parts.append(f"<h3>{escaped(quantity)}</h3>")
+            parts.append(f'<img alt="{escaped(meaning)} over CPU time" src="{source}">')
+    table = Table(_COLUMNS, [_cells(row) for row in trade.rows])
+    parts.append(folded(f"All {len(trade.rows)} rows", rendered(table)))
     parts.append(_omissions(trade.omissions))
     return parts
 
 
-def _table(rows: Sequence[Row]) -> str:
-    head = "".join(f"<th>{escape(name)}</th>" for name in (*_HEAD, *QUANTITIES))
-    body = "\n".join(_row(row) for row in rows)
-    return (
-        f'<details><summary>All {len(rows)} rows</summary><div class="wide"><table>'
-        f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table></div></details>"
-    )
-
-
-def _row(row: Row) -> str:
-    numbers = [
+def _cells(row: Row) -> list[str]:
+    return [
+        row.method if row.answer == "run" else f"{row.method}: {row.answer}",
         str(row.periods),
         duration(row.cost),
         f"{duration(min(row.cpu))} to {duration(max(row.cpu))}",
         *("" if n is None else str(n) for n in (row.steps, row.evaluations, row.events)),
         *(f"{row.errors[q]:.1e}" if q in row.errors else "" for q in QUANTITIES),
     ]
-    what = row.method if row.answer == "run" else f"{row.method}: {row.answer}"
-    cells = "".join(f'<td class="n">{escape(text)}</td>' for text in numbers)
-    return f"<tr><td>{escape(what)}</td>{cells}</tr>"
 
 
 def _omissions(omissions: Sequence[Omission]) -> str:
-    body = "\n".join(
-        f"<tr><td>{escape(o.method)}</td><td>{escape(o.quantity)}</td><td>{escape(o.reason)}</td>"
-        "</tr>"
-        for o in omissions
+    table = Table(
+        texts("method", "quantity", "reason"), [(o.method, o.quantity, o.reason) for o in omissions]
     )
-    return (
-        f"<details><summary>{len(omissions)} omissions: who or what is missing, and why</summary>"
-        "<table><thead><tr><th>method</th><th>quantity</th><th>reason</th></tr></thead>"
-        f"<tbody>\n{body}\n</tbody></table></details>"
-    )
+    return folded(f"{len(omissions)} omissions: what is missing, and why", rendered(table))

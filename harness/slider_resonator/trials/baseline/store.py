@@ -14,8 +14,7 @@ import numpy as np
 
 from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
-from slider_resonator.errors import HarnessError
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from slider_resonator.trials.baseline.golden import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
 from slider_resonator.trials.baseline.provenance import Provenance

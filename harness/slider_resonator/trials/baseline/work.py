@@ -9,10 +9,9 @@ from time import perf_counter
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.validate import Curves, RunFailure, Validation
-from slider_resonator.errors import HarnessError, SceneError
+from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.names import unknown_name
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.targets import make_folder
 from slider_resonator.scenes.scene import Scene, built_in_scenes, read_scene

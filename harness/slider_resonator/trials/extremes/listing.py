@@ -6,12 +6,19 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
+from slider_resonator.output import markdown
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.table import Column, Row, Table, texts
 from slider_resonator.output.targets import make_folder
 from slider_resonator.trials.extremes.picture import draw_matrix
 from slider_resonator.trials.extremes.run import Matrix
 from slider_resonator.trials.extremes.verdict import PASSED, CellVerdict
+
+AXIS_COLUMNS = (
+    *(Column("axis"), Column("cells", numeric=True)),
+    *texts("checked by", "nearest to its bound"),
+)
 
 
 def write_matrices(matrices: Sequence[Matrix], out: Path) -> None:
@@ -51,33 +58,30 @@ def as_plain(matrices: Sequence[Matrix]) -> dict[str, object]:
 def _page(matrix: Matrix) -> str:
     name = Path(matrix.fmu).name
     others = [one for one in matrix.verdicts if one.verdict != PASSED]
-    table = ["| cell | verdict | reason |", "|---|---|---|"]
-    table.extend(f"| {one.name} | {one.verdict} | {_cell(one.reason)} |" for one in others)
-    checks = ["| axis | cells | checked by | nearest to its bound |", "|---|---|---|---|"]
-    for axis in dict.fromkeys(one.axis for one in matrix.verdicts):
-        checks.append(_axis_row(axis, [one for one in matrix.verdicts if one.axis == axis]))
+    axes = [
+        _axis_row(axis, [one for one in matrix.verdicts if one.axis == axis])
+        for axis in dict.fromkeys(one.axis for one in matrix.verdicts)
+    ]
     parts = [
         f"## {name}",
         matrix.summary.replace("\n", "\n\n"),
         f"![{name}: the matrix]({_picture(matrix)})",
         "### By axis",
-        "\n".join(checks),
+        markdown.rendered(Table(AXIS_COLUMNS, axes)),
     ]
     if others:
-        parts.extend(["### Not passed", "\n".join(table)])
+        rows = [(one.name, one.verdict, one.reason) for one in others]
+        table = Table(texts("cell", "verdict", "reason"), rows)
+        parts.extend(["### Not passed", markdown.rendered(table)])
     return "\n\n".join(parts)
 
 
-def _axis_row(axis: str, verdicts: Sequence[CellVerdict]) -> str:
+def _axis_row(axis: str, verdicts: Sequence[CellVerdict]) -> Row:
     checks = [check for one in verdicts for check in one.checks]
     names = ", ".join(dict.fromkeys(check.name for check in checks))
     nearest = max(checks, key=lambda check: check.found, default=None)
     words = f"{nearest.name}, {nearest.found:.2g} of it" if nearest else ""
-    return f"| {axis} | {len(verdicts)} | {names} | {words} |"
-
-
-def _cell(text: str) -> str:
-    return text.replace("|", "\\|").replace("\n", " ")
+    return (axis, str(len(verdicts)), names, words)
 
 
 def _picture(matrix: Matrix) -> str:

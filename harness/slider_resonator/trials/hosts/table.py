@@ -5,37 +5,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from slider_resonator.output import markdown
 from slider_resonator.output.marked_text import write_marked
+from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 from slider_resonator.trials.hosts.runs import CASES, Comparison, HostResult
 
 BEGIN, END = "<!-- hosts -->", "<!-- end of hosts -->"
-HEAD = ("host", "version", "FMU", *(case.title for case in CASES))
+COLUMNS = (*texts("host", "version", "FMU"), *numbers(*(case.title for case in CASES)))
 
 
-def host_table(results: Sequence[HostResult]) -> str:
+def host_table(results: Sequence[HostResult]) -> Table:
     """Return the table: a row for each FMU in each host, the largest deviation for each case."""
-    lines = [_line(HEAD), _line(["---"] * len(HEAD))]
-    for result in results:
-        cells = [_cell(result.comparisons[case]) for case in CASES]
-        lines.append(_line([result.host, result.version, result.fmu, *cells]))
-    return "\n".join(lines)
+    rows: list[Row] = [
+        (result.host, result.version, result.fmu, *(_cell(result.comparisons[c]) for c in CASES))
+        for result in results
+    ]
+    return Table(COLUMNS, rows)
 
 
-def write_table(path: Path, table: str) -> None:
-    """Write the table to `path`, between the marks where the file has them, as `write_marked`."""
-    write_marked(path, table, BEGIN, END)
+def write_table(path: Path, table: Table) -> None:
+    """Write the table to `path`, between the marks if the file has them, as `write_marked`."""
+    write_marked(path, markdown.rendered(table), BEGIN, END)
 
 
-def shown(comparison: Comparison) -> str:
-    """Return the deviation with one digit, or that there is none."""
-    if comparison.deviation is None:
-        return "failed"
-    return f"{comparison.deviation:.0e}" if comparison.deviation else "0"
-
-
-def _cell(comparison: Comparison) -> str:
-    return shown(comparison) if comparison.passed else f"**{shown(comparison)}**"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cells) + " |"
+def _cell(comparison: Comparison) -> Cell:
+    text = "failed"
+    if comparison.deviation is not None:
+        text = f"{comparison.deviation:.0e}" if comparison.deviation else "0"
+    return Cell(text, Style.PLAIN if comparison.passed else Style.FAIL)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from random import Random
 
-from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.trials.mutants.archive import DESCRIPTION, PythonFmu
 from slider_resonator.trials.mutants.enumerate_source import source_mutants
 from slider_resonator.trials.mutants.faults import fault_mutants, missing_names

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
-from rich import box
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
+from slider_resonator.output.table import Row, Style, Table, numbers, texts
+from slider_resonator.output.terminal import STYLES, escaped, rendered
 from slider_resonator.trials.mutants.mutant import KINDS, Mutant
 from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutationRun, Verdict
 
@@ -18,12 +19,13 @@ MOST_REJECTIONS = 12
 
 def print_run(console: Console, run: MutationRun) -> None:
     """Print counts by kind and by file, what rejects most, the survivors and the rate."""
-    console.print(_table("kind", run))
-    console.print(_table("file", run))
-    console.print(_rejections(run))
+    console.print(rendered(_kinds(run)))
+    console.print(rendered(tally("file", run)))
+    console.print(rendered(_rejections(run)))
     for verdict in run.having(SURVIVED):
-        heading = Text.assemble(("SURVIVED ", "bold red"), verdict.mutant.name)
-        console.print(heading, Text(f"     {verdict.reason}"), Text(verdict.mutant.diff), sep="\n")
+        heading = Text.assemble(("SURVIVED ", STYLES[Style.FAIL]), verdict.mutant.name)
+        reason = Text(escaped(f"     {verdict.reason}"))
+        console.print(heading, reason, Text(escaped(verdict.mutant.diff)), sep="\n")
     for status, meaning in STATUSES.items():
         console.print(f"{status:12} {run.counts[status]:5}  {meaning}")
     console.print(summary(run), markup=False, soft_wrap=True)
@@ -44,7 +46,9 @@ def summary(run: MutationRun) -> str:
 def print_mutants(console: Console, mutants: list[Mutant]) -> None:
     """Print each mutant with its diff."""
     for mutant in mutants:
-        console.print(Text(f"{mutant.name} [{mutant.kind}]", "bold"), Text(mutant.diff), sep="\n")
+        console.print(
+            Text(f"{mutant.name} [{mutant.kind}]", "bold"), escaped(mutant.diff), sep="\n"
+        )
     console.print(f"{len(mutants)} mutants")
 
 
@@ -88,27 +92,25 @@ def _plain(verdict: Verdict) -> dict[str, Any]:
     return mutant_as_plain(verdict.mutant) | outcome
 
 
-def _table(key: str, run: MutationRun) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    table.add_column(key)
-    for status in STATUSES:
-        table.add_column(status, justify="right")
-    if key == "kind":
-        table.add_column("what is changed")
-    for name, counts in run.tally(key):
-        told = [KINDS[name]] if key == "kind" else []
-        table.add_row(name, *(str(counts[status]) for status in STATUSES), *told)
-    return table
+def tally(key: str, run: MutationRun) -> Table:
+    """Return the counts by status for each kind or file."""
+    rows = [_counts(name, counts) for name, counts in run.tally(key)]
+    return Table([*texts(key), *numbers(*STATUSES)], rows)
+
+
+def _kinds(run: MutationRun) -> Table:
+    rows = [[*_counts(name, counts), KINDS[name]] for name, counts in run.tally("kind")]
+    return Table([*texts("kind"), *numbers(*STATUSES), *texts("what is changed")], rows)
+
+
+def _counts(name: str, counts: Mapping[str, int]) -> Row:
+    return [name, *(str(counts[status]) for status in STATUSES)]
 
 
 def _rejections(run: MutationRun) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    table.add_column("rejected first by")
-    table.add_column("mutants", justify="right")
     found = run.rejections()
-    for what, count in found[:MOST_REJECTIONS]:
-        table.add_row(what, str(count))
+    rows = [(what, str(count)) for what, count in found[:MOST_REJECTIONS]]
     rest = sum(count for _, count in found[MOST_REJECTIONS:])
     if rest:
-        table.add_row(f"{len(found) - MOST_REJECTIONS} others", str(rest))
-    return table
+        rows.append((f"{len(found) - MOST_REJECTIONS} others", str(rest)))
+    return Table([*texts("rejected first by"), *numbers("mutants")], rows)

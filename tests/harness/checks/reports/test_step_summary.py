@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.checks.reports.step_summary import MOST_ROWS, append_summary
+from slider_resonator.checks.reports.step_summary import MAX_ROWS, append_summary
 from slider_resonator.errors import HarnessError
 from tests.harness.verdicts import BAD, BROKEN, GOOD, SLOWER
 
@@ -33,11 +33,11 @@ def test_no_message_leaves_its_cell(tmp_path: Path) -> None:
 def test_a_hopeless_fmu_does_not_flood_the_page(tmp_path: Path) -> None:
     path = tmp_path / "summary.md"
     append_summary(path, [replace(BAD, checks=(SLOWER,) * 500)])
-    assert path.read_text().count("steady_velocity") == MOST_ROWS
+    assert path.read_text().count("steady_velocity") == MAX_ROWS
     assert "and 450 more" in path.read_text()
 
 
-def test_an_error_before_any_fmu_is_told(tmp_path: Path) -> None:
+def test_an_error_before_any_fmu_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "summary.md"
     append_summary(path, [], "mine.toml: not TOML")
     assert "Could not run: mine.toml: not TOML" in path.read_text()

@@ -8,7 +8,7 @@ from rich.console import Console
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import Validation
-from slider_resonator.output.console import WIDTH_OF_A_LOG
+from slider_resonator.output.console import LOG_WIDTH
 
 GOOD = Check(
     *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),
@@ -37,7 +37,7 @@ WIDEST = (
 
 
 def printed(*checks: Check, details: bool = False, fmu: str = "my.fmu") -> str:
-    console = Console(file=io.StringIO(), width=WIDTH_OF_A_LOG)
+    console = Console(file=io.StringIO(), width=LOG_WIDTH)
     print_validation(console, Validation(fmu, checks, 1.5), details=details)
     assert isinstance(console.file, io.StringIO)
     return console.file.getvalue()
@@ -63,6 +63,13 @@ def test_the_longest_rows_fit_a_log_unwrapped() -> None:
     assert "resonator_displacement*, m" in text
     assert "* the peak of a signal" in text
     assert text.count("load_above_friction") == 2
+
+
+def test_what_an_fmu_gives_cannot_command_the_terminal() -> None:
+    text = printed(replace(GOOD, fmu="\x1b[2Jstuck", passed=False), fmu="\x1b[31m.fmu")
+    assert "\x1b" not in text
+    assert "\ufffd[2Jstuck" in text
+    assert "\ufffd[31m.fmu: 1 failed, 0 of 1 checks passed" in text
 
 
 def test_minus_zero_and_noise_are_0() -> None:

@@ -53,7 +53,7 @@ def test_tables_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
     write_tables(tmp_path, [(table, right)], "a.fmu", "guid")
     text = (tmp_path / "TABLES.md").read_text(encoding="utf-8")
     assert "## forces: Forces" in text
-    assert "| kappa | theory / FMU - 1 |\n|---|---|\n| 1 | -0.05 |\n| 10 | 0.02 |" in text
+    assert "| kappa | theory / FMU - 1 |\n| ---: | ---: |\n| 1 | -0.05 |\n| 10 | 0.02 |" in text
     assert "Largest theory / FMU - 1: 0.05, allowed 0.1." in text
     content = json.loads((tmp_path / "forces.json").read_text(encoding="utf-8"))
     assert content["rows"] == right["rows"]

@@ -12,8 +12,8 @@ import pytest
 from slider_resonator.errors import HarnessError
 from slider_resonator.studies.trade.needs import (
     BEGIN,
+    COLUMNS,
     END,
-    HEAD,
     NEEDS,
     cells,
     choices,
@@ -24,6 +24,7 @@ from tests.harness.studies.trade.test_result import row
 
 REPOSITORY = Path(__file__).parents[4]
 PAGE = REPOSITORY / "docs" / "how-to-choose.md"
+HEAD = tuple(column.heading for column in COLUMNS)
 DOCUMENTATION = REPOSITORY / "fmu_src" / "assets" / "choosing.html"
 
 
@@ -88,7 +89,8 @@ def tables(path: Path) -> list[list[str]]:
     else:
         lines = re.findall(r"<tr>(.*?)</tr>", text)
         rows = [
-            [unescape(cell) for cell in re.findall(r"<t[hd]>(.*?)</t[hd]>", line)] for line in lines
+            [unescape(cell) for cell in re.findall(r"<t[hd].*?>(.*?)</t[hd]>", line)]
+            for line in lines
         ]
     return [row for row in rows if tuple(row) != HEAD and row[0] != "---"]
 

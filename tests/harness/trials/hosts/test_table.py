@@ -3,12 +3,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import pytest
-
-from slider_resonator.errors import HarnessError
+from slider_resonator.output import markdown
 from slider_resonator.trials.hosts.hosts import hosts
 from slider_resonator.trials.hosts.runs import CASES, Comparison, HostResult
-from slider_resonator.trials.hosts.table import BEGIN, END, HEAD, host_table, shown, write_table
+from slider_resonator.trials.hosts.table import BEGIN, COLUMNS, END, host_table, write_table
 
 README = Path(__file__).parents[4] / "README.md"
 RESULT = HostResult(
@@ -17,10 +15,10 @@ RESULT = HostResult(
 
 
 def test_a_row_says_host_version_fmu_and_each_deviation() -> None:
-    assert host_table([RESULT]).splitlines() == [
+    assert markdown.rendered(host_table([RESULT])).splitlines() == [
         "| host | version | FMU | "
         "Coulomb 2 | Coulomb 1 | Coulomb 0 | LuGre 2 | LuGre 1 | LuGre 0 |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
+        "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |",
         "| a host | 1.2 | native | 0 | 3e-14 | 0 | 0 | 0 | 0 |",
     ]
 
@@ -28,36 +26,22 @@ def test_a_row_says_host_version_fmu_and_each_deviation() -> None:
 def test_what_fails_stands_out() -> None:
     failed = {CASES[0]: Comparison(None, "refused"), CASES[2]: Comparison(0.5)}
     result = HostResult("a host", "1.2", "native", {**RESULT.comparisons, **failed})
-    assert "| **failed** | 3e-14 | **5e-01** |" in host_table([result])
-    assert shown(failed[CASES[0]]) == "failed"
+    assert "| **failed** | 3e-14 | **5e-01** |" in markdown.rendered(host_table([result]))
 
 
-def test_a_new_file_holds_the_table_alone(tmp_path: Path) -> None:
-    write_table(tmp_path / "hosts.md", "the table")
-    assert (tmp_path / "hosts.md").read_text() == "the table\n"
-
-
-def test_a_file_with_marks_keeps_all_around_them(tmp_path: Path) -> None:
+def test_the_table_goes_between_its_marks(tmp_path: Path) -> None:
     path = tmp_path / "README.md"
     path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n")
-    write_table(path, "new")
-    assert path.read_text() == f"before\n{BEGIN}\nnew\n{END}\nafter\n"
-
-
-@pytest.mark.parametrize("text", [BEGIN, END, END + BEGIN, BEGIN + END + BEGIN])
-def test_marks_that_are_no_pair_are_refused(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "README.md"
-    path.write_text(text)
-    with pytest.raises(HarnessError, match="allowed is one"):
-        write_table(path, "new")
-    assert path.read_text() == text
+    write_table(path, host_table([RESULT]))
+    table = markdown.rendered(host_table([RESULT]))
+    assert path.read_text() == f"before\n{BEGIN}\n{table}\n{END}\nafter\n"
 
 
 def test_the_table_of_the_readme_is_one_that_this_code_writes() -> None:
     text = README.read_text(encoding="utf-8")
     between = text.partition(BEGIN)[2].partition(END)[0].strip().splitlines()
     head, _, *rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in between]
-    assert tuple(head) == HEAD
+    assert head == [column.heading for column in COLUMNS]
     found: dict[str, list[str]] = {}
     for host, version, fmu, *deviations in rows:
         assert version, f"the version of {host} is missing"

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from slider_resonator.names import unknown_name
+from slider_resonator.errors import unknown_name
 
 
 def test_the_nearest_name_is_suggested_whatever_its_case() -> None:

@@ -1,0 +1,13 @@
+"""Text of foreign origin, such as what an FMU logs, made safe to show."""
+
+from __future__ import annotations
+
+import re
+
+_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+"""Terminal control characters, the direction marks of Unicode that reorder text, surrogates."""
+
+
+def printable(text: str) -> str:
+    """Return the text with U+FFFD for each control character but newline and tab."""
+    return _CONTROL.sub("\ufffd", text.replace("\r\n", "\n"))

@@ -1,0 +1,72 @@
+"""Tables as data: written once, rendered for a terminal, in Markdown and in HTML."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Style(Enum):
+    """What a cell means; each writer has its own look for it."""
+
+    PLAIN = "plain"
+    PASS = "pass"
+    FAIL = "fail"
+    HEADING = "heading"
+    NOTE = "note"
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column; one of numbers is right-aligned and not wrapped."""
+
+    heading: str
+    numeric: bool = False
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A text, which may have several lines, with a style."""
+
+    text: str
+    style: Style = Style.PLAIN
+
+
+Row = Sequence[str | Cell]
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns, and rows of one cell for each of them, or only the first one.
+
+    Raises ValueError for a row of any other length.
+    """
+
+    columns: Sequence[Column]
+    rows: Sequence[Row]
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            if len(row) not in (1, len(self.columns)):
+                raise ValueError(f"{len(row)} cells in a table of {len(self.columns)} columns")
+
+    @property
+    def cells(self) -> list[list[Cell]]:
+        """All rows, with every text as a cell."""
+        return [[c if isinstance(c, Cell) else Cell(c) for c in row] for row in self.rows]
+
+
+def texts(*headings: str) -> list[Column]:
+    """Return columns of text."""
+    return [Column(heading) for heading in headings]
+
+
+def numbers(*headings: str) -> list[Column]:
+    """Return columns of numbers."""
+    return [Column(heading, numeric=True) for heading in headings]
+
+
+def verdict(passed: bool) -> Cell:
+    """Return a cell that says whether something has passed."""
+    return Cell("pass", Style.PASS) if passed else Cell("FAIL", Style.FAIL)
