@@ -175,10 +175,6 @@ double split_slide_travel(const SplitSlide *slide, double t) {
     return travel_by(slide, t, turns_at(slide, t));
 }
 
-State split_slide_state(const SplitSlide *slide, double t) {
-    return state_by(slide, t, turns_at(slide, t));
-}
-
 State split_slide_end(const SplitSlide *slide, double t, double *travel) {
     Turns turns = turns_at(slide, t);
     *travel = travel_by(slide, t, turns);
