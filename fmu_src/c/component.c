@@ -7,7 +7,7 @@
 #include "values.h"
 
 /* Turns of the fastest oscillation in one step up to which its work is accepted. */
-#define MOST_TURNS 1e8
+#define MAX_TURNS 1e8
 
 static bool all_finite(const double *numbers, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -196,13 +196,13 @@ bool component_get(Component *component, const unsigned *references, double *val
 
 static bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
     double frequency = LONGEST_ARC / law->held.arc;
-    if (law->device.fidelity == 0 || !(step_size * frequency > TAU * MOST_TURNS)) {
+    if (law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)) {
         return true;
     }
     char size[NUMBER_SIZE], fastest[NUMBER_SIZE];
     return refuse(refusal, "doStep: communicationStepSize = %s refused: the fastest oscillation "
                   "has %s rad/s; allowed is a step of at most %g turns of it",
-                  number_text(step_size, size), number_text(frequency, fastest), MOST_TURNS);
+                  number_text(step_size, size), number_text(frequency, fastest), MAX_TURNS);
 }
 
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
