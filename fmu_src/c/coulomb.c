@@ -95,17 +95,15 @@ static void follow(Leg *leg, const Law *law, Moment *now, double longest, double
     leg_follow(leg, held, now, longest);
 }
 
-static void succeed(Leg *leg, const Law *law, Moment *now, bool switches) {
-    bool stopped = leg_stopped(leg), released = leg_released(leg);
+static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
     int mode = leg->mode;
-    if (released) {
+    if (leg_released(leg)) {
         mode = leg->zero_of == 0 ? FORWARD : BACKWARD;
-    } else if (stopped || (switches && mode == LIFTED)) {
+    } else if (leg_stopped(leg) || (switches && mode == LIFTED)) {
         mode = mode_in_contact(&law->held.plant, now);
     } else if (switches) {
         mode = LIFTED;
     }
-    leg->departs = released || (stopped && mode == leg->mode);
     moment_enter(now, mode);
 }
 

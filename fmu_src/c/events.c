@@ -49,6 +49,7 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Momen
         friction->follow(&leg, law, &now, longest, switching);
         leg_finish(&leg, held, &now);
         friction->succeed(&leg, law, &now, leg.zero_of < 0 && leg.t == switching);
+        leg.departs = now.state.velocity == 0.0 && now.mode != -leg.mode;
         remaining = leg.t == remaining ? 0.0 : clock_advance(&clock, leg.t);
     }
     *after = now;

@@ -31,7 +31,7 @@ typedef struct FrictionLaw {
 
     /* Goes over from the end of a finished leg to the contact mode that succeeds; `switches` tells
      * whether the contact lifts or touches down there. */
-    void (*succeed)(Leg *leg, const Law *law, Moment *now, bool switches);
+    void (*succeed)(const Leg *leg, const Law *law, Moment *now, bool switches);
 
     const AveragedFriction *averaged;
 } FrictionLaw;

@@ -17,7 +17,7 @@ typedef enum { RESTS, SLIDES, BENDS } LegKind;
  * is watched (0 for none) from `watched_from` [s] on.
  *
  * Followed, it ends after `t` [s] and `travelled` [m], at the zero of a watched signal (`zero_of` >=
- * 0) or not. `departs` is for the next leg to know: the slider is at rest and about to move. */
+ * 0) or not. `departs` is known before it begins: from rest, and not thrown back by a reversal. */
 typedef struct {
     LegKind kind;
     int mode, direction;

@@ -75,7 +75,7 @@ static void follow(Leg *leg, const Law *law, Moment *now, double longest, double
     leg_follow(leg, &law->held, now, longest);
 }
 
-static void succeed(Leg *leg, const Law *law, Moment *now, bool switches) {
+static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
     bool lifted = (leg->mode == LIFTED) != switches;
     now->bristle = bristle_after(&law->bristle, now->bristle, leg->travelled);
     now->mode = lifted ? LIFTED : direction_of(now->state.velocity);
