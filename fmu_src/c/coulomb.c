@@ -16,9 +16,9 @@ static bool check(const Device *device, Refusal *refusal) {
     return true;
 }
 
-static void start(const Law *law, Moment *first) {
+static double first_bristle(const Law *law) {
     (void)law;
-    first->bristle = 0.0;
+    return 0.0;
 }
 
 /* Friction force [N] that holds a slider at rest. */
@@ -109,7 +109,7 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw COULOMB = {
     .check = check,
-    .start = start,
+    .first_bristle = first_bristle,
     .mode = mode,
     .force = force,
     .follow = follow,

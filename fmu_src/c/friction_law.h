@@ -16,8 +16,8 @@ typedef struct FrictionLaw {
     /* Refuses a device for which the law has no meaning. */
     bool (*check)(const Device *device, Refusal *refusal);
 
-    /* Sets what only this law has in the first moment. */
-    void (*start)(const Law *law, Moment *first);
+    /* Friction of the bristle at the start, per unit load. */
+    double (*first_bristle)(const Law *law);
 
     /* Contact mode under the held inputs. */
     int (*mode)(const Law *law, const Moment *moment);

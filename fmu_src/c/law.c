@@ -35,7 +35,7 @@ Moment law_start(const Law *law) {
     first.state.rate = device->initial_resonator_velocity;
     first.mode = law_mode(law, &first);
     if (!is_averaged(device)) {
-        law->friction->start(law, &first);
+        first.bristle = law->friction->first_bristle(law);
         first.counts.sliding = first.mode == LIFTED ? 0 : first.mode;
     }
     return first;

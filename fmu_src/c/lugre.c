@@ -22,8 +22,8 @@ static bool check(const Device *device, Refusal *refusal) {
                   number_text(device->friction_coefficient, number));
 }
 
-static void start(const Law *law, Moment *first) {
-    first->bristle = law->bristle.stiffness * law->device.initial_bristle_deflection;
+static double first_bristle(const Law *law) {
+    return law->bristle.stiffness * law->device.initial_bristle_deflection;
 }
 
 static int mode(const Law *law, const Moment *moment) {
@@ -86,7 +86,7 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw LUGRE = {
     .check = check,
-    .start = start,
+    .first_bristle = first_bristle,
     .mode = mode,
     .force = force,
     .follow = follow,
