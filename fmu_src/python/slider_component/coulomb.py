@@ -55,8 +55,9 @@ def follow(held: Held, now: Moment, longest: float, switching: float, departs: b
         leg = followed(Stick(plant, now.state, now.theta, chi), STICK, 0, longest)
         near_switch = switching == longest and switching - leg.t < SAME * held.arc
         chi += plant.normal_frequency * leg.t
-        same = leg.released and near_switch and _lifts_first(plant, chi)
-        return leg.cut(switching) if same else leg
+        if leg.released and near_switch and _lifts_first(plant, chi):
+            leg.t, leg.zero_of = switching, None
+        return leg
     direction = 0 if now.mode == LIFTED else now.mode
     watched_from = 0.0
     if direction != 0 and departs:
@@ -64,13 +65,14 @@ def follow(held: Held, now: Moment, longest: float, switching: float, departs: b
     return followed(slide(held, now, direction), now.mode, direction, longest, watched_from)
 
 
-def succeed(held: Held, leg: Leg, end: Moment, switches: bool) -> Moment:
+def succeed(held: Held, leg: Leg, now: Moment, switches: bool) -> None:
     """See FrictionLaw."""
     if leg.released:
-        return end.entered((FORWARD, BACKWARD)[leg.zero_of or 0])
-    if leg.stopped or (switches and leg.mode == LIFTED):
-        return end.entered(_mode_in_contact(held.plant, end))
-    return end.entered(LIFTED) if switches else end
+        now.enter(FORWARD if leg.zero_of == 0 else BACKWARD)
+    elif leg.stopped or (switches and leg.mode == LIFTED):
+        now.enter(_mode_in_contact(held.plant, now))
+    elif switches:
+        now.enter(LIFTED)
 
 
 def _needed_force(plant: Plant, moment: Moment) -> float:

@@ -25,7 +25,8 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
     clock, remaining = Clock(duration), duration
     legs, turn_began = 0, 0.0
     departs = moment.state.velocity == 0.0
-    now = moment.entered(friction.mode(held, moment))
+    now = moment.copied()
+    now.enter(friction.mode(held, now))
     while remaining > 0.0:
         if clock.elapsed - turn_began > turn:
             legs, turn_began = 0, clock.elapsed
@@ -37,8 +38,8 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
         switching = time_to_switch(held.window, chi, plant.normal_frequency, lifted)
         longest = min(remaining, switching, held.arc)
         leg = friction.follow(held, now, longest, switching, departs)
-        switches = leg.zero_of is None and leg.t == switching
-        now = friction.succeed(held, leg, leg.finished(held, now), switches)
+        leg.finish(held, now)
+        friction.succeed(held, leg, now, leg.zero_of is None and leg.t == switching)
         departs = now.state.velocity == 0.0 and now.mode != -leg.mode
         remaining = clock.advance(leg.t) if leg.t != remaining else 0.0
     return now

@@ -43,8 +43,8 @@ class FrictionLaw:
     contact mode that it has, for up to `longest` [s]. The contact switches after `switching` [s];
     `departs` tells whether a slider at rest is about to move, and not thrown back by a reversal.
 
-    `succeed(held, leg, end, switches)` is the moment at the `end` of a leg in the contact mode that
-    succeeds; `switches` tells whether the contact lifts or touches down there.
+    `succeed(held, leg, now, switches)` goes over from the end of a finished leg to the contact mode
+    that succeeds; `switches` tells whether the contact lifts or touches down there.
     """
 
     check: Callable[[Device], None]
@@ -52,5 +52,5 @@ class FrictionLaw:
     mode: Callable[[Held, Moment], int]
     force: Callable[[Held, Moment, int], float]
     follow: Follow
-    succeed: Callable[[Held, Leg, Moment, bool], Moment]
+    succeed: Callable[[Held, Leg, Moment, bool], None]
     averaged: AveragedFriction

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import tau
 
 from .first_zero import first_zero
@@ -12,7 +12,7 @@ from .motion import Motion, State
 from .stick import Stick
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Leg:
     """A motion in contact mode `mode`, which ends after `t` [s] and `travelled` [m].
 
@@ -42,33 +42,20 @@ class Leg:
         """Whether the leg ends at a release of the slider."""
         return self.zero_of is not None and self.rests
 
-    def cut(self, t: float) -> Leg:
-        """The leg up to `t` [s], without an event."""
-        return replace(self, t=t, travelled=self.motion.travel(t), zero_of=None)
-
-    def finished(self, held: Held, now: Moment) -> Moment:
-        """The moment at the end of a leg that begins `now`, in its mode."""
-        plant, motion, t, travelled = held.plant, self.motion, self.t, self.travelled
-        state, counts, age = motion.state(t), now.counts, now.event_age
-        means, theta = now.means.advanced(
-            t, now.theta, plant.drive_frequency, self.rests, motion.travel, travelled
+    def finish(self, held: Held, now: Moment) -> None:
+        """Move on from where the leg begins to its end, in its mode."""
+        plant, motion, t = held.plant, self.motion, self.t
+        now.state = motion.state(t)
+        now.means, now.theta = now.means.advanced(
+            t, now.theta, plant.drive_frequency, self.rests, motion.travel, self.travelled
         )
-        psi = (now.psi + plant.normal_frequency * t) % tau
-        if travelled * self.direction > 0.0 and self.direction != counts.sliding:
-            counts, age = counts.slid(self.direction), 0.0
+        now.psi = (now.psi + plant.normal_frequency * t) % tau
+        now.position += self.travelled
+        if self.travelled * self.direction > 0.0 and self.direction != now.counts.sliding:
+            now.counts, now.event_age = now.counts.slid(self.direction), 0.0
+        now.event_age += t
         if self.stopped:
-            state = State(0.0, state.displacement, state.rate)
-        return Moment(
-            state,
-            now.position + travelled,
-            theta,
-            psi,
-            now.mode,
-            counts,
-            age + t,
-            means,
-            now.bristle,
-        )
+            now.state = State(0.0, now.state.displacement, now.state.rate)
 
 
 def followed(

@@ -8,7 +8,6 @@ oscillation on the bristles.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import hypot, inf
 
 from .averaged_lugre import AVERAGED_LUGRE
@@ -72,15 +71,13 @@ def follow(held: Held, now: Moment, longest: float, switching: float, departs: b
     return followed(motion, now.mode, direction, longest)
 
 
-def succeed(held: Held, leg: Leg, end: Moment, switches: bool) -> Moment:
+def succeed(held: Held, leg: Leg, now: Moment, switches: bool) -> None:
     """See FrictionLaw."""
     lifted = (leg.mode == LIFTED) != switches
-    return replace(
-        end,
-        mode=LIFTED if lifted else direction_of(end.state.velocity),
-        bristle=held.bristle.after(end.bristle, leg.travelled),
-        event_age=0.0 if switches else end.event_age,
-    )
+    now.bristle = held.bristle.after(now.bristle, leg.travelled)
+    now.mode = LIFTED if lifted else direction_of(now.state.velocity)
+    if switches:
+        now.event_age = 0.0
 
 
 def velocity_scale(plant: Plant, state: State) -> float:

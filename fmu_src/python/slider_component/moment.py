@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from .contact import STICK
@@ -22,12 +22,13 @@ class Counts(NamedTuple):
         return Counts(direction, self.reversals + (self.sliding == -direction), self.sticks)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Moment:
     """Position [m], phases [rad], contact mode, and what outputs count.
 
     `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
-    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction.
+    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. A moment is changed only
+    by the loop over events, which begins with a copy.
     """
 
     state: State
@@ -40,9 +41,24 @@ class Moment:
     means: PeriodMeans
     bristle: float = 0.0
 
-    def entered(self, mode: int) -> Moment:
-        """The moment in contact mode `mode`, which is an event where it is another one."""
+    def copied(self) -> Moment:
+        """The same moment, to be changed."""
+        return Moment(
+            self.state,
+            self.position,
+            self.theta,
+            self.psi,
+            self.mode,
+            self.counts,
+            self.event_age,
+            self.means,
+            self.bristle,
+        )
+
+    def enter(self, mode: int) -> None:
+        """Go over to contact mode `mode`, which is an event where it is another one."""
         if mode == self.mode:
-            return self
-        counts = self.counts._replace(sticks=self.counts.sticks + (mode == STICK))
-        return replace(self, mode=mode, counts=counts, event_age=0.0)
+            return
+        self.mode, self.event_age = mode, 0.0
+        if mode == STICK:
+            self.counts = self.counts._replace(sticks=self.counts.sticks + 1)
