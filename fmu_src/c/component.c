@@ -125,27 +125,22 @@ bool component_terminate(Component *component, Refusal *refusal) {
     return true;
 }
 
-static bool same_values(const double *a, const double *b) {
-    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
-        if (a[i] != b[i]) {
-            return false;
-        }
-    }
-    return true;
-}
-
 bool component_set(Component *component, const unsigned *references, const double *values,
                    size_t count, Refusal *refusal) {
-    double changed[SETTABLE_COUNT];
-    memcpy(changed, component->now.values, sizeof changed);
+    bool changes = false;
     for (size_t i = 0; i < count; i++) {
         if (!setting_check(component->now.lifecycle, references[i], values[i], refusal)) {
             return false;
         }
-        changed[references[i]] = values[i];
+        changes = changes || values[i] != component->now.values[references[i]];
     }
-    if (same_values(changed, component->now.values)) {
+    if (!changes) {
         return true;
+    }
+    double changed[SETTABLE_COUNT];
+    memcpy(changed, component->now.values, sizeof changed);
+    for (size_t i = 0; i < count; i++) {
+        changed[references[i]] = values[i];
     }
     bool running = component->now.lifecycle == STEP_COMPLETE;
     if (running && !prepare(component, changed, refusal)) {
@@ -156,9 +151,10 @@ bool component_set(Component *component, const unsigned *references, const doubl
     return true;
 }
 
-/* The moment that outputs are read from: before the end of initialization the one to come. */
-static bool moment_to_read(Component *component, unsigned reference, Moment *moment,
-                           Refusal *refusal) {
+/* The moment that outputs are read from: before the end of initialization the one to come, which is
+ * put into `first`. */
+static bool moment_to_read(Component *component, unsigned reference, Moment *first,
+                           const Moment **moment, Refusal *refusal) {
     if (component->now.lifecycle == INSTANTIATED) {
         return refuse(refusal, "reading %s refused in state '%s': allowed in '%s'",
                       VARIABLES[reference].name, lifecycle_name(INSTANTIATED),
@@ -167,25 +163,28 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *mom
     if (!prepare_present(component, refusal)) {
         return false;
     }
-    *moment = component->now.moving ? component->now.moment : law_start(present_law(component));
+    *moment = &component->now.moment;
+    if (!component->now.moving) {
+        *first = law_start(present_law(component));
+        *moment = first;
+    }
     return true;
 }
 
 bool component_get(Component *component, const unsigned *references, double *values, size_t count,
                    Refusal *refusal) {
     double found[VARIABLE_COUNT];
-    Moment moment;
-    bool read = false;
+    Moment first;
+    const Moment *moment = NULL;
     for (size_t i = 0; i < count; i++) {
         if (references[i] < SETTABLE_COUNT) {
             found[i] = component->now.values[references[i]];
             continue;
         }
-        read = read || moment_to_read(component, references[i], &moment, refusal);
-        if (!read) {
+        if (!moment && !moment_to_read(component, references[i], &first, &moment, refusal)) {
             return false;
         }
-        found[i] = output_value(references[i], present_law(component), &moment,
+        found[i] = output_value(references[i], present_law(component), moment,
                                 component->now.last_event_time, &component->theory);
     }
     for (size_t i = 0; i < count; i++) {

@@ -26,7 +26,7 @@ static bool work_count(Work *work, double time) {
     return work->legs <= MAX_LEGS;
 }
 
-bool events_advance(const Law *law, const Moment *moment, double duration, Moment *after,
+bool events_advance(const Law *law, const Moment *moment, double duration, Moment *now,
                     Refusal *refusal) {
     const FrictionLaw *friction = law->friction;
     const Held *held = &law->held;
@@ -34,24 +34,23 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Momen
     double remaining = duration;
     Clock clock = clock_of(duration);
     Work work = {.turn = TAU / LONGEST_ARC * held->arc};
-    Moment now = *moment;
     Leg leg;
-    leg.departs = now.state.velocity == 0.0;
-    moment_enter(&now, friction->mode(law, &now));
-    while (remaining > 0.0 && isfinite(now.state.velocity)) {
+    *now = *moment;
+    leg.departs = now->state.velocity == 0.0;
+    moment_enter(now, friction->mode(law, now));
+    while (remaining > 0.0 && isfinite(now->state.velocity)) {
         if (!work_count(&work, clock.elapsed)) {
             return refuse_work(refusal, duration, clock.elapsed, MAX_LEGS,
                                "legs in a turn of the fastest oscillation");
         }
-        double switching = time_to_switch(&held->window, now.psi + plant->phase,
-                                          plant->normal_frequency, now.mode == LIFTED);
+        double switching = time_to_switch(&held->window, now->psi + plant->phase,
+                                          plant->normal_frequency, now->mode == LIFTED);
         double longest = fmin(fmin(remaining, switching), held->arc);
-        friction->follow(&leg, law, &now, longest, switching);
-        leg_finish(&leg, held, &now);
-        friction->succeed(&leg, law, &now, leg.zero_of < 0 && leg.t == switching);
-        leg.departs = now.state.velocity == 0.0 && now.mode != -leg.mode;
+        friction->follow(&leg, law, now, longest, switching);
+        leg_finish(&leg, held, now);
+        friction->succeed(&leg, law, now, leg.zero_of < 0 && leg.t == switching);
+        leg.departs = now->state.velocity == 0.0 && now->mode != -leg.mode;
         remaining = leg.t == remaining ? 0.0 : clock_advance(&clock, leg.t);
     }
-    *after = now;
     return true;
 }

@@ -8,10 +8,10 @@
 #include "moment.h"
 #include "refusal.h"
 
-/* The moment `duration` > 0 [s] later, inputs held. Refuses, with `after` undefined, where time
- * does not get on; `after` may be `moment`. Where numbers leave the range of floating point,
- * entries of `after` are not finite. */
-bool events_advance(const Law *law, const Moment *moment, double duration, Moment *after,
+/* Brings `now` to what it is `duration` > 0 [s] after `moment`, another one, inputs held. Refuses,
+ * with `now` undefined, where time does not get on. Where numbers leave the range of floating point,
+ * entries of `now` are not finite. */
+bool events_advance(const Law *law, const Moment *moment, double duration, Moment *now,
                     Refusal *refusal);
 
 #endif
