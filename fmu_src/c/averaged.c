@@ -3,16 +3,16 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "averaged_lugre.h"
 #include "complex_number.h"
 #include "fast_vibration.h"
+#include "friction_law.h"
 #include "plant.h"
 #include "refusal.h"
 #include "state.h"
 
 /* Halvings of [0, pi] in which the angle of balance is found, and those that settle which of
  * several it is. */
-enum { BISECTIONS = 52, SORTING = 4, MOST_EVALUATIONS = 100 };
+enum { BISECTIONS = 52, SORTING = 4, MAX_EVALUATIONS = 100 };
 
 /* Width [rad] to which the angle of balance is closed in upon first. */
 #define CLOSE 2e-15
@@ -24,14 +24,13 @@ enum { BISECTIONS = 52, SORTING = 4, MOST_EVALUATIONS = 100 };
 #define ROUNDING 8.0
 
 /* Friction and load over the angle Theta at which sliding turns forward, and the `noise` of their
- * sum by rounding [N]. Where Coulomb friction has the `closed` form (20), that has `preload` and
- * `swing` [N]. Where friction `rises` with the angle, there may be several balances. */
+ * sum by rounding [N]. Where friction has a `closed` form it is that of `preload`, `sine` and
+ * `cosine` [N] times its means. Where it `rises` with the angle, there may be several balances. */
 typedef struct {
-    const Device *device;
-    double opposing, scale, noise;
-    bool bends, closed, rises;
-    double preload, swing;
-    Bristle bristle;
+    const Law *law;
+    double opposing, noise;
+    bool closed, rises;
+    double preload, sine, cosine;
     FastMotion fast;
     VibratingLoad load;
 } Balance;
@@ -47,43 +46,33 @@ typedef struct {
     double positive, negative, root;
 } Bracket;
 
-static Balance balance_of(const Device *device, const Inputs *inputs, Complex force,
-                          double normal_lead) {
-    Balance balance = {0};
-    double ratio = inputs->frequency_ratio;
-    double delta = inputs->phase + normal_lead + ratio * force_lag(force);
-    double faces_mu = device->friction_faces * device->friction_coefficient;
-    balance.device = device;
-    balance.opposing = inputs->load;
-    balance.scale = faces_mu / TAU;
-    balance.bends = device->friction_law != 0;
-    balance.bristle = bristle_of(device);
+static Balance balance_of(const Law *law, Complex force, double normal_lead) {
+    const Device *device = &law->device;
+    const AveragedFriction *friction = law->friction->averaged;
+    Balance balance = {.law = law, .opposing = law->inputs.load};
+    double ratio = law->inputs.frequency_ratio, faces = device->friction_faces;
+    double delta = law->inputs.phase + normal_lead + ratio * force_lag(force);
     balance.fast.velocity = fast_velocity(device, force);
     balance.fast.frequency = device->drive_frequency;
     balance.load = vibrating_load_of(device, ratio, delta);
-    balance.closed = !balance.bends && !balance.load.is_constant &&
-                    device->normal_amplitude <= device->normal_preload;
-    double largest = device->friction_coefficient;
-    if (balance.bends) {
-        double damping = device->bristle_damping * balance.fast.velocity;
-        balance.rises = damping > largest;
-        largest += damping;
-    }
-    balance.noise = ROUNDING * EPSILON * device->friction_faces * largest *
+    balance.closed = !friction->is_expensive && !balance.load.is_constant &&
+                     device->normal_amplitude <= device->normal_preload;
+    double mu = law->bristle.coefficient;
+    double drag = friction->drag(&law->bristle, balance.fast.velocity);
+    balance.rises = drag > mu;
+    balance.noise = ROUNDING * EPSILON * faces * (mu + drag) *
                     (device->normal_preload + device->normal_amplitude);
-    balance.preload = faces_mu * device->normal_preload;
-    balance.swing = 2.0 * faces_mu * device->normal_amplitude / (ratio * PI) * sin(delta);
+    balance.preload = faces * device->normal_preload;
+    balance.sine = faces * device->normal_amplitude * cos(delta);
+    balance.cosine = faces * device->normal_amplitude * sin(delta);
     return balance;
 }
 
-/* Mean friction [N] when sliding turns forward at tau = `turning` [rad]; only that of strongly
- * damped bristles may rise. */
+/* Mean friction [N] when sliding turns forward at tau = `turning` [rad]. */
 static double friction_at(const Balance *balance, double turning) {
-    if (balance->bends) {
-        return balance->device->friction_faces *
-               mean_friction(&balance->bristle, &balance->fast, &balance->load, turning);
-    }
-    return balance->scale * vibrating_load_difference(&balance->load, turning);
+    const Law *law = balance->law;
+    return law->device.friction_faces * law->friction->averaged->mean(&law->bristle, &balance->fast,
+                                                                      &balance->load, turning);
 }
 
 static Point point_at(const Balance *balance, double turning) {
@@ -96,9 +85,11 @@ static Point point_near(const Balance *balance, double turning) {
     if (!balance->closed) {
         return point_at(balance, turning);
     }
-    Point point = {turning, balance->preload * (1.0 - 2.0 / PI * turning) -
-                                balance->swing * sin(balance->load.ratio * turning) +
-                                balance->opposing};
+    const Law *law = balance->law;
+    FrictionMeans means = law->friction->averaged->means(&law->bristle, &balance->fast,
+                                                         balance->load.ratio, turning);
+    Point point = {turning, balance->preload * means.plain + balance->sine * means.sine +
+                                balance->cosine * means.cosine + balance->opposing};
     return point;
 }
 
@@ -132,7 +123,7 @@ static bool interpolates(Point a, Point b, Point c, double *share) {
 static Bracket close_in(const Balance *balance, Point low, Point next, Point high) {
     Point newest = high, other = low;
     Bracket bracket = {low.turning, high.turning, 0.0};
-    for (int i = 0; i < MOST_EVALUATIONS; i++) {
+    for (int i = 0; i < MAX_EVALUATIONS; i++) {
         Point before = newest;
         if ((next.excess > 0.0) != (newest.excess > 0.0)) {
             before = other;
@@ -191,22 +182,23 @@ static double balanced_turning(const Balance *balance, Point low, Point halfway,
     return 0.5 * (low.turning + high.turning);
 }
 
-Averaged averaged(const Device *device, const Inputs *inputs, double normal_lead) {
+Averaged averaged(const Law *law, double normal_lead) {
     Averaged theory = {0.0, 0.0};
     Complex force;
     Refusal refusal;
-    if (!equivalent_force(device, &force, &refusal) || (force.re == 0.0 && force.im == 0.0)) {
+    if (!equivalent_force(&law->device, &force, &refusal) || (force.re == 0.0 && force.im == 0.0)) {
         return theory;
     }
-    Balance balance = balance_of(device, inputs, force, normal_lead);
+    Balance balance = balance_of(law, force, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
+    double load = law->inputs.load;
     if (first == last) {
         /* Nothing holds the slider back: every velocity is steady, or with a load none. */
         theory.steady_velocity =
-            inputs->load != 0.0 ? -copysign(balance.fast.velocity, inputs->load) : 0.0;
+            load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
         return theory;
     }
-    double middle = friction_at(&balance, 0.5 * PI), load = inputs->load;
+    double middle = friction_at(&balance, 0.5 * PI);
     Point low = {0.0, first + load}, halfway = {0.5 * PI, middle + load}, high = {PI, last + load};
     theory.steady_velocity =
         balance.fast.velocity * cos(balanced_turning(&balance, low, halfway, high));

@@ -8,18 +8,18 @@
 #ifndef SLIDER_AVERAGED_H
 #define SLIDER_AVERAGED_H
 
-#include "device.h"
+#include "law.h"
 
 /* Steady velocity [m/s] and blocking force [N] by averaged theory. */
 typedef struct {
     double steady_velocity, blocking_force;
 } Averaged;
 
-/* Averaged theory at the present inputs (eqs 20-22 with both faces; LuGre for any bristle).
+/* Averaged theory of the device and inputs of a law (eqs 20-22 with both faces).
  *
  * `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where the
  * load exceeds full friction the velocity is the limit v_q of the theory, with its sign; both are 0
  * without vibration, and where undamped resonance leaves no steady vibration. */
-Averaged averaged(const Device *device, const Inputs *inputs, double normal_lead);
+Averaged averaged(const Law *law, double normal_lead);
 
 #endif

@@ -1,11 +1,15 @@
-#include "averaged_lugre.h"
-
+/* Averaged LuGre friction, uniform in the bristle stiffness.
+ *
+ * Over one turn of tau the bristle response to the fast motion is periodic, and explicit in the path
+ * between the two reversals, so the mean friction is a quadrature: soft bristles give the paper's
+ * slow manifold (17), hard ones Coulomb friction (5). */
 #include <math.h>
 #include <stddef.h>
 
+#include "averaged_friction.h"
 #include "state.h"
 
-enum { NODES = 12, EDGES = 6, MOST_BISECTIONS = 60 };
+enum { NODES = 12, EDGES = 6, MAX_BISECTIONS = 60 };
 
 /* Gauss and Legendre's rule on [-1, 1]. */
 static const double NODE[NODES] = {
@@ -31,7 +35,7 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 
 /* Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
  * add to the mean friction falls with their number, to less than 1e-3 of full friction. */
-#define MOST_WAVES 1000.0
+#define MAX_WAVES 1000.0
 
 /* Takes in friction per unit load beyond Coulomb's, times a weight of the quadrature, at
  * `angle`. */
@@ -96,7 +100,7 @@ static double bent_at(const Quadrature *over, const Arc *arc) {
     if (stiffness * way(over, arc, high).path <= full) {
         return high;
     }
-    for (int i = 0; i < MOST_BISECTIONS; i++) {
+    for (int i = 0; i < MAX_BISECTIONS; i++) {
         double middle = 0.5 * (low + high);
         if (middle <= low || middle >= high) {
             break;
@@ -186,10 +190,10 @@ static void gather_loaded(void *sum, double angle, double friction) {
     loaded->friction += vibrating_load_at(loaded->load, angle) * friction;
 }
 
-double mean_friction(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
-                     double turning) {
+static double mean(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
+                   double turning) {
     VibratingLoad counted = *load;
-    if (fabs(vibrating_load_waves(load)) > MOST_WAVES) {
+    if (fabs(vibrating_load_waves(load)) > MAX_WAVES) {
         counted = vibrating_load_flattened(load);
     }
     LoadedSum bent = {&counted, 0.0};
@@ -215,9 +219,9 @@ static void gather_wavy(void *sum, double angle, double friction) {
     }
 }
 
-FrictionMeans friction_means(const Bristle *bristle, const FastMotion *fast, double n,
-                             double turning) {
-    double mu = bristle->coefficient, waves = fabs(n) <= MOST_WAVES ? n : 0.0;
+static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, double n,
+                           double turning) {
+    double mu = bristle->coefficient, waves = fabs(n) <= MAX_WAVES ? n : 0.0;
     WavySum sum = {waves, {mu * (TAU - 4.0 * turning), 0.0, 0.0}};
     if (waves != 0.0) {
         sum.means.cosine = -4.0 * mu * sin(n * turning) / n;
@@ -225,6 +229,14 @@ FrictionMeans friction_means(const Bristle *bristle, const FastMotion *fast, dou
     Quadrature over = {.bristle = bristle, .fast = fast, .waves = waves, .sum = &sum};
     over.gather = gather_wavy;
     integrate_turn(&over, turning);
-    FrictionMeans means = {sum.means.plain / TAU, sum.means.sine / TAU, sum.means.cosine / TAU};
-    return means;
+    FrictionMeans over_turn = {sum.means.plain / TAU, sum.means.sine / TAU,
+                               sum.means.cosine / TAU};
+    return over_turn;
 }
+
+static double drag(const Bristle *bristle, double fast_velocity) {
+    return bristle->damping * fast_velocity;
+}
+
+const AveragedFriction AVERAGED_LUGRE = {
+    .is_expensive = true, .drag = drag, .mean = mean, .means = means};

@@ -55,8 +55,4 @@ static inline Complex complex_div(Complex a, Complex b) {
     return complex_of((a.re * ratio + a.im) / denominator, (a.im * ratio - a.re) / denominator);
 }
 
-static inline Complex complex_exp(Complex a) {
-    return complex_rect(exp(a.re), a.im);
-}
-
 #endif

@@ -7,7 +7,7 @@
 #include "values.h"
 
 /* Turns of the fastest oscillation in one step up to which its work is accepted. */
-#define MOST_TURNS 1e8
+#define MAX_TURNS 1e8
 
 static bool all_finite(const double *numbers, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -125,27 +125,22 @@ bool component_terminate(Component *component, Refusal *refusal) {
     return true;
 }
 
-static bool same_values(const double *a, const double *b) {
-    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
-        if (a[i] != b[i]) {
-            return false;
-        }
-    }
-    return true;
-}
-
 bool component_set(Component *component, const unsigned *references, const double *values,
                    size_t count, Refusal *refusal) {
-    double changed[SETTABLE_COUNT];
-    memcpy(changed, component->now.values, sizeof changed);
+    bool changes = false;
     for (size_t i = 0; i < count; i++) {
         if (!setting_check(component->now.lifecycle, references[i], values[i], refusal)) {
             return false;
         }
-        changed[references[i]] = values[i];
+        changes = changes || values[i] != component->now.values[references[i]];
     }
-    if (same_values(changed, component->now.values)) {
+    if (!changes) {
         return true;
+    }
+    double changed[SETTABLE_COUNT];
+    memcpy(changed, component->now.values, sizeof changed);
+    for (size_t i = 0; i < count; i++) {
+        changed[references[i]] = values[i];
     }
     bool running = component->now.lifecycle == STEP_COMPLETE;
     if (running && !prepare(component, changed, refusal)) {
@@ -156,9 +151,10 @@ bool component_set(Component *component, const unsigned *references, const doubl
     return true;
 }
 
-/* The moment that outputs are read from: before the end of initialization the one to come. */
-static bool moment_to_read(Component *component, unsigned reference, Moment *moment,
-                           Refusal *refusal) {
+/* The moment that outputs are read from: before the end of initialization the one to come, which is
+ * put into `first`. */
+static bool moment_to_read(Component *component, unsigned reference, Moment *first,
+                           const Moment **moment, Refusal *refusal) {
     if (component->now.lifecycle == INSTANTIATED) {
         return refuse(refusal, "reading %s refused in state '%s': allowed in '%s'",
                       VARIABLES[reference].name, lifecycle_name(INSTANTIATED),
@@ -167,25 +163,28 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *mom
     if (!prepare_present(component, refusal)) {
         return false;
     }
-    *moment = component->now.moving ? component->now.moment : law_start(present_law(component));
+    *moment = &component->now.moment;
+    if (!component->now.moving) {
+        *first = law_start(present_law(component));
+        *moment = first;
+    }
     return true;
 }
 
 bool component_get(Component *component, const unsigned *references, double *values, size_t count,
                    Refusal *refusal) {
     double found[VARIABLE_COUNT];
-    Moment moment;
-    bool read = false;
+    Moment first;
+    const Moment *moment = NULL;
     for (size_t i = 0; i < count; i++) {
         if (references[i] < SETTABLE_COUNT) {
             found[i] = component->now.values[references[i]];
             continue;
         }
-        read = read || moment_to_read(component, references[i], &moment, refusal);
-        if (!read) {
+        if (!moment && !moment_to_read(component, references[i], &first, &moment, refusal)) {
             return false;
         }
-        found[i] = output_value(references[i], present_law(component), &moment,
+        found[i] = output_value(references[i], present_law(component), moment,
                                 component->now.last_event_time, &component->theory);
     }
     for (size_t i = 0; i < count; i++) {
@@ -196,13 +195,13 @@ bool component_get(Component *component, const unsigned *references, double *val
 
 static bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
     double frequency = LONGEST_ARC / law->held.arc;
-    if (law->device.fidelity == 0 || !(step_size * frequency > TAU * MOST_TURNS)) {
+    if (law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)) {
         return true;
     }
     char size[NUMBER_SIZE], fastest[NUMBER_SIZE];
     return refuse(refusal, "doStep: communicationStepSize = %s refused: the fastest oscillation "
                   "has %s rad/s; allowed is a step of at most %g turns of it",
-                  number_text(step_size, size), number_text(frequency, fastest), MOST_TURNS);
+                  number_text(step_size, size), number_text(frequency, fastest), MAX_TURNS);
 }
 
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {

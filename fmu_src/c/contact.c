@@ -55,3 +55,15 @@ double time_to_switch(const FlightWindow *window, double chi, double frequency, 
     ahead = within_turn(frequency > 0.0 ? ahead : -ahead);
     return TAU - ahead < REACHED ? 0.0 : ahead / fabs(frequency);
 }
+
+int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velocity, double psi) {
+    if (is_lifted(window, psi + plant->phase, plant->normal_frequency)) {
+        return LIFTED;
+    }
+    return direction_of(velocity);
+}
+
+double friction_limit(const Plant *plant, double psi) {
+    double limit = plant->friction_preload + plant->friction_amplitude * sin(psi + plant->phase);
+    return limit > 0.0 ? limit : 0.0;
+}

@@ -6,6 +6,14 @@
 
 #include "plant.h"
 
+/* Contact modes: the direction of sliding, rest, or flight. */
+enum { BACKWARD = -1, STICK = 0, FORWARD = 1, LIFTED = 2 };
+
+/* BACKWARD, FORWARD, or STICK at rest. */
+static inline int direction_of(double velocity) {
+    return (velocity > 0.0) - (velocity < 0.0);
+}
+
 /* Range of chi [rad] in which the contact is lifted, where it ever is (`exists`): a whole turn from 0
  * on if there is no normal load at all. */
 typedef struct {
@@ -24,5 +32,11 @@ bool is_lifted(const FlightWindow *window, double chi, double frequency);
 /* Time [s] until the contact lifts, or touches down when `lifted`; infinite if never. `frequency`
  * [rad/s] is that of the normal load and may be negative. */
 double time_to_switch(const FlightWindow *window, double chi, double frequency, bool lifted);
+
+/* Contact mode by what can be seen: lifted, or the direction of sliding; STICK only at rest. */
+int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velocity, double psi);
+
+/* Friction force [N] of all faces at normal phase `psi` [rad] when sliding steadily; 0 in flight. */
+double friction_limit(const Plant *plant, double psi);
 
 #endif

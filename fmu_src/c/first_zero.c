@@ -7,7 +7,7 @@
  * rounding of zero. */
 enum { FLOOR_DOUBLING = 1000 };
 
-enum { MOST_NEWTON_STEPS = 60, MOST_EXPECTING_STEPS = 4 };
+enum { MAX_NEWTON_STEPS = 60, MAX_EXPECTING_STEPS = 4 };
 
 /* Share of what two parabolas cover that must do: keeps rounding out of the argument. */
 #define SURE 0.99
@@ -25,7 +25,7 @@ static bool is_last(Signal at, double step, double resolved) {
 /* Newton's method from a point that satisfies Kantorovich's condition. */
 static double newton(const Watch *watch, double t, Signal at) {
     double resolved = resolution(watch);
-    for (int i = 0; i < MOST_NEWTON_STEPS; i++) {
+    for (int i = 0; i < MAX_NEWTON_STEPS; i++) {
         double step = -at.value / at.slope;
         t += step;
         if (fabs(step) <= resolved || is_last(at, step, resolved)) {
@@ -57,7 +57,7 @@ typedef struct {
 static Candidate zero_near(const Watch *watch, double start, double expected) {
     Candidate candidate = {NO_ZERO, 0.0};
     double resolved = resolution(watch);
-    for (int i = 0; i < MOST_EXPECTING_STEPS && expected > start; i++) {
+    for (int i = 0; i < MAX_EXPECTING_STEPS && expected > start; i++) {
         Signal at = watch->signal(watch->motion, expected);
         if (!(at.slope < 0.0)) {
             break;

@@ -12,10 +12,10 @@ static const double CHECKED[CHECKS] = {-0.95, -0.85, -0.5, 0.35};
 
 /* Error of the means that a panel may have where it is checked, as a share of mu or of the largest
  * mean on the panel where that is larger. */
-#define LARGEST_ERROR 1e-8
+#define MAX_ERROR 1e-8
 
 /* Halvings of a panel after which it is taken as it is, a fraction 6e-8 of the whole. */
-enum { MOST_HALVINGS = 24 };
+enum { MAX_HALVINGS = 24 };
 
 /* Places in a panel at which the means are taken; row k of the weights gives the coefficient of the
  * k-th highest power from the values there. */
@@ -45,7 +45,7 @@ static FrictionMeans panel_at(const FrictionPanel *panel, double x) {
 
 static FrictionMeans means_in(const TabulatedMeans *table, const Part *part, double x) {
     double turning = 0.5 * (part->low + part->high + (part->high - part->low) * x);
-    return friction_means(&table->bristle, &table->fast, table->n, turning);
+    return table->friction->means(&table->bristle, &table->fast, table->n, turning);
 }
 
 static double largest(FrictionMeans means) {
@@ -62,8 +62,12 @@ static double error_at(const FrictionPanel *panel, const TabulatedMeans *table, 
     return largest(error);
 }
 
-/* Place in a panel where the backward path is about mu / sigma_0 long: hard bristles bend there. */
+/* Place in a panel where the backward path is about mu / sigma_0 long: hard bristles bend there, and
+ * those without stiffness nowhere. */
 static double layer_in(const TabulatedMeans *table, const Part *part) {
+    if (table->bristle.stiffness == 0.0) {
+        return INFINITY;
+    }
     double length = table->bristle.coefficient * table->fast.frequency /
                     (table->bristle.stiffness * table->fast.velocity);
     return (2.0 * pow(length, 1.0 / 3.0) - part->low - part->high) / (part->high - part->low);
@@ -120,7 +124,7 @@ static double panel_make(FrictionPanel *panel, const TabulatedMeans *table,
 }
 
 static void fill(TabulatedMeans *table) {
-    Part todo[MOST_HALVINGS + 1] = {{0, 0.0, 0.5 * PI}};
+    Part todo[MAX_HALVINGS + 1] = {{0, 0.0, 0.5 * PI}};
     Interpolation rule = interpolation();
     int waiting = 1;
     table->panels = 0;
@@ -128,8 +132,8 @@ static void fill(TabulatedMeans *table) {
     while (waiting > 0) {
         Part part = todo[--waiting];
         double error = panel_make(&table->panel[table->panels], table, &rule, &part);
-        bool full = table->panels + waiting + 1 >= MOST_PANELS;
-        if (error > LARGEST_ERROR && part.halvings < MOST_HALVINGS && !full) {
+        bool full = table->panels + waiting + 1 >= MAX_PANELS;
+        if (error > MAX_ERROR && part.halvings < MAX_HALVINGS && !full) {
             double middle = 0.5 * (part.low + part.high);
             Part lower = {part.halvings + 1, part.low, middle};
             Part upper = {part.halvings + 1, middle, part.high};
@@ -141,24 +145,25 @@ static void fill(TabulatedMeans *table) {
     }
 }
 
-static bool holds(const TabulatedMeans *table, const Bristle *bristle, const FastMotion *fast,
-                  double n) {
-    return table->panels > 0 && table->n == n &&
+static bool holds(const TabulatedMeans *table, const AveragedFriction *friction,
+                  const Bristle *bristle, const FastMotion *fast, double n) {
+    return table->panels > 0 && table->friction == friction && table->n == n &&
            table->bristle.coefficient == bristle->coefficient &&
            table->bristle.stiffness == bristle->stiffness &&
            table->bristle.damping == bristle->damping &&
            table->fast.velocity == fast->velocity && table->fast.frequency == fast->frequency;
 }
 
-const TabulatedMeans *friction_table_of(FrictionTable *table, const Bristle *bristle,
-                                        const FastMotion *fast, double n) {
+const TabulatedMeans *friction_table_of(FrictionTable *table, const AveragedFriction *friction,
+                                        const Bristle *bristle, const FastMotion *fast, double n) {
     for (int i = 0; i < TABLES; i++) {
-        if (holds(&table->tables[i], bristle, fast, n)) {
+        if (holds(&table->tables[i], friction, bristle, fast, n)) {
             return &table->tables[i];
         }
     }
     TabulatedMeans *means = &table->tables[table->next];
     table->next = (table->next + 1) % TABLES;
+    means->friction = friction;
     means->bristle = *bristle;
     means->fast = *fast;
     means->n = n;

@@ -1,4 +1,4 @@
-/* The means of LuGre friction over a turn of the drive, tabulated over the slow velocity.
+/* The means of friction over a turn of the drive, tabulated over the slow velocity.
  *
  * Averaged motion asks for them several times a step, and each costs a quadrature. They are smooth
  * in Theta = arccos(V / v_q), with a layer at its ends that gets thinner for harder bristles:
@@ -7,14 +7,13 @@
 #ifndef SLIDER_FRICTION_TABLE_H
 #define SLIDER_FRICTION_TABLE_H
 
-#include "averaged_lugre.h"
-#include "bristle.h"
+#include "averaged_friction.h"
 
 /* Degree of the polynomials, the most panels that they may need, and how many tables are kept. */
-enum { TABLE_DEGREE = 8, MOST_PANELS = 32, TABLES = 4 };
+enum { TABLE_DEGREE = 8, MAX_PANELS = 32, TABLES = 4 };
 
 /* Waves of the normal load over a turn up to which a table takes less time than it saves. */
-#define MOST_WAVES_TABULATED 8.0
+#define MAX_WAVES_TABULATED 8.0
 
 /* Coefficients of a mean on a panel, which stands for [-1, 1]: that of the highest power first. */
 typedef struct {
@@ -25,15 +24,16 @@ typedef struct {
     MeanPolynomial plain, sine, cosine;
 } FrictionPanel;
 
-/* `panels` of them, for a bristle, a fast motion and `n` waves of the normal load: those between
+/* `panels` of them, for a friction law, its bristle, a fast motion and `n` waves of the normal load: those between
  * `ends` [k] and [k + 1], which rise from 0 to pi / 2 [rad]. */
 typedef struct {
+    const AveragedFriction *friction;
     Bristle bristle;
     FastMotion fast;
     double n;
     int panels;
-    double ends[MOST_PANELS + 1];
-    FrictionPanel panel[MOST_PANELS];
+    double ends[MAX_PANELS + 1];
+    FrictionPanel panel[MAX_PANELS];
 } TabulatedMeans;
 
 /* The tables that were made last; zeroed memory holds none. `next` is the place of the next one. */
@@ -44,8 +44,8 @@ typedef struct {
 
 /* The means under `n` waves of the normal load over a turn, n not 0: kept, or made where there are
  * none. They stay until TABLES others were asked for. */
-const TabulatedMeans *friction_table_of(FrictionTable *table, const Bristle *bristle,
-                                        const FastMotion *fast, double n);
+const TabulatedMeans *friction_table_of(FrictionTable *table, const AveragedFriction *friction,
+                                        const Bristle *bristle, const FastMotion *fast, double n);
 
 /* The means when sliding turns forward at tau = `turning` in [0, pi] [rad]. */
 FrictionMeans tabulated_means_at(const TabulatedMeans *table, double turning);

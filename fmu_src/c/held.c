@@ -19,7 +19,3 @@ bool held_prepare(Held *held, const Device *device, const Inputs *inputs, Refusa
     held->arc = LONGEST_ARC / fastest;
     return true;
 }
-
-bool refuse_stalling(Refusal *refusal, double duration, double reached) {
-    return refuse_work(refusal, duration, reached, MOST_STALLED, "events at one instant");
-}

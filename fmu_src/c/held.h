@@ -22,14 +22,7 @@ typedef struct {
  * of large arguments of sine and cosine out. */
 #define LONGEST_ARC 60.0
 
-/* Events in a row without progress in time that are followed before a step is refused. */
-enum { MOST_STALLED = 1000 };
-
 /* Prepares motion of `device` under `inputs`. Refuses as plant_prepare does. */
 bool held_prepare(Held *held, const Device *device, const Inputs *inputs, Refusal *refusal);
-
-/* The refusal of a step of `duration` [s] in which time does not get on after `reached` [s]; returns
- * false. */
-bool refuse_stalling(Refusal *refusal, double duration, double reached);
 
 #endif

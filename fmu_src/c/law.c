@@ -1,21 +1,14 @@
 #include "law.h"
 
-#include "coulomb.h"
-#include "lugre.h"
+#include <math.h>
+#include <stddef.h>
+
+#include "events.h"
+#include "friction_law.h"
 #include "slow_motion.h"
 
-enum { COULOMB = 0, AVERAGED = 0 };
-
-/* Without friction (8) has no meaning. */
-static bool require_bristle(const Device *device, Refusal *refusal) {
-    char number[NUMBER_SIZE];
-    if (device->friction_law == COULOMB || device->friction_coefficient != 0.0) {
-        return true;
-    }
-    return refuse(refusal,
-                  "friction_coefficient = %s refused: with LuGre friction allowed is a finite "
-                  "number above 0",
-                  number_text(device->friction_coefficient, number));
+static bool is_averaged(const Device *device) {
+    return device->fidelity == 0;
 }
 
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionTable *table,
@@ -24,54 +17,41 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
     law->inputs = *inputs;
     law->bristle = bristle_of(device);
     law->table = table;
-    if (device->fidelity == AVERAGED) {
-        return require_bristle(device, refusal) &&
-               held_prepare(&law->held, device, inputs, refusal) &&
-               fast_vibration_prepare(&law->fast, device, refusal);
+    law->friction = friction_law_of(device->friction_law);
+    if (law->friction == NULL) {
+        return refuse(refusal, "friction_law = %d refused: no law has this number",
+                      device->friction_law);
     }
-    return held_prepare(&law->held, device, inputs, refusal) && require_bristle(device, refusal);
+    return law->friction->check(device, refusal) &&
+           held_prepare(&law->held, device, inputs, refusal) &&
+           (!is_averaged(device) || fast_vibration_prepare(&law->fast, device, refusal));
 }
 
 Moment law_start(const Law *law) {
     const Device *device = &law->device;
-    State state = {device->initial_velocity, device->initial_resonator_displacement,
-                   device->initial_resonator_velocity};
-    if (device->fidelity == AVERAGED) {
-        return slow_start(law, state, device->initial_position);
+    Moment first = {.position = device->initial_position, .event_age = INFINITY};
+    first.state.velocity = device->initial_velocity;
+    first.state.displacement = device->initial_resonator_displacement;
+    first.state.rate = device->initial_resonator_velocity;
+    first.mode = law_mode(law, &first);
+    if (!is_averaged(device)) {
+        first.bristle = law->friction->first_bristle(law);
+        first.counts.sliding = first.mode == LIFTED ? 0 : first.mode;
     }
-    if (device->friction_law == COULOMB) {
-        return coulomb_start(&law->held, state, device->initial_position);
-    }
-    return lugre_start(&law->held, &law->bristle, state, device->initial_position,
-                       device->initial_bristle_deflection);
+    return first;
 }
 
 bool law_advance(const Law *law, const Moment *moment, double duration, Moment *after,
                  Refusal *refusal) {
-    const Device *device = &law->device;
-    if (device->fidelity == AVERAGED) {
-        return slow_advance(law, moment, duration, after, refusal);
-    }
-    if (device->friction_law == COULOMB) {
-        return coulomb_advance(&law->held, moment, duration, after, refusal);
-    }
-    return lugre_advance(&law->held, &law->bristle, device->tolerance, moment, duration, after,
-                         refusal);
+    return is_averaged(&law->device) ? slow_advance(law, moment, duration, after, refusal)
+                                     : events_advance(law, moment, duration, after, refusal);
 }
 
 int law_mode(const Law *law, const Moment *moment) {
-    if (law->device.fidelity != AVERAGED && law->device.friction_law == COULOMB) {
-        return coulomb_mode_of(&law->held, &moment->state, moment->theta, moment->psi);
-    }
-    return lugre_mode_of(&law->held, &moment->state, moment->psi);
+    return is_averaged(&law->device) ? slow_mode(law, moment) : law->friction->mode(law, moment);
 }
 
 double law_friction_force(const Law *law, const Moment *moment, int mode) {
-    if (law->device.fidelity == AVERAGED) {
-        return slow_friction_force(law, moment);
-    }
-    if (law->device.friction_law == COULOMB) {
-        return coulomb_friction_force(&law->held, moment, mode);
-    }
-    return lugre_friction_force(&law->held, &law->bristle, moment, mode);
+    return is_averaged(&law->device) ? slow_friction_force(law, moment)
+                                     : law->friction->force(law, moment, mode);
 }

@@ -1,4 +1,5 @@
-/* The friction laws and fidelities by one face: start, advance, contact mode and friction force. */
+/* A device under held inputs, resolved or averaged, by one face: start, advance, contact mode and
+ * friction force. */
 #ifndef SLIDER_LAW_H
 #define SLIDER_LAW_H
 
@@ -12,8 +13,9 @@
 #include "moment.h"
 #include "refusal.h"
 
-/* A device under held inputs. `table` is a cache that outlives the law and may be shared by those
- * of one instance; it is filled when averaged LuGre motion first needs it. */
+/* `friction` is the row of its friction law, see friction_law.h. `table` is a cache that outlives
+ * the law and may be shared by those of one instance; it is filled when averaged motion first needs
+ * it. */
 typedef struct {
     Device device;
     Inputs inputs;
@@ -21,6 +23,7 @@ typedef struct {
     Bristle bristle;
     FastVibration fast;
     FrictionTable *table;
+    const struct FrictionLaw *friction;
 } Law;
 
 /* Prepares the law of `device` under `inputs`. Refuses where device and law do not fit; `law` is
@@ -31,7 +34,7 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
 /* The first moment, at drive and normal phase 0, from the initial values of the device. */
 Moment law_start(const Law *law);
 
-/* The moment `duration` > 0 [s] later, inputs held. Refuses, with `after` undefined, where time
+/* The moment `duration` > 0 [s] later, another than `moment`, inputs held. Refuses, with `after` undefined, where time
  * does not get on or averaged motion needs too many steps. Numbers that leave the range of floating
  * point show as non-finite entries of `after`, never as an endless loop. */
 bool law_advance(const Law *law, const Moment *moment, double duration, Moment *after,

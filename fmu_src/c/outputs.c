@@ -42,7 +42,7 @@ static double normal_lead(const Law *law, const Moment *moment) {
 static const Averaged *theory_of(const Law *law, const Moment *moment, Theory *theory) {
     double lead = normal_lead(law, moment);
     if (!theory->known || theory->normal_lead != lead) {
-        theory->averaged = averaged(&law->device, &law->inputs, lead);
+        theory->averaged = averaged(law, lead);
         theory->normal_lead = lead;
         theory->known = true;
     }
@@ -76,7 +76,8 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
         return last_event_time;
     case VR_STEADY_VELOCITY:
         return theory_of(law, moment, theory)->steady_velocity;
-    default: /* VR_BLOCKING_FORCE, the last one */
+    case VR_BLOCKING_FORCE:
         return theory_of(law, moment, theory)->blocking_force;
     }
+    return NAN; /* no output has this reference */
 }

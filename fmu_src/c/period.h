@@ -17,10 +17,18 @@ typedef struct {
 /* Displacement [m] of a motion after `t` [s]. */
 typedef double (*TravelFunction)(const void *motion, double t);
 
-/* Takes in a motion of `duration` [s] that began at drive phase `theta` [rad]; `travel_at(motion, t)` is
- * its displacement, `travelled` that at its end. Returns the drive phase at the end, modulo 2 pi. */
-double period_advance(PeriodMeans *means, double duration, double theta, double frequency,
-                      bool sticks, TravelFunction travel_at, const void *motion, double travelled);
+/* A motion of `duration` [s]: `travel_at(motion, t)` is its displacement [m], `travelled` that at its
+ * end, and `velocity` [m/s] that there. */
+typedef struct {
+    double duration, travelled, velocity;
+    bool sticks;
+    TravelFunction travel_at;
+    const void *motion;
+} Stretch;
+
+/* Takes in a stretch that began at drive phase `theta` [rad]. Returns the drive phase at its end,
+ * modulo 2 pi. */
+double period_advance(PeriodMeans *means, const Stretch *stretch, double theta, double frequency);
 
 /* Mean of the last whole period, or since the start, or at the start `velocity` [m/s]. */
 double period_mean_velocity(const PeriodMeans *means, double velocity);

@@ -119,8 +119,3 @@ double regular_slide_travel(const RegularSlide *slide, double t) {
     regular_slide_end(slide, t, &travel);
     return travel;
 }
-
-State regular_slide_state(const RegularSlide *slide, double t) {
-    double travel;
-    return regular_slide_end(slide, t, &travel);
-}

@@ -33,10 +33,7 @@ Watch regular_slide_watch(const RegularSlide *slide);
 /* Displacement of the slider after `t` [s], in m. */
 double regular_slide_travel(const RegularSlide *slide, double t);
 
-/* State after `t` [s]. */
-State regular_slide_state(const RegularSlide *slide, double t);
-
-/* Both at once, which costs less: the state, and the displacement in `travel`. */
+/* State after `t` [s], and the displacement [m] in `travel`. */
 State regular_slide_end(const RegularSlide *slide, double t, double *travel);
 
 #endif

@@ -9,7 +9,7 @@
 /* Time constants of the approach that must fit into what is left. */
 #define SETTLED 20.0
 
-enum { MOST_SECANTS = 40 };
+enum { MAX_SECANTS = 40 };
 
 /* Where the acceleration falls through 0 between `low` and `high` [m/s]: false position, in which an
  * end that stays loses half of its weight (the Illinois rule). */
@@ -17,7 +17,7 @@ static double balance_between(AccelerationFunction acceleration, const void *mot
                               double at_low, double high, double at_high) {
     double root = low, before;
     int side = 0;
-    for (int i = 0; i < MOST_SECANTS; i++) {
+    for (int i = 0; i < MAX_SECANTS; i++) {
         before = root;
         root = low + (high - low) * (at_low / (at_low - at_high));
         double at_root = acceleration(motion, 0.0, root);

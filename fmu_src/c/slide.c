@@ -22,11 +22,6 @@ double slide_travel(const void *motion, double t) {
                          : regular_slide_travel(&slide->form.regular, t);
 }
 
-State slide_state(const Slide *slide, double t) {
-    return slide->splits ? split_slide_state(&slide->form.split, t)
-                         : regular_slide_state(&slide->form.regular, t);
-}
-
 State slide_end(const Slide *slide, double t, double *travel) {
     return slide->splits ? split_slide_end(&slide->form.split, t, travel)
                          : regular_slide_end(&slide->form.regular, t, travel);

@@ -27,10 +27,7 @@ Watch slide_watch(const Slide *slide);
 /* Displacement of the slider after `t` [s], in m; a TravelFunction of a Slide. */
 double slide_travel(const void *motion, double t);
 
-/* State after `t` [s]. */
-State slide_state(const Slide *slide, double t);
-
-/* Both at once, which costs less: the state, and the displacement in `travel`. */
+/* State after `t` [s], and the displacement [m] in `travel`. */
 State slide_end(const Slide *slide, double t, double *travel);
 
 #endif

@@ -2,17 +2,12 @@
 
 #include <math.h>
 
-#include "averaged_lugre.h"
+#include "friction_law.h"
 #include "state.h"
 
 /* Distance of the frequency ratio from an integer up to which the phase counts as slow; under a
  * lifting contact that of q times the ratio, times q, for q of a few turns. */
 #define NEAR 0.1
-
-static FastMotion fast_motion(const Law *law) {
-    FastMotion fast = {law->fast.velocity, law->device.drive_frequency};
-    return fast;
-}
 
 /* Angle tau at which sliding turns forward [rad]; 0 or pi once it no longer turns. */
 static double turning_at(double velocity, double fast_velocity) {
@@ -22,91 +17,90 @@ static double turning_at(double velocity, double fast_velocity) {
     return acos(velocity / fast_velocity);
 }
 
-static SlowForm form_of(const Law *law, int turns, double waves) {
+static SlowForm form_of(const Law *law, const AveragedFriction *friction, int turns,
+                        double waves) {
     const Device *device = &law->device;
     bool lifts = device->normal_amplitude > device->normal_preload;
-    bool in_phase = turns > 0 && waves != 0.0;
-    /* Without vibration a slaved bristle is always fully bent, and its friction Coulomb's. */
-    if (device->friction_law == 0 || law->fast.velocity == 0.0) {
-        return in_phase && !lifts ? SLOW_COULOMB : SLOW_COULOMB_OVER_FLIGHT;
+    if (turns == 0 || waves == 0.0) {
+        return UNDER_MEAN_LOAD;
     }
-    if (!in_phase) {
-        return SLOW_LUGRE_UNDER_MEAN_LOAD;
-    }
-    return lifts || fabs(waves) > MOST_WAVES_TABULATED ? SLOW_LUGRE_OVER_FLIGHT : SLOW_LUGRE;
+    bool too_many = friction->is_expensive && fabs(waves) > MAX_WAVES_TABULATED;
+    return lifts || too_many ? UNDER_ANY_LOAD : UNDER_SINE;
 }
 
 SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     const Device *device = &law->device;
     double ratio = law->inputs.frequency_ratio, n = ratio;
-    double faces = device->friction_faces, mu = device->friction_coefficient;
     int turns = turns_to_repeat(device, ratio, NEAR);
     if (turns > 0) {
         n = nearbyint(turns * ratio) / turns;
     }
-    SlowFriction friction = {.law = law, .form = form_of(law, turns, n)};
-    friction.waves = n;
-    friction.drift = (ratio - n) * device->drive_frequency;
-    friction.phase = law->inputs.phase + psi - n * theta + n * law->fast.lag;
-    friction.preload = faces * device->normal_preload;
-    friction.swing = faces * device->normal_amplitude;
-    if (friction.form == SLOW_COULOMB) {
-        friction.preload = faces * mu * device->normal_preload;
-        friction.swing = 2.0 * (faces * mu) * device->normal_amplitude / (n * PI);
-        friction.sine = sin(friction.phase);
-    } else if (friction.form == SLOW_LUGRE || friction.form == SLOW_LUGRE_UNDER_MEAN_LOAD) {
-        FastMotion fast = fast_motion(law);
-        double tabulated = friction.form == SLOW_LUGRE ? n : 1.0;
-        friction.means = friction_table_of(law->table, &law->bristle, &fast, tabulated);
+    SlowFriction slow = {.law = law, .friction = law->friction->averaged};
+    if (law->fast.velocity == 0.0) {
+        /* Without vibration a bristle is always fully bent, and friction Coulomb's. */
+        slow.friction = &AVERAGED_COULOMB;
     }
-    if (friction.form != SLOW_COULOMB && friction.form != SLOW_LUGRE) {
-        friction.load = vibrating_load_of(device, friction.waves, friction.phase);
+    slow.form = form_of(law, slow.friction, turns, n);
+    slow.fast.velocity = law->fast.velocity;
+    slow.fast.frequency = device->drive_frequency;
+    slow.waves = n;
+    slow.drift = (ratio - n) * device->drive_frequency;
+    slow.phase = law->inputs.phase + psi - n * theta + n * law->fast.lag;
+    if (slow.form == UNDER_SINE) {
+        slow.sine = sin(slow.phase);
+        slow.cosine = cos(slow.phase);
+    } else {
+        slow.load = vibrating_load_of(device, n, slow.phase);
     }
-    return friction;
+    if (slow.form != UNDER_ANY_LOAD && slow.friction->is_expensive) {
+        double tabulated = slow.form == UNDER_SINE ? n : 1.0;
+        slow.table =
+            friction_table_of(law->table, slow.friction, &law->bristle, &slow.fast, tabulated);
+    }
+    return slow;
 }
 
-static VibratingLoad load_at(const SlowFriction *friction, double t) {
-    if (friction->drift == 0.0) {
-        return friction->load;
+static FrictionMeans means_at(const SlowFriction *slow, double turning) {
+    if (slow->table) {
+        return tabulated_means_at(slow->table, turning);
     }
-    double phase = friction->phase + friction->drift * t;
-    return vibrating_load_of(&friction->law->device, friction->waves, phase);
+    double n = slow->form == UNDER_SINE ? slow->waves : 1.0;
+    return slow->friction->means(&slow->law->bristle, &slow->fast, n, turning);
 }
 
-static double coulomb_at(const SlowFriction *friction, double t, double turning) {
-    double sine = friction->sine;
-    if (friction->drift != 0.0) {
-        sine = sin(friction->phase + friction->drift * t);
+/* Mean friction [N] of one face under a sine. */
+static double under_sine(const SlowFriction *slow, double t, double turning) {
+    const Device *device = &slow->law->device;
+    FrictionMeans means = means_at(slow, turning);
+    double sine = slow->sine, cosine = slow->cosine;
+    if (slow->drift != 0.0) {
+        sine = sin(slow->phase + slow->drift * t);
+        cosine = cos(slow->phase + slow->drift * t);
     }
-    return friction->preload * (1.0 - 2.0 / PI * turning) -
-           friction->swing * sin(friction->waves * turning) * sine;
+    return device->normal_preload * means.plain +
+           device->normal_amplitude * (cosine * means.sine + sine * means.cosine);
 }
 
-static double lugre_at(const SlowFriction *friction, double t, double turning) {
-    FrictionMeans means = tabulated_means_at(friction->means, turning);
-    double delta = friction->phase + friction->drift * t;
-    return friction->preload * means.plain +
-           friction->swing * (cos(delta) * means.sine + sin(delta) * means.cosine);
+static VibratingLoad load_at(const SlowFriction *slow, double t) {
+    if (slow->drift == 0.0) {
+        return slow->load;
+    }
+    double phase = slow->phase + slow->drift * t;
+    return vibrating_load_of(&slow->law->device, slow->waves, phase);
 }
 
-double slow_friction_at(const SlowFriction *friction, double t, double velocity) {
-    const Law *law = friction->law;
-    double turning = turning_at(velocity, law->fast.velocity), faces = law->device.friction_faces;
-    if (friction->form == SLOW_COULOMB) {
-        return coulomb_at(friction, t, turning);
+/* The same under a load of any shape. */
+static double under_load(const SlowFriction *slow, double t, double turning) {
+    VibratingLoad load = load_at(slow, t);
+    if (slow->form == UNDER_MEAN_LOAD) {
+        return load.constant * means_at(slow, turning).plain;
     }
-    if (friction->form == SLOW_LUGRE) {
-        return lugre_at(friction, t, turning);
-    }
-    VibratingLoad load = load_at(friction, t);
-    if (friction->form == SLOW_COULOMB_OVER_FLIGHT) {
-        double scale = faces * law->device.friction_coefficient / TAU;
-        return scale * vibrating_load_difference(&load, turning);
-    }
-    if (friction->form == SLOW_LUGRE_UNDER_MEAN_LOAD) {
-        double mean = faces / TAU * (load.constant * TAU);
-        return mean * tabulated_means_at(friction->means, turning).plain;
-    }
-    FastMotion fast = fast_motion(law);
-    return faces * mean_friction(&law->bristle, &fast, &load, turning);
+    return slow->friction->mean(&slow->law->bristle, &slow->fast, &load, turning);
+}
+
+double slow_friction_at(const SlowFriction *slow, double t, double velocity) {
+    double turning = turning_at(velocity, slow->fast.velocity);
+    double face = slow->form == UNDER_SINE ? under_sine(slow, t, turning)
+                                           : under_load(slow, t, turning);
+    return slow->law->device.friction_faces * face;
 }

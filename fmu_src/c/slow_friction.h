@@ -2,38 +2,39 @@
  *
  * The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
  * (ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact
- * has harmonics, and counts with its phase near fractions too. LuGre friction is that of the
- * periodic bristle response, uniform in the bristle stiffness. */
+ * has harmonics, and counts with its phase near fractions too. */
 #ifndef SLIDER_SLOW_FRICTION_H
 #define SLIDER_SLOW_FRICTION_H
 
 #include "law.h"
 
-/* Which form the mean friction has. */
-typedef enum {
-    SLOW_COULOMB,
-    SLOW_COULOMB_OVER_FLIGHT,
-    SLOW_LUGRE,
-    SLOW_LUGRE_UNDER_MEAN_LOAD,
-    SLOW_LUGRE_OVER_FLIGHT
-} SlowForm;
+/* How the mean friction follows from its law: by the means under a sine, under a load that counts
+ * with its mean, or as the mean under a load of any shape. */
+typedef enum { UNDER_SINE, UNDER_MEAN_LOAD, UNDER_ANY_LOAD } SlowForm;
 
-/* `waves` of the normal load over a turn of the drive, its `phase` [rad] now, the `drift` [rad/s]
- * of that, and its `sine`; friction `preload` and `swing` [N], per unit of friction with LuGre. The
- * tabulated `means` and the `load` of now are there where the form needs them. */
+/* `waves` of the normal load over a turn of the drive, its `phase` [rad] now, the `drift` [rad/s] of
+ * that, and the `table` of means where they are expensive. Under a sine `sine` and `cosine` of the
+ * phase now, else the `load` of now. */
 typedef struct {
     const Law *law;
+    const AveragedFriction *friction;
     SlowForm form;
-    double waves, phase, drift, sine;
-    double preload, swing;
-    const TabulatedMeans *means;
+    FastMotion fast;
+    double waves, phase, drift;
+    const TabulatedMeans *table;
+    double sine, cosine;
     VibratingLoad load;
 } SlowFriction;
+
+/* Whether each value costs a quadrature. */
+static inline bool slow_friction_is_expensive(const SlowFriction *slow) {
+    return slow->form == UNDER_ANY_LOAD && slow->friction->is_expensive;
+}
 
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
 SlowFriction slow_friction_of(const Law *law, double theta, double psi);
 
 /* Its value [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */
-double slow_friction_at(const SlowFriction *friction, double t, double velocity);
+double slow_friction_at(const SlowFriction *slow, double t, double velocity);
 
 #endif

@@ -4,7 +4,6 @@
 
 #include "angle.h"
 #include "dormand_prince.h"
-#include "lugre.h"
 #include "settling.h"
 #include "slow_friction.h"
 
@@ -18,8 +17,8 @@
 #define SETTLING 100.0
 
 /* Steps of averaged motion in one communication step up to which its work is accepted: of those that
- * cost a quadrature over flight fewer. Before each BLOCK of them it may turn out to have settled. */
-enum { MOST_STEPS = 20000, MOST_STEPS_OVER_FLIGHT = 1000, BLOCK = 16 };
+ * cost a quadrature each fewer. Before each BLOCK of them it may turn out to have settled. */
+enum { MAX_STEPS = 20000, MAX_EXPENSIVE_STEPS = 1000, BLOCK = 16 };
 
 /* A block without vibration, under constant forces, from `velocity` on. */
 static Passage block_after(double velocity, double friction, double load, double mass,
@@ -64,7 +63,7 @@ static bool pass(const SlowFriction *friction, double duration, Passage *passage
     }
     double strongest = full + fabs(load);
     double step = strongest > 0.0 ? FIRST_STEP * fast * total / strongest : duration;
-    int most = friction->form == SLOW_LUGRE_OVER_FLIGHT ? MOST_STEPS_OVER_FLIGHT : MOST_STEPS;
+    int most = slow_friction_is_expensive(friction) ? MAX_EXPENSIVE_STEPS : MAX_STEPS;
     Passage now = {.velocity = passage->velocity, .step = step};
     for (int count = 0; now.t < duration && isfinite(now.velocity); count += BLOCK) {
         if (count >= most) {
@@ -80,10 +79,9 @@ static bool pass(const SlowFriction *friction, double duration, Passage *passage
     return true;
 }
 
-Moment slow_start(const Law *law, State state, double position) {
-    Moment moment = {.state = state, .position = position, .event_age = INFINITY};
-    moment.mode = lugre_mode_of(&law->held, &state, 0.0);
-    return moment;
+int slow_mode(const Law *law, const Moment *moment) {
+    const Held *held = &law->held;
+    return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
 }
 
 bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,
@@ -107,7 +105,7 @@ bool slow_advance(const Law *law, const Moment *moment, double duration, Moment 
     state.rate = swing.rate;
     Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
     next.position = centre + passage.moved - drive / w * sin(theta) - share * swing.displacement;
-    next.mode = lugre_mode_of(&law->held, &state, psi);
+    next.mode = slow_mode(law, &next);
     next.event_age = INFINITY;
     next.means.complete = true;
     next.means.mean_velocity = passage.velocity;

@@ -5,7 +5,7 @@
  * whatever is tuned. V is the slow velocity, (M + m) V' = -mean friction - load. The fast parts of
  * all outputs are the steady vibration (32)-(33), added in closed form.
  *
- * A LuGre bristle is taken as slaved to the motion, so it has no state here. */
+ * A bristle is taken as slaved to the motion, so it has no state here. */
 #ifndef SLIDER_SLOW_MOTION_H
 #define SLIDER_SLOW_MOTION_H
 
@@ -13,13 +13,14 @@
 
 #include "law.h"
 
-/* The first moment. The initial velocities fix the momentum of the pair, not the vibration. */
-Moment slow_start(const Law *law, State state, double position);
-
 /* The moment `duration` > 0 [s] later, inputs held. Refuses, with `after` undefined, where that
- * takes too many steps; `after` may be `moment`. */
+ * takes too many steps; `after` may be `moment`. At the start the velocities fix the momentum of the
+ * pair, not the vibration. */
 bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,
                   Refusal *refusal);
+
+/* Contact mode: lifted, or the direction of sliding with the fast vibration; STICK only at rest. */
+int slow_mode(const Law *law, const Moment *moment);
 
 /* Mean friction force [N] over a drive period, positive against +X. */
 double slow_friction_force(const Law *law, const Moment *moment);

@@ -45,6 +45,10 @@ static const Field FIELDS[] = {
     FIELD(moment.means.mean_velocity, FINITE, 0, 0),
     FIELD(moment.means.stick_fraction, FINITE, 0, 0),
     FIELD(moment.bristle, FINITE, 0, 0),
+    FIELD(moment.stops.backward.theta, FINITE, 0, 0),
+    FIELD(moment.stops.backward.drift, FINITE, 0, 0),
+    FIELD(moment.stops.forward.theta, FINITE, 0, 0),
+    FIELD(moment.stops.forward.drift, FINITE, 0, 0),
 };
 
 enum { FIELD_COUNT = sizeof FIELDS / sizeof FIELDS[0] };

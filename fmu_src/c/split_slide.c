@@ -89,7 +89,7 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     match_state(slide, state);
 }
 
-/* exp(i w t), exp(i q t), exp(lambda t) and |exp(lambda t)|; 0 where no resonator swings freely. */
+/* exp(i w t), exp(i q t), exp(lambda t) and |exp(lambda t)|; 1 where no resonator swings freely. */
 typedef struct {
     Complex drive, normal, free;
     double envelope;
@@ -98,7 +98,11 @@ typedef struct {
 static inline Turns turns_at(const SplitSlide *slide, double t) {
     const Plant *plant = slide->plant;
     Complex eigenvalue = plant->slip.eigenvalue;
-    Turns turns = {.envelope = 0.0};
+    Complex one = complex_of(1.0, 0.0);
+    Turns turns = {one, one, one, 1.0};
+    if (t == 0.0) {
+        return turns;
+    }
     if (plant->resolves_resonator) {
         turns.envelope = exp(eigenvalue.re * t);
         turns.free = complex_rect(turns.envelope, eigenvalue.im * t);
@@ -173,10 +177,6 @@ static inline State state_by(const SplitSlide *slide, double t, Turns turns) {
 
 double split_slide_travel(const SplitSlide *slide, double t) {
     return travel_by(slide, t, turns_at(slide, t));
-}
-
-State split_slide_state(const SplitSlide *slide, double t) {
-    return state_by(slide, t, turns_at(slide, t));
 }
 
 State split_slide_end(const SplitSlide *slide, double t, double *travel) {

@@ -51,10 +51,7 @@ Watch split_slide_watch(const SplitSlide *slide);
 /* Displacement of the slider after `t` [s], in m. */
 double split_slide_travel(const SplitSlide *slide, double t);
 
-/* State after `t` [s]. */
-State split_slide_state(const SplitSlide *slide, double t);
-
-/* Both at once, which costs less: the state, and the displacement in `travel`. */
+/* State after `t` [s], and the displacement [m] in `travel`. */
 State split_slide_end(const SplitSlide *slide, double t, double *travel);
 
 #endif

@@ -6,11 +6,11 @@
 
 #include "angle.h"
 
-/* Change of the phase of a stop [rad] in a turn up to which it counts as a drift. */
-#define MOST_DRIFT 0.1
+/* Largest change of the phase of a stop [rad] in a turn that counts as a drift. */
+#define MAX_DRIFT 0.1
 
-/* Drive phase [rad] at which the slider last stopped after sliding in one direction, not a number
- * before it did, and how far that is from where it stopped before. */
+/* Drive phase [rad] at which the slider last stopped after sliding in one direction, and how far
+ * that is from where it stopped before. Both are 0 before it did: a guess as good as any. */
 typedef struct {
     double theta, drift;
 } Stop;
@@ -20,19 +20,18 @@ typedef struct {
     Stop backward, forward;
 } Stops;
 
-static inline Stops stops_none(void) {
-    Stops stops = {{NAN, 0.0}, {NAN, 0.0}};
-    return stops;
+static inline Stop *stop_after(Stops *stops, int direction) {
+    return direction > 0 ? &stops->forward : &stops->backward;
 }
 
-/* Takes in a stop at drive phase `theta` [rad]. */
-static inline void stop_note(Stop *stop, double theta) {
+/* Records a stop at drive phase `theta` [rad]. */
+static inline void stop_record(Stop *stop, double theta) {
     double drift = theta - stop->theta;
-    stop->drift = fabs(drift) < MOST_DRIFT ? drift : 0.0;
+    stop->drift = fabs(drift) < MAX_DRIFT ? drift : 0.0;
     stop->theta = theta;
 }
 
-/* Time [s] from drive phase `theta` to the next stop if it drifts on as it did, or not a number. */
+/* Time [s] from drive phase `theta` [rad] to the next stop if it drifts on as it did. */
 static inline double stop_expected(const Stop *stop, double theta, double drive_frequency) {
     return within_turn(stop->theta + stop->drift - theta) / drive_frequency;
 }

@@ -40,7 +40,7 @@ static double value(const double *coefficients, double t) {
 
 /* Motion [m/s] that is as good as none. */
 #define LEAST 1e-200
-enum { MOST_SHRINKS = 4 };
+enum { MAX_SHRINKS = 4 };
 
 /* How far a series holds [s]: where its last two terms are `tolerance`. */
 static double series_reach(const double *coefficients, double tolerance) {
@@ -112,7 +112,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
     }
     /* Of a motion far below the tolerance the last terms would be the larger part, and its first zero
      * hard to find. */
-    for (int i = 0; i < MOST_SHRINKS; i++) {
+    for (int i = 0; i < MAX_SHRINKS && slide->reach < INFINITY; i++) {
         double small = SMALL * (fabs(v[0]) + fabs(v[1]) * slide->reach);
         if (!(small > LEAST && small < tolerance)) {
             break;

@@ -22,7 +22,7 @@ static double in_contact(const VibratingLoad *load, double chi) {
 }
 
 int turns_to_repeat(const Device *device, double ratio, double tolerance) {
-    int most = device->normal_amplitude > device->normal_preload ? MOST_TURNS_TO_REPEAT : 1;
+    int most = device->normal_amplitude > device->normal_preload ? MAX_TURNS_TO_REPEAT : 1;
     for (int turns = 1; turns <= most; turns++) {
         if (fabs(turns * ratio - nearbyint(turns * ratio)) <= tolerance / turns) {
             return turns;

@@ -8,7 +8,7 @@
 
 /* Turns of the drive over which a clipped load may repeat and still be followed. The harmonics of
  * the clipping that meet the drive get weaker with them; beyond, only the mean counts. */
-enum { MOST_TURNS_TO_REPEAT = 4 };
+enum { MAX_TURNS_TO_REPEAT = 4 };
 
 /* Distance of a ratio from a fraction that is due to rounding. */
 #define EXACT 1e-12

@@ -12,6 +12,7 @@ FIELDS = (
     *("velocity", "displacement", "rate", "position", "theta", "psi", "mode"),
     *("sliding", "reversals", "sticks", "event_age"),
     *("travel", "elapsed", "sticking", "complete", "mean_velocity", "stick_fraction", "bristle"),
+    *("backward_stop", "backward_drift", "forward_stop", "forward_drift"),
 )
 HEAD = 8 + 40
 LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")

@@ -66,7 +66,7 @@ def test_a_slider_too_light_for_its_bristles_is_refused(
     size = PERIOD / 32.0
     with instance.refuses(
         f"communicationStepSize = {size!r} refused",
-        "more than 20000 series in a turn of the fastest oscillation",
+        "more than 20000 legs in a turn of the fastest oscillation",
         "allowed is one of at most 1e-7 s",
     ):
         instance.step(size)

@@ -10,14 +10,14 @@ mean load counts. Friction averaged so is accurate to the order of 1 / Omega.
 from __future__ import annotations
 
 from cmath import phase as argument
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import copysign, cos, pi, sin, tau
+from math import copysign, cos, pi, sin
 
-from .averaged_lugre import FastMotion, mean_friction
+from .averaged_friction import FastMotion
 from .balance import Balance, Point, balanced_turning
 from .bristle import bristle_of
 from .device import Device, Inputs
+from .friction_laws import friction_law_of
 from .motion import EPSILON
 from .plant import equivalent_force
 from .refusal import Refusal
@@ -39,7 +39,7 @@ NO_VIBRATION = Averaged(0.0, 0.0)
 
 
 def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
-    """Averaged theory at the present inputs (eqs 20-22 with both faces; LuGre for any bristle).
+    """Averaged theory at the present inputs (eqs 20-22 with both faces).
 
     `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where
     the load exceeds full friction the velocity is the limit v_q of the theory, with its sign; both
@@ -54,26 +54,35 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
     fast = FastMotion(
         abs(force) / (device.total_mass * device.drive_frequency), device.drive_frequency
     )
+    law = friction_law_of(device.friction_law).averaged
+    bristle = bristle_of(device)
     delta = inputs.phase + normal_lead - inputs.frequency_ratio * argument(force)
     load = VibratingLoad(device, inputs.frequency_ratio, delta)
-    friction = _lugre(device, fast, load) if device.friction_law else _coulomb(device, load)
+    faces, opposing = device.friction_faces, inputs.load
+
+    def friction(turning: float) -> float:
+        return faces * law.mean(bristle, fast, load, turning)
+
     first, middle, last = friction(0.0), friction(0.5 * pi), friction(pi)
     if first == last:
         # Nothing holds the slider back: every velocity is steady, or with a load none.
         return Averaged(-copysign(fast.velocity, inputs.load) if inputs.load else 0.0, 0.0)
-    opposing = inputs.load
 
     def excess(turning: float) -> float:
         return friction(turning) + opposing
 
-    near: Callable[[float], float] = excess
-    if not device.friction_law and load.wave_number and not load.lifts:
-        near = _closed(device, inputs, delta)
-    damping = device.bristle_damping * fast.velocity if device.friction_law else 0.0
-    largest = device.friction_coefficient + damping
+    def closed_excess(turning: float) -> float:
+        plain, sine, cosine = law.means(bristle, fast, round(inputs.frequency_ratio), turning)
+        swing = cos(delta) * sine + sin(delta) * cosine
+        face = device.normal_preload * plain + device.normal_amplitude * swing
+        return faces * face + opposing
+
+    has_closed_form = not law.is_expensive and load.wave_number != 0.0 and not load.lifts
+    damping = law.drag(bristle, fast.velocity)
     normal = device.normal_preload + device.normal_amplitude
-    noise = ROUNDING * EPSILON * device.friction_faces * largest * normal
-    balance = Balance(excess, near, noise, rises=damping > device.friction_coefficient)
+    noise = ROUNDING * EPSILON * faces * (bristle.coefficient + damping) * normal
+    near = closed_excess if has_closed_form else excess
+    balance = Balance(excess, near, noise, rises=damping > bristle.coefficient)
     turning = balanced_turning(
         balance,
         Point(0.0, first + opposing),
@@ -81,36 +90,3 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
         Point(pi, last + opposing),
     )
     return Averaged(fast.velocity * cos(turning), -middle)
-
-
-def _closed(device: Device, inputs: Inputs, delta: float) -> Callable[[float], float]:
-    """Coulomb friction and load [N] without flight, as (20) has it."""
-    scale = device.friction_faces * device.friction_coefficient
-    ratio, opposing = inputs.frequency_ratio, inputs.load
-    preload = scale * device.normal_preload
-    swing = 2.0 * scale * device.normal_amplitude / (ratio * pi) * sin(delta)
-
-    def excess(turning: float) -> float:
-        return preload * (1.0 - 2.0 / pi * turning) - swing * sin(ratio * turning) + opposing
-
-    return excess
-
-
-def _coulomb(device: Device, load: VibratingLoad) -> Callable[[float], float]:
-    """Mean friction [N] when sliding turns forward at tau = Theta [rad]; it never rises."""
-    scale = device.friction_faces * device.friction_coefficient / tau
-
-    def friction(turning: float) -> float:
-        forward = load.integral(turning, tau - turning)
-        return scale * (forward - load.integral(-turning, turning))
-
-    return friction
-
-
-def _lugre(device: Device, fast: FastMotion, load: VibratingLoad) -> Callable[[float], float]:
-    bristle = bristle_of(device)
-
-    def friction(turning: float) -> float:
-        return device.friction_faces * mean_friction(bristle, fast, load, turning)
-
-    return friction

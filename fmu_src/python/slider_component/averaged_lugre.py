@@ -1,19 +1,19 @@
 """Averaged LuGre friction under fast vibration, uniform in the bristle stiffness.
 
-The slider moves with V - v_q cos(tau). Over one turn of tau the bristle response to that motion is
-periodic, and explicit in the path between the two reversals, so the mean friction is a quadrature:
-soft bristles give the paper's slow manifold (17), hard ones Coulomb friction (5).
+Over one turn of tau the bristle response to the fast motion is periodic, and explicit in the path
+between the two reversals, so the mean friction is a quadrature: soft bristles give the paper's slow
+manifold (17), hard ones Coulomb friction (5).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 from math import cos, exp, expm1, pi, sin, tau
 from typing import NamedTuple
 
+from .averaged_friction import AveragedFriction, FastMotion, FrictionMeans
 from .bristle import Bristle
 from .motion import EPSILON
 from .vibrating_load import VibratingLoad
@@ -28,7 +28,7 @@ WIDEST = 6.0
 BENT = 40.0
 """Path in units of mu / sigma_0 after which a bristle is fully bent to rounding."""
 
-MOST_WAVES = 1000
+MAX_WAVES = 1000
 """Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
 add to the mean friction falls with their number, to less than 1e-3 of full friction."""
 
@@ -39,22 +39,6 @@ SERIES = 1.0
 _DIVISORS = tuple(2 * k * (2 * k + 1) for k in range(8, 1, -1))
 
 
-@dataclass(frozen=True, slots=True)
-class FastMotion:
-    """Fast velocity amplitude v_q [m/s] and drive frequency [rad/s]."""
-
-    velocity: float
-    frequency: float
-
-
-class FrictionMeans(NamedTuple):
-    """Friction per unit load over a turn of tau, times 1, sin(n tau) and cos(n tau): its means."""
-
-    plain: float
-    sine: float
-    cosine: float
-
-
 class Bending(NamedTuple):
     """Friction per unit load beyond Coulomb's, times a weight of the quadrature, at `angle`."""
 
@@ -63,11 +47,8 @@ class Bending(NamedTuple):
 
 
 def mean_friction(bristle: Bristle, fast: FastMotion, load: VibratingLoad, turning: float) -> float:
-    """Mean friction [N] of one face when sliding turns forward at tau = `turning` [rad].
-
-    `turning` in [0, pi] is arccos(V / v_q) for the slow velocity V.
-    """
-    if abs(load.wave_number) > MOST_WAVES:
+    """See AveragedFriction."""
+    if abs(load.wave_number) > MAX_WAVES:
         load = load.flattened()
     coulomb = load.integral(turning, tau - turning) - load.integral(-turning, turning)
     nodes = _bending(bristle, fast, turning, load.wave_number, load.kinks)
@@ -76,13 +57,10 @@ def mean_friction(bristle: Bristle, fast: FastMotion, load: VibratingLoad, turni
 
 
 def friction_means(bristle: Bristle, fast: FastMotion, n: int, turning: float) -> FrictionMeans:
-    """What the mean friction is made of under a load N0 + dN sin(n tau + delta), n not 0.
-
-    Per face it is N0 plain + dN (cos(delta) sine + sin(delta) cosine).
-    """
+    """See AveragedFriction."""
     mu = bristle.coefficient
     plain, sine = mu * (tau - 4.0 * turning), 0.0
-    waves = n if abs(n) <= MOST_WAVES else 0
+    waves = n if abs(n) <= MAX_WAVES else 0
     cosine = -4.0 * mu * sin(n * turning) / n if waves else 0.0
     for angle, friction in _bending(bristle, fast, turning, float(waves), _no_kinks):
         plain += friction
@@ -91,6 +69,11 @@ def friction_means(bristle: Bristle, fast: FastMotion, n: int, turning: float) -
         sine += friction * sin(n * angle)
         cosine += friction * cos(n * angle)
     return FrictionMeans(plain / tau, sine / tau, cosine / tau)
+
+
+def drag(bristle: Bristle, fast_velocity: float) -> float:
+    """See AveragedFriction."""
+    return bristle.damping * fast_velocity
 
 
 def _no_kinks(begin: float, end: float) -> list[float]:
@@ -226,3 +209,6 @@ def gauss_legendre(count: int) -> tuple[tuple[float, float], ...]:
             x -= value / slope
         rule.append((x, 2.0 / ((1.0 - x * x) * slope * slope)))
     return tuple(rule)
+
+
+AVERAGED_LUGRE = AveragedFriction(True, drag, mean_friction, friction_means)

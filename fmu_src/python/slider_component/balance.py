@@ -18,7 +18,7 @@ BISECTIONS = 52
 SORTING = 4
 """Halvings that settle which of several balances it is."""
 
-MOST_EVALUATIONS = 100
+MAX_EVALUATIONS = 100
 
 CLOSE = 2e-15
 """Width [rad] to which the angle of balance is closed in upon first."""
@@ -101,7 +101,7 @@ def _closed_in(balance: Balance, low: Point, following: Point, high: Point) -> B
     """The bracket between `low`, where the excess is above 0, and `high`, where it is not."""
     newest, other = high, low
     bracket = Bracket(low, high, balance.noise)
-    for _ in range(MOST_EVALUATIONS):
+    for _ in range(MAX_EVALUATIONS):
         before = newest
         if (following.excess > 0.0) != (newest.excess > 0.0):
             before, other = other, newest

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from math import expm1
 
 from .device import Device
-from .refusal import Refusal
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,10 +25,5 @@ class Bristle:
 
 
 def bristle_of(device: Device) -> Bristle:
-    """The bristle of a device. Raises Refusal without friction, where (8) has no meaning."""
-    if device.friction_coefficient == 0.0:
-        raise Refusal(
-            f"friction_coefficient = {device.friction_coefficient!r} refused: with LuGre friction "
-            "allowed is a finite number above 0"
-        )
+    """The bristle of a device."""
     return Bristle(device.friction_coefficient, device.bristle_stiffness, device.bristle_damping)

@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from math import inf, isfinite, log10, remainder, tau, ulp
 from typing import Any
 
-from .coulomb import LONGEST_ARC, Moment
 from .device import Device, Inputs
+from .held import LONGEST_ARC
 from .law import Law, law_of
 from .lifecycle import Lifecycle, require
+from .moment import Moment
 from .motion import State
 from .outputs import OUTPUTS, View
 from .plant import Plant
@@ -18,7 +19,7 @@ from .snapshot import FORMAT, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, checked, number
 from .variables import Variable
 
-MOST_TURNS = 1e8
+MAX_TURNS = 1e8
 """Turns of the fastest oscillation in one step up to which its work is accepted."""
 
 
@@ -201,10 +202,10 @@ class Component:
     def _require_bounded_work(self, step_size: float) -> None:
         device, _, law = self._prepare()
         frequency = LONGEST_ARC / law.held.arc
-        if device.fidelity > 0 and step_size * frequency > tau * MOST_TURNS:
+        if device.fidelity > 0 and step_size * frequency > tau * MAX_TURNS:
             raise Refusal(
                 f"doStep: communicationStepSize = {step_size!r} refused: the fastest oscillation "
-                f"has {frequency!r} rad/s; allowed is a step of at most {MOST_TURNS:g} turns of it"
+                f"has {frequency!r} rad/s; allowed is a step of at most {MAX_TURNS:g} turns of it"
             )
 
     def _advanced(self, step_size: float) -> Moment:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from math import asin, inf, pi, tau
+from math import asin, inf, pi, sin, tau
 
 from .plant import Plant
+
+BACKWARD, STICK, FORWARD, LIFTED = -1, 0, 1, 2
+"""Contact modes: the direction of sliding, rest, or flight."""
 
 REACHED = 1e-12
 """Angle [rad] before a boundary, or past it by rounding, at which it counts as just reached. The
@@ -58,3 +61,13 @@ def time_to_switch(
     ahead = (last if lifted else first) - chi
     ahead = (ahead if frequency > 0.0 else -ahead) % tau
     return 0.0 if tau - ahead < REACHED else ahead / abs(frequency)
+
+
+def direction_of(velocity: float) -> int:
+    """BACKWARD, FORWARD, or STICK at rest."""
+    return (velocity > 0.0) - (velocity < 0.0)
+
+
+def friction_limit(plant: Plant, psi: float) -> float:
+    """Friction force [N] of all faces at normal phase `psi` [rad] when sliding; 0 in flight."""
+    return max(0.0, plant.friction_preload + plant.friction_amplitude * sin(psi + plant.phase))

@@ -1,4 +1,4 @@
-"""The means of LuGre friction over a turn of the drive, tabulated over the slow velocity.
+"""The means of friction over a turn of the drive, tabulated over the slow velocity.
 
 Averaged motion asks for them several times a step, and each costs a quadrature. They are smooth in
 Theta = arccos(V / v_q), with a layer at its ends that gets thinner for harder bristles: polynomials
@@ -11,7 +11,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from math import cos, pi
 
-from .averaged_lugre import FastMotion, FrictionMeans, friction_means
+from .averaged_friction import AveragedFriction, FastMotion, FrictionMeans
 from .bristle import Bristle
 
 DEGREE = 8
@@ -20,17 +20,17 @@ DEGREE = 8
 CHECKED = (-0.95, -0.85, -0.5, 0.35)
 """Places in a panel, which stands for [-1, 1], where a polynomial is compared with the means."""
 
-ERROR = 1e-8
+MAX_ERROR = 1e-8
 """Error of the means that a panel may have where it is checked, as a share of mu or of the largest
 mean on the panel where that is larger."""
 
-MOST_WAVES_TABULATED = 8
+MAX_WAVES_TABULATED = 8
 """Waves of the normal load over a turn up to which a table takes less time than it saves."""
 
-MOST_HALVINGS = 24
+MAX_HALVINGS = 24
 """Halvings of a panel after which it is taken as it is, a fraction 6e-8 of the whole."""
 
-MOST_PANELS = 32
+MAX_PANELS = 32
 """Panels after which all are taken as they are: bounds the work. Harder bristles need more of them,
 19 at kappa 1e17."""
 
@@ -71,17 +71,19 @@ class FrictionTable:
         return _value(plain, x), _value(sine, x), _value(cosine, x)
 
 
-def friction_table(bristle: Bristle, fast: FastMotion, n: int) -> FrictionTable:
-    """The means under n waves of the normal load over a turn, n not 0, to ERROR."""
+def friction_table(
+    friction: AveragedFriction, bristle: Bristle, fast: FastMotion, n: int
+) -> FrictionTable:
+    """The means under n waves of the normal load over a turn, n not 0, to MAX_ERROR."""
     ends = [0.0]
     panels: list[Polynomials] = []
     # Panels still to be made, the next one last: width in halvings of the whole, and the panel.
     todo = [(0, 0.0, 0.5 * pi)]
     while todo:
         halvings, low, high = todo.pop()
-        polynomials, error = _panel(bristle, fast, n, low, high)
-        full = len(panels) + len(todo) + 1 >= MOST_PANELS
-        if error <= ERROR or halvings == MOST_HALVINGS or full:
+        polynomials, error = _panel(friction, bristle, fast, n, low, high)
+        full = len(panels) + len(todo) + 1 >= MAX_PANELS
+        if error <= MAX_ERROR or halvings == MAX_HALVINGS or full:
             ends.append(high)
             panels.append(polynomials)
         else:
@@ -92,12 +94,12 @@ def friction_table(bristle: Bristle, fast: FastMotion, n: int) -> FrictionTable:
 
 
 def _panel(
-    bristle: Bristle, fast: FastMotion, n: int, low: float, high: float
+    friction: AveragedFriction, bristle: Bristle, fast: FastMotion, n: int, low: float, high: float
 ) -> tuple[Polynomials, float]:
     """Interpolation of the means on a panel, and its largest relative error where checked."""
 
     def means(x: float) -> FrictionMeans:
-        return friction_means(bristle, fast, n, 0.5 * (low + high + (high - low) * x))
+        return friction.means(bristle, fast, n, 0.5 * (low + high + (high - low) * x))
 
     at_nodes = [means(x) for x in _NODES]
     plain, sine, cosine = (_polynomial([m[kind] for m in at_nodes]) for kind in range(3))

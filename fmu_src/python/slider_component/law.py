@@ -1,20 +1,25 @@
-"""The friction laws by one face: start, advance, contact mode and friction force."""
+"""A device under held inputs, resolved or averaged, by one face."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
 from typing import Protocol
 
-from . import coulomb, lugre
-from .bristle import Bristle, bristle_of
-from .coulomb import Held, Moment, hold
+from . import events
+from .contact import LIFTED
 from .device import Device, Inputs
+from .friction_law import FrictionLaw
+from .friction_laws import friction_law_of
+from .held import Held, hold
+from .moment import Counts, Moment
 from .motion import State
+from .period import PeriodMeans
 from .slow_motion import slow_law
 
 
 class Law(Protocol):
-    """A device under held inputs and one friction law."""
+    """A device under held inputs."""
 
     @property
     def held(self) -> Held:
@@ -39,59 +44,38 @@ class Law(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class CoulombLaw:
-    """mu sgn(X') per unit load, set-valued at rest."""
+class ResolvedLaw:
+    """Resolved motion under a friction law."""
 
     held: Held
+    friction: FrictionLaw
 
     def start(self, state: State, position: float) -> Moment:
         """See Law."""
-        return coulomb.start(self.held, state, position)
+        bristle = self.friction.first_bristle(self.held)
+        at_rest = Moment(state, position, 0.0, 0.0, 0, Counts(), inf, PeriodMeans(), bristle)
+        mode = self.mode(at_rest)
+        counts = Counts(sliding=0 if mode == LIFTED else mode)
+        return replace(at_rest, mode=mode, counts=counts)
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """See Law."""
-        return coulomb.advance(self.held, moment, duration)
+        return events.advance(self.friction, self.held, moment, duration)
 
     def mode(self, moment: Moment) -> int:
         """See Law."""
-        return coulomb.mode_of(self.held, moment.state, moment.theta, moment.psi)
+        return self.friction.mode(self.held, moment)
 
     def friction_force(self, moment: Moment, mode: int) -> float:
         """See Law."""
-        return coulomb.friction_force(self.held, moment, mode)
-
-
-@dataclass(frozen=True, slots=True)
-class LugreLaw:
-    """sigma_0 z + sigma_1 z' per unit load (eq. 8), integrated to a relative tolerance."""
-
-    held: Held
-    bristle: Bristle
-    tolerance: float
-    deflection: float
-
-    def start(self, state: State, position: float) -> Moment:
-        """See Law."""
-        return lugre.start(self.held, self.bristle, state, position, self.deflection)
-
-    def advance(self, moment: Moment, duration: float) -> Moment:
-        """See Law."""
-        return lugre.advance(self.held, self.bristle, self.tolerance, moment, duration)
-
-    def mode(self, moment: Moment) -> int:
-        """See Law."""
-        return lugre.mode_of(self.held, moment.state, moment.psi)
-
-    def friction_force(self, moment: Moment, mode: int) -> float:
-        """See Law."""
-        return lugre.friction_force(self.held, self.bristle, moment, mode)
+        return self.friction.force(self.held, moment, mode)
 
 
 def law_of(device: Device, inputs: Inputs) -> Law:
-    """The device's friction law. Raises Refusal where device and law do not fit."""
-    if device.fidelity == 0:
-        return slow_law(device, inputs)
+    """The law of a device. Raises Refusal where device and friction law do not fit."""
+    friction = friction_law_of(device.friction_law)
+    friction.check(device)
     held = hold(device, inputs)
-    if device.friction_law == 0:
-        return CoulombLaw(held)
-    return LugreLaw(held, bristle_of(device), device.tolerance, device.initial_bristle_deflection)
+    if device.fidelity == 0:
+        return slow_law(held, friction)
+    return ResolvedLaw(held, friction)

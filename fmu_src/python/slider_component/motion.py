@@ -1,4 +1,4 @@
-"""What the event loop asks of the motion within one contact mode."""
+"""What a leg asks of its motion."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class State(NamedTuple):
 class Motion(Protocol):
     """Closed-form motion from a given state on, inputs held, contact mode unchanged."""
 
-    def watches(self) -> tuple[Watch, ...]:
-        """Signals that are positive while the mode lasts."""
+    def watches(self, horizon: float) -> tuple[Watch, ...]:
+        """Signals that are positive while the mode lasts, up to `horizon` [s]."""
         ...
 
     def travel(self, t: float) -> float:

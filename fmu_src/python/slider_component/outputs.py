@@ -8,10 +8,11 @@ from math import remainder, sin, tau
 from typing import NamedTuple
 
 from .averaged import Averaged, averaged
-from .coulomb import STICK, Moment
+from .contact import STICK
 from .device import Device, Inputs
 from .fast_vibration import steady_swing
 from .law import Law
+from .moment import Moment
 from .vibrating_load import EXACT, turns_to_repeat
 
 LEAD_DIGITS = 9

@@ -59,7 +59,7 @@ class RegularSlide:
             max(w, abs(q)),
         )
 
-    def watches(self) -> tuple[Watch, ...]:
+    def watches(self, horizon: float) -> tuple[Watch, ...]:
         """The velocity in the direction to watch."""
         if self._direction == 0:
             return ()

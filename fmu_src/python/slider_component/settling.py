@@ -13,7 +13,7 @@ that forces are linear over it."""
 SETTLED = 20.0
 """Time constants of the approach that must fit into what is left."""
 
-MOST_SECANTS = 40
+MAX_SECANTS = 40
 
 Acceleration = Callable[[float, float], float]
 
@@ -45,7 +45,7 @@ def _balance_between(
     False position, in which an end that stays loses half of its weight (the Illinois rule).
     """
     root, side = low, 0
-    for _ in range(MOST_SECANTS):
+    for _ in range(MAX_SECANTS):
         before, root = root, low + (high - low) * (at_low / (at_low - at_high))
         at_root = acceleration(0.0, root)
         if at_root == 0.0 or root == before or not low < root < high:

@@ -2,22 +2,22 @@
 
 The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
 (ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact has
-harmonics, and counts with its phase near fractions too. LuGre friction is that of the
-periodic bristle response, uniform in the bristle stiffness.
+harmonics, and counts with its phase near fractions too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
 from math import acos, cos, pi, sin, tau
 from typing import NamedTuple
 
-from .averaged_lugre import FastMotion, mean_friction
-from .bristle import Bristle, bristle_of
-from .device import Device, Inputs
+from .averaged_coulomb import AVERAGED_COULOMB
+from .averaged_friction import AveragedFriction, FastMotion
 from .fast_vibration import FastVibration
-from .friction_table import MOST_WAVES_TABULATED, FrictionTable, friction_table
+from .friction_table import MAX_WAVES_TABULATED, friction_table
+from .held import Held
 from .vibrating_load import VibratingLoad, turns_to_repeat
 
 NEAR = 0.1
@@ -31,131 +31,97 @@ Friction = Callable[[float, float], float]
 class SlowFriction(NamedTuple):
     """The mean friction `at` a time and velocity, which depends on time where `drift` is not 0.
 
-    `drift` [rad/s] is that of the phase of the normal load, and `over_flight` tells whether each
-    value costs a quadrature over flight.
+    `drift` [rad/s] is that of the phase of the normal load, and `is_expensive` tells whether each
+    value costs a quadrature.
     """
 
     at: Friction
     drift: float
-    over_flight: bool = False
+    is_expensive: bool = False
 
 
 def slow_friction(
-    device: Device, inputs: Inputs, fast: FastVibration, theta: float, psi: float
+    held: Held, friction: AveragedFriction, fast: FastVibration, theta: float, psi: float
 ) -> SlowFriction:
     """The mean friction from drive phase `theta` and normal phase `psi` [rad] on."""
-    ratio = inputs.frequency_ratio
+    device, ratio = held.device, held.inputs.frequency_ratio
     turns = turns_to_repeat(device, ratio, NEAR)
     waves = round(turns * ratio) / turns if turns else ratio
     drift = (ratio - waves) * device.drive_frequency
-    phase = inputs.phase + psi - waves * theta + waves * fast.lag
-    lifts = device.normal_amplitude > device.normal_preload
-    # The waves of a sine in a turn of the drive; 0 where it averages out, or stands still.
-    n = int(waves) if turns == 1 else 0
-    # Without vibration a slaved bristle is always fully bent, and its friction Coulomb's.
-    if device.friction_law == 0 or fast.velocity == 0.0:
-        if n != 0 and not lifts:
-            return SlowFriction(_coulomb(device, fast.velocity, n, phase, drift), drift)
-        coulomb = _coulomb_over_flight(device, fast.velocity, waves, phase, drift)
-        return SlowFriction(coulomb, drift)
+    phase = held.inputs.phase + psi - waves * theta + waves * fast.lag
+    motion = FastMotion(fast.velocity, device.drive_frequency)
+    # Without vibration a bristle is always fully bent, and friction Coulomb's.
+    averaged = friction if fast.velocity else AVERAGED_COULOMB
+    law = _MeanFriction(held, averaged, motion, phase, drift)
     if turns is None or waves == 0.0:
-        mean = _lugre_under_mean_load(device, fast.velocity, waves, phase, drift)
-        return SlowFriction(mean, drift)
-    if lifts or abs(n) > MOST_WAVES_TABULATED:
-        lugre = _lugre_over_flight(device, fast.velocity, waves, phase, drift)
-        return SlowFriction(lugre, drift, over_flight=True)
-    return SlowFriction(_lugre(device, fast.velocity, n, phase, drift), drift)
+        return SlowFriction(law.under_mean_load(waves), drift)
+    lifts = device.normal_amplitude > device.normal_preload
+    if lifts or (averaged.is_expensive and abs(waves) > MAX_WAVES_TABULATED):
+        return SlowFriction(law.under_any_load(waves), drift, averaged.is_expensive)
+    return SlowFriction(law.under_sine(int(waves)), drift)
 
 
-def _coulomb(device: Device, fast_velocity: float, n: int, phase: float, drift: float) -> Friction:
-    scale = device.friction_faces * device.friction_coefficient
-    preload = scale * device.normal_preload
-    swing = 2.0 * scale * device.normal_amplitude / (n * pi)
+@dataclass(frozen=True, slots=True)
+class _MeanFriction:
+    """The mean friction of a law under a normal load of `phase` [rad], drifting by `drift`."""
 
-    def friction(t: float, velocity: float) -> float:
-        turning = _turning(velocity, fast_velocity)
-        steady = preload * (1.0 - 2.0 / pi * turning)
-        return steady - swing * sin(n * turning) * sin(phase + drift * t)
+    held: Held
+    friction: AveragedFriction
+    fast: FastMotion
+    phase: float
+    drift: float
 
-    return friction
+    def under_sine(self, n: int) -> Friction:
+        """By the means, under n waves in a turn of the drive."""
+        device, means_at = self.held.device, self._means(n)
+        preload = device.friction_faces * device.normal_preload
+        swing = device.friction_faces * device.normal_amplitude
+        fast_velocity, phase, drift = self.fast.velocity, self.phase, self.drift
 
+        def friction(t: float, velocity: float) -> float:
+            plain, sine, cosine = means_at(_turning(velocity, fast_velocity))
+            delta = phase + drift * t
+            return preload * plain + swing * (cos(delta) * sine + sin(delta) * cosine)
 
-def _coulomb_over_flight(
-    device: Device, fast_velocity: float, waves: float, phase: float, drift: float
-) -> Friction:
-    scale = device.friction_faces * device.friction_coefficient / tau
+        return friction
 
-    def friction(t: float, velocity: float) -> float:
-        turning = _turning(velocity, fast_velocity)
-        load = VibratingLoad(device, waves, phase + drift * t)
-        forward = load.integral(turning, tau - turning)
-        return scale * (forward - load.integral(-turning, turning))
+    def under_mean_load(self, waves: float) -> Friction:
+        """By the means, where the load averages out or stands still."""
+        means_at, scale = self._means(1), self.held.device.friction_faces / tau
 
-    return friction
+        def friction(t: float, velocity: float) -> float:
+            load = self._load(waves, t).integral(0.0, tau)
+            return scale * load * means_at(_turning(velocity, self.fast.velocity))[0]
 
+        return friction
 
-def _lugre(device: Device, fast_velocity: float, n: int, phase: float, drift: float) -> Friction:
-    means_at = _table(device, fast_velocity, n).at
-    preload = device.friction_faces * device.normal_preload
-    swing = device.friction_faces * device.normal_amplitude
+    def under_any_load(self, waves: float) -> Friction:
+        """As the mean under a load of any shape."""
+        faces, mean, bristle = (
+            self.held.device.friction_faces,
+            self.friction.mean,
+            self.held.bristle,
+        )
 
-    def friction(t: float, velocity: float) -> float:
-        plain, sine, cosine = means_at(_turning(velocity, fast_velocity))
-        delta = phase + drift * t
-        return preload * plain + swing * (cos(delta) * sine + sin(delta) * cosine)
+        def friction(t: float, velocity: float) -> float:
+            turning = _turning(velocity, self.fast.velocity)
+            return faces * mean(bristle, self.fast, self._load(waves, t), turning)
 
-    return friction
+        return friction
 
+    def _load(self, waves: float, t: float) -> VibratingLoad:
+        return VibratingLoad(self.held.device, waves, self.phase + self.drift * t)
 
-def _lugre_under_mean_load(
-    device: Device, fast_velocity: float, waves: float, phase: float, drift: float
-) -> Friction:
-    means_at = _table(device, fast_velocity, 1).at
-    scale = device.friction_faces / tau
-
-    def friction(t: float, velocity: float) -> float:
-        load = VibratingLoad(device, waves, phase + drift * t).integral(0.0, tau)
-        return scale * load * means_at(_turning(velocity, fast_velocity))[0]
-
-    return friction
-
-
-def _lugre_over_flight(
-    device: Device, fast_velocity: float, waves: float, phase: float, drift: float
-) -> Friction:
-    bristle = bristle_of(device)
-    fast = FastMotion(fast_velocity, device.drive_frequency)
-
-    def friction(t: float, velocity: float) -> float:
-        load = VibratingLoad(device, waves, phase + drift * t)
-        turning = _turning(velocity, fast_velocity)
-        return device.friction_faces * mean_friction(bristle, fast, load, turning)
-
-    return friction
+    def _means(self, n: int) -> Callable[[float], tuple[float, float, float]]:
+        """The means at Theta [rad], tabulated where they are expensive."""
+        bristle = self.held.bristle
+        if self.friction.is_expensive:
+            return _table(self.friction, bristle, self.fast, n).at
+        means, fast = self.friction.means, self.fast
+        return lambda turning: means(bristle, fast, n, turning)
 
 
-def _table(device: Device, fast_velocity: float, n: int) -> FrictionTable:
-    return _tabulated(
-        device.friction_coefficient,
-        device.bristle_stiffness,
-        device.bristle_damping,
-        fast_velocity,
-        device.drive_frequency,
-        n,
-    )
-
-
-@lru_cache(maxsize=4)
-def _tabulated(
-    coefficient: float,
-    stiffness: float,
-    damping: float,
-    fast_velocity: float,
-    frequency: float,
-    n: int,
-) -> FrictionTable:
-    bristle = Bristle(coefficient, stiffness, damping)
-    return friction_table(bristle, FastMotion(fast_velocity, frequency), n)
+_table = lru_cache(maxsize=4)(friction_table)
 
 
 def _turning(velocity: float, fast_velocity: float) -> float:

@@ -5,7 +5,7 @@ P = X' + r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. B
 whatever is tuned. V is the slow velocity, (M + m) V' = -mean friction - load. The fast parts of all
 outputs are the steady vibration (32)-(33), added in closed form.
 
-A LuGre bristle is taken as slaved to the motion, so it has no state here.
+A bristle is taken as slaved to the motion, so it has no state here.
 """
 
 from __future__ import annotations
@@ -13,17 +13,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import copysign, cos, inf, isfinite, sin, tau
 
-from .bristle import bristle_of
-from .coulomb import Counts, Held, Moment, hold
-from .device import Device, Inputs
 from .dormand_prince import Passage, integrate
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
-from .lugre import mode_of
+from .friction_law import FrictionLaw
+from .held import Held
+from .moment import Counts, Moment
 from .motion import State
 from .period import PeriodMeans
 from .refusal import too_much_work
 from .settling import settled
-from .slow_friction import slow_friction
+from .slow_friction import SlowFriction, slow_friction
 
 TOLERANCE = 1e-9
 """Error per step of the slow motion, relative to the fast velocity."""
@@ -31,11 +30,11 @@ TOLERANCE = 1e-9
 FIRST_STEP = 0.1
 """Step tried first, as a share of the time in which friction changes the fast velocity."""
 
-MOST_STEPS = 20_000
+MAX_STEPS = 20_000
 """Steps of averaged motion in one communication step up to which its work is accepted."""
 
-MOST_STEPS_OVER_FLIGHT = 1000
-"""The same where each costs a quadrature over flight."""
+MAX_EXPENSIVE_STEPS = 1000
+"""The same where each costs a quadrature."""
 
 SETTLING = 100.0
 """What must be left, in first steps, for the motion to settle."""
@@ -48,21 +47,20 @@ BLOCK = 16
 class SlowLaw:
     """The averaged device under held inputs (see `law.Law`)."""
 
-    device: Device
-    inputs: Inputs
     held: Held
+    friction: FrictionLaw
     fast: FastVibration
 
     def start(self, state: State, position: float) -> Moment:
         """See Law. The initial velocities fix the momentum of the pair, not the vibration."""
-        mode = mode_of(self.held, state, 0.0)
+        mode = self.held.mode_by_velocity(state.velocity, 0.0)
         return Moment(state, position, 0.0, 0.0, mode, Counts(), inf, PeriodMeans())
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """See Law."""
-        device, fast = self.device, self.fast
-        w, q = self.held.plant.drive_frequency, self.held.plant.normal_frequency
-        share, drive = device.mass_fraction, fast.pair_velocity
+        held, fast = self.held, self.fast
+        w, q = held.plant.drive_frequency, held.plant.normal_frequency
+        share, drive = held.device.mass_fraction, fast.pair_velocity
         theta, psi, state = moment.theta, moment.psi, moment.state
         slow = state.velocity + share * state.rate + drive * cos(theta)
         centre = moment.position + share * state.displacement + drive / w * sin(theta)
@@ -73,15 +71,15 @@ class SlowLaw:
         state = State(slow - drive * cos(theta) - share * rate, displacement, rate)
         position = centre + moved - drive / w * sin(theta) - share * displacement
         means = PeriodMeans(complete=True, mean_velocity=slow)
-        mode = mode_of(self.held, state, psi)
+        mode = held.mode_by_velocity(state.velocity, psi)
         return Moment(state, position, theta, psi, mode, moment.counts, inf, means)
 
     def _passed(
         self, velocity: float, theta: float, psi: float, duration: float
     ) -> tuple[float, float]:
         """Slow velocity and displacement after `duration` [s]; settled motion takes few steps."""
-        fast, load, total = self.fast.velocity, self.inputs.load, self.device.total_mass
-        friction = slow_friction(self.device, self.inputs, self.fast, theta, psi)
+        fast, load, total = self.fast.velocity, self.held.inputs.load, self.held.plant.total_mass
+        friction = self._friction(theta, psi)
         full = friction.at(0.0, inf)
         if fast == 0.0:
             return _block(velocity, full, load, total, duration)
@@ -91,7 +89,7 @@ class SlowLaw:
 
         strongest = full + abs(load)
         step = FIRST_STEP * fast * total / strongest if strongest > 0.0 else duration
-        most = MOST_STEPS_OVER_FLIGHT if friction.over_flight else MOST_STEPS
+        most = MAX_EXPENSIVE_STEPS if friction.is_expensive else MAX_STEPS
         now = Passage(0.0, velocity, 0.0, step)
         for _ in range(0, most, BLOCK):
             if friction.drift == 0.0 and duration - now.t > SETTLING * step:
@@ -105,23 +103,24 @@ class SlowLaw:
 
     def mode(self, moment: Moment) -> int:
         """See Law: by the sign of the velocity with its fast part."""
-        return mode_of(self.held, moment.state, moment.psi)
+        return self.held.mode_by_velocity(moment.state.velocity, moment.psi)
 
     def friction_force(self, moment: Moment, mode: int) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
         velocity = moment.means.present_mean_velocity(moment.state.velocity)
-        friction = slow_friction(self.device, self.inputs, self.fast, moment.theta, moment.psi)
+        friction = self._friction(moment.theta, moment.psi)
         if self.fast.velocity == 0.0 and velocity == 0.0:
             full = friction.at(0.0, inf)
-            return max(-full, min(full, -self.inputs.load))
+            return max(-full, min(full, -self.held.inputs.load))
         return friction.at(0.0, velocity)
 
+    def _friction(self, theta: float, psi: float) -> SlowFriction:
+        return slow_friction(self.held, self.friction.averaged, self.fast, theta, psi)
 
-def slow_law(device: Device, inputs: Inputs) -> SlowLaw:
+
+def slow_law(held: Held, friction: FrictionLaw) -> SlowLaw:
     """The averaged law. Raises Refusal where averages do not apply."""
-    if device.friction_law == 1:
-        bristle_of(device)
-    return SlowLaw(device, inputs, hold(device, inputs), fast_vibration(device))
+    return SlowLaw(held, friction, fast_vibration(held.device))
 
 
 def _block(

@@ -9,7 +9,8 @@ from dataclasses import fields
 from math import inf
 from typing import Any
 
-from .coulomb import BACKWARD, LIFTED, Counts, Moment
+from .contact import BACKWARD, LIFTED
+from .moment import Counts, Moment
 from .motion import State
 from .period import PeriodMeans
 from .refusal import Refusal

@@ -133,7 +133,7 @@ class SplitSlide:
         self._k0 = state.velocity - (ve + vq + vh).real
         self._k1 = -(friction + plant.load) / plant.total_mass
 
-    def watches(self) -> tuple[Watch, ...]:
+    def watches(self, horizon: float) -> tuple[Watch, ...]:
         """The velocity in the direction to watch."""
         sign = self._direction
         if sign == 0:

@@ -32,7 +32,7 @@ class Stick:
             max(plant.drive_frequency, abs(plant.normal_frequency)),
         )
 
-    def watches(self) -> tuple[Watch, ...]:
+    def watches(self, horizon: float) -> tuple[Watch, ...]:
         """Forward margin (limit - needed force), then backward margin (limit + needed force).
 
         None when no force is needed, or never one that reaches the least limit.

@@ -30,7 +30,7 @@ SMALL = 1e-3
 LEAST = 1e-200
 """Motion [m/s] that is as good as none."""
 
-MOST_SHRINKS = 4
+MAX_SHRINKS = 4
 """How often a series is cut shorter for that."""
 
 
@@ -93,7 +93,7 @@ class TaylorSlide:
             self.reach = min(self.reach, _reach(u, tolerance / weight))
         # Of a motion far below the tolerance the last terms would be the larger part, and its first
         # zero hard to find.
-        for _ in range(MOST_SHRINKS):
+        for _ in range(MAX_SHRINKS):
             small = SMALL * (abs(v[0]) + abs(v[1]) * self.reach)
             if not LEAST < small < tolerance:
                 break
@@ -104,7 +104,7 @@ class TaylorSlide:
         first = next((c for c in self._velocity if c != 0.0), 0.0)
         return self._sign * first >= 0.0
 
-    def watch(self, horizon: float) -> Watch:
+    def watches(self, horizon: float) -> tuple[Watch, ...]:
         """The velocity in the direction of sliding, up to `horizon` [s]."""
         velocity = [self._sign * c for c in self._velocity]
         slope = [k * c for k, c in enumerate(velocity)][1:]
@@ -115,7 +115,7 @@ class TaylorSlide:
         def signal(t: float) -> tuple[float, float, float]:
             return _value(velocity, t), _value(slope, t), bound
 
-        return Watch(signal, 4.0 * EPSILON * scale, 1.0 / horizon, inf)
+        return (Watch(signal, 4.0 * EPSILON * scale, 1.0 / horizon, inf),)
 
     def travel(self, t: float) -> float:
         """Displacement of the slider after `t` [s], in m."""

@@ -7,7 +7,7 @@ from math import asin, ceil, cos, floor, pi, sin, tau
 
 from .device import Device
 
-MOST_TURNS = 4
+MAX_TURNS_TO_REPEAT = 4
 """Turns of the drive over which a clipped load may repeat and still be followed. The harmonics of
 the clipping that meet the drive get weaker with them; beyond, only the mean counts."""
 
@@ -22,7 +22,7 @@ def turns_to_repeat(device: Device, ratio: float, tolerance: float) -> int | Non
     sine and only integers count: over several turns it would average out.
     """
     lifts = device.normal_amplitude > device.normal_preload
-    for turns in range(1, MOST_TURNS + 1 if lifts else 2):
+    for turns in range(1, MAX_TURNS_TO_REPEAT + 1 if lifts else 2):
         if abs(turns * ratio - round(turns * ratio)) <= tolerance / turns:
             return turns
     return None

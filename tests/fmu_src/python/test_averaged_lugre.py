@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from fmu_src.python.slider_component.averaged import averaged
+from fmu_src.python.slider_component.averaged_friction import FastMotion
 from fmu_src.python.slider_component.averaged_lugre import (
-    MOST_WAVES,
-    FastMotion,
+    MAX_WAVES,
     friction_means,
     gauss_legendre,
     mean_friction,
@@ -102,7 +102,7 @@ def test_quadrature_follows_many_waves_and_flight(n: int, amplitude: float) -> N
 
 def test_beyond_a_thousand_waves_only_the_mean_counts() -> None:
     bristle, fast = Bristle(0.1, 1e4, 10.0), FastMotion(0.2366, 3500.0)
-    exact = friction_means(bristle, fast, MOST_WAVES, 1.1)
+    exact = friction_means(bristle, fast, MAX_WAVES, 1.1)
     assert max(abs(exact.sine), abs(exact.cosine)) < 1e-3 * bristle.coefficient
-    beyond = friction_means(bristle, fast, MOST_WAVES + 1, 1.1)
+    beyond = friction_means(bristle, fast, MAX_WAVES + 1, 1.1)
     assert tuple(beyond) == pytest.approx((exact.plain, 0.0, 0.0), abs=1e-13)

@@ -11,9 +11,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from fmu_src.python.slider_component import lugre
-from fmu_src.python.slider_component.coulomb import Moment
 from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import law_of
+from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
 from fmu_src.python.slider_component.refusal import Refusal
 from fmu_src.python.slider_component.taylor_slide import TaylorSlide

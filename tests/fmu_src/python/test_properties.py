@@ -11,19 +11,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.coulomb import (
-    LIFTED,
-    STICK,
-    Held,
-    Moment,
-    advance,
-    friction_force,
-    friction_limit,
-    hold,
-    mode_of,
-    start,
-)
+from fmu_src.python.slider_component.contact import LIFTED, STICK, friction_limit
 from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.law import Law, law_of
+from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5]), st.floats(-3.0, 3.0))
@@ -76,11 +67,11 @@ def test_the_partition_into_steps_does_not_matter(
     device: Device, held_inputs: Inputs, parts: list[float]
 ) -> None:
     assume(bounded(device))
-    held = hold(device, held_inputs)
-    whole = advance(held, start(held, REST, 0.0), duration(device))
-    moment = start(held, REST, 0.0)
+    law = law_of(device, held_inputs)
+    whole = law.advance(law.start(REST, 0.0), duration(device))
+    moment = law.start(REST, 0.0)
     for part in parts:
-        moment = advance(held, moment, duration(device) * part / sum(parts))
+        moment = law.advance(moment, duration(device) * part / sum(parts))
     size = scale(device, whole)
     assert moment.state.velocity == pytest.approx(whole.state.velocity, abs=1e-9 * size)
     assert moment.position == pytest.approx(
@@ -99,17 +90,17 @@ def test_mirror_symmetry(device: Device, held_inputs: Inputs) -> None:
     """
     assume(bounded(device))
     half = math.pi / device.drive_frequency
-    held = hold(device, held_inputs)
-    moment = advance(held, start(held, REST, 0.0), half)
+    law = law_of(device, held_inputs)
+    moment = law.advance(law.start(REST, 0.0), half)
     mirrored_inputs = Inputs(
         held_inputs.phase + held_inputs.frequency_ratio * math.pi,
         -held_inputs.load,
         held_inputs.frequency_ratio,
     )
-    mirrored_held = hold(device, mirrored_inputs)
-    mirrored = start(mirrored_held, State(*(-part for part in moment.state)), -moment.position)
-    moment = advance(held, moment, duration(device))
-    mirrored = advance(mirrored_held, mirrored, duration(device))
+    mirrored_law = law_of(device, mirrored_inputs)
+    mirrored = mirrored_law.start(State(*(-part for part in moment.state)), -moment.position)
+    moment = law.advance(moment, duration(device))
+    mirrored = mirrored_law.advance(mirrored, duration(device))
     size = scale(device, moment)
     assert mirrored.state.velocity == pytest.approx(-moment.state.velocity, abs=1e-9 * size)
     assert mirrored.position == pytest.approx(
@@ -122,13 +113,13 @@ def test_friction_within_the_limit_and_equal_to_it_in_slip(
     device: Device, held_inputs: Inputs
 ) -> None:
     assume(bounded(device))
-    held = hold(device, held_inputs)
-    moment = start(held, REST, 0.0)
+    law = law_of(device, held_inputs)
+    moment = law.start(REST, 0.0)
     for _ in range(40):
-        moment = advance(held, moment, duration(device) / 40)
-        mode = mode_of(held, moment.state, moment.theta, moment.psi)
-        force = friction_force(held, moment, mode)
-        limit = friction_limit(held.plant, moment.psi)
+        moment = law.advance(moment, duration(device) / 40)
+        mode = law.mode(moment)
+        force = law.friction_force(moment, mode)
+        limit = friction_limit(law.held.plant, moment.psi)
         slack = 1e-9 * (limit + abs(held_inputs.load) + 1e-3)
         assert abs(force) <= limit + slack, f"friction {force} N exceeds its limit {limit} N"
         if mode == LIFTED:
@@ -149,20 +140,20 @@ def test_no_motion_below_the_stick_limit(
         normal_amplitude=amplitude * device.normal_preload,
     )
     least = device.friction_faces * device.friction_coefficient * (1.0 - amplitude)
-    held = hold(device, Inputs(phase, share * least * device.normal_preload, ratio))
-    moment = advance(held, start(held, REST, 0.0), 10 * duration(device))
+    law = law_of(device, Inputs(phase, share * least * device.normal_preload, ratio))
+    moment = law.advance(law.start(REST, 0.0), 10 * duration(device))
     assert (moment.position, moment.state.velocity) == (0.0, 0.0)
     assert moment.counts.reversals == 0
 
 
-def event_times(held: Held, moment: Moment, length: float) -> list[float]:
+def event_times(law: Law, moment: Moment, length: float) -> list[float]:
     """Times [s] of all events within `length` [s]: each run reports its last one."""
-    later = advance(held, moment, length)
+    later = law.advance(moment, length)
     if later.event_age >= length:
         return []
     last = length - later.event_age
     before = last * (1.0 - 1e-9)
-    return ([*event_times(held, moment, before), last]) if before > 0.0 else [last]
+    return ([*event_times(law, moment, before), last]) if before > 0.0 else [last]
 
 
 @pytest.mark.slow
@@ -170,8 +161,8 @@ def event_times(held: Held, moment: Moment, length: float) -> list[float]:
 def test_energy_balance_closes(device: Device, held_inputs: Inputs) -> None:
     """Energy gained = work of drives and load, less friction and damper; by Gauss quadrature."""
     device = replace(device, fidelity=2)
-    held = hold(device, held_inputs)
-    first = start(held, REST, 0.0)
+    law = law_of(device, held_inputs)
+    first = law.start(REST, 0.0)
     length = 1.2 * math.tau / device.drive_frequency
     m, big = device.resonator_mass, device.slider_mass
     k = m * device.resonator_frequency**2
@@ -184,15 +175,15 @@ def test_energy_balance_closes(device: Device, held_inputs: Inputs) -> None:
 
     def powers(moment: Moment) -> tuple[float, float]:
         v, _, u = moment.state
-        mode = mode_of(held, moment.state, moment.theta, moment.psi)
+        mode = law.mode(moment)
         push = device.tangential_force * math.sin(moment.theta) - held_inputs.load
         base = m * device.base_amplitude * w * w * math.sin(moment.theta)
-        lost = friction_force(held, moment, mode) * v + c * u * u
+        lost = law.friction_force(moment, mode) * v + c * u * u
         return push * v + base * (v + u) - lost, abs(push * v) + abs(base * (v + u)) + lost
 
     nodes, weights = np.polynomial.legendre.leggauss(24)
     gained = moved = 0.0
-    edges = [0.0, *event_times(held, first, length), length]
+    edges = [0.0, *event_times(law, first, length), length]
     time, moment = 0.0, first
     for begin, end in itertools.pairwise(edges):
         parts = max(1, math.ceil((end - begin) * 4.0 * max(w, device.resonator_frequency)))
@@ -201,9 +192,9 @@ def test_energy_balance_closes(device: Device, held_inputs: Inputs) -> None:
             half = 0.5 * (end - begin) / parts
             for node, weight in zip(nodes, weights, strict=True):
                 here = a + half * (1.0 + float(node))
-                time, moment = here, advance(held, moment, here - time)
+                time, moment = here, law.advance(moment, here - time)
                 net, gross = powers(moment)
                 gained += half * float(weight) * net
                 moved += half * float(weight) * gross
-    balance = energy(advance(held, first, length).state) - gained
+    balance = energy(law.advance(first, length).state) - gained
     assert abs(balance) <= 1e-8 * (moved + 1e-12), f"{balance:.3g} J of {moved:.3g} J unaccounted"

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import pytest
 
-from fmu_src.python.slider_component.coulomb import Moment
 from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import law_of
+from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
 from fmu_src.python.slider_component.refusal import Refusal
 

@@ -9,9 +9,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from fmu_src.python.slider_component.bristle import Bristle
-from fmu_src.python.slider_component.coulomb import hold
 from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.first_zero import first_zero
+from fmu_src.python.slider_component.held import hold
 from fmu_src.python.slider_component.motion import State
 from fmu_src.python.slider_component.taylor_slide import TaylorSlide
 
@@ -48,7 +48,8 @@ def integrated(bristle: Bristle, state: State, t: float) -> np.ndarray:
 def test_series_solves_the_equations(stiffness: float, damping: float) -> None:
     bristle = Bristle(0.1, stiffness, damping)
     motion = slide(bristle, 1, STATE, 1e-13)
-    zero = first_zero(motion.watch(motion.reach), motion.reach)
+    (watch,) = motion.watches(motion.reach)
+    zero = first_zero(watch, motion.reach)
     t = 0.9 * (zero if zero is not None else motion.reach)
     x, v, y, u = integrated(bristle, STATE, t)
     assert motion.travel(t) == pytest.approx(x, rel=1e-8, abs=1e-16)

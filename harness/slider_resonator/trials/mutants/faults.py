@@ -117,12 +117,11 @@ _REPLACE = "from dataclasses import replace\n"
 
 
 def _events() -> Iterator[Fault]:
-    for file in ("coulomb.py", "lugre.py"):
-        every = "each 50th stop or release that is found is passed over"
-        late = "each stop or release comes a millionth of the way to it late"
-        yield Fault(file, "event", every, ("first_zero",), _EVERY_50TH)
-        yield Fault(file, "event", late, ("first_zero",), _LATE)
-    never = "\nStick.watches = lambda self: ()\n"
+    every = "each 50th stop or release that is found is passed over"
+    late = "each stop or release comes a millionth of the way to it late"
+    yield Fault("leg.py", "event", every, ("first_zero",), _EVERY_50TH)
+    yield Fault("leg.py", "event", late, ("first_zero",), _LATE)
+    never = "\nStick.watches = lambda self, horizon: ()\n"
     yield Fault("stick.py", "event", "a stick is never released", ("Stick",), never)
     closed = "\ntime_to_switch = lambda *arguments: inf\n"
     change = "lift-off and touchdown are noticed at the next step only"
@@ -133,8 +132,8 @@ def _events() -> Iterator[Fault]:
         "\nCounts.slid = lambda self, direction: Counts(direction, self.reversals, self.sticks)\n"
     )
     change = "reversals are not counted"
-    yield Fault("coulomb.py", "event", change, ("Counts",), uncounted)
-    held = "\n_mode_in_contact = lambda plant, state, theta, psi: STICK\n"
+    yield Fault("moment.py", "event", change, ("Counts",), uncounted)
+    held = "\n_mode_in_contact = lambda plant, moment: STICK\n"
     change = "the slider sticks at each stop"
     yield Fault("coulomb.py", "event", change, ("_mode_in_contact", "STICK"), held)
 

@@ -16,8 +16,8 @@ from tests.harness import faulty_fmus
 SCENES = ("changing_inputs", "input_jumps", "initial_state", "stick_slip", "lugre", "lift_off")
 
 HARMFUL = (
-    ("coulomb.py", "each 50th stop or release that is found is passed over"),
-    ("coulomb.py", "reversals are not counted"),
+    ("leg.py", "each 50th stop or release that is found is passed over"),
+    ("moment.py", "reversals are not counted"),
     ("contact.py", "lift-off and touchdown are noticed at the next step only"),
     ("stick.py", "a stick is never released"),
     ("component.py", "the normal phase jumps by 0.01 rad when phase changes"),

@@ -59,8 +59,8 @@ def test_a_failed_check_rejects(faulty: Faulty, points: list[Point]) -> None:
 def test_a_hang_a_crash_and_an_error_reject(
     faulty: Faulty, points: list[Point], new: str, reason: str
 ) -> None:
-    first = "    plant, window, arc = held.plant, held.window, held.arc\n"
-    outcome = trial(faulty("coulomb.py", first, f"{first}    {new}\n"), points, 3.0)
+    first = "    plant, turn = held.plant, tau / LONGEST_ARC * held.arc\n"
+    outcome = trial(faulty("events.py", first, f"{first}    {new}\n"), points, 3.0)
     assert isinstance(outcome, Rejection)
     assert reason in outcome.reason
     assert not outcome.quantity

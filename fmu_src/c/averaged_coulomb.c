@@ -1,0 +1,29 @@
+/* Averaged Coulomb friction (eqs 4 and 20): elementary integrals over the two arcs of sliding. */
+#include <math.h>
+
+#include "averaged_friction.h"
+#include "state.h"
+
+static double drag(const Bristle *bristle, double fast_velocity) {
+    (void)bristle;
+    (void)fast_velocity;
+    return 0.0;
+}
+
+static double mean(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
+                   double turning) {
+    (void)fast;
+    return bristle->coefficient / TAU * vibrating_load_difference(load, turning);
+}
+
+static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, double n,
+                           double turning) {
+    double mu = bristle->coefficient;
+    FrictionMeans over_turn = {mu * (1.0 - 2.0 / PI * turning), 0.0,
+                               -2.0 * mu / (n * PI) * sin(n * turning)};
+    (void)fast;
+    return over_turn;
+}
+
+const AveragedFriction AVERAGED_COULOMB = {
+    .is_expensive = false, .drag = drag, .mean = mean, .means = means};

@@ -1,0 +1,44 @@
+/* What a friction law is to averaged motion: its means over a turn of the drive under fast vibration.
+ *
+ * The slider moves with V - v_q cos(tau), so that it slides forward while tau is in (Theta, 2 pi -
+ * Theta) with Theta = arccos(V / v_q). */
+#ifndef SLIDER_AVERAGED_FRICTION_H
+#define SLIDER_AVERAGED_FRICTION_H
+
+#include <stdbool.h>
+
+#include "bristle.h"
+#include "vibrating_load.h"
+
+/* Fast velocity amplitude v_q [m/s] and drive frequency [rad/s]. */
+typedef struct {
+    double velocity, frequency;
+} FastMotion;
+
+/* Friction per unit load over a turn of tau, times 1, sin(n tau) and cos(n tau): its means. */
+typedef struct {
+    double plain, sine, cosine;
+} FrictionMeans;
+
+/* `turning` is Theta [rad], in [0, pi]. */
+typedef struct {
+    /* Whether means cost a quadrature each, and are better tabulated. */
+    bool is_expensive;
+
+    /* Largest friction per unit load beyond mu at a fast velocity [m/s]; above mu, mean friction may
+     * rise with Theta. */
+    double (*drag)(const Bristle *bristle, double fast_velocity);
+
+    /* Mean friction [N] of one face. */
+    double (*mean)(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
+                   double turning);
+
+    /* What the mean friction is made of under a load N0 + dN sin(n tau + delta), n not 0: per face it
+     * is N0 plain + dN (cos(delta) sine + sin(delta) cosine). */
+    FrictionMeans (*means)(const Bristle *bristle, const FastMotion *fast, double n,
+                           double turning);
+} AveragedFriction;
+
+extern const AveragedFriction AVERAGED_COULOMB, AVERAGED_LUGRE;
+
+#endif

@@ -1,0 +1,17 @@
+/* The loop over events: resolved motion under any friction law, leg by leg. */
+#ifndef SLIDER_EVENTS_H
+#define SLIDER_EVENTS_H
+
+#include <stdbool.h>
+
+#include "law.h"
+#include "moment.h"
+#include "refusal.h"
+
+/* Brings `now` to what it is `duration` > 0 [s] after `moment`, another one, inputs held. Refuses,
+ * with `now` undefined, where time does not get on. Where numbers leave the range of floating point,
+ * entries of `now` are not finite. */
+bool events_advance(const Law *law, const Moment *moment, double duration, Moment *now,
+                    Refusal *refusal);
+
+#endif

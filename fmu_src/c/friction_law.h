@@ -1,0 +1,44 @@
+/* What a friction law is to the rest of the component: a row of functions.
+ *
+ * A new law is a file of its own that ends with its row, and a line in friction_laws.c. */
+#ifndef SLIDER_FRICTION_LAW_H
+#define SLIDER_FRICTION_LAW_H
+
+#include <stdbool.h>
+
+#include "averaged_friction.h"
+#include "law.h"
+#include "leg.h"
+#include "moment.h"
+#include "refusal.h"
+
+typedef struct FrictionLaw {
+    /* Refuses a device for which the law has no meaning. */
+    bool (*check)(const Device *device, Refusal *refusal);
+
+    /* Friction of the bristle at the start, per unit load. */
+    double (*first_bristle)(const Law *law);
+
+    /* Contact mode under the held inputs. */
+    int (*mode)(const Law *law, const Moment *moment);
+
+    /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
+    double (*force)(const Law *law, const Moment *moment, int mode);
+
+    /* Begins the leg that goes on from `now`, in the contact mode that it has, and follows it for up
+     * to `longest` [s]. The contact switches after `switching` [s]. */
+    void (*follow)(Leg *leg, const Law *law, Moment *now, double longest, double switching);
+
+    /* Goes over from the end of a finished leg to the contact mode that succeeds; `switches` tells
+     * whether the contact lifts or touches down there. */
+    void (*succeed)(const Leg *leg, const Law *law, Moment *now, bool switches);
+
+    const AveragedFriction *averaged;
+} FrictionLaw;
+
+extern const FrictionLaw COULOMB, LUGRE;
+
+/* The law with this `friction_law` of the interface, or NULL. */
+const FrictionLaw *friction_law_of(int number);
+
+#endif

@@ -1,0 +1,132 @@
+#include "leg.h"
+
+#include <math.h>
+
+#include "angle.h"
+
+void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
+    leg->kind = RESTS;
+    leg->mode = STICK;
+    leg->direction = 0;
+    leg->watched_from = 0.0;
+    stick_begin(&leg->motion.stick, &held->plant, &now->state, now->theta,
+                now->psi + held->plant.phase);
+}
+
+void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction) {
+    int sign = now->mode == LIFTED ? 0 : direction;
+    leg->kind = SLIDES;
+    leg->mode = now->mode;
+    leg->direction = direction;
+    leg->watched_from = 0.0;
+    slide_begin(&leg->motion.slide, held, sign, &now->state, now->theta,
+                now->psi + held->plant.phase, direction);
+}
+
+void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
+                       int direction, double tolerance) {
+    leg->kind = BENDS;
+    leg->mode = now->mode;
+    leg->direction = direction;
+    leg->watched_from = 0.0;
+    taylor_slide_begin(&leg->motion.series, &held->plant, bristle, direction, &now->state,
+                       now->bristle, now->theta, now->psi + held->plant.phase, tolerance);
+}
+
+bool leg_departs(const Leg *leg) {
+    if (leg->kind == BENDS) {
+        return taylor_slide_departs(&leg->motion.series);
+    }
+    Watch watch = slide_watch(&leg->motion.slide);
+    return watch.signal(watch.motion, 0.0).slope >= 0.0;
+}
+
+/* Ends rest at the release that comes first. One release is searched for over a turn at most, as the
+ * other may come soon. */
+static void follow_rest(Leg *leg, double turn) {
+    Watch watches[2];
+    int count = stick_watches(&leg->motion.stick, watches);
+    if (count > 0) {
+        leg->t = fmin(leg->t, turn);
+    }
+    for (int i = 0; i < count; i++) {
+        double zero = first_zero(&watches[i], leg->t, 0.0);
+        if (zero >= 0.0) {
+            leg->t = zero;
+            leg->zero_of = i;
+        }
+    }
+}
+
+/* Ends sliding at a stop. */
+static void follow_sliding(Leg *leg, double expected) {
+    Watch watch = leg->kind == BENDS ? taylor_slide_watch(&leg->motion.series, leg->t)
+                                     : slide_watch(&leg->motion.slide);
+    double zero = first_zero_near(&watch, leg->t, leg->watched_from, expected);
+    if (zero >= 0.0) {
+        leg->t = zero;
+        leg->zero_of = 0;
+    }
+}
+
+void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
+    double frequency = held->plant.drive_frequency;
+    leg->t = leg->kind == BENDS ? fmin(longest, leg->motion.series.reach) : longest;
+    leg->zero_of = -1;
+    if (!(leg->t > 0.0)) {
+        return;
+    }
+    if (leg->kind == RESTS) {
+        follow_rest(leg, TAU / frequency);
+    } else if (leg->direction != 0) {
+        const Stop *stop = stop_after(&now->stops, leg->direction);
+        follow_sliding(leg, stop_expected(stop, now->theta, frequency));
+    }
+}
+
+static double travel_at(const void *motion, double t) {
+    const Leg *leg = motion;
+    switch (leg->kind) {
+    case RESTS:
+        return 0.0;
+    case SLIDES:
+        return slide_travel(&leg->motion.slide, t);
+    case BENDS:
+        return taylor_slide_travel(&leg->motion.series, t);
+    }
+    return NAN;
+}
+
+/* The state at the end of the leg; takes down how far it goes. */
+static State end_of(Leg *leg) {
+    State state = {NAN, NAN, NAN};
+    switch (leg->kind) {
+    case RESTS:
+        leg->travelled = 0.0;
+        return stick_state(&leg->motion.stick, leg->t);
+    case SLIDES:
+        return slide_end(&leg->motion.slide, leg->t, &leg->travelled);
+    case BENDS:
+        leg->travelled = taylor_slide_travel(&leg->motion.series, leg->t);
+        return taylor_slide_state(&leg->motion.series, leg->t);
+    }
+    return state;
+}
+
+void leg_finish(Leg *leg, const Held *held, Moment *now) {
+    const Plant *plant = &held->plant;
+    now->state = end_of(leg);
+    Stretch stretch = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
+    now->theta = period_advance(&now->means, &stretch, now->theta, plant->drive_frequency);
+    now->psi = within_turn(now->psi + plant->normal_frequency * leg->t);
+    now->position += leg->travelled;
+    if (leg->travelled * leg->direction > 0.0 && leg->direction != now->counts.sliding) {
+        now->counts = counts_slid(now->counts, leg->direction);
+        now->event_age = 0.0;
+    }
+    now->event_age += leg->t;
+    if (leg_stopped(leg)) {
+        now->state.velocity = 0.0;
+        stop_record(stop_after(&now->stops, leg->direction), now->theta);
+    }
+}

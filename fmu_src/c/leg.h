@@ -1,0 +1,63 @@
+/* A leg: motion without an event, at rest, sliding or in flight, up to the first zero of what it
+ * watches. */
+#ifndef SLIDER_LEG_H
+#define SLIDER_LEG_H
+
+#include "bristle.h"
+#include "held.h"
+#include "moment.h"
+#include "slide.h"
+#include "stick.h"
+#include "taylor_slide.h"
+
+/* What the motion is: rest, sliding or flight in closed form, or sliding on bending bristles. */
+typedef enum { RESTS, SLIDES, BENDS } LegKind;
+
+/* Begun by a friction law: the contact `mode`, and the `direction` of sliding, in which the velocity
+ * is watched (0 for none) from `watched_from` [s] on.
+ *
+ * Followed, it ends after `t` [s] and `travelled` [m], at the zero of a watched signal (`zero_of` >=
+ * 0) or not. `departs` is known before it begins: from rest, and not thrown back by a reversal. */
+typedef struct {
+    LegKind kind;
+    int mode, direction;
+    double watched_from;
+    union {
+        Stick stick;
+        Slide slide;
+        TaylorSlide series;
+    } motion;
+    double t, travelled;
+    int zero_of;
+    bool departs;
+} Leg;
+
+/* Rest. */
+void leg_begin_rest(Leg *leg, const Held *held, const Moment *now);
+
+/* Sliding in `direction` under full friction, or flight in contact mode LIFTED. */
+void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction);
+
+/* Sliding in `direction` while a bristle bends, to `tolerance` [m/s]. */
+void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
+                       int direction, double tolerance);
+
+/* Whether a slider at rest begins to move in the direction of the leg, or not at all. */
+bool leg_departs(const Leg *leg);
+
+/* Follows the leg until it ends, for up to `longest` [s]. */
+void leg_follow(Leg *leg, const Held *held, Moment *now, double longest);
+
+/* Whether the leg ended at a stop of the slider, and whether at a release of it. */
+static inline bool leg_stopped(const Leg *leg) {
+    return leg->zero_of >= 0 && leg->kind != RESTS;
+}
+
+static inline bool leg_released(const Leg *leg) {
+    return leg->zero_of >= 0 && leg->kind == RESTS;
+}
+
+/* Moves on to the end of the leg, in its mode. */
+void leg_finish(Leg *leg, const Held *held, Moment *now);
+
+#endif

@@ -1,0 +1,45 @@
+"""The loop over events: resolved motion under any friction law, leg by leg."""
+
+from __future__ import annotations
+
+from math import tau
+
+from .clock import Clock
+from .contact import LIFTED, time_to_switch
+from .friction_law import FrictionLaw
+from .held import LONGEST_ARC, Held
+from .moment import Moment
+from .refusal import too_much_work
+
+MAX_LEGS = 20_000
+"""Legs in a turn of the fastest oscillation up to which work is accepted: several times what
+presliding on the hardest bristles takes."""
+
+
+def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) -> Moment:
+    """The moment `duration` > 0 [s] later, inputs held.
+
+    Raises Refusal where time does not get on.
+    """
+    plant, turn = held.plant, tau / LONGEST_ARC * held.arc
+    clock, remaining = Clock(duration), duration
+    legs, turn_began = 0, 0.0
+    departs = moment.state.velocity == 0.0
+    now = moment.copied()
+    now.enter(friction.mode(held, now))
+    while remaining > 0.0:
+        if clock.elapsed - turn_began > turn:
+            legs, turn_began = 0, clock.elapsed
+        legs += 1
+        if legs > MAX_LEGS:
+            what = "legs in a turn of the fastest oscillation"
+            raise too_much_work(duration, clock.elapsed, MAX_LEGS, what)
+        chi, lifted = now.psi + plant.phase, now.mode == LIFTED
+        switching = time_to_switch(held.window, chi, plant.normal_frequency, lifted)
+        longest = min(remaining, switching, held.arc)
+        leg = friction.follow(held, now, longest, switching, departs)
+        leg.finish(held, now)
+        friction.succeed(held, leg, now, leg.zero_of is None and leg.t == switching)
+        departs = now.state.velocity == 0.0 and now.mode != -leg.mode
+        remaining = clock.advance(leg.t) if leg.t != remaining else 0.0
+    return now

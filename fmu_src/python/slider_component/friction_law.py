@@ -1,0 +1,56 @@
+"""What a friction law is to the rest of the component: a row of functions.
+
+A new law is a module of its own with its row, and a line in `friction_laws`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from .averaged_friction import AveragedFriction
+from .device import Device
+from .held import Held
+from .leg import Leg
+from .moment import Moment
+
+
+class Follow(Protocol):
+    """See `FrictionLaw.follow`."""
+
+    def __call__(
+        self, held: Held, now: Moment, longest: float, switching: float, departs: bool
+    ) -> Leg:
+        """The leg that goes on from `now`."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class FrictionLaw:
+    """One friction law.
+
+    `check(device)` raises Refusal for a device for which the law has no meaning.
+
+    `first_bristle(held)` is the friction of the bristle at the start, per unit load.
+
+    `mode(held, moment)` is the contact mode under the held inputs.
+
+    `force(held, moment, mode)` is the friction force [N] on the slider in contact mode `mode`,
+    positive against +X.
+
+    `follow(held, now, longest, switching, departs)` is the leg that goes on from `now`, in the
+    contact mode that it has, for up to `longest` [s]. The contact switches after `switching` [s];
+    `departs` tells whether a slider at rest is about to move, and not thrown back by a reversal.
+
+    `succeed(held, leg, now, switches)` goes over from the end of a finished leg to the contact mode
+    that succeeds; `switches` tells whether the contact lifts or touches down there.
+    """
+
+    check: Callable[[Device], None]
+    first_bristle: Callable[[Held], float]
+    mode: Callable[[Held, Moment], int]
+    force: Callable[[Held, Moment, int], float]
+    follow: Follow
+    succeed: Callable[[Held, Leg, Moment, bool], None]
+    averaged: AveragedFriction

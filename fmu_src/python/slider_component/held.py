@@ -1,0 +1,59 @@
+"""What stays the same while inputs and parameters do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .bristle import Bristle, bristle_of
+from .contact import LIFTED, direction_of, flight_window, is_lifted
+from .device import Device, Inputs
+from .plant import Plant, plant
+from .split_slide import Split, split
+
+LONGEST_ARC = 60.0
+"""Angle [rad] of the fastest oscillation after which a motion is anchored anew: keeps the rounding
+of large arguments of sine and cosine out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A device under held inputs, prepared for motion.
+
+    `split` serves sliding and flight unless it is None, `arc` [s] is the time after which a motion
+    is anchored anew.
+    """
+
+    device: Device
+    inputs: Inputs
+    plant: Plant
+    split: Split | None
+    window: tuple[float, float] | None
+    arc: float
+    bristle: Bristle
+
+    def lifted_at(self, psi: float) -> bool:
+        """Whether the contact is lifted at normal phase `psi` [rad]."""
+        return is_lifted(self.window, psi + self.plant.phase, self.plant.normal_frequency)
+
+    def mode_by_velocity(self, velocity: float, psi: float) -> int:
+        """Contact mode by what can be seen: lifted, or the direction of sliding; 0 at rest."""
+        return LIFTED if self.lifted_at(psi) else direction_of(velocity)
+
+
+def hold(device: Device, inputs: Inputs) -> Held:
+    """Prepare motion of `device` under `inputs`. Raises Refusal as `plant` does."""
+    held = plant(device, inputs)
+    fastest = max(held.drive_frequency, abs(held.normal_frequency))
+    if held.resolves_resonator:
+        fastest = max(
+            [fastest] + [o.frequency for o in (held.slip, held.stick) if o.eigenvalue is not None]
+        )
+    return Held(
+        device,
+        inputs,
+        held,
+        split(held),
+        flight_window(held),
+        LONGEST_ARC / fastest,
+        bristle_of(device),
+    )

@@ -1,0 +1,64 @@
+"""Everything that a motion carries on from one step to the next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from .contact import STICK
+from .motion import State
+from .period import PeriodMeans
+
+
+class Counts(NamedTuple):
+    """Direction of the last sliding (0 before any), reversals of it, and sticks begun."""
+
+    sliding: int = 0
+    reversals: int = 0
+    sticks: int = 0
+
+    def slid(self, direction: int) -> Counts:
+        """The counts once the slider has moved on in `direction`."""
+        return Counts(direction, self.reversals + (self.sliding == -direction), self.sticks)
+
+
+@dataclass(slots=True)
+class Moment:
+    """Position [m], phases [rad], contact mode, and what outputs count.
+
+    `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
+    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. A moment is changed only
+    by the loop over events, which begins with a copy.
+    """
+
+    state: State
+    position: float
+    theta: float
+    psi: float
+    mode: int
+    counts: Counts
+    event_age: float
+    means: PeriodMeans
+    bristle: float = 0.0
+
+    def copied(self) -> Moment:
+        """The same moment, to be changed."""
+        return Moment(
+            self.state,
+            self.position,
+            self.theta,
+            self.psi,
+            self.mode,
+            self.counts,
+            self.event_age,
+            self.means,
+            self.bristle,
+        )
+
+    def enter(self, mode: int) -> None:
+        """Go over to contact mode `mode`, which is an event where it is another one."""
+        if mode == self.mode:
+            return
+        self.mode, self.event_age = mode, 0.0
+        if mode == STICK:
+            self.counts = self.counts._replace(sticks=self.counts.sticks + 1)
