@@ -28,7 +28,7 @@ void want_all_messages(Instance *instance, bool wanted) {
     }
 }
 
-void want_first_messages(Instance *instance, bool debugging) {
+void want_initial_messages(Instance *instance, bool debugging) {
     want_all_messages(instance, debugging);
     instance->wanted[STATUS_ERROR] = instance->wanted[STATUS_FATAL] = true;
 }
@@ -40,8 +40,8 @@ bool want_messages(Instance *instance, const char *category, Refusal *refusal) {
             return true;
         }
     }
-    return refuse(refusal, "fmi2SetDebugLogging: category '%.80s' refused: allowed are %s, %s, %s, "
-                  "%s, %s", category == NULL ? "(null)" : category, CATEGORIES[STATUS_WARNING],
+    return refuse(refusal, "fmi2SetDebugLogging: category '%.80s' refused: must be one of %s, %s, "
+                  "%s, %s, %s", category == NULL ? "(null)" : category, CATEGORIES[STATUS_WARNING],
                   CATEGORIES[STATUS_DISCARD], CATEGORIES[STATUS_ERROR], CATEGORIES[STATUS_FATAL],
                   CATEGORIES[ALL_MESSAGES]);
 }
@@ -61,7 +61,7 @@ static Category category_of(fmi2Status status) {
     }
 }
 
-/* The logger takes a format, in which % and # stand for something else unless they are doubled. */
+/* The logger takes a format, in which % and # have a meaning unless they are doubled. */
 static void double_specials(const char *text, char *format, size_t size) {
     size_t length = 0;
     for (; *text != '\0' && length + 2 < size; text++) {

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.c_header import C_SOURCES
+from fmu_src.sources import C_SOURCES
 from harness.hosts.compiler import compile_program, native_compiler
 from harness.hosts.driver_host import BINARY
 from harness.hosts.job import describe

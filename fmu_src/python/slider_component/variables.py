@@ -38,8 +38,8 @@ class Variable:
     depends_on: tuple[str, ...] = ()
 
     @property
-    def allowed(self) -> str:
-        """The allowed values in words, for error messages."""
+    def requirement(self) -> str:
+        """What a value must be, in words."""
         kind = "an integer" if self.type == "Integer" else "a finite number"
         unit = f" {self.unit}" if self.unit and self.unit != "1" else ""
         if self.minimum is not None and self.maximum is not None:
