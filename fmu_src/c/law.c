@@ -2,20 +2,15 @@
 
 #include "coulomb.h"
 #include "lugre.h"
+#include "refusal_texts.h"
 #include "slow_motion.h"
 
 enum { COULOMB = 0, AVERAGED = 0 };
 
 /* Without friction (8) has no meaning. */
 static bool require_bristle(const Device *device, Refusal *refusal) {
-    char number[NUMBER_SIZE];
-    if (device->friction_law == COULOMB || device->friction_coefficient != 0.0) {
-        return true;
-    }
-    return refuse(refusal,
-                  "friction_coefficient = %s refused: with LuGre friction allowed is a finite "
-                  "number above 0",
-                  number_text(device->friction_coefficient, number));
+    return device->friction_law == COULOMB || device->friction_coefficient != 0.0
+           || refuse_lugre_without_friction(refusal, device->friction_coefficient);
 }
 
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionTable *table,

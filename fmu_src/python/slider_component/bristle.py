@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import expm1
 
+from . import refusal_texts
 from .device import Device
 from .refusal import Refusal
 
@@ -28,8 +29,5 @@ class Bristle:
 def bristle_of(device: Device) -> Bristle:
     """The bristle of a device. Raises Refusal without friction, where (8) has no meaning."""
     if device.friction_coefficient == 0.0:
-        raise Refusal(
-            f"friction_coefficient = {device.friction_coefficient!r} refused: with LuGre friction "
-            "allowed is a finite number above 0"
-        )
+        raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
     return Bristle(device.friction_coefficient, device.bristle_stiffness, device.bristle_damping)
