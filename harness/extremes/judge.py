@@ -12,7 +12,7 @@ from harness.extremes.verdict import FAILED, PASSED, REFUSED, Check, Verdict
 from harness.interface import INPUTS, PARAMETERS
 
 NAMES = "|".join([*PARAMETERS, *INPUTS, "communicationStepSize"])
-NAMED = re.compile(rf"\b({NAMES}) = (\S+) refused\b.*\ballowed ")
+NAMED = re.compile(rf"\b({NAMES}) = (\S+) refused\b.*\bmust ")
 MOST_COST = 1000.0
 """Cost of a step, per drive period in it but at least one, over that of a period, that is allowed:
 a step may have to tabulate friction, or to find events that nearly coincide."""

@@ -50,7 +50,7 @@ class Device:
             if name not in known:
                 raise ValueError(
                     f"unknown device parameter {name!r} = {value!r}; "
-                    f"allowed: {', '.join(sorted(known))}"
+                    f"must be one of {', '.join(sorted(known))}"
                 )
             if name in integer_names:
                 if not float(value).is_integer():

@@ -42,7 +42,7 @@ def test_a_failed_point_ends_with_1_and_its_error_is_told(native_fmu: Path, tmp_
     ("text", "arguments", "words"),
     [
         ("[grid]\nfase = [1]", ["--out", "a.csv"], "did you mean 'phase'"),
-        ("[grid]\nphase = [1]", ["--out", "a.txt"], "allowed is one of .parquet, .csv"),
+        ("[grid]\nphase = [1]", ["--out", "a.txt"], "must be one of .parquet, .csv"),
         ("[grid]\nphase = [1]", ["--out", "a.csv", "--fmu", "none.fmu"], "none.fmu: no such file"),
         (
             "[grid]\nphase = [1]\nload = [0]\nfidelity = [2]",
