@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from fmu_src.building.native_fmu import NativeModel, build_model, read_sources
-from fmu_src.controller.variables import INITIAL_DEPENDENCIES, VARIABLES
+from fmu_src.controller.variables import VARIABLES
 from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
 
 MODEL = "VelocityController"
@@ -46,7 +46,6 @@ def build_controller(
         MODEL,
         read_sources(C_SOURCES, SHELL) | own,
         {"about": DESCRIPTION, "variables": VARIABLES},
-        INITIAL_DEPENDENCIES,
         "controller_page.html",
     )
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)

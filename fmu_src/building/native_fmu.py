@@ -21,7 +21,6 @@ from fmu_src.building.content import digest_of, guid_of, icon_and_licences
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.building.platforms import HOST, host_platform, platforms_named
 from fmu_src.documentation import documentation_page
-from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
 from fmu_src.model_description import DESCRIPTION, model_description
 from fmu_src.python.slider_component.variables import VARIABLES
 from fmu_src.sources import C_SOURCES
@@ -43,7 +42,6 @@ class NativeModel:
     name: str
     code: Mapping[str, bytes]
     details: Mapping[str, Any]
-    initial_dependencies: Mapping[str, Sequence[str]]
     page: str
 
 
@@ -58,7 +56,7 @@ def build_native(
     """Build the native slider from the C code in `sources`; otherwise like `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
     code = read_sources(sources)
-    model = NativeModel(MODEL, code, about, INITIAL_DEPENDENCIES, "page.html")
+    model = NativeModel(MODEL, code, about, "page.html")
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
 
@@ -144,6 +142,5 @@ def _description(model: NativeModel, tool: str, guid: str, generated: datetime) 
         generated=date_text(generated),
         host_manages_memory=True,
         source_files=[name for name in sorted(model.code) if name.endswith(".c")],
-        initial_dependencies=model.initial_dependencies,
         **model.details,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fmu_src.generators.origin import origin
-from fmu_src.python.slider_component.variables import Variable
+from fmu_src.python.slider_component.variable import Variable
 
 _TABLE = "python/slider_component/variables.py"
 

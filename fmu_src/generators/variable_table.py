@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 
 from fmu_src.generators.origin import origin
-from fmu_src.python.slider_component.variables import Variable
+from fmu_src.python.slider_component.variable import Variable
 
 _HEADER = """\
 /* The table of FMU variables.

@@ -8,7 +8,8 @@ from collections.abc import Callable
 
 import pytest
 
-from fmu_src.python.slider_component.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variable import Variable
+from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmu.host import Instance
 from tests.fmus import both_fmus
 

@@ -19,7 +19,7 @@ from .plant import Plant
 from .refusal import Refusal
 from .snapshot import FORMAT, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, checked, number
-from .variables import Variable
+from .variable import Variable
 
 
 class Component:

@@ -24,7 +24,8 @@ from . import refusal_texts
 from .component import Component
 from .refusal import Refusal
 from .snapshot import from_bytes, to_bytes
-from .variables import VARIABLES, Variable
+from .variable import Variable
+from .variables import VARIABLES
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -6,7 +6,8 @@ from math import isfinite
 
 from . import refusal_texts
 from .refusal import Refusal
-from .variables import VARIABLES, Variable
+from .variable import Variable
+from .variables import VARIABLES
 
 BY_NAME = {variable.name: variable for variable in VARIABLES}
 SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "output")
