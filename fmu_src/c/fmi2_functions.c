@@ -53,7 +53,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
             memset(instance, 0, sizeof *instance);
             memcpy(instance->name, name, length + 1);
             instance->host = *functions;
-            want_initial_messages(instance, loggingOn != fmi2False);
+            enable_initial_messages(instance, loggingOn != fmi2False);
             component_reset(&instance->component);
             return instance;
         }
@@ -78,20 +78,20 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nC
         return fmi2Error;
     }
     bool before[CATEGORY_COUNT];
-    memcpy(before, instance->wanted, sizeof before);
+    memcpy(before, instance->enabled, sizeof before);
     bool known = nCategories <= CATEGORY_COUNT && (nCategories == 0 || categories != NULL);
     if (!known) {
         refuse(&refusal, "fmi2SetDebugLogging: nCategories = %lu refused: must be from 0 to %d, "
                "with as many categories", (unsigned long)nCategories, CATEGORY_COUNT);
     }
-    want_all_messages(instance, loggingOn != fmi2False && nCategories == 0);
+    enable_all_messages(instance, loggingOn != fmi2False && nCategories == 0);
     for (size_t i = 0; known && i < nCategories; i++) {
-        known = want_messages(instance, categories[i], &refusal);
+        known = enable_messages(instance, categories[i], &refusal);
     }
     if (!known) {
-        memcpy(instance->wanted, before, sizeof before);
+        memcpy(instance->enabled, before, sizeof before);
     } else if (loggingOn == fmi2False) {
-        want_all_messages(instance, false);
+        enable_all_messages(instance, false);
     }
     return answer(instance, known, &refusal);
 }

@@ -19,34 +19,34 @@ typedef enum {
     CATEGORY_COUNT
 } Category;
 
-/* `wanted` marks the log categories that the host asked for. */
+/* `enabled` are the log categories that the host asked for. */
 typedef struct {
     Component component;
     fmi2CallbackFunctions host;
-    bool wanted[CATEGORY_COUNT];
+    bool enabled[CATEGORY_COUNT];
     fmi2Status last_step;
     char name[]; /* ends with 0 */
 } Instance;
 
-/* Zeroed memory from the host's functions, or from calloc for a host without; NULL if there is none. */
+/* Zeroed memory from the host's functions, or from calloc if it has none; NULL if out of memory. */
 void *host_allocate(const fmi2CallbackFunctions *host, size_t size);
 void host_free(const fmi2CallbackFunctions *host, void *memory);
 
-/* Send messages of all categories, or of none. */
-void want_all_messages(Instance *instance, bool wanted);
+/* Enable all log categories, or disable them. */
+void enable_all_messages(Instance *instance, bool enabled);
 
-/* Send messages as after instantiation: all while `debugging`, otherwise errors only, as nothing else
- * says why a call failed. */
-void want_initial_messages(Instance *instance, bool debugging);
+/* Enable the log categories after instantiation: all while `debugging`, otherwise errors, as nothing
+ * else says why a call failed. */
+void enable_initial_messages(Instance *instance, bool debugging);
 
-/* Send messages of one more category. Refuse an unknown category. */
-bool want_messages(Instance *instance, const char *category, Refusal *refusal);
+/* Enable one more log category. Refuse an unknown one. */
+bool enable_messages(Instance *instance, const char *category, Refusal *refusal);
 
 /* Send a text with its status and category to the host's logger, if there is one. */
 void send_message(const fmi2CallbackFunctions *host, const char *instance_name, fmi2Status status,
                   const char *text);
 
-/* Send a text if its category is wanted; return the status. */
+/* Send a text if its category is enabled; return the status. */
 fmi2Status report(const Instance *instance, fmi2Status status, const char *text);
 
 /* Return fmi2OK for a call that is `done`; otherwise report the refusal and return fmi2Error. */
