@@ -1,7 +1,7 @@
-"""The documentation page inside the FMU: fixed text around a table of the variables.
+"""The documentation page inside the FMU: fixed text around tables of the variables.
 
-The table that helps to choose a model is measured, by the command trade of the harness, and
-committed, so that a build gives the same bytes.
+The tables that help to choose a model are measurements by the harness's command `trade`. They are
+committed, so that equal sources give equal bytes.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from string import Template
 from typing import Literal
 
 from fmu_src.model_description import DESCRIPTION
-from fmu_src.python.slider_component.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variable import Variable
+from fmu_src.python.slider_component.variables import VARIABLES
 
 ASSETS = Path(__file__).parent / "assets"
 
@@ -34,10 +35,10 @@ def documentation_page(
     page: str = "page.html",
     variables: Sequence[Variable] = VARIABLES,
 ) -> bytes:
-    """A self-contained HTML page as UTF-8 bytes; equal arguments give equal bytes.
+    """Return a self-contained HTML page as UTF-8 bytes; equal arguments give equal bytes.
 
-    `page` is the fixed text in `assets`, `about` the model in a sentence; `host` tells which part
-    on statuses, messages and needs of the target goes in.
+    `page` is the fixed text in `assets`, `about` describes the model in a sentence, `host` selects
+    the section on statuses, messages and requirements of the target.
     """
     template = Template((ASSETS / page).read_text(encoding="utf-8"))
     page = template.substitute(

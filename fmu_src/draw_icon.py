@@ -1,6 +1,6 @@
-"""Draws the icon of the FMUs: `python -m fmu_src.draw_icon` rewrites assets/model.png.
+"""Draw the icon of the FMUs: `python -m fmu_src.draw_icon` rewrites assets/model.png.
 
-The result is committed, so a build needs no matplotlib and its bytes do not depend on its version.
+The result is committed: a build needs no matplotlib, and its bytes do not depend on the version.
 """
 
 from __future__ import annotations

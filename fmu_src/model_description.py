@@ -1,13 +1,13 @@
-"""modelDescription.xml of FMI 2.0, generated from the one table of variables."""
+"""modelDescription.xml of FMI 2.0, from the table of variables."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from xml.etree import ElementTree as ET
 
 from fmu_src import __version__
-from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
-from fmu_src.python.slider_component.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variable import Variable
+from fmu_src.python.slider_component.variables import VARIABLES
 from fmu_src.units import UNITS
 
 DESCRIPTION = (
@@ -15,8 +15,8 @@ DESCRIPTION = (
     "with it"
 )
 
-# FMI's names for messages by status, as far as pythonfmu knows them. It reports a refusal without
-# any category: a host that asks for some only does not receive refusals of the Python FMU.
+# FMI's log categories by status, as far as pythonfmu knows them. It reports a refusal without a
+# category: a host that asks for some categories only receives no refusals of the Python FMU.
 LOG_CATEGORIES: dict[str, str] = {
     "logStatusWarning": "Messages with status fmi2Warning",
     "logStatusDiscard": "Messages with status fmi2Discard",
@@ -47,17 +47,16 @@ def model_description(
     source_files: Sequence[str] = (),
     about: str = DESCRIPTION,
     variables: Sequence[Variable] = VARIABLES,
-    initial_dependencies: Mapping[str, Iterable[str]] = INITIAL_DEPENDENCIES,
 ) -> bytes:
-    """The model description as UTF-8 bytes; equal arguments give equal bytes.
+    """Return the model description as UTF-8 bytes; equal arguments give equal bytes.
 
-    `model` is both the model's name and the name of its binaries, `generated` the date and time of
-    the build (ISO 8601, UTC). `host_manages_memory` tells whether the FMU takes its memory from the
-    host, `source_files` are the files to compile in its folder `sources`. `about` is the model in a
-    sentence. The value reference of a variable is its position in `variables`.
+    `model` names both the model and its binaries, `generated` is the date and time of the build
+    (ISO 8601, UTC), `about` describes the model in a sentence. `host_manages_memory` is True for an
+    FMU that takes its memory from the host; `source_files` are the files to compile in its folder
+    `sources`. The value reference of a variable is its position in `variables`.
 
-    Raises ValueError when a variable has a unit that `fmu_src.units` lacks, or depends on
-    something that FMI 2.0 section 2.2.8 does not count as known.
+    Raises ValueError for a unit that `fmu_src.units` lacks, and for a dependency on a variable that
+    FMI 2.0 section 2.2.8 does not count as known.
     """
     root = ET.Element(
         "fmiModelDescription",
@@ -85,7 +84,7 @@ def model_description(
     model_variables = ET.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(variables):
         _add_variable(model_variables, reference, variable)
-    _add_structure(root, variables, initial_dependencies)
+    _add_structure(root, variables)
     ET.indent(root)
     text = ET.tostring(root, encoding="unicode")
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
@@ -147,26 +146,22 @@ def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> Non
         "start": variable.start,
     }
     details = {"unit": variable.unit, "displayUnit": variable.display_unit}
-    # repr gives the shortest text that reads back as the very same number.
+    # repr gives the shortest text that reads back as the same number.
     details |= {k: None if x is None else repr(number(x)) for k, x in values.items()}
     ET.SubElement(element, variable.type, {k: x for k, x in details.items() if x is not None})
 
 
-def _add_structure(
-    root: ET.Element,
-    variables: Sequence[Variable],
-    initial_dependencies: Mapping[str, Iterable[str]],
-) -> None:
+def _add_structure(root: ET.Element, variables: Sequence[Variable]) -> None:
     outputs = [v for v in variables if v.causality == "output"]
     inputs = {v.name for v in variables if v.causality == "input"}
     known_at_start = inputs | {v.name for v in variables if v.causality == "parameter"}
     index = {v.name: i for i, v in enumerate(variables, start=1)}
 
-    def add(section: ET.Element, output: str, on: Iterable[str], known: set[str]) -> None:
-        names = set(on)
+    def add(section: ET.Element, output: str, dependencies: Iterable[str], known: set[str]) -> None:
+        names = set(dependencies)
         if not names <= known:
             raise ValueError(
-                f"{output} cannot depend on {', '.join(sorted(names - known))}: allowed are "
+                f"{output} cannot depend on {', '.join(sorted(names - known))}: must be one of "
                 f"{', '.join(sorted(known))}"
             )
         indices = sorted(index[name] for name in names)
@@ -186,4 +181,4 @@ def _add_structure(
         add(section, v.name, v.depends_on, inputs)
     section = ET.SubElement(structure, "InitialUnknowns")
     for v in outputs:
-        add(section, v.name, initial_dependencies[v.name], known_at_start)
+        add(section, v.name, v.depends_initially_on, known_at_start)

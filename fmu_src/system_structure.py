@@ -1,7 +1,7 @@
-"""SSP 1.0 documents of the closed loop: how slider and controller are connected and set.
+"""SSP 1.0 documents of the closed loop: connections and parameters of slider and controller.
 
-Hosts differ in what they read of a package. fmpy takes the connectors of the system for its inputs,
-libcosim refuses them; so the package holds two structures, `SystemStructure.ssd`, and without the
+Hosts read a package in different ways: fmpy takes the connectors of the system as its inputs,
+libcosim refuses them. So the package has two structures: `SystemStructure.ssd`, and without the
 connectors of the system `ComponentsOnly.ssd`.
 """
 
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from fmu_src import __version__
-from fmu_src.python.slider_component.variables import Variable
+from fmu_src.python.slider_component.variable import Variable
 from fmu_src.units import UNITS
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
@@ -25,9 +25,9 @@ _NAMESPACES = {
 
 @dataclass(frozen=True)
 class Connection:
-    """From an output or a connector of the system to an input or a connector of the system.
+    """A connection from an output or system connector to an input or system connector.
 
-    Each end is "component.variable", or the name of a connector of the system alone.
+    Each end is "component.variable", or just the name of a system connector.
     """
 
     start: str
@@ -36,10 +36,10 @@ class Connection:
 
 @dataclass(frozen=True)
 class System:
-    """Components by name, each an FMU with some of its variables, and how they are connected.
+    """Components by name, each an FMU with some of its variables, and their connections.
 
-    `sources` are the paths of the FMUs in the package, `variables` the connectors and parameters of
-    each component that are spoken of, `stop_time` (s) the end of an experiment.
+    `sources` are the paths of the FMUs in the package, `variables` the tables of the components,
+    `stop_time` (s) is the end of an experiment.
     """
 
     name: str
@@ -50,13 +50,13 @@ class System:
     stop_time: float
 
     def variable(self, end: str) -> Variable:
-        """Return the variable at an end "component.variable"; KeyError where there is none."""
+        """Return the variable at an end "component.variable". Raises KeyError if it is unknown."""
         component, _, name = end.partition(".")
         return {v.name: v for v in self.variables[component]}[name]
 
     @property
     def connectors(self) -> dict[str, tuple[str, Variable]]:
-        """Connectors of the system: name -> kind and the variable that it passes on."""
+        """System connectors: name -> kind and the variable that it connects to."""
         found: dict[str, tuple[str, Variable]] = {}
         for connection in self.connections:
             if "." not in connection.start:
@@ -67,10 +67,10 @@ class System:
 
 
 def structure(system: System, *, parameters: str | None = None, connectors: bool = True) -> bytes:
-    """The system as an .ssd document, UTF-8; equal arguments give equal bytes.
+    """Return the system as an .ssd document, UTF-8; equal arguments give equal bytes.
 
-    `parameters` is the path of the parameter set in the package, `connectors` tells whether the
-    system has connectors of its own. Raises KeyError for a connection to what is not there.
+    `parameters` is the path of the parameter set in the package; `connectors` includes the system
+    connectors. Raises KeyError for a connection to an unknown component or variable.
     """
     root = _root("ssd:SystemStructureDescription", system.name, system.description)
     top = ET.SubElement(root, "ssd:System", {"name": system.name})
@@ -93,9 +93,9 @@ def structure(system: System, *, parameters: str | None = None, connectors: bool
 
 
 def parameter_set(system: System, name: str, values: Mapping[str, float]) -> bytes:
-    """Values of parameters, by "component.variable", as an .ssv document, UTF-8.
+    """Return parameter values, by "component.variable", as an .ssv document, UTF-8.
 
-    Raises KeyError for a variable that is not there.
+    Raises KeyError for an unknown component or variable.
     """
     root = _root("ssv:ParameterSet", name, f"Parameters of {system.name}")
     parameters = ET.SubElement(root, "ssv:Parameters")
@@ -112,7 +112,7 @@ def parameter_set(system: System, name: str, values: Mapping[str, float]) -> byt
 
 
 def _used(system: System, component: str) -> list[Variable]:
-    """Outputs, and the inputs that are connected: some hosts set every input connector to 0."""
+    """Return outputs and connected inputs only: some hosts set every input connector to 0."""
     ends = {connection.end for connection in system.connections}
     return [
         v

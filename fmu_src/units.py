@@ -1,4 +1,4 @@
-"""Units of the interface in terms of SI base units, and the display units a host may offer."""
+"""Units of the interface in SI base units, and the display units for hosts."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 class Unit:
     """Exponents of the SI base units, and the factor of each display unit.
 
-    A value shown in a display unit is `factor` times the value in the unit itself.
+    A value in a display unit is `factor` times the value in the unit.
     """
 
     exponents: dict[str, int] = field(default_factory=dict)

@@ -1,1 +1,1 @@
-"""Building the FMUs: what goes in, how it is compiled, and how it is packed."""
+"""Build the FMUs: content, compilation, archives."""

@@ -1,4 +1,4 @@
-"""FMU and SSP files: zip archives whose bytes follow from names and contents only."""
+"""FMU and SSP files: zip archives whose bytes depend on names and contents only."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from fmu_src.building.dates import EPOCH
 
 
 def check_folder(dest: Path) -> None:
-    """Refuse a folder that cannot be created because a file is in its place or in its way."""
+    """Raise BuildError for a folder whose path leads through a file."""
     there = next(path for path in (dest, *dest.parents) if path.exists())
     if not there.is_dir():
-        raise BuildError(f"folder {dest} refused: {there} is a file; allowed is a folder")
+        raise BuildError(f"folder {dest} refused: {there} is a file; must be a folder")
 
 
 def write_archive(dest: Path, model: str, files: Mapping[str, bytes], suffix: str = ".fmu") -> Path:
-    """Write `dest`/`model` with `suffix` and return its path; it appears at once or not at all."""
+    """Write `dest`/`model` with `suffix` and return its path; the file is replaced atomically."""
     dest.mkdir(parents=True, exist_ok=True)
     target = dest / f"{model}{suffix}"
     partial = target.with_suffix(f".{os.getpid()}.partial")
@@ -38,7 +38,7 @@ def _archive(files: Mapping[str, bytes]) -> bytes:
         for name, data in sorted(files.items()):
             entry = zipfile.ZipInfo(name, EPOCH.timetuple()[:6])
             entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.create_system = 3  # Unix, wherever it is built: the permissions below are its
+            entry.create_system = 3  # Unix, on every platform: the permissions below are Unix's
             entry.external_attr = 0o100644 << 16
             archive.writestr(entry, data)
     return buffer.getvalue()

@@ -1,7 +1,7 @@
-"""The error of a build."""
+"""The error of a failed build."""
 
 from __future__ import annotations
 
 
 class BuildError(Exception):
-    """The FMU could not be built; the text says why."""
+    """The FMU cannot be built; the text says why."""

@@ -34,13 +34,13 @@ SYSTEM = System(
 )
 
 PARAMETER_SETS = {"design": 0, "proof": 2}
-"""Parameter set -> fidelity of the slider: averaged motion to design, the full device to prove."""
+"""Parameter set -> fidelity of the slider: averaged motion to design, full device to prove."""
 
 
 def build_closed_loop(dest: Path, slider: Path, controller: Path) -> Path:
     """Write `dest`/ClosedLoop.ssp with the two FMUs and return its path.
 
-    The bytes depend on those of the FMUs only. Raises BuildError where one of them is missing.
+    The bytes depend on those of the FMUs only. Raises BuildError if one of them is missing.
     """
     check_folder(dest)
     fmus = {"controller": controller, "slider": slider}

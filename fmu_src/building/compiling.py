@@ -1,4 +1,4 @@
-"""Compiling the C sources to the binaries of the native FMU."""
+"""Compile the C sources to the binaries of a native FMU."""
 
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ FLAGS = (
     "-ffp-contract=off",
     "-fno-math-errno",
 )
-"""For every compiler. Products and sums are not fused, so that platforms differ only as far as
-their sine and exponential do."""
+"""For every compiler. Without fused products and sums, platforms differ only in their sine and
+exponential."""
 
 LINKING: dict[str, tuple[str, ...]] = {
-    # Elsewhere it is an error anyway when a symbol is defined nowhere.
+    # The other linkers report undefined symbols by default.
     "linux64": ("-s", "-Wl,-z,defs"),
     "win64": ("-s",),
     "darwin64": ("-Wl,-x",),
 }
-"""By platform: no symbols but those that hosts need."""
+"""Linker flags by platform: strip the symbols that hosts do not need."""
 
 
 @dataclass(frozen=True)
 class Compiler:
-    """`command` is the start of its command line; one that `crosses` takes -target."""
+    """`command` begins its command line; a cross-compiler (`crosses`) takes -target."""
 
     command: tuple[str, ...]
     description: str
@@ -50,7 +50,7 @@ class Compiler:
 
 
 def default_compiler() -> Compiler:
-    """The C compiler of the package ziglang. Raises BuildError when it is not installed."""
+    """Return the C compiler of the package ziglang. Raises BuildError if it is not installed."""
     if importlib.util.find_spec("ziglang") is None:
         raise BuildError(
             "ziglang is not installed here; `make setup` installs it, or name a compiler for this "
@@ -61,10 +61,10 @@ def default_compiler() -> Compiler:
 
 
 def named_compiler(name: str) -> Compiler:
-    """A compiler on the search path, or by its path. Raises BuildError when it is not there."""
+    """Return a compiler by its name or path. Raises BuildError if it is not found."""
     found = shutil.which(name)
     if found is None:
-        raise BuildError(f"compiler {name!r} refused: it is not found; allowed is a C compiler")
+        raise BuildError(f"compiler {name!r} refused: it is not found; must be a C compiler")
     return Compiler((str(Path(found).absolute()),), Path(name).stem, False)
 
 
@@ -75,9 +75,9 @@ def compile_binaries(
     compiler: Compiler,
     progress: Callable[[str], None],
 ) -> dict[str, bytes]:
-    """Path in the FMU -> binary for each platform, from C files and headers (path -> bytes).
+    """Compile C files and headers (path -> bytes); return path in the FMU -> binary by platform.
 
-    Raises BuildError with what the compiler says.
+    Raises BuildError with the compiler's messages.
     """
     jobs = [
         (p, target) for p in platforms for target in (p.targets if compiler.crosses else (None,))
@@ -108,7 +108,7 @@ def _compile(
     target: str | None,
     compiler: Compiler,
 ) -> bytes:
-    """One binary. The names that a compiler sees are relative, so that no path gets into it."""
+    """Compile one binary, from relative names, so that it contains no path of this machine."""
     with TemporaryDirectory(prefix="slider_resonator_") as folder:
         for name, data in sources.items():
             path = Path(folder, name)

@@ -1,4 +1,4 @@
-"""What an FMU is made of, and the names that follow from it."""
+"""Content of an FMU, and the names that follow from it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from fmu_src.documentation import ASSETS
 
 
 def digest_of(files: Mapping[str, bytes]) -> str:
-    """SHA-256 (hex) over names and contents, in the order of the names."""
+    """Return the SHA-256 (hex) of names and contents, in the order of the names."""
     digest = hashlib.sha256()
     for name, data in sorted(files.items()):
         for part in (name.encode(), data):
@@ -19,12 +19,12 @@ def digest_of(files: Mapping[str, bytes]) -> str:
 
 
 def guid_of(digest: str) -> str:
-    """The GUID of an FMU whose content has this digest: two different builds never share it."""
+    """Return the GUID of an FMU whose content has this digest; different builds never share it."""
     return str(uuid.UUID(hex=digest[:32]))
 
 
 def icon_and_licences(*licences: str) -> dict[str, bytes]:
-    """Path in the FMU -> bytes of the icon and of these licences of `assets/licenses`."""
+    """Return path in the FMU -> bytes of the icon and of licences from `assets/licenses`."""
     files = {"model.png": (ASSETS / "model.png").read_bytes()}
     for name in licences:
         files[f"documentation/licenses/{name}"] = (ASSETS / "licenses" / name).read_bytes()

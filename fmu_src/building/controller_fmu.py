@@ -1,4 +1,4 @@
-"""The velocity controller's FMU: its own law behind the files that speak FMI for the slider."""
+"""The velocity controller's FMU: its own law behind the FMI functions of the slider."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from fmu_src.building.native_fmu import NativeModel, build_model, read_sources
-from fmu_src.c_header import C_SOURCES, CONTROLLER_SOURCES
-from fmu_src.controller.variables import INITIAL_DEPENDENCIES, VARIABLES
+from fmu_src.controller.variables import VARIABLES
+from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
 
 MODEL = "VelocityController"
 
@@ -15,16 +15,18 @@ DESCRIPTION = "Holds the velocity of the slider with an embedded resonator by mo
 
 SHELL = (
     "component_functions.h",
+    "constants.h",
     "experiment.[ch]",
     "fmi2*.[ch]",
     "instance.[ch]",
     "lifecycle.h",
     "model_guid.h",
     "refusal.[ch]",
+    "refusal_texts.h",
     "state_bytes.[ch]",
     "values.[ch]",
 )
-"""The slider's C files that know FMI and a table of variables, but nothing of the slider."""
+"""The slider's C files that serve any table of variables."""
 
 
 def build_controller(
@@ -44,7 +46,6 @@ def build_controller(
         MODEL,
         read_sources(C_SOURCES, SHELL) | own,
         {"about": DESCRIPTION, "variables": VARIABLES},
-        INITIAL_DEPENDENCIES,
         "controller_page.html",
     )
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)

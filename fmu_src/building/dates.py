@@ -1,4 +1,4 @@
-"""The date in a model description: that of SOURCE_DATE_EPOCH, never that of the build."""
+"""The date in a model description: SOURCE_DATE_EPOCH, never the time of the build."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from datetime import UTC, datetime
 from fmu_src.building.build_error import BuildError
 
 EPOCH = datetime(1980, 1, 1, tzinfo=UTC)
-"""The first moment that a zip archive can express."""
+"""The earliest time in a zip archive."""
 
 
 def date_of_build() -> datetime:
-    """What SOURCE_DATE_EPOCH says (seconds since 1970-01-01), else EPOCH. Raises BuildError."""
+    """Return SOURCE_DATE_EPOCH (seconds since 1970-01-01), by default EPOCH. Raises BuildError."""
     seconds = os.environ.get("SOURCE_DATE_EPOCH")
     if seconds is None:
         return EPOCH
@@ -22,11 +22,11 @@ def date_of_build() -> datetime:
         return datetime.fromtimestamp(int(seconds), UTC)
     except (ValueError, OverflowError, OSError):
         raise BuildError(
-            f"SOURCE_DATE_EPOCH = {seconds!r} refused: allowed is a whole number of seconds "
-            "since 1970-01-01, not below 0"
+            f"SOURCE_DATE_EPOCH = {seconds!r} refused: must be a whole number of seconds since "
+            "1970-01-01, at least 0"
         ) from None
 
 
 def date_text(date: datetime) -> str:
-    """As FMI writes dates."""
+    """Return the date in FMI's notation."""
     return date.strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -1,4 +1,4 @@
-"""Native FMUs: compiled for every platform, and as source code."""
+"""Native FMUs: binaries for every platform, with their source code."""
 
 from __future__ import annotations
 
@@ -20,11 +20,10 @@ from fmu_src.building.compiling import (
 from fmu_src.building.content import digest_of, guid_of, icon_and_licences
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.building.platforms import HOST, host_platform, platforms_named
-from fmu_src.c_header import C_SOURCES
 from fmu_src.documentation import documentation_page
-from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
 from fmu_src.model_description import DESCRIPTION, model_description
 from fmu_src.python.slider_component.variables import VARIABLES
+from fmu_src.sources import C_SOURCES
 
 MODEL = "SliderResonator"
 
@@ -34,16 +33,15 @@ _NO_GUID = "00000000-0000-0000-0000-000000000000"
 
 @dataclass(frozen=True)
 class NativeModel:
-    """What a native FMU is made of, besides what all have in common.
+    """What distinguishes one native FMU from another.
 
-    `code` is its C sources, path in the folder `sources` -> bytes. `details` go to both the model
-    description and the documentation page, `initial_dependencies` and `page` to one of them.
+    `code` is its C sources: path in the folder `sources` -> bytes. `details` are arguments of both
+    the model description and the documentation page, `page` of the page alone.
     """
 
     name: str
     code: Mapping[str, bytes]
     details: Mapping[str, Any]
-    initial_dependencies: Mapping[str, Sequence[str]]
     page: str
 
 
@@ -55,13 +53,10 @@ def build_native(
     sources: Path = C_SOURCES,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Path:
-    """Build the native slider in the folder `dest`; `sources` is the folder with the C code.
-
-    As `build_model` otherwise.
-    """
+    """Build the native slider from the C code in `sources`; otherwise like `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
     code = read_sources(sources)
-    model = NativeModel(MODEL, code, about, INITIAL_DEPENDENCIES, "page.html")
+    model = NativeModel(MODEL, code, about, "page.html")
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
 
@@ -75,11 +70,12 @@ def build_model(
 ) -> Path:
     """Build a native FMU in the folder `dest` (created if missing) and return its path.
 
-    `platforms` are names of FMI 2.0 or `host`; none stand for all, or with a `compiler` for `host`.
-    That is a C compiler for the platform of this machine, by default ziglang, which compiles for
-    all. The bytes depend on the sources, the compiler and the version of zlib, and on the
-    environment variable SOURCE_DATE_EPOCH, which sets the date in the description; for macOS zig's
-    linker leaves chance bytes in the padding besides. The file appears at once or not at all.
+    `platforms` are names of FMI 2.0 or `host`; none means all, or `host` with a `compiler`. The
+    default compiler is ziglang, which compiles for all; `compiler` is one for this machine.
+
+    The file is replaced atomically. Its bytes depend on the sources, the compiler, the version of
+    zlib and the environment variable SOURCE_DATE_EPOCH, which sets the date in the description; for
+    macOS zig's linker leaves random bytes in the padding.
 
     Raises BuildError.
     """
@@ -90,7 +86,7 @@ def build_model(
     if compiler is not None and chosen != [host_platform()]:
         names = ", ".join(p.name for p in chosen)
         raise BuildError(
-            f"compiler {compiler!r} refused for {names}: allowed is {host_platform().name}, the "
+            f"compiler {compiler!r} refused for {names}: must be {host_platform().name}, the "
             "platform of this machine; ziglang compiles for the others"
         )
     code = dict(model.code)
@@ -114,9 +110,9 @@ def build_model(
 
 
 def read_sources(folder: Path, patterns: Sequence[str] = ("*.c", "*.h")) -> dict[str, bytes]:
-    """Path below the folder -> bytes of the C files and headers that match one of the patterns.
+    """Return path below the folder -> bytes of C files and headers that match one of the patterns.
 
-    Raises BuildError where the header of the GUID is not among them.
+    Raises BuildError if the header of the GUID is not among them.
     """
     code = {
         path.relative_to(folder).as_posix(): path.read_bytes()
@@ -146,6 +142,5 @@ def _description(model: NativeModel, tool: str, guid: str, generated: datetime) 
         generated=date_text(generated),
         host_manages_memory=True,
         source_files=[name for name in sorted(model.code) if name.endswith(".c")],
-        initial_dependencies=model.initial_dependencies,
         **model.details,
     )

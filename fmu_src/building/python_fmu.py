@@ -19,20 +19,19 @@ from fmu_src.building.content import digest_of, guid_of, icon_and_licences
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.documentation import documentation_page
 from fmu_src.model_description import model_description
+from fmu_src.sources import PACKAGE, PYTHON_SOURCES
 
-PYTHON_SOURCES = Path(__file__).resolve().parents[1] / "python"
-PACKAGE = PYTHON_SOURCES / "slider_component"
 SCRIPT = PYTHON_SOURCES / "slider_resonator_py.py"
 MODEL = "SliderResonatorPy"
 
 
 @dataclass(frozen=True)
 class _Content:
-    """What the FMU is made of, apart from the files that pythonfmu adds: path -> bytes.
+    """Content of the FMU besides the files that pythonfmu adds: path -> bytes.
 
     `digest` (hex, SHA-256) covers the package, the description without its GUID and date, and the
-    documentation: the name of the package and the GUID follow from it, so that two different
-    builds never share modules when one process loads both.
+    documentation. The names of package and script and the GUID follow from it, so that different
+    builds in one process never share modules.
     """
 
     package: Mapping[str, bytes]
@@ -54,9 +53,9 @@ class _Content:
 def build_python(dest: Path, package: Path = PACKAGE) -> Path:
     """Build the Python FMU in the folder `dest` (created if missing) and return its path.
 
-    The bytes depend on the sources, on the versions of pythonfmu and of zlib, and on the
-    environment variable SOURCE_DATE_EPOCH, which sets the date in the description. The file appears
-    at once or not at all. `package` is the component, a folder with Python modules.
+    The file is replaced atomically. Its bytes depend on the sources, on the versions of pythonfmu
+    and of zlib, and on the environment variable SOURCE_DATE_EPOCH, which sets the date in the
+    description. `package` is the folder with the modules of the component.
 
     Raises BuildError.
     """
@@ -90,7 +89,7 @@ def _collect(package: Path) -> _Content:
 
 
 def _run_pythonfmu(content: _Content) -> dict[str, bytes]:
-    """The files of the FMU that pythonfmu makes, by their path in the archive."""
+    """Return path in the archive -> bytes of the files that pythonfmu makes."""
     with tempfile.TemporaryDirectory(prefix="slider_resonator_") as folder:
         stage, out = Path(folder, "stage"), Path(folder, "out")
         for name, data in content.package.items():
@@ -102,8 +101,8 @@ def _run_pythonfmu(content: _Content) -> dict[str, bytes]:
         inside = text.replace("from slider_component.", f"from {content.package_name}.")
         script.write_bytes(inside.encode())
         out.mkdir()
-        # pythonfmu imports the script and runs it: in a process of its own, that of the caller
-        # keeps its modules and its search path.
+        # pythonfmu imports and runs the script: in a separate process, so that modules and search
+        # path of this one do not change.
         command = [sys.executable, "-B", "-m", "pythonfmu", "build", "--no-external-tool"]
         command += ["-f", str(script), "-d", str(out), str(stage / content.package_name)]
         done = subprocess.run(command, cwd=stage, capture_output=True, text=True, check=False)

@@ -1,4 +1,4 @@
-"""One macOS library for several processors: a header in front of a library for each."""
+"""One macOS library for several processors: a header, then a library for each."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ _ALIGNMENT = 14  # as a power of two: pages of 16 kB
 
 
 def universal_binary(libraries: Sequence[bytes]) -> bytes:
-    """The libraries (64-bit Mach-O, one per processor) as one file.
+    """Join libraries (64-bit Mach-O, one per processor) to one file.
 
-    Raises ValueError when one is something else.
+    Raises ValueError for anything else.
     """
     page = 1 << _ALIGNMENT
     header = struct.pack(">II", _MAGIC, len(libraries))
@@ -21,7 +21,7 @@ def universal_binary(libraries: Sequence[bytes]) -> bytes:
     for library in libraries:
         magic, processor, variant = struct.unpack_from("<III", library)
         if magic != _THIN_MAGIC:
-            raise ValueError(f"a library that begins with {magic:#x}: allowed is {_THIN_MAGIC:#x}")
+            raise ValueError(f"a library begins with {magic:#x}: must be {_THIN_MAGIC:#x}")
         body += b"\0" * (-len(body) % page)
         offset = page + len(body)
         header += struct.pack(">IIIII", processor, variant, offset, len(library), _ALIGNMENT)

@@ -3,11 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "constants.h"
+#include "refusal_texts.h"
 #include "state.h"
 #include "values.h"
-
-/* Turns of the fastest oscillation in one step up to which its work is accepted. */
-#define MAX_TURNS 1e8
 
 static bool all_finite(const double *numbers, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -30,28 +29,27 @@ static bool law_is_finite(const Law *law) {
     return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
 }
 
-/* Refuses values that together leave the range of floating point numbers: names the one that is most
- * decades away from its start. */
+/* Refuse values that together leave the range of floating point numbers; the text names the one that
+ * is most decades away from its start. */
 static bool refuse_extreme(const double values[SETTABLE_COUNT], Refusal *refusal) {
-    size_t most = 0;
-    double furthest = -1.0;
+    size_t furthest = 0;
+    double largest = -1.0;
     for (size_t i = 0; i < SETTABLE_COUNT; i++) {
         double start = VARIABLES[i].start != 0.0 ? VARIABLES[i].start : 1.0;
         double distance = values[i] != 0.0 ? fabs(log10(fabs(values[i])) - log10(start)) : 0.0;
-        if (distance > furthest) {
-            furthest = distance;
-            most = i;
+        if (distance > largest) {
+            largest = distance;
+            furthest = i;
         }
     }
     char value[NUMBER_SIZE], start[NUMBER_SIZE];
-    const Variable *variable = &VARIABLES[most];
-    return refuse(refusal, "%s = %s refused: together with the other values it leaves the range of "
-                  "floating point numbers; allowed is one nearer to %s", variable->name,
-                  value_text(variable, values[most], value),
-                  value_text(variable, variable->start, start));
+    const Variable *variable = &VARIABLES[furthest];
+    return refuse_extreme_value(refusal, variable->name,
+                                value_text(variable, values[furthest], value),
+                                value_text(variable, variable->start, start));
 }
 
-/* Prepares the law of `values` beside the present one, and makes it the present one if it can. */
+/* Prepare the law of `values` beside the present one, which it replaces unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
     Device device = device_of(values);
@@ -82,9 +80,7 @@ void component_reset(Component *component) {
     component->now.lifecycle = INSTANTIATED;
     component->now.stop_time = INFINITY;
     component->prepared = false;
-    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
-        component->now.values[i] = VARIABLES[i].start;
-    }
+    start_values(component->now.values);
 }
 
 bool component_setup_experiment(Component *component, const Experiment *experiment,
@@ -127,20 +123,17 @@ bool component_terminate(Component *component, Refusal *refusal) {
 
 bool component_set(Component *component, const unsigned *references, const double *values,
                    size_t count, Refusal *refusal) {
-    bool changes = false;
-    for (size_t i = 0; i < count; i++) {
-        if (!setting_check(component->now.lifecycle, references[i], values[i], refusal)) {
-            return false;
-        }
-        changes = changes || values[i] != component->now.values[references[i]];
-    }
-    if (!changes) {
-        return true;
-    }
     double changed[SETTABLE_COUNT];
     memcpy(changed, component->now.values, sizeof changed);
+    if (!change_values(changed, component->now.lifecycle, references, values, count, refusal)) {
+        return false;
+    }
+    bool same = true;
     for (size_t i = 0; i < count; i++) {
-        changed[references[i]] = values[i];
+        same = same && values[i] == component->now.values[references[i]];
+    }
+    if (same) {
+        return true;
     }
     bool running = component->now.lifecycle == STEP_COMPLETE;
     if (running && !prepare(component, changed, refusal)) {
@@ -151,16 +144,11 @@ bool component_set(Component *component, const unsigned *references, const doubl
     return true;
 }
 
-/* The moment that outputs are read from: before the end of initialization the one to come, which is
- * put into `first`. */
+/* The moment that outputs are read from: until initialization ends the first one, put into `first`. */
 static bool moment_to_read(Component *component, unsigned reference, Moment *first,
                            const Moment **moment, Refusal *refusal) {
-    if (component->now.lifecycle == INSTANTIATED) {
-        return refuse(refusal, "reading %s refused in state '%s': allowed in '%s'",
-                      VARIABLES[reference].name, lifecycle_name(INSTANTIATED),
-                      lifecycle_name(INITIALIZATION));
-    }
-    if (!prepare_present(component, refusal)) {
+    if (!reading_check(component->now.lifecycle, reference, refusal)
+        || !prepare_present(component, refusal)) {
         return false;
     }
     *moment = &component->now.moment;
@@ -187,21 +175,14 @@ bool component_get(Component *component, const unsigned *references, double *val
         found[i] = output_value(references[i], present_law(component), moment,
                                 component->now.last_event_time, &component->theory);
     }
-    for (size_t i = 0; i < count; i++) {
-        values[i] = found[i];
-    }
+    memcpy(values, found, count * sizeof *values);
     return true;
 }
 
 static bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
     double frequency = LONGEST_ARC / law->held.arc;
-    if (law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)) {
-        return true;
-    }
-    char size[NUMBER_SIZE], fastest[NUMBER_SIZE];
-    return refuse(refusal, "doStep: communicationStepSize = %s refused: the fastest oscillation "
-                  "has %s rad/s; allowed is a step of at most %g turns of it",
-                  number_text(step_size, size), number_text(frequency, fastest), MAX_TURNS);
+    return law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)
+           || refuse_too_many_turns(refusal, step_size, frequency);
 }
 
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
@@ -219,10 +200,7 @@ bool component_step(Component *component, double time, double step_size, Refusal
                               after.state.rate, after.theta,          after.psi,
                               end};
     if (!all_finite(reached, sizeof reached / sizeof reached[0])) {
-        char text[NUMBER_SIZE];
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: the motion leaves the "
-                      "range of floating point numbers; allowed are smaller forces, frequencies or "
-                      "steps", number_text(step_size, text));
+        return refuse_infinite_motion(refusal, step_size);
     }
     if (after.event_age <= step_size) {
         now->last_event_time = time + (step_size - after.event_age);

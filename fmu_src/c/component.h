@@ -1,4 +1,4 @@
-/* The component between numerics and FMI: values by reference, time, initialization, steps. */
+/* The component between numerics and FMI: values by reference, lifecycle, steps. */
 #ifndef SLIDER_COMPONENT_H
 #define SLIDER_COMPONENT_H
 
@@ -12,9 +12,9 @@
 #include "refusal.h"
 #include "snapshot.h"
 
-/* A slider-resonator. `now` is all that decides how a run goes on. The rest follows from it and is
- * kept beside: the law of the present values (where `prepared`) in one of two places, so that the
- * next one can be tried in the other. A component must not move: its laws point to its table. */
+/* A slider-resonator. `now` is its complete state; the rest is a cache of what follows from it:
+ * laws[present] is the law of the present values where `prepared`, the other place serves to try the
+ * next one. A component must not move in memory: its laws point to its table. */
 typedef struct {
     Snapshot now;
     bool prepared;

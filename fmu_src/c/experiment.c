@@ -2,48 +2,38 @@
 
 #include <math.h>
 
-/* Share of a step by which hosts may round their own time. */
-#define TIME_SLACK 1e-6
+#include "constants.h"
+#include "refusal_texts.h"
 
 double experiment_end(const Experiment *experiment) {
     return experiment->stop_time_defined ? experiment->stop_time : INFINITY;
 }
 
 bool experiment_check(const Experiment *experiment, Refusal *refusal) {
-    char text[NUMBER_SIZE], start[NUMBER_SIZE];
-    double stop_time = experiment_end(experiment);
+    double stop_time = experiment_end(experiment), tolerance = experiment->tolerance;
     if (!isfinite(experiment->start_time)) {
-        return refuse(refusal, "startTime = %s refused: allowed is a finite number",
-                      number_text(experiment->start_time, text));
+        return refuse_bad_start_time(refusal, experiment->start_time);
     }
     if (!(stop_time >= experiment->start_time)) {
-        return refuse(refusal, "stopTime = %s refused: allowed is a number from startTime = %s on",
-                      number_text(stop_time, text), number_text(experiment->start_time, start));
+        return refuse_bad_stop_time(refusal, stop_time, experiment->start_time);
     }
-    if (experiment->tolerance_defined
-        && !(isfinite(experiment->tolerance) && experiment->tolerance > 0.0)) {
-        return refuse(refusal, "tolerance = %s refused: allowed is a finite number above 0",
-                      number_text(experiment->tolerance, text));
+    if (experiment->tolerance_defined && !(isfinite(tolerance) && tolerance > 0.0)) {
+        return refuse_bad_tolerance(refusal, tolerance);
     }
     return true;
 }
 
 bool step_check(double now, double stop_time, double time, double step_size, Refusal *refusal) {
-    char given[NUMBER_SIZE], allowed[NUMBER_SIZE];
     if (!(isfinite(step_size) && step_size > 0.0)) {
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a finite "
-                      "number above 0", number_text(step_size, given));
+        return refuse_bad_step_size(refusal, step_size);
     }
     double spacing = nextafter(fabs(now), INFINITY) - fabs(now);
     double slack = TIME_SLACK * step_size + 4.0 * spacing;
     if (!(fabs(time - now) <= slack)) {
-        return refuse(refusal, "doStep: currentCommunicationPoint = %s refused: allowed is the "
-                      "present time %s", number_text(time, given), number_text(now, allowed));
+        return refuse_bad_step_start(refusal, time, now);
     }
-    if (time + step_size > stop_time + slack + 1e-9 * fabs(stop_time)) {
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a step up "
-                      "to stopTime = %s", number_text(step_size, given),
-                      number_text(stop_time, allowed));
+    if (time + step_size > stop_time + slack + STOP_TIME_SLACK * fabs(stop_time)) {
+        return refuse_step_beyond_stop(refusal, step_size, stop_time);
     }
     return true;
 }

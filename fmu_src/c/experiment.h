@@ -1,4 +1,4 @@
-/* The time of a run, as FMI has it: what a host says of an experiment, and of each step. */
+/* The times of an experiment and of its steps, as FMI defines them. */
 #ifndef SLIDER_EXPERIMENT_H
 #define SLIDER_EXPERIMENT_H
 
@@ -6,7 +6,7 @@
 
 #include "refusal.h"
 
-/* Start and stop time [s] and tolerance of an experiment, as far as they are defined. */
+/* Start time [s], and stop time [s] and tolerance where they are defined. */
 typedef struct {
     double start_time;
     bool stop_time_defined;
@@ -15,14 +15,14 @@ typedef struct {
     double tolerance;
 } Experiment;
 
-/* The stop time [s], infinite where it is open. */
+/* The stop time [s]; infinite if it is open. */
 double experiment_end(const Experiment *experiment);
 
-/* Refuses times and tolerances that make no sense. */
+/* Refuse times that are not finite or in the wrong order, and a tolerance that is not above 0. */
 bool experiment_check(const Experiment *experiment, Refusal *refusal);
 
-/* Refuses a step from `time` that is none, does not continue from the present time `now`, or goes
- * beyond `stop_time`, all in s. */
+/* Refuse a step of `step_size` that is not above 0, does not start at the present time `now`, or ends
+ * after `stop_time`, all in s. */
 bool step_check(double now, double stop_time, double time, double step_size, Refusal *refusal);
 
 #endif

@@ -1,7 +1,7 @@
-/* FMI 2.0: what concerns an instance as a whole.
+/* FMI 2.0: functions for an instance as a whole.
  *
- * A refused call is answered with fmi2Error and leaves the instance as it was, ready for more. The
- * answer is never fmi2Discard, which hosts take for a wish to end the run early. */
+ * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. It
+ * never returns fmi2Discard, which hosts take for a request to end the run early. */
 #include <string.h>
 
 #include "instance.h"
@@ -18,22 +18,22 @@ const char *fmi2GetVersion(void) {
 static bool instantiation_check(const char *name, fmi2Type type, const char *guid,
                                 Refusal *refusal) {
     if (name == NULL || name[0] == '\0') {
-        return refuse(refusal, "fmi2Instantiate: instanceName refused: it is %s; allowed is a name",
+        return refuse(refusal, "fmi2Instantiate: instanceName refused: it is %s; must be a name",
                       name == NULL ? "a null pointer" : "empty");
     }
     if (type != fmi2CoSimulation) {
-        return refuse(refusal, "fmi2Instantiate: fmuType = %d refused: allowed is %d, "
+        return refuse(refusal, "fmi2Instantiate: fmuType = %d refused: must be %d, "
                       "fmi2CoSimulation", (int)type, (int)fmi2CoSimulation);
     }
     if (guid == NULL || strcmp(guid, MODEL_GUID) != 0) {
-        return refuse(refusal, "fmi2Instantiate: fmuGUID = '%.80s' refused: allowed is '%s'; the "
+        return refuse(refusal, "fmi2Instantiate: fmuGUID = '%.80s' refused: must be '%s'; the "
                       "model description is of another build",
                       guid == NULL ? "(null)" : guid, MODEL_GUID);
     }
     return true;
 }
 
-/* A refused instantiation is reported in any case: the host has nothing else that tells it why. */
+/* Reports a refusal even with logging off: nothing else tells the host why. */
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
                               fmi2String fmuResourceLocation,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible,
@@ -53,7 +53,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
             memset(instance, 0, sizeof *instance);
             memcpy(instance->name, name, length + 1);
             instance->host = *functions;
-            want_first_messages(instance, loggingOn != fmi2False);
+            enable_initial_messages(instance, loggingOn != fmi2False);
             component_reset(&instance->component);
             return instance;
         }
@@ -78,20 +78,20 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nC
         return fmi2Error;
     }
     bool before[CATEGORY_COUNT];
-    memcpy(before, instance->wanted, sizeof before);
+    memcpy(before, instance->enabled, sizeof before);
     bool known = nCategories <= CATEGORY_COUNT && (nCategories == 0 || categories != NULL);
     if (!known) {
-        refuse(&refusal, "fmi2SetDebugLogging: nCategories = %lu refused: allowed is 0 to %d, with "
-               "as many categories", (unsigned long)nCategories, CATEGORY_COUNT);
+        refuse(&refusal, "fmi2SetDebugLogging: nCategories = %lu refused: must be from 0 to %d, "
+               "with as many categories", (unsigned long)nCategories, CATEGORY_COUNT);
     }
-    want_all_messages(instance, loggingOn != fmi2False && nCategories == 0);
+    enable_all_messages(instance, loggingOn != fmi2False && nCategories == 0);
     for (size_t i = 0; known && i < nCategories; i++) {
-        known = want_messages(instance, categories[i], &refusal);
+        known = enable_messages(instance, categories[i], &refusal);
     }
     if (!known) {
-        memcpy(instance->wanted, before, sizeof before);
+        memcpy(instance->enabled, before, sizeof before);
     } else if (loggingOn == fmi2False) {
-        want_all_messages(instance, false);
+        enable_all_messages(instance, false);
     }
     return answer(instance, known, &refusal);
 }
@@ -110,33 +110,25 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
     return answer(instance, done, &refusal);
 }
 
-fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
+static fmi2Status change_lifecycle(fmi2Component c, bool (*change)(Component *, Refusal *)) {
     Instance *instance = c;
     Refusal refusal;
     if (instance == NULL) {
         return fmi2Error;
     }
-    bool done = component_enter_initialization(&instance->component, &refusal);
-    return answer(instance, done, &refusal);
+    return answer(instance, change(&instance->component, &refusal), &refusal);
+}
+
+fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
+    return change_lifecycle(c, component_enter_initialization);
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
-    Instance *instance = c;
-    Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = component_exit_initialization(&instance->component, &refusal);
-    return answer(instance, done, &refusal);
+    return change_lifecycle(c, component_exit_initialization);
 }
 
 fmi2Status fmi2Terminate(fmi2Component c) {
-    Instance *instance = c;
-    Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    return answer(instance, component_terminate(&instance->component, &refusal), &refusal);
+    return change_lifecycle(c, component_terminate);
 }
 
 fmi2Status fmi2Reset(fmi2Component c) {

@@ -1,5 +1,5 @@
-/* FMI 2.0 for model exchange, which this FMU does not offer: some hosts look all functions up when
- * they load an FMU, so they are there, and refuse. */
+/* FMI 2.0 for model exchange, which this FMU refuses. Some hosts look up all functions when they load
+ * an FMU, so they must exist. */
 #include "instance.h"
 
 static fmi2Status refuse_model_exchange(fmi2Component c, const char *call) {

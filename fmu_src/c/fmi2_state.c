@@ -1,19 +1,19 @@
-/* FMI 2.0: getting, setting and serialising the complete state. An fmi2FMUstate is a Snapshot. */
+/* FMI 2.0: get, set and serialise the complete state. An fmi2FMUstate is a Snapshot. */
 #include <string.h>
 
 #include "instance.h"
 #include "snapshot.h"
 
-/* Refuses null pointers, by the name of the argument. */
+/* Refuse a null pointer; the text names the argument. */
 static bool pointer_check(const char *call, const char *argument, const void *pointer,
                           Refusal *refusal) {
     return pointer != NULL
-           || refuse(refusal, "%s: %s refused: it is a null pointer; allowed is one to %s", call,
+           || refuse(refusal, "%s: %s refused: it is a null pointer; must point to %s", call,
                      argument, strcmp(argument, "FMUstate") == 0 ? "a state" : "memory");
 }
 
-/* Puts a copy of `snapshot` into *FMUstate, which is made if there is none yet. */
-static bool hand_out(const Instance *instance, const Snapshot *snapshot, const char *call,
+/* Copy `snapshot` to *FMUstate; allocate it where it is NULL. */
+static bool copy_out(const Instance *instance, const Snapshot *snapshot, const char *call,
                      fmi2FMUstate *FMUstate, Refusal *refusal) {
     if (*FMUstate == NULL) {
         *FMUstate = host_allocate(&instance->host, sizeof *snapshot);
@@ -32,7 +32,7 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
         return fmi2Error;
     }
     bool done = pointer_check("fmi2GetFMUstate", "FMUstate", FMUstate, &refusal)
-                && hand_out(instance, &instance->component.now, "fmi2GetFMUstate", FMUstate,
+                && copy_out(instance, &instance->component.now, "fmi2GetFMUstate", FMUstate,
                             &refusal);
     return answer(instance, done, &refusal);
 }
@@ -85,7 +85,7 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate,
                 && pointer_check("fmi2SerializeFMUstate", "serializedState", serializedState,
                                  &refusal);
     if (done && size != snapshot_size()) {
-        done = refuse(&refusal, "fmi2SerializeFMUstate: size = %lu refused: allowed is %lu",
+        done = refuse(&refusal, "fmi2SerializeFMUstate: size = %lu refused: must be %lu",
                       (unsigned long)size, (unsigned long)snapshot_size());
     }
     if (done) {
@@ -106,6 +106,6 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedSta
                               &refusal)
                 && pointer_check("fmi2DeSerializeFMUstate", "FMUstate", FMUstate, &refusal)
                 && snapshot_read(&snapshot, (const unsigned char *)serializedState, size, &refusal)
-                && hand_out(instance, &snapshot, "fmi2DeSerializeFMUstate", FMUstate, &refusal);
+                && copy_out(instance, &snapshot, "fmi2DeSerializeFMUstate", FMUstate, &refusal);
     return answer(instance, done, &refusal);
 }

@@ -1,4 +1,4 @@
-/* FMI 2.0 for co-simulation: steps, their status, and what this FMU does not offer. */
+/* FMI 2.0 for co-simulation: steps, their status, and functions that this FMU does not offer. */
 #include "instance.h"
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
@@ -44,21 +44,21 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
                        "(providesDirectionalDerivative is false)");
 }
 
-/* FMI 2.0 answers fmi2Discard where a status is not known; no run is ended by that. */
-static fmi2Status no_such_status(fmi2Component c, const char *text) {
+/* FMI 2.0 demands fmi2Discard for an unknown status; no run ends because of it. */
+static fmi2Status unknown_status(fmi2Component c, const char *text) {
     return c == NULL ? fmi2Error : report(c, fmi2Discard, text);
 }
 
-static fmi2Status no_place(fmi2Component c) {
-    return not_offered(c, "the inquiry of a status refused: its place is a null pointer");
+static fmi2Status refuse_null_status(fmi2Component c) {
+    return not_offered(c, "status refused: value is a null pointer; must point to memory");
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value) {
     if (c == NULL || value == NULL) {
-        return no_place(c);
+        return refuse_null_status(c);
     }
     if (s != fmi2DoStepStatus) {
-        return no_such_status(c, "fmi2GetStatus: known is fmi2DoStepStatus only");
+        return unknown_status(c, "fmi2GetStatus: the kind must be fmi2DoStepStatus");
     }
     *value = ((const Instance *)c)->last_step;
     return fmi2OK;
@@ -66,10 +66,10 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *va
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value) {
     if (c == NULL || value == NULL) {
-        return no_place(c);
+        return refuse_null_status(c);
     }
     if (s != fmi2LastSuccessfulTime) {
-        return no_such_status(c, "fmi2GetRealStatus: known is fmi2LastSuccessfulTime only");
+        return unknown_status(c, "fmi2GetRealStatus: the kind must be fmi2LastSuccessfulTime");
     }
     *value = ((const Instance *)c)->component.now.time;
     return fmi2OK;
@@ -78,17 +78,17 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value) {
     (void)s;
     if (c == NULL || value == NULL) {
-        return no_place(c);
+        return refuse_null_status(c);
     }
-    return no_such_status(c, "fmi2GetIntegerStatus: there is none");
+    return unknown_status(c, "fmi2GetIntegerStatus: there is no such status");
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value) {
     if (c == NULL || value == NULL) {
-        return no_place(c);
+        return refuse_null_status(c);
     }
     if (s != fmi2Terminated) {
-        return no_such_status(c, "fmi2GetBooleanStatus: known is fmi2Terminated only");
+        return unknown_status(c, "fmi2GetBooleanStatus: the kind must be fmi2Terminated");
     }
     *value = fmi2False;
     return fmi2OK;
@@ -97,7 +97,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boo
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value) {
     (void)s;
     if (c == NULL || value == NULL) {
-        return no_place(c);
+        return refuse_null_status(c);
     }
-    return no_such_status(c, "fmi2GetStringStatus: there is none, no step is ever pending");
+    return unknown_status(c, "fmi2GetStringStatus: there is no such status, no step is ever pending");
 }

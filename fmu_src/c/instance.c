@@ -22,26 +22,26 @@ void host_free(const fmi2CallbackFunctions *host, void *memory) {
     }
 }
 
-void want_all_messages(Instance *instance, bool wanted) {
+void enable_all_messages(Instance *instance, bool enabled) {
     for (int category = 0; category < CATEGORY_COUNT; category++) {
-        instance->wanted[category] = wanted;
+        instance->enabled[category] = enabled;
     }
 }
 
-void want_first_messages(Instance *instance, bool debugging) {
-    want_all_messages(instance, debugging);
-    instance->wanted[STATUS_ERROR] = instance->wanted[STATUS_FATAL] = true;
+void enable_initial_messages(Instance *instance, bool debugging) {
+    enable_all_messages(instance, debugging);
+    instance->enabled[STATUS_ERROR] = instance->enabled[STATUS_FATAL] = true;
 }
 
-bool want_messages(Instance *instance, const char *category, Refusal *refusal) {
+bool enable_messages(Instance *instance, const char *category, Refusal *refusal) {
     for (int known = 0; category != NULL && known < CATEGORY_COUNT; known++) {
         if (strcmp(category, CATEGORIES[known]) == 0) {
-            instance->wanted[known] = true;
+            instance->enabled[known] = true;
             return true;
         }
     }
-    return refuse(refusal, "fmi2SetDebugLogging: category '%.80s' refused: allowed are %s, %s, %s, "
-                  "%s, %s", category == NULL ? "(null)" : category, CATEGORIES[STATUS_WARNING],
+    return refuse(refusal, "fmi2SetDebugLogging: category '%.80s' refused: must be one of %s, %s, "
+                  "%s, %s, %s", category == NULL ? "(null)" : category, CATEGORIES[STATUS_WARNING],
                   CATEGORIES[STATUS_DISCARD], CATEGORIES[STATUS_ERROR], CATEGORIES[STATUS_FATAL],
                   CATEGORIES[ALL_MESSAGES]);
 }
@@ -61,7 +61,7 @@ static Category category_of(fmi2Status status) {
     }
 }
 
-/* The logger takes a format, in which % and # stand for something else unless they are doubled. */
+/* The logger takes a format, in which % and # have a meaning unless they are doubled. */
 static void double_specials(const char *text, char *format, size_t size) {
     size_t length = 0;
     for (; *text != '\0' && length + 2 < size; text++) {
@@ -85,7 +85,7 @@ void send_message(const fmi2CallbackFunctions *host, const char *instance_name, 
 }
 
 fmi2Status report(const Instance *instance, fmi2Status status, const char *text) {
-    if (instance->wanted[category_of(status)] || instance->wanted[ALL_MESSAGES]) {
+    if (instance->enabled[category_of(status)] || instance->enabled[ALL_MESSAGES]) {
         send_message(&instance->host, instance->name, status, text);
     }
     return status;

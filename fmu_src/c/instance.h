@@ -9,7 +9,7 @@
 #include "fmi2/fmi2Functions.h"
 #include "refusal.h"
 
-/* The categories of messages, as the model description lists them. */
+/* The log categories, in the order of the model description. */
 typedef enum {
     STATUS_WARNING,
     STATUS_DISCARD,
@@ -19,40 +19,40 @@ typedef enum {
     CATEGORY_COUNT
 } Category;
 
-/* `wanted` tells the categories that the host asked for. */
+/* `enabled` are the log categories that the host asked for. */
 typedef struct {
     Component component;
     fmi2CallbackFunctions host;
-    bool wanted[CATEGORY_COUNT];
+    bool enabled[CATEGORY_COUNT];
     fmi2Status last_step;
-    char name[]; /* ended by 0 */
+    char name[]; /* ends with 0 */
 } Instance;
 
-/* Zeroed memory of the host, or of C where the host has none to give; NULL if there is no more. */
+/* Zeroed memory from the host's functions, or from calloc if it has none; NULL if out of memory. */
 void *host_allocate(const fmi2CallbackFunctions *host, size_t size);
 void host_free(const fmi2CallbackFunctions *host, void *memory);
 
-/* Has all messages sent, or none. */
-void want_all_messages(Instance *instance, bool wanted);
+/* Enable all log categories, or disable them. */
+void enable_all_messages(Instance *instance, bool enabled);
 
-/* Has messages sent as a host wants them that has `debugging` on or not: errors in any case, as they
- * are all that tells why a call failed. */
-void want_first_messages(Instance *instance, bool debugging);
+/* Enable the log categories after instantiation: all while `debugging`, otherwise errors, as nothing
+ * else says why a call failed. */
+void enable_initial_messages(Instance *instance, bool debugging);
 
-/* Has messages of one more category sent. Refuses a category that is not known. */
-bool want_messages(Instance *instance, const char *category, Refusal *refusal);
+/* Enable one more log category. Refuse an unknown one. */
+bool enable_messages(Instance *instance, const char *category, Refusal *refusal);
 
-/* Sends a text to a host's logger, if it has one, with category and status. */
+/* Send a text with its status and category to the host's logger, if there is one. */
 void send_message(const fmi2CallbackFunctions *host, const char *instance_name, fmi2Status status,
                   const char *text);
 
-/* Sends a text if its category is wanted; returns the status. */
+/* Send a text if its category is enabled; return the status. */
 fmi2Status report(const Instance *instance, fmi2Status status, const char *text);
 
-/* fmi2OK if the call was carried out, else fmi2Error with the refusal as message. */
+/* Return fmi2OK for a call that is `done`; otherwise report the refusal and return fmi2Error. */
 fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal);
 
-/* The answer of a function that this FMU does not have: fmi2Error with the text as message. */
+/* Report that this FMU does not have a function, and return fmi2Error. */
 fmi2Status not_offered(fmi2Component component, const char *text);
 
 #endif

@@ -1,10 +1,10 @@
-/* The states of FMI 2.0 co-simulation and the calls that each allows. */
+/* The states of FMI 2.0 co-simulation, and which call needs which. */
 #ifndef SLIDER_LIFECYCLE_H
 #define SLIDER_LIFECYCLE_H
 
 #include <stdbool.h>
 
-#include "refusal.h"
+#include "refusal_texts.h"
 
 typedef enum { INSTANTIATED, INITIALIZATION, STEP_COMPLETE, TERMINATED, LIFECYCLES } Lifecycle;
 
@@ -15,11 +15,11 @@ static inline const char *lifecycle_name(Lifecycle state) {
     return NAMES[state];
 }
 
-/* Refuses, naming call, state and the one that allows it, unless `state` does. */
-static inline bool require(const char *call, Lifecycle state, Lifecycle allowed, Refusal *refusal) {
-    return state == allowed
-           || refuse(refusal, "%s refused in state '%s': allowed in '%s'", call,
-                     lifecycle_name(state), lifecycle_name(allowed));
+/* Refuse the call in any state but `required`. */
+static inline bool require(const char *call, Lifecycle state, Lifecycle required,
+                           Refusal *refusal) {
+    return state == required
+           || refuse_wrong_state(refusal, call, lifecycle_name(state), lifecycle_name(required));
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "friction_law.h"
+#include "refusal_texts.h"
 
 /* Share of the tolerance that one series may use up, and that the bend of the bristle may still be
  * away from full when closed forms take over. */
@@ -14,12 +15,8 @@
 
 /* Without friction (8) has no meaning. */
 static bool check(const Device *device, Refusal *refusal) {
-    char number[NUMBER_SIZE];
     return device->friction_coefficient != 0.0 ||
-           refuse(refusal,
-                  "friction_coefficient = %s refused: with LuGre friction allowed is a finite "
-                  "number above 0",
-                  number_text(device->friction_coefficient, number));
+           refuse_lugre_without_friction(refusal, device->friction_coefficient);
 }
 
 static double first_bristle(const Law *law) {

@@ -1,5 +1,5 @@
-/* The GUID of the model description. The build puts that of the FMU's content in place of this one,
- * which serves sources that are compiled where they lie. */
+/* The GUID of the model description. The build replaces this one, which serves to compile the sources
+ * in place, by one that follows from the content of the FMU. */
 #ifndef SLIDER_MODEL_GUID_H
 #define SLIDER_MODEL_GUID_H
 

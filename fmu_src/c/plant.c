@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "refusal_texts.h"
 #include "state.h"
 
 /* Distance of the squares of two frequencies that is due to rounding: undamped, the steady force has
@@ -19,12 +20,7 @@ bool steady_resonator(const Device *device, Complex *amplitude, Refusal *refusal
     double w = device->drive_frequency;
     Oscillator oscillator = slip_oscillator(device);
     if (device->damping_ratio == 0.0 && fabs(oscillator.stiffness - w * w) <= AT_RESONANCE * w * w) {
-        char damping[NUMBER_SIZE], frequency[NUMBER_SIZE];
-        return refuse(refusal,
-                      "damping_ratio = %s refused: without damping the steady force of the "
-                      "resonator is unbounded at drive_frequency = %s; allowed there is a number "
-                      "above 0",
-                      number_text(device->damping_ratio, damping), number_text(w, frequency));
+        return refuse_unbounded_resonance(refusal, device->damping_ratio, w);
     }
     double push = device->base_amplitude * w * w - device->tangential_force / device->slider_mass;
     *amplitude = complex_scale(push, transfer(&oscillator, w));

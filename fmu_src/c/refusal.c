@@ -6,7 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_DIGITS = 17, LEAST_PLAIN_EXPONENT = -4, LEAST_LARGE_EXPONENT = 16 };
+#include "refusal_texts.h"
+
+/* Exponents from MIN_PLAIN_EXPONENT to MAX_PLAIN_EXPONENT are written without "e", as repr does. */
+enum { MAX_DIGITS = 17, MIN_PLAIN_EXPONENT = -4, MAX_PLAIN_EXPONENT = 15 };
 
 bool refuse(Refusal *refusal, const char *format, ...) {
     va_list arguments;
@@ -16,21 +19,20 @@ bool refuse(Refusal *refusal, const char *format, ...) {
     return false;
 }
 
-bool refuse_work(Refusal *refusal, double step_size, double reached, int most, const char *what) {
-    char size[NUMBER_SIZE], allowed[NUMBER_SIZE] = "one under other forces";
+bool refuse_work(Refusal *refusal, double step_size, double reached, int max_count,
+                 const char *what) {
     if (reached > 0.0) {
-        snprintf(allowed, sizeof allowed, "one of at most 1e%d s", (int)floor(log10(reached)));
+        long long exponent = (long long)floor(log10(reached));
+        return refuse_too_much_work(refusal, step_size, max_count, what, exponent);
     }
-    return refuse(refusal,
-                  "doStep: communicationStepSize = %s refused: it takes more than %d %s; allowed is "
-                  "%s", number_text(step_size, size), most, what, allowed);
+    return refuse_too_much_work_at_once(refusal, step_size, max_count, what);
 }
 
-/* Writes the fewest digits that read back as `value` > 0, without a point; returns the exponent of
- * the first one. */
-static int shortest_digits(double value, char digits[MOST_DIGITS + 1]) {
+/* Write the fewest digits that read back as `value` > 0, without a point; return the exponent of the
+ * first one. */
+static int shortest_digits(double value, char digits[MAX_DIGITS + 1]) {
     char scientific[NUMBER_SIZE];
-    for (int count = 1; count <= MOST_DIGITS; count++) {
+    for (int count = 1; count <= MAX_DIGITS; count++) {
         snprintf(scientific, sizeof scientific, "%.*e", count - 1, value);
         if (strtod(scientific, NULL) == value) {
             break;
@@ -39,7 +41,7 @@ static int shortest_digits(double value, char digits[MOST_DIGITS + 1]) {
     const char *read = scientific;
     int count = 0;
     for (; *read != 'e'; read++) {
-        if ('0' <= *read && *read <= '9') { /* whatever the locale has for a point is left out */
+        if ('0' <= *read && *read <= '9') { /* skips the decimal point of any locale */
             digits[count++] = *read;
         }
     }
@@ -56,10 +58,10 @@ const char *number_text(double value, char text[NUMBER_SIZE]) {
         snprintf(text, NUMBER_SIZE, "%s%s", sign, value == 0.0 ? "0.0" : "inf");
         return text;
     }
-    char digits[MOST_DIGITS + 1];
+    char digits[MAX_DIGITS + 1];
     int exponent = shortest_digits(fabs(value), digits);
     int count = (int)strlen(digits);
-    if (exponent < LEAST_PLAIN_EXPONENT || exponent >= LEAST_LARGE_EXPONENT) {
+    if (exponent < MIN_PLAIN_EXPONENT || exponent > MAX_PLAIN_EXPONENT) {
         snprintf(text, NUMBER_SIZE, "%s%c%s%se%c%02d", sign, digits[0], count > 1 ? "." : "",
                  digits + 1, exponent < 0 ? '-' : '+', abs(exponent));
     } else if (exponent < 0) {

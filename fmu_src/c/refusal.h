@@ -1,4 +1,4 @@
-/* Why a call is refused: a text that names the thing, its value and what is allowed. */
+/* Why a call is refused: a text that names the thing, its value and what it must be. */
 #ifndef SLIDER_REFUSAL_H
 #define SLIDER_REFUSAL_H
 
@@ -10,14 +10,15 @@ typedef struct {
     char text[REFUSAL_SIZE];
 } Refusal;
 
-/* Writes the text as snprintf does; returns false, so that a function can `return refuse(...)`. */
+/* Write the text as snprintf does; return false, so that a function can `return refuse(...)`. */
 bool refuse(Refusal *refusal, const char *format, ...);
 
-/* Refuses a step of `step_size` [s] that takes more than `most` of `what`: a step up to `reached` [s],
- * named as a power of ten, takes less. Returns false. */
-bool refuse_work(Refusal *refusal, double step_size, double reached, int most, const char *what);
+/* Refuse a step of `step_size` [s] that takes more than `max_count` of `what`. A step up to `reached`
+ * [s] takes less: the text names the power of ten below it. Return false. */
+bool refuse_work(Refusal *refusal, double step_size, double reached, int max_count,
+                 const char *what);
 
-/* The shortest text that reads back as `value`, with a decimal point in every locale; as Python's
+/* The shortest text that reads back as `value`, with a decimal point in every locale, like Python's
  * repr: "0.1", "1e-05", "3500.0", "nan", "inf". Returns `text`. */
 const char *number_text(double value, char text[NUMBER_SIZE]);
 

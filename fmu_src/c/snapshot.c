@@ -1,30 +1,32 @@
-/* Layout: header and checksum of state_bytes.h; between them, as numbers, the fields below in their
- * order and the values that can be set. */
+/* Layout: the header of state_bytes.h; as numbers the fields below in their order, then the values
+ * that can be set; the checksum. */
 #include "snapshot.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "refusal_texts.h"
 #include "state_bytes.h"
 #include "values.h"
 
-/* What a number has to be: finite, finite or without end, or an integer that is kept as such. */
-typedef enum { FINITE, ENDLESS, INTEGER, FLAG, STATE_OF_LIFE } Kind;
+/* What a number must be: finite, finite or infinite, or an integer, by the type that keeps it. */
+typedef enum { FINITE, FINITE_OR_INFINITE, INTEGER, FLAG, LIFECYCLE } Kind;
 
-/* `low` and `high` bound integers. */
+/* `minimum` and `maximum` bound integers. */
 typedef struct {
     const char *name;
     size_t offset;
     Kind kind;
-    int low, high;
+    int minimum, maximum;
 } Field;
 
-#define FIELD(name, kind, low, high) {#name, offsetof(Snapshot, name), kind, low, high}
+#define FIELD(name, kind, minimum, maximum) \
+    {#name, offsetof(Snapshot, name), kind, minimum, maximum}
 
 static const Field FIELDS[] = {
-    FIELD(lifecycle, STATE_OF_LIFE, 0, LIFECYCLES - 1),
+    FIELD(lifecycle, LIFECYCLE, 0, LIFECYCLES - 1),
     FIELD(time, FINITE, 0, 0),
-    FIELD(stop_time, ENDLESS, 0, 0),
+    FIELD(stop_time, FINITE_OR_INFINITE, 0, 0),
     FIELD(last_event_time, FINITE, 0, 0),
     FIELD(moving, FLAG, 0, 1),
     FIELD(moment.state.velocity, FINITE, 0, 0),
@@ -37,7 +39,7 @@ static const Field FIELDS[] = {
     FIELD(moment.counts.sliding, INTEGER, BACKWARD, FORWARD),
     FIELD(moment.counts.reversals, FINITE, 0, 0),
     FIELD(moment.counts.sticks, FINITE, 0, 0),
-    FIELD(moment.event_age, ENDLESS, 0, 0),
+    FIELD(moment.event_age, FINITE_OR_INFINITE, 0, 0),
     FIELD(moment.means.travel, FINITE, 0, 0),
     FIELD(moment.means.elapsed, FINITE, 0, 0),
     FIELD(moment.means.sticking, FINITE, 0, 0),
@@ -69,11 +71,13 @@ static double field_number(const Snapshot *snapshot, const Field *field) {
         return *(const int *)place;
     case FLAG:
         return *(const bool *)place;
-    case STATE_OF_LIFE:
+    case LIFECYCLE:
         return *(const Lifecycle *)place;
-    default:
-        return *(const double *)place;
+    case FINITE:
+    case FINITE_OR_INFINITE:
+        break;
     }
+    return *(const double *)place;
 }
 
 static void set_field(Snapshot *snapshot, const Field *field, double number) {
@@ -85,25 +89,26 @@ static void set_field(Snapshot *snapshot, const Field *field, double number) {
     case FLAG:
         *(bool *)place = number != 0.0;
         break;
-    case STATE_OF_LIFE:
+    case LIFECYCLE:
         *(Lifecycle *)place = (Lifecycle)(int)number;
         break;
-    default:
+    case FINITE:
+    case FINITE_OR_INFINITE:
         *(double *)place = number;
+        break;
     }
 }
 
 static bool field_check(const Field *field, double number, Refusal *refusal) {
     char text[NUMBER_SIZE];
-    if (field->kind == FINITE || field->kind == ENDLESS) {
-        bool endless = field->kind == ENDLESS && number > 0.0;
-        return isfinite(number) || (endless && isinf(number))
-               || refuse(refusal, "FMU state refused: %s = %s; allowed is a finite number",
-                         field->name, number_text(number, text));
+    if (field->kind == FINITE || field->kind == FINITE_OR_INFINITE) {
+        bool may_be_infinite = field->kind == FINITE_OR_INFINITE && number > 0.0;
+        return isfinite(number) || (may_be_infinite && isinf(number))
+               || refuse_infinite_in_state(refusal, field->name, number_text(number, text));
     }
-    return (number >= field->low && number <= field->high && number == floor(number))
-           || refuse(refusal, "FMU state refused: %s = %s; allowed is %d to %d", field->name,
-                     number_text(number, text), field->low, field->high);
+    return (number >= field->minimum && number <= field->maximum && number == floor(number))
+           || refuse_out_of_range_in_state(refusal, field->name, number_text(number, text),
+                                           field->minimum, field->maximum);
 }
 
 void snapshot_write(const Snapshot *snapshot, unsigned char *bytes) {
@@ -139,6 +144,5 @@ bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, 
     }
     bool needs_motion = snapshot->lifecycle == STEP_COMPLETE || snapshot->lifecycle == TERMINATED;
     return snapshot->moving || !needs_motion
-           || refuse(refusal, "FMU state refused: it holds no motion; allowed is one after "
-                     "initialization");
+           || refuse_state_without_motion(refusal);
 }

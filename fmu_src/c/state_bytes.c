@@ -34,7 +34,7 @@ double state_number_get(const unsigned char *bytes) {
     return number;
 }
 
-/* FNV-1a: no change of a single byte escapes it. */
+/* FNV-1a: detects every change of a single byte. */
 static uint64_t checksum(const unsigned char *bytes, size_t size) {
     uint64_t sum = 14695981039346656037u;
     for (size_t i = 0; i < size; i++) {
@@ -59,19 +59,19 @@ bool state_seal_check(const unsigned char *bytes, size_t size, size_t expected, 
     unsigned char header[STATE_HEADER_SIZE];
     write_header(header);
     if (size < STATE_HEADER_SIZE || memcmp(bytes, header, sizeof FORMAT) != 0) {
-        return refuse(refusal, "FMU state refused: %lu bytes without the head of a state; allowed "
-                      "is what fmi2SerializeFMUstate of this build wrote", (unsigned long)size);
+        return refuse(refusal, "FMU state refused: %lu bytes without the header of a state; must "
+                      "be bytes that fmi2SerializeFMUstate of this build wrote", (unsigned long)size);
     }
     if (memcmp(bytes, header, STATE_HEADER_SIZE) != 0) {
-        return refuse(refusal, "FMU state refused: it is of another build; allowed is one of the "
-                      "build %s", MODEL_GUID);
+        return refuse(refusal, "FMU state refused: it is of another build; must be of the build "
+                      "%s", MODEL_GUID);
     }
     if (size != expected) {
-        return refuse(refusal, "FMU state refused: it has %lu bytes; allowed is %lu",
+        return refuse(refusal, "FMU state refused: it has %lu bytes; must be %lu",
                       (unsigned long)size, (unsigned long)expected);
     }
     size_t checked = size - STATE_CHECKSUM_SIZE;
     return get_bits(bytes + checked) == checksum(bytes, checked)
            || refuse(refusal, "FMU state refused: damaged, its bytes do not match their checksum; "
-                     "allowed is what fmi2SerializeFMUstate wrote");
+                     "must be bytes that fmi2SerializeFMUstate wrote");
 }

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "refusal_texts.h"
+
 static const char *type_name(ValueType type) {
     static const char *const NAMES[] = {"Real", "Integer", "Boolean", "String"};
     return NAMES[type];
@@ -10,14 +12,12 @@ static const char *type_name(ValueType type) {
 
 bool reference_check(unsigned reference, ValueType type, Refusal *refusal) {
     if (reference >= VARIABLE_COUNT) {
-        return refuse(refusal, "valueReference = %u refused: allowed is 0 to %d", reference,
-                      VARIABLE_COUNT - 1);
+        return refuse_unknown_reference(refusal, reference, VARIABLE_COUNT - 1);
     }
     const Variable *variable = &VARIABLES[reference];
     ValueType own = variable->integer ? INTEGER_TYPE : REAL_TYPE;
     return own == type
-           || refuse(refusal, "%s (valueReference = %u) refused: its type is %s, not %s",
-                     variable->name, reference, type_name(own), type_name(type));
+           || refuse_wrong_type(refusal, variable->name, reference, type_name(own), type_name(type));
 }
 
 bool value_check(const Variable *variable, double value, Refusal *refusal) {
@@ -26,26 +26,57 @@ bool value_check(const Variable *variable, double value, Refusal *refusal) {
         return true;
     }
     char text[NUMBER_SIZE];
-    return refuse(refusal, "%s = %s refused: allowed is %s", variable->name,
-                  value_text(variable, value, text), variable->allowed);
+    return refuse_out_of_bounds(refusal, variable->name, value_text(variable, value, text),
+                                variable->requirement);
 }
 
-bool setting_check(Lifecycle lifecycle, unsigned reference, double value, Refusal *refusal) {
+/* Refuse the `access` to a variable in any state but `required`. */
+static bool require_for(const char *access, unsigned reference, Lifecycle lifecycle,
+                        Lifecycle required, Refusal *refusal) {
+    char call[REFUSAL_SIZE];
+    snprintf(call, sizeof call, "%s %s", access, VARIABLES[reference].name);
+    return require(call, lifecycle, required, refusal);
+}
+
+bool reading_check(Lifecycle lifecycle, unsigned reference, Refusal *refusal) {
+    return reference < SETTABLE_COUNT || lifecycle != INSTANTIATED
+           || require_for("reading", reference, lifecycle, INITIALIZATION, refusal);
+}
+
+/* Refuse to set outputs, fixed parameters while running, anything after the end, and values that the
+ * table excludes. */
+static bool setting_check(Lifecycle lifecycle, unsigned reference, double value,
+                          Refusal *refusal) {
     const Variable *variable = &VARIABLES[reference];
     char text[NUMBER_SIZE];
     if (lifecycle == TERMINATED) {
-        return refuse(refusal, "setting %s refused in state '%s': allowed in '%s'", variable->name,
-                      lifecycle_name(TERMINATED), lifecycle_name(STEP_COMPLETE));
+        return require_for("setting", reference, lifecycle, STEP_COMPLETE, refusal);
     }
     if (reference >= SETTABLE_COUNT) {
-        return refuse(refusal, "%s = %s refused: it is an output and cannot be set",
-                      variable->name, value_text(variable, value, text));
+        return refuse_output_set(refusal, variable->name, value_text(variable, value, text));
     }
     if (variable->fixed && lifecycle == STEP_COMPLETE) {
-        return refuse(refusal, "%s = %s refused: it is fixed and can be set only before "
-                      "initialization ends", variable->name, value_text(variable, value, text));
+        return refuse_fixed_while_running(refusal, variable->name,
+                                          value_text(variable, value, text));
     }
     return value_check(variable, value, refusal);
+}
+
+void start_values(double values[SETTABLE_COUNT]) {
+    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
+        values[i] = VARIABLES[i].start;
+    }
+}
+
+bool change_values(double values[SETTABLE_COUNT], Lifecycle lifecycle, const unsigned *references,
+                   const double *changes, size_t count, Refusal *refusal) {
+    for (size_t i = 0; i < count; i++) {
+        if (!setting_check(lifecycle, references[i], changes[i], refusal)) {
+            return false;
+        }
+        values[references[i]] = changes[i];
+    }
+    return true;
 }
 
 const char *value_text(const Variable *variable, double value, char text[NUMBER_SIZE]) {

@@ -1,8 +1,9 @@
-/* Checks of value references and of the values that a host sets. */
+/* Values of variables by reference: what a host may read and set. */
 #ifndef SLIDER_VALUES_H
 #define SLIDER_VALUES_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "lifecycle.h"
 #include "refusal.h"
@@ -10,17 +11,24 @@
 
 typedef enum { REAL_TYPE, INTEGER_TYPE, BOOLEAN_TYPE, STRING_TYPE } ValueType;
 
-/* Refuses a reference that is unknown, or of a variable of another type. */
+/* Refuse a reference that no variable has, or one of another type. */
 bool reference_check(unsigned reference, ValueType type, Refusal *refusal);
 
-/* Refuses a value that the table does not allow. */
+/* Refuse a value that the table excludes. */
 bool value_check(const Variable *variable, double value, Refusal *refusal);
 
-/* Refuses to set outputs, fixed parameters while running, anything after the end, and values that
- * the table does not allow. */
-bool setting_check(Lifecycle lifecycle, unsigned reference, double value, Refusal *refusal);
+/* Refuse to read outputs before initialization mode. */
+bool reading_check(Lifecycle lifecycle, unsigned reference, Refusal *refusal);
 
-/* The value as it is shown in messages: integers without a point. Returns `text`. */
+/* The start values of the table. */
+void start_values(double values[SETTABLE_COUNT]);
+
+/* Change `count` of `values` by reference. Refuse to set outputs, fixed parameters while running,
+ * anything after the end, and values that the table excludes; `values` are then undefined. */
+bool change_values(double values[SETTABLE_COUNT], Lifecycle lifecycle, const unsigned *references,
+                   const double *changes, size_t count, Refusal *refusal);
+
+/* The value as messages show it: integers without a point. Returns `text`. */
 const char *value_text(const Variable *variable, double value, char text[NUMBER_SIZE]);
 
 #endif

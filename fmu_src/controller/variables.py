@@ -1,10 +1,10 @@
-"""The one table of the controller's FMU variables: names, units, bounds and starts."""
+"""The table of the controller's variables: names, units, bounds and start values."""
 
 from __future__ import annotations
 
 from functools import partial
 
-from fmu_src.python.slider_component.variables import Variable
+from fmu_src.python.slider_component.variable import Variable
 
 _input = partial(Variable, type="Real", causality="input", variability="continuous")
 _tunable = partial(Variable, type="Real", causality="parameter", variability="tunable")
@@ -14,7 +14,7 @@ _output = partial(Variable, type="Real", causality="output", variability="discre
 VARIABLES: tuple[Variable, ...] = (
     _input(
         "velocity_reference",
-        "Mean velocity that the slider shall have",
+        "Reference of the slider's mean velocity",
         start=0.0,
         unit="m/s",
         display_unit="mm/s",
@@ -22,7 +22,7 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _input(
         "measured_velocity",
-        "Mean velocity that the slider has; to be connected with its mean_velocity",
+        "Mean velocity of the slider; connect it to the slider's mean_velocity",
         start=0.0,
         unit="m/s",
         display_unit="mm/s",
@@ -48,7 +48,7 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _tunable(
         "effort_limit",
-        "Largest magnitude of the effort; 1 is all that the device can give",
+        "Largest magnitude of the effort; 1 is the limit of the device",
         start=1.0,
         unit="1",
         minimum=0.0,
@@ -57,7 +57,7 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _tunable(
         "force_phase",
-        "Phase theta1 (33) of the force on the slider; the start is that of table 1",
+        "Phase theta1 (33) of the force on the slider; the start value is for table 1",
         start=0.733313,
         unit="rad",
         display_unit="deg",
@@ -75,20 +75,19 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _output(
         "phase",
-        "Phase for the slider: asin(effort) - force_phase, where its velocity grows with the phase",
+        "Phase for the slider, asin(effort) - force_phase: its velocity grows with this phase",
         unit="rad",
         display_unit="deg",
         nominal=1.0,
+        # No sample yet: the effort is 0.
+        depends_initially_on=("force_phase",),
     ),
     _output(
         "effort",
-        "Share of the largest mean force, sin(phase + force_phase)",
+        "Fraction of the largest mean force, sin(phase + force_phase)",
         unit="1",
         minimum=-1.0,
         maximum=1.0,
         nominal=1.0,
     ),
 )
-
-INITIAL_DEPENDENCIES: dict[str, tuple[str, ...]] = {"phase": ("force_phase",), "effort": ()}
-"""What each output depends on during initialization: no sample has been taken then."""

@@ -1,7 +1,7 @@
-"""The script that pythonfmu loads: it shows the class of the component and nothing else."""
+"""The script that pythonfmu loads, with the class of the FMU."""
 
-from slider_component.slave import SliderResonatorPy, outlast_loading
+from slider_component.slave import SliderResonatorPy, keep_alive
 
 __all__ = ["SliderResonatorPy"]
 
-outlast_loading(globals())
+keep_alive(globals())

@@ -28,4 +28,4 @@ def unknown_name(kind: str, name: str, allowed: Iterable[str]) -> str:
     by_folded = {candidate.lower(): candidate for candidate in names}
     near = get_close_matches(name.lower(), by_folded, n=1, cutoff=0.5)
     hint = f"; did you mean {by_folded[near[0]]!r}?" if near else ""
-    return f"unknown {kind} {name!r}{hint} (allowed: {', '.join(names)})"
+    return f"unknown {kind} {name!r}{hint} (must be one of {', '.join(names)})"

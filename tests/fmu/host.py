@@ -157,5 +157,5 @@ class Instance:
         )
         assert len(self.log) == messages + 1, "a refusal sends one message to the host's log"
         for fragment in fragments:
-            assert fragment in self.log[-1], "the text names the thing, its value, what is allowed"
+            assert fragment in self.log[-1], "the text names thing, value and requirement"
         assert self.state() == before, "a refused call leaves the state as it was, bit by bit"

@@ -131,19 +131,19 @@ def test_bad_values_and_steps_are_refused_and_change_nothing(
 ) -> None:
     instance = controller().initialize(velocity_reference=0.01)
     instance.step(SAMPLE)
-    with instance.refuses("measured_velocity = nan refused: allowed is a finite number"):
+    with instance.refuses("measured_velocity = nan refused: must be a finite number"):
         instance.set(measured_velocity=nan)
-    with instance.refuses("effort_limit = 1.5 refused: allowed is a finite number from 0 to 1"):
+    with instance.refuses("effort_limit = 1.5 refused: must be a finite number from 0 to 1"):
         instance.set(effort_limit=1.5)
     with instance.refuses("sample_time = 0.02 refused: it is fixed"):
         instance.set(sample_time=0.02)
     with instance.refuses("phase = 0.1 refused: it is an output"):
         instance.set(phase=0.1)
     for size in (0.0, -1.0, nan):
-        with instance.refuses("communicationStepSize", "allowed is a finite number above 0"):
+        with instance.refuses("communicationStepSize", "must be a finite number above 0"):
             instance.step(size)
         instance.time = SAMPLE
-    with instance.refuses("currentCommunicationPoint = 7.0 refused: allowed is the present time"):
+    with instance.refuses("currentCommunicationPoint = 7.0 refused: must be the present time"):
         instance.slave.doStep(currentCommunicationPoint=7.0, communicationStepSize=SAMPLE)
     with instance.refuses("communicationStepSize = 1000000.0", "at most 1e+06 samples"):
         instance.step(1e6)

@@ -12,8 +12,8 @@ from fmpy import simulate_fmu
 from fmu_src.building import native_fmu
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST
-from fmu_src.building.python_fmu import PACKAGE, build_python
-from fmu_src.c_header import C_SOURCES
+from fmu_src.building.python_fmu import build_python
+from fmu_src.sources import C_SOURCES, PACKAGE
 from tests.fmu.host import OUTPUTS, Instance, Unpacked, unpack
 from tests.fmus import both_fmus
 
@@ -26,7 +26,7 @@ def _python_build(folder: Path) -> Path:
     package = folder / "slider_component"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
     _edit(
-        package / "device.py",
+        package / "parameters.py",
         "friction_coefficient: float = 0.1",
         "friction_coefficient: float = 0.2",
     )

@@ -11,7 +11,7 @@ import pytest
 
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import PLATFORMS
-from fmu_src.c_header import C_SOURCES
+from fmu_src.sources import C_SOURCES
 from tests.fmu.binary_files import elf_exports, elf_needed_versions, mach_libraries, pe_exports
 
 MEGABYTE = 1_000_000

@@ -96,8 +96,8 @@ def give_back(instance: Instance, component: int | None) -> None:
 @pytest.mark.parametrize(
     ("wrong", "text"),
     [
-        ({"guid": "{not-this-build}"}, "fmuGUID = '{not-this-build}' refused: allowed is '"),
-        ({"kind": 0}, "fmuType = 0 refused: allowed is 1, fmi2CoSimulation"),
+        ({"guid": "{not-this-build}"}, "fmuGUID = '{not-this-build}' refused: must be '"),
+        ({"kind": 0}, "fmuType = 0 refused: must be 1, fmi2CoSimulation"),
         ({"name": b""}, "instanceName refused: it is empty"),
         ({"name": None}, "instanceName refused: it is a null pointer"),
     ],
@@ -183,7 +183,7 @@ def test_null_pointers_and_huge_counts_are_refused(
     for count in (len(VARIABLES) + 1, 2**31, 2**64 - 1):
         assert call(instance, function, vr, count, values) == ERROR
         assert f"{function}: nvr = " in instance.log[-1]
-        assert "allowed is up to 37" in instance.log[-1]
+        assert "must be at most 37" in instance.log[-1]
     assert call(instance, function, NULL, 0, NULL) == OK, "nothing asked, nothing refused"
 
 

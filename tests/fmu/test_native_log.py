@@ -75,7 +75,7 @@ def test_an_unknown_category_is_refused_and_changes_nothing(
     assert debug_logging(instance, True, "logStatusDiscard", category) == ERROR
     shown = "(null)" if category is None else category.replace("%", "%%").replace("#", "##")[:20]
     assert f"category '{shown}" in instance.log[-1], "the logger takes % and # doubled"
-    assert "allowed are logStatusWarning, logStatusDiscard" in instance.log[-1]
+    assert "must be one of logStatusWarning, logStatusDiscard" in instance.log[-1]
     assert messages_of(instance) == 1
 
 
@@ -112,7 +112,7 @@ def test_fmpy_says_why_a_run_failed(fmu: Path, capfd: pytest.CaptureFixture[str]
     """With all defaults: its own logger prints what the FMU sends."""
     with pytest.raises(FMICallException):
         simulate_fmu(str(fmu), start_values={"load": math.nan}, stop_time=0.1)
-    assert "load = nan refused: allowed is a finite number" in capfd.readouterr().out
+    assert "load = nan refused: must be a finite number" in capfd.readouterr().out
 
 
 def test_status_category_and_name_go_with_the_text(

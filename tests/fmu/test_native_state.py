@@ -59,19 +59,19 @@ def test_a_state_made_elsewhere_is_taken(
 @pytest.mark.parametrize(
     ("changes", "text"),
     [
-        ({"time": math.nan}, "time = nan; allowed is a finite number"),
-        ({"stop_time": math.nan}, "stop_time = nan; allowed is a finite number"),
-        ({"event_age": -math.inf}, "event_age = -inf; allowed is a finite number"),
-        ({"velocity": math.inf}, "velocity = inf; allowed is a finite number"),
-        ({"mode": 3.0}, "mode = 3.0; allowed is -1 to 2"),
-        ({"mode": 0.5}, "mode = 0.5; allowed is -1 to 2"),
-        ({"sliding": math.nan}, "sliding = nan; allowed is -1 to 1"),
-        ({"lifecycle": 4.0}, "lifecycle = 4.0; allowed is 0 to 3"),
-        ({"complete": -1.0}, "complete = -1.0; allowed is 0 to 1"),
+        ({"time": math.nan}, "time = nan; must be a finite number"),
+        ({"stop_time": math.nan}, "stop_time = nan; must be a finite number"),
+        ({"event_age": -math.inf}, "event_age = -inf; must be a finite number"),
+        ({"velocity": math.inf}, "velocity = inf; must be a finite number"),
+        ({"mode": 3.0}, "mode = 3.0; must be an integer from -1 to 2"),
+        ({"mode": 0.5}, "mode = 0.5; must be an integer from -1 to 2"),
+        ({"sliding": math.nan}, "sliding = nan; must be an integer from -1 to 1"),
+        ({"lifecycle": 4.0}, "lifecycle = 4.0; must be an integer from 0 to 3"),
+        ({"complete": -1.0}, "complete = -1.0; must be an integer from 0 to 1"),
         ({"moving": 0.0}, "it holds no motion"),
-        ({"load": math.nan}, "load = nan refused: allowed is a finite number"),
-        ({"slider_mass": 0.0}, "slider_mass = 0.0 refused: allowed is a finite number of at least"),
-        ({"friction_faces": 1.5}, "friction_faces = 1.5 refused: allowed is an integer"),
+        ({"load": math.nan}, "load = nan refused: must be a finite number"),
+        ({"slider_mass": 0.0}, "slider_mass = 0.0 refused: must be a finite number of at least"),
+        ({"friction_faces": 1.5}, "friction_faces = 1.5 refused: must be an integer"),
         (
             {"friction_law": 1.0, "friction_coefficient": 0.0},
             "friction_coefficient = 0.0 refused: with LuGre friction",
@@ -90,7 +90,7 @@ def test_numbers_that_no_instance_has_are_refused(
 def test_a_state_of_another_build_is_refused_by_name(instance: Instance) -> None:
     data = instance.state()
     body = data[:8] + data[8:48].replace(data[8:12], b"0bad") + data[48:-8]
-    with instance.refuses("FMU state refused: it is of another build; allowed is one of the build"):
+    with instance.refuses("FMU state refused: it is of another build; must be of the build"):
         instance.restore(body + struct.pack("<Q", checksum(body)))
 
 
@@ -102,7 +102,7 @@ def test_a_state_of_the_python_fmu_is_refused(
     other = Instance(python).initialize()
     foreign = other.state()
     other.free()
-    with instance.refuses("FMU state refused", "without the head of a state"):
+    with instance.refuses("FMU state refused", "without the header of a state"):
         instance.restore(foreign)
 
 
@@ -140,7 +140,7 @@ def test_memory_of_another_size_is_refused(instance: Instance) -> None:
     memory = ctypes.create_string_buffer(size.value + 1)
     for wrong in (0, size.value - 1, size.value + 1):
         assert call(instance, "fmi2SerializeFMUstate", state, memory, wrong) == ERROR
-        assert f"size = {wrong} refused: allowed is {size.value}" in instance.log[-1]
+        assert f"size = {wrong} refused: must be {size.value}" in instance.log[-1]
         assert memory.raw == bytes(size.value + 1), "nothing was written"
     instance.slave.freeFMUstate(state)
 

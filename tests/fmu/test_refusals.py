@@ -8,7 +8,8 @@ from collections.abc import Callable
 
 import pytest
 
-from fmu_src.python.slider_component.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variable import Variable
+from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmu.host import Instance
 from tests.fmus import both_fmus
 
@@ -54,7 +55,7 @@ def test_not_finite_before_the_run(
     instantiate: Callable[[], Instance], variable: Variable, value: float
 ) -> None:
     instance = in_initialization_mode(instantiate())
-    with instance.refuses(f"{variable.name} = {value!r} refused", variable.allowed):
+    with instance.refuses(f"{variable.name} = {value!r} refused", variable.requirement):
         instance.set(**{variable.name: value})
 
 
@@ -62,7 +63,7 @@ def test_not_finite_before_the_run(
 @pytest.mark.parametrize("value", [NAN, INF, -INF])
 def test_not_finite_during_the_run(instance: Instance, variable: Variable, value: float) -> None:
     instance.step(STEP)
-    with instance.refuses(f"{variable.name} = {value!r} refused", variable.allowed):
+    with instance.refuses(f"{variable.name} = {value!r} refused", variable.requirement):
         instance.set(**{variable.name: value})
 
 
@@ -73,7 +74,7 @@ def test_out_of_bounds_before_the_run(
     instance = in_initialization_mode(instantiate())
     for value in outside(variable):
         shown = int(value) if variable.type == "Integer" else value
-        with instance.refuses(f"{variable.name} = {shown!r} refused", variable.allowed):
+        with instance.refuses(f"{variable.name} = {shown!r} refused", variable.requirement):
             instance.set(**{variable.name: value})
 
 
@@ -81,12 +82,12 @@ def test_out_of_bounds_before_the_run(
 def test_out_of_bounds_during_the_run(instance: Instance, variable: Variable) -> None:
     instance.step(STEP)
     for value in outside(variable):
-        with instance.refuses(f"{variable.name} = {value!r} refused", variable.allowed):
+        with instance.refuses(f"{variable.name} = {value!r} refused", variable.requirement):
             instance.set(**{variable.name: value})
 
 
 @by_name([v for v in SETTABLE if v.minimum is not None or v.maximum is not None])
-def test_the_bounds_themselves_are_allowed(
+def test_the_bounds_themselves_are_accepted(
     instantiate: Callable[[], Instance], variable: Variable
 ) -> None:
     instance = in_initialization_mode(instantiate())
@@ -120,7 +121,7 @@ def test_undamped_resonance_to_rounding(
         frequency = math.nextafter(frequency, math.copysign(INF, ulps))
     instance = in_initialization_mode(instantiate())
     instance.set(damping_ratio=0.0, resonator_frequency=frequency, fidelity=fidelity)
-    with instance.refuses("damping_ratio = 0.0 refused", "drive_frequency = 3500.0", "allowed"):
+    with instance.refuses("damping_ratio = 0.0 refused", "drive_frequency = 3500.0", "be above 0"):
         instance.slave.exitInitializationMode()
     instance.set(damping_ratio=1e-12)
     instance.slave.exitInitializationMode()
@@ -130,18 +131,18 @@ def test_undamped_resonance_to_rounding(
 def test_values_that_do_not_fit_each_other(instantiate: Callable[[], Instance]) -> None:
     instance = in_initialization_mode(instantiate())
     instance.set(friction_law=1, friction_coefficient=0.0)
-    with instance.refuses("friction_coefficient = 0.0 refused: with LuGre friction allowed is"):
+    with instance.refuses("friction_coefficient = 0.0 refused: with LuGre friction it must be"):
         instance.slave.exitInitializationMode()
     instance.set(friction_coefficient=0.1)
     instance.slave.exitInitializationMode()
-    with instance.refuses("friction_coefficient = 0.0 refused: with LuGre friction allowed is"):
+    with instance.refuses("friction_coefficient = 0.0 refused: with LuGre friction it must be"):
         instance.set(friction_coefficient=0.0)
 
 
 @pytest.mark.parametrize("size", [0.0, -0.0, -1e-3, NAN, INF, -INF])
 def test_step_size(instance: Instance, size: float) -> None:
     instance.step(STEP)
-    expected = f"communicationStepSize = {size!r} refused: allowed is a finite number above 0"
+    expected = f"communicationStepSize = {size!r} refused: must be a finite number above 0"
     with instance.refuses("doStep", expected):
         instance.slave.doStep(instance.time, size)
 
@@ -168,7 +169,7 @@ def test_step_that_does_not_continue_from_the_present(instance: Instance, jump: 
 def test_experiment(instantiate: Callable[[], Instance], name: str, value: float) -> None:
     instance = instantiate()
     experiment = {"startTime": 5.0} | {name: value}
-    with instance.refuses(f"{name} = {value!r} refused: allowed is"):
+    with instance.refuses(f"{name} = {value!r} refused: must be"):
         instance.slave.setupExperiment(**experiment)
 
 
@@ -280,7 +281,7 @@ def test_call_out_of_order(
 ) -> None:
     instance = instantiate()
     reach(instance)
-    with instance.refuses(call, "refused", "allowed"):
+    with instance.refuses(call, "refused", "the state must be"):
         CALLS[call](instance)
 
 

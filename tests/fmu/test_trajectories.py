@@ -77,7 +77,7 @@ def assert_equal(signals: NDArray[np.float64], referee: Trajectory, allowed: flo
             deviation = max(0.0, deviation - rounding)
         assert deviation <= allowed * peak, (
             f"{name} deviates by {deviation:.3g}, {deviation / peak:.3g} of its peak; "
-            f"allowed is {allowed:g}"
+            f"the limit is {allowed:g}"
         )
 
 

@@ -8,9 +8,9 @@ from xml.etree import ElementTree as ET
 import pytest
 from pythonfmu import Fmi2Slave
 
-from fmu_src.initial_dependencies import INITIAL_DEPENDENCIES
 from fmu_src.model_description import LOG_CATEGORIES, model_description
-from fmu_src.python.slider_component.variables import VARIABLES, Variable
+from fmu_src.python.slider_component.variable import Variable
+from fmu_src.python.slider_component.variables import VARIABLES
 from fmu_src.units import UNITS
 
 NAMES = [v.name for v in VARIABLES]
@@ -138,7 +138,7 @@ def test_initial_unknowns_depend_on_known_start_values_only(root: ET.Element) ->
     known = INPUTS | {v.name for v in VARIABLES if v.causality == "parameter"}
     for name, unknown in unknowns(root, "InitialUnknowns").items():
         assert dependencies(unknown) <= known, name
-        assert dependencies(unknown) == set(INITIAL_DEPENDENCIES[name]), name
+        assert dependencies(unknown) == set(VARIABLES[NAMES.index(name)].depends_initially_on), name
         kinds = unknown.attrib["dependenciesKind"].split()
         assert len(kinds) == len(dependencies(unknown)), f"{name}: one kind per dependency"
 
@@ -178,22 +178,23 @@ def test_log_categories_are_those_that_the_binary_uses(root: ET.Element) -> None
     assert names == list(LOG_CATEGORIES) == list(Fmi2Slave.log_categories)
 
 
-def _with_load(**changes: object) -> list[Variable]:
-    return [replace(v, **changes) if v.name == "load" else v for v in VARIABLES]
+def _changed(name: str, **changes: object) -> list[Variable]:
+    return [replace(v, **changes) if v.name == name else v for v in VARIABLES]
 
 
 @pytest.mark.parametrize(
     ("broken", "text"),
     [
-        (lambda: describe(variables=_with_load(unit="lbf")), "load: unit 'lbf' is not defined"),
         (
-            lambda: describe(variables=_with_load(display_unit="kN")),
+            lambda: describe(variables=_changed("load", unit="lbf")),
+            "load: unit 'lbf' is not defined",
+        ),
+        (
+            lambda: describe(variables=_changed("load", display_unit="kN")),
             "load: unit 'N' has no display unit 'kN'; it has mN",
         ),
         (
-            lambda: describe(
-                initial_dependencies=dict(INITIAL_DEPENDENCIES, position=["velocity"])
-            ),
+            lambda: describe(variables=_changed("position", depends_initially_on=("velocity",))),
             "position cannot depend on velocity",
         ),
     ],

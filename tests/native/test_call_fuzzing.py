@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.c_header import C_SOURCES
 from fmu_src.controller.variables import VARIABLES
+from fmu_src.sources import C_SOURCES
 from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
 from tests.native.toolchain import PROGRAMS, UNBUILT_GUID, Binary, program, run, unpacked_binary
 

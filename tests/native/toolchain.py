@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.c_header import C_SOURCES
+from fmu_src.sources import C_SOURCES
 from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
 from slider_resonator.trials.hosts.driver_host import BINARY
 from slider_resonator.trials.hosts.job import describe

@@ -7,16 +7,14 @@
 #include "values.h"
 
 /* Samples in one step up to which its work is accepted. */
-#define MOST_SAMPLES 1e6
+#define MAX_SAMPLES 1e6
 
-/* Share of the time between two samples by which hosts may round their own time. */
-#define TIME_SLACK 1e-6
+/* Fraction of the time between two samples by which hosts may round their own time. */
+#define SAMPLE_TIME_SLACK 1e-6
 
 void component_reset(Component *component) {
     component->now = (Snapshot){.lifecycle = INSTANTIATED, .stop_time = INFINITY};
-    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
-        component->now.values[i] = VARIABLES[i].start;
-    }
+    start_values(component->now.values);
 }
 
 bool component_setup_experiment(Component *component, const Experiment *experiment,
@@ -58,11 +56,8 @@ bool component_set(Component *component, const unsigned *references, const doubl
                    size_t count, Refusal *refusal) {
     double changed[SETTABLE_COUNT];
     memcpy(changed, component->now.values, sizeof changed);
-    for (size_t i = 0; i < count; i++) {
-        if (!setting_check(component->now.lifecycle, references[i], values[i], refusal)) {
-            return false;
-        }
-        changed[references[i]] = values[i];
+    if (!change_values(changed, component->now.lifecycle, references, values, count, refusal)) {
+        return false;
     }
     memcpy(component->now.values, changed, sizeof changed);
     return true;
@@ -77,10 +72,8 @@ bool component_get(Component *component, const unsigned *references, double *val
                    Refusal *refusal) {
     const Snapshot *now = &component->now;
     for (size_t i = 0; i < count; i++) {
-        if (references[i] >= SETTABLE_COUNT && now->lifecycle == INSTANTIATED) {
-            return refuse(refusal, "reading %s refused in state '%s': allowed in '%s'",
-                          VARIABLES[references[i]].name, lifecycle_name(INSTANTIATED),
-                          lifecycle_name(INITIALIZATION));
+        if (!reading_check(now->lifecycle, references[i], refusal)) {
+            return false;
         }
     }
     for (size_t i = 0; i < count; i++) {
@@ -100,15 +93,15 @@ bool component_step(Component *component, double time, double step_size, Refusal
     Tuning tuning = {values[VR_PROPORTIONAL_GAIN], values[VR_INTEGRAL_GAIN],
                      values[VR_EFFORT_LIMIT], values[VR_SAMPLE_TIME]};
     double elapsed = time + step_size - now->start_time;
-    double due = fmax(now->samples, ceil(elapsed / tuning.sample_time - TIME_SLACK));
-    if (!(due - now->samples <= MOST_SAMPLES)) {
+    double due = fmax(now->samples, ceil(elapsed / tuning.sample_time - SAMPLE_TIME_SLACK));
+    if (!(due - now->samples <= MAX_SAMPLES)) {
         char text[NUMBER_SIZE], sample_time[NUMBER_SIZE];
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: allowed is a step of "
-                      "at most %g samples, sample_time = %s", number_text(step_size, text),
-                      MOST_SAMPLES, number_text(tuning.sample_time, sample_time));
+        return refuse(refusal, "doStep: communicationStepSize = %s refused: must be at most %g "
+                      "samples, sample_time = %s", number_text(step_size, text), MAX_SAMPLES,
+                      number_text(tuning.sample_time, sample_time));
     }
     double error = values[VR_VELOCITY_REFERENCE] - values[VR_MEASURED_VELOCITY];
-    error = fmax(-DBL_MAX, fmin(DBL_MAX, error)); /* no gain of 0 makes a NaN of it */
+    error = fmax(-DBL_MAX, fmin(DBL_MAX, error)); /* finite: a gain of 0 times it is 0, not NaN */
     for (; now->samples < due; now->samples++) {
         now->control = control_sampled(&tuning, now->control, error);
     }

@@ -1,4 +1,4 @@
-/* The controller between its law and FMI: values by reference, time, initialization, steps. */
+/* The controller between its law and FMI: values by reference, lifecycle, steps. */
 #ifndef CONTROLLER_COMPONENT_H
 #define CONTROLLER_COMPONENT_H
 
@@ -9,12 +9,12 @@
 #include "refusal.h"
 #include "snapshot.h"
 
-/* A velocity controller; `now` is all there is. */
+/* A velocity controller; `now` is its complete state. */
 typedef struct {
     Snapshot now;
 } Component;
 
-/* A step takes the samples that fall due from its start up to, not including, its end. */
+/* A step takes the samples due from its start up to, but not including, its end. */
 #include "component_functions.h"
 
 #endif

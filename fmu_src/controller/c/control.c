@@ -8,9 +8,9 @@ static double limited(double value, double limit) {
 
 Control control_sampled(const Tuning *tuning, Control before, double error) {
     double limit = tuning->effort_limit;
-    double wanted = tuning->proportional_gain * error + before.integral;
-    Control after = {limited(before.integral, limit), limited(wanted, limit)};
-    if (after.effort == wanted || (wanted > 0.0) != (error > 0.0)) {
+    double unlimited = tuning->proportional_gain * error + before.integral;
+    Control after = {limited(before.integral, limit), limited(unlimited, limit)};
+    if (after.effort == unlimited || (unlimited > 0.0) != (error > 0.0)) {
         double gained = tuning->integral_gain * tuning->sample_time * error;
         after.integral = limited(before.integral + gained, limit);
     }

@@ -1,5 +1,5 @@
-/* Layout: header and checksum of state_bytes.h; between them, as numbers, the fields in their order
- * and the values that can be set. */
+/* Layout: the header of state_bytes.h; as numbers the fields in their order, then the values that can
+ * be set; the checksum. */
 #include "snapshot.h"
 
 #include <math.h>
@@ -31,14 +31,14 @@ void snapshot_write(const Snapshot *snapshot, unsigned char *bytes) {
     state_seal(bytes, SNAPSHOT_SIZE);
 }
 
-/* Refuses fields that no controller can have. */
+/* Refuse fields that no controller can have. */
 static bool fields_check(const double *numbers, Refusal *refusal) {
     bool known = numbers[0] >= 0.0 && numbers[0] < LIFECYCLES && numbers[0] == floor(numbers[0]);
     bool times = isfinite(numbers[1]) && isfinite(numbers[2]) && numbers[3] >= numbers[1];
     bool sampled = isfinite(numbers[4]) && fabs(numbers[5]) <= 1.0 && fabs(numbers[6]) <= 1.0;
     return (known && times && sampled)
            || refuse(refusal, "FMU state refused: it holds a %s that no controller can have; "
-                     "allowed is what fmi2SerializeFMUstate wrote",
+                     "must be bytes that fmi2SerializeFMUstate wrote",
                      !known ? "lifecycle" : !times ? "time" : "sample");
 }
 

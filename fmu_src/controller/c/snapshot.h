@@ -10,8 +10,8 @@
 #include "refusal.h"
 #include "variables.h"
 
-/* Times in s; `stop_time` is infinite where it is open. `values` are those that can be set, by
- * reference. `samples` counts those taken since `start_time`. */
+/* Times in s; an open `stop_time` is infinite. `values` are those that can be set, by reference.
+ * `samples` counts those taken since `start_time`. */
 typedef struct {
     Lifecycle lifecycle;
     double start_time, time, stop_time, samples;
@@ -22,11 +22,11 @@ typedef struct {
 /* Number of bytes of any snapshot. */
 size_t snapshot_size(void);
 
-/* Writes snapshot_size() bytes, headed by the build and closed by their checksum. */
+/* Write snapshot_size() bytes: build, numbers, checksum. */
 void snapshot_write(const Snapshot *snapshot, unsigned char *bytes);
 
-/* Reads what snapshot_write wrote. Refuses bytes of another build and damaged ones; `snapshot` is
- * then undefined. */
+/* Read what snapshot_write wrote. Refuse bytes of another build, damaged ones, and numbers that no
+ * controller can have; `snapshot` is then undefined. */
 bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, Refusal *refusal);
 
 #endif

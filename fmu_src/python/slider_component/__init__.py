@@ -1,4 +1,4 @@
-"""Slider with an embedded resonator on a friction surface: the component, without FMI.
+"""Slider with an embedded resonator on a friction surface: the Python FMU.
 
-Standard library only, relative imports only: the package is renamed when it is put into an FMU.
+Standard library and relative imports only: the build renames the package for each FMU.
 """

@@ -1,11 +1,14 @@
-"""The component between numerics and FMI: values by name, time, initialization, steps, outputs."""
+"""The component between numerics and FMI: values by name, lifecycle, steps, outputs."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from math import inf, isfinite, log10, remainder, tau, ulp
 from typing import Any
 
+from . import refusal_texts
+from .constants import MAX_TURNS, STOP_TIME_SLACK, TIME_SLACK
 from .device import Device, Inputs
 from .held import LONGEST_ARC
 from .law import Law, law_of
@@ -17,16 +20,13 @@ from .plant import Plant
 from .refusal import Refusal
 from .snapshot import FORMAT, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, checked, number
-from .variables import Variable
-
-MAX_TURNS = 1e8
-"""Turns of the fastest oscillation in one step up to which its work is accepted."""
+from .variable import Variable
 
 
 class Component:
-    """A slider-resonator that is set, stepped and read by the names of the interface.
+    """A slider-resonator: set, step and read it by the names of the interface.
 
-    Every method leaves the component as it was when it raises Refusal.
+    A method that raises Refusal leaves the component as it was.
     """
 
     def __init__(self) -> None:
@@ -41,20 +41,17 @@ class Component:
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
     ) -> None:
-        """Take over start and stop time [s]; a stop time of None is open.
+        """Set start and stop time [s]; a stop time of None is open.
 
-        Coulomb friction has no use for the tolerance, which must still be a number.
+        The tolerance is checked and not used: that of LuGre friction is a parameter.
         """
         require("setupExperiment", self.lifecycle, Lifecycle.INSTANTIATED)
         if not isfinite(start_time):
-            raise Refusal(f"startTime = {start_time!r} refused: allowed is a finite number")
+            raise Refusal(refusal_texts.bad_start_time(start_time))
         if stop_time is not None and not stop_time >= start_time:
-            raise Refusal(
-                f"stopTime = {stop_time!r} refused: allowed is a number from startTime = "
-                f"{start_time!r} on"
-            )
+            raise Refusal(refusal_texts.bad_stop_time(stop_time, start_time))
         if tolerance is not None and not (isfinite(tolerance) and tolerance > 0.0):
-            raise Refusal(f"tolerance = {tolerance!r} refused: allowed is a finite number above 0")
+            raise Refusal(refusal_texts.bad_tolerance(tolerance))
         self.time = self._last_event_time = start_time
         self._stop_time = inf if stop_time is None else stop_time
 
@@ -83,12 +80,9 @@ class Component:
         for name, value in new.items():
             variable = BY_NAME[name]
             if variable.causality == "output":
-                raise Refusal(f"{name} = {value!r} refused: it is an output and cannot be set")
+                raise Refusal(refusal_texts.output_set(name, value))
             if variable.variability == "fixed" and running:
-                raise Refusal(
-                    f"{name} = {value!r} refused: it is fixed and can be set only before "
-                    "initialization ends"
-                )
+                raise Refusal(refusal_texts.fixed_while_running(name, value))
             values[name] = checked(variable, value)
         if values == self._values:
             return
@@ -96,7 +90,7 @@ class Component:
         self._values = values
 
     def get(self, *names: str) -> list[float]:
-        """Values of any variables; outputs from initialization mode on."""
+        """Return values of any variables; outputs from initialization mode on."""
         view: View | None = None
         found = []
         for name in names:
@@ -109,26 +103,17 @@ class Component:
         return found
 
     def step(self, time: float, step_size: float) -> None:
-        """Advance from `time` [s], the present one, by `step_size` > 0 [s], inputs held."""
+        """Advance from the present `time` [s] by `step_size` > 0 [s], inputs held."""
         require("doStep", self.lifecycle, Lifecycle.STEP_COMPLETE)
         if not (isfinite(step_size) and step_size > 0.0):
-            raise Refusal(
-                f"doStep: communicationStepSize = {step_size!r} refused: allowed is a finite "
-                "number above 0"
-            )
+            raise Refusal(refusal_texts.bad_step_size(step_size))
         # Hosts sum up their own time, so it may differ from this one by the rounding of a step.
-        slack = 1e-6 * step_size + 4.0 * ulp(self.time)
+        slack = TIME_SLACK * step_size + 4.0 * ulp(self.time)
         if not abs(time - self.time) <= slack:
-            raise Refusal(
-                f"doStep: currentCommunicationPoint = {time!r} refused: allowed is the present "
-                f"time {self.time!r}"
-            )
+            raise Refusal(refusal_texts.bad_step_start(time, self.time))
         end = time + step_size
-        if end > self._stop_time + slack + 1e-9 * abs(self._stop_time):
-            raise Refusal(
-                f"doStep: communicationStepSize = {step_size!r} refused: allowed is a step up to "
-                f"stopTime = {self._stop_time!r}"
-            )
+        if end > self._stop_time + slack + STOP_TIME_SLACK * abs(self._stop_time):
+            raise Refusal(refusal_texts.step_beyond_stop(step_size, self._stop_time))
         self._require_bounded_work(step_size)
         moment = self._advanced(step_size)
         if moment.event_age <= step_size:
@@ -137,7 +122,7 @@ class Component:
         self.time = end
 
     def snapshot(self) -> dict[str, Any]:
-        """The complete state, of plain numbers and names."""
+        """Return the complete state, of plain numbers and names."""
         return {
             "format": FORMAT,
             "lifecycle": self.lifecycle.value,
@@ -149,10 +134,10 @@ class Component:
         }
 
     def restore(self, plain: Mapping[str, Any]) -> None:
-        """Go back to a snapshot, of this or another instance. Raises Refusal if it is none."""
+        """Restore a snapshot, of this or another instance. Raises Refusal for anything else."""
         if not isinstance(plain, Mapping) or plain.get("format") != FORMAT:
             found = plain.get("format") if isinstance(plain, Mapping) else type(plain).__name__
-            raise Refusal(f"FMU state refused: its format is {found!r}; allowed is {FORMAT!r}")
+            raise Refusal(f"FMU state refused: its format is {found!r}; must be {FORMAT!r}")
         try:
             lifecycle = Lifecycle(plain["lifecycle"])
             time = number("time", plain["time"])
@@ -169,7 +154,7 @@ class Component:
         values = {name: checked(BY_NAME[name], value) for name, value in stored.items()}
         restored = None if moment is None else moment_from_plain(moment)
         if restored is None and lifecycle in (Lifecycle.STEP_COMPLETE, Lifecycle.TERMINATED):
-            raise Refusal("FMU state refused: it holds no motion; allowed is one after a step")
+            raise Refusal(refusal_texts.state_without_motion())
         self._prepared = None if restored is None else _prepare(values)
         self.lifecycle = lifecycle
         self.time, self._stop_time, self._last_event_time = time, stop_time, last_event_time
@@ -203,10 +188,7 @@ class Component:
         device, _, law = self._prepare()
         frequency = LONGEST_ARC / law.held.arc
         if device.fidelity > 0 and step_size * frequency > tau * MAX_TURNS:
-            raise Refusal(
-                f"doStep: communicationStepSize = {step_size!r} refused: the fastest oscillation "
-                f"has {frequency!r} rad/s; allowed is a step of at most {MAX_TURNS:g} turns of it"
-            )
+            raise Refusal(refusal_texts.too_many_turns(step_size, frequency))
 
     def _advanced(self, step_size: float) -> Moment:
         _, _, law = self._prepare()
@@ -220,17 +202,14 @@ class Component:
         except (ArithmeticError, ValueError):
             finite = False
         if not finite:
-            raise Refusal(
-                f"doStep: communicationStepSize = {step_size!r} refused: the motion leaves the "
-                "range of floating point numbers; allowed are smaller forces, frequencies or steps"
-            )
+            raise Refusal(refusal_texts.infinite_motion(step_size))
         return moment
 
 
 def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
-    phase = remainder(values["phase"], tau)
-    inputs = Inputs(phase, values["load"], values["frequency_ratio"])
     device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
+    inputs = Inputs(**{v.name: values[v.name] for v in SETTABLE if v.causality == "input"})
+    inputs = replace(inputs, phase=remainder(inputs.phase, tau))
     try:
         law = law_of(device, inputs)
         finite = all(map(isfinite, _coefficients(law.held.plant)))
@@ -242,9 +221,9 @@ def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
 
 
 def _extreme(values: Mapping[str, Any]) -> Refusal:
-    """The refusal of values that together leave the range of floating point numbers.
+    """Return the refusal of values that together leave the range of floating point numbers.
 
-    It names the one that is most decades away from its start.
+    Its text names the one that is most decades away from its start.
     """
 
     def distance(variable: Variable) -> float:
@@ -252,10 +231,8 @@ def _extreme(values: Mapping[str, Any]) -> Refusal:
         return abs(log10(abs(value)) - log10(variable.start or 1.0)) if value else 0.0
 
     furthest = max(SETTABLE, key=distance)
-    return Refusal(
-        f"{furthest.name} = {values[furthest.name]!r} refused: together with the other values it "
-        f"leaves the range of floating point numbers; allowed is one nearer to {furthest.start!r}"
-    )
+    value = values[furthest.name]
+    return Refusal(refusal_texts.extreme_value(furthest.name, value, furthest.start))
 
 
 def _coefficients(plant: Plant) -> tuple[float, ...]:

@@ -1,9 +1,10 @@
-"""The states of FMI 2.0 co-simulation and the calls that each allows."""
+"""The states of FMI 2.0 co-simulation, and which call needs which."""
 
 from __future__ import annotations
 
 from enum import StrEnum
 
+from . import refusal_texts
 from .refusal import Refusal
 
 
@@ -16,10 +17,7 @@ class Lifecycle(StrEnum):
     TERMINATED = "terminated"
 
 
-def require(call: str, state: Lifecycle, *allowed: Lifecycle) -> None:
-    """Raise Refusal, naming call, state and the states that allow it, unless `state` does."""
-    if state not in allowed:
-        raise Refusal(
-            f"{call} refused in state '{state}': allowed in "
-            + " or ".join(f"'{a}'" for a in allowed)
-        )
+def require(call: str, state: Lifecycle, required: Lifecycle) -> None:
+    """Raise Refusal for a call in any state but `required`."""
+    if state != required:
+        raise Refusal(refusal_texts.wrong_state(call, state, required))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from math import hypot, inf
 
+from . import refusal_texts
 from .averaged_lugre import AVERAGED_LUGRE
 from .contact import BACKWARD, FORWARD, LIFTED, direction_of, friction_limit
 from .device import Device
@@ -33,10 +34,7 @@ away from full when closed forms take over."""
 def check(device: Device) -> None:
     """Raise Refusal without friction, where (8) has no meaning."""
     if device.friction_coefficient == 0.0:
-        raise Refusal(
-            f"friction_coefficient = {device.friction_coefficient!r} refused: with LuGre friction "
-            "allowed is a finite number above 0"
-        )
+        raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
 
 
 def first_bristle(held: Held) -> float:

@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
+from . import refusal_texts
 from .device import Device, Inputs
 from .motion import EPSILON
 from .oscillator import Oscillator, transfer
@@ -72,11 +73,7 @@ def steady_resonator(device: Device) -> complex:
     oscillator = _slip_oscillator(device)
     detuning = abs(oscillator.stiffness - w * w)
     if device.damping_ratio == 0.0 and detuning <= AT_RESONANCE * w * w:
-        raise Refusal(
-            f"damping_ratio = {device.damping_ratio!r} refused: without damping the steady force "
-            f"of the resonator is unbounded at drive_frequency = {w!r}; allowed there is a number "
-            "above 0"
-        )
+        raise Refusal(refusal_texts.unbounded_resonance(device.damping_ratio, w))
     return (
         device.base_amplitude * w * w - device.tangential_force / device.slider_mass
     ) * transfer(oscillator, w)

@@ -1,25 +1,22 @@
-"""The error that refuses a call; its text names the thing, its value and what is allowed."""
+"""The error of a refused call; its text names the thing, its value and what it must be."""
 
 from __future__ import annotations
 
 from math import floor, log10
 
+from . import refusal_texts
+
 
 class Refusal(ValueError):
-    """A call that is refused. The state of the component is as it was before the call."""
+    """A refused call. The component is as it was before the call."""
 
 
-def too_much_work(step_size: float, reached: float, most: int, what: str) -> Refusal:
-    """The refusal of a step of `step_size` [s] that takes more than `most` of `what`.
+def too_much_work(step_size: float, reached: float, max_count: int, what: str) -> Refusal:
+    """Return the refusal of a step of `step_size` [s] that takes more than `max_count` of `what`.
 
-    A step up to `reached` [s], named as a power of ten, takes less.
+    A step up to `reached` [s] takes less: the text names the power of ten below it.
     """
-    allowed = (
-        f"one of at most 1e{floor(log10(reached))} s"
-        if reached > 0.0
-        else ("one under other forces")
-    )
-    return Refusal(
-        f"doStep: communicationStepSize = {step_size!r} refused: it takes more than {most} {what}; "
-        f"allowed is {allowed}"
-    )
+    if reached > 0.0:
+        exponent = floor(log10(reached))
+        return Refusal(refusal_texts.too_much_work(step_size, max_count, what, exponent))
+    return Refusal(refusal_texts.too_much_work_at_once(step_size, max_count, what))

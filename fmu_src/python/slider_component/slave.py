@@ -1,9 +1,9 @@
-"""The FMI shell: pythonfmu's slave over the component.
+"""The FMI shell: pythonfmu's slave around the component.
 
-pythonfmu answers an exception with fmi2Fatal, and a False from do_step with fmi2Discard, on which
-hosts end a run early without an error. So refusals are raised. pythonfmu then also gives back one
-reference each to class, instance and message list that it never took, after which the instance
-would be freed under the host's feet: `outlive` takes these references beforehand.
+pythonfmu turns an exception into fmi2Fatal, and a False from do_step into fmi2Discard, on which
+hosts end a run early without an error. So refusals are raised. pythonfmu then releases one
+reference each to class, instance and message list that it never took, which would free the instance
+while the host uses it: `outlive` takes these references beforehand.
 """
 
 from __future__ import annotations
@@ -20,17 +20,19 @@ from typing import Any, ParamSpec, TypeVar
 
 from pythonfmu import Fmi2Slave
 
+from . import refusal_texts
 from .component import Component
 from .refusal import Refusal
 from .snapshot import from_bytes, to_bytes
-from .variables import VARIABLES, Variable
+from .variable import Variable
+from .variables import VARIABLES
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
 
 def _refusing(method: Callable[P, R]) -> Callable[P, R]:
-    """A call of the slave that says on stderr what it refuses, and outlives the refusal."""
+    """Return the method of the slave with refusals reported to stderr and survived."""
 
     @functools.wraps(method)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
@@ -51,11 +53,11 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         if "logger" in kwargs:
-            # A host: pythonfmu has put the resources of this instance on sys.path for good.
+            # In a host pythonfmu leaves the resources of this instance on sys.path.
             with contextlib.suppress(ValueError):
                 sys.path.remove(kwargs["resources"])
             if sys.platform == "linux":
-                _let_go_at_exit(Path(kwargs["resources"]).parent)
+                _release_interpreter_at_exit(Path(kwargs["resources"]).parent)
         self._component = Component()
 
     def outlive(self, error: Exception) -> None:
@@ -89,7 +91,7 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
 
     @_refusing
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """fmi2DoStep: always a whole step, or a refusal."""
+        """fmi2DoStep: the whole step or a refusal."""
         self._component.step(current_time, step_size)
         return True
 
@@ -152,44 +154,40 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
         return from_bytes(state)
 
 
-def outlast_loading(namespace: dict[str, Any]) -> None:
-    """Keep the namespace of the loaded script from being freed, once per evaluation of it.
+def keep_alive(namespace: dict[str, Any]) -> None:
+    """Keep the namespace of the loaded script alive; call it once per evaluation of the script.
 
-    Each time pythonfmu loads an instance it evaluates the script in the namespace of its module,
-    and then gives back a reference to that namespace which it never took.
+    For each instance pythonfmu evaluates the script in the namespace of its module, and then
+    releases a reference to that namespace which it never took.
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(namespace))
 
 
 @functools.cache
-def _let_go_at_exit(unpacked: Path) -> None:
-    """Have the binary of an unpacked FMU release the interpreter before the process ends.
+def _release_interpreter_at_exit(unpacked: Path) -> None:
+    """Make the binary of an unpacked FMU release the interpreter before the process ends.
 
-    Unasked it does so while its static objects are destroyed, after the one that it then uses.
+    By itself it does so while its static objects are destroyed, after the one that it then uses.
     """
-    atexit.register(_let_go, unpacked / "binaries" / "linux64" / f"{SliderResonatorPy.__name__}.so")
+    atexit.register(
+        _release_interpreter, unpacked / "binaries" / "linux64" / f"{SliderResonatorPy.__name__}.so"
+    )
 
 
-def _let_go(binary: Path) -> None:
-    # Only if the host has not unloaded it: keeping it loaded would cost 0.3 MB per unpacked FMU.
+def _release_interpreter(binary: Path) -> None:
+    # Only while the host has it loaded: to keep it loaded would cost 0.3 MB per unpacked FMU.
     with contextlib.suppress(OSError):
         ctypes.CDLL(str(binary), mode=os.RTLD_NOLOAD | os.RTLD_NOW).finalizePythonInterpreter()
 
 
 def _variables(kind: str, references: list[int]) -> list[Variable]:
-    """The variables behind value references. Raises Refusal for one that has not this type."""
+    """Return the variables with these value references. Raises Refusal for one of another type."""
     found = []
     for reference in references:
-        known = 0 <= reference < len(VARIABLES)
-        if not known:
-            raise Refusal(
-                f"valueReference = {reference} refused: allowed is 0 to {len(VARIABLES) - 1}"
-            )
+        if not 0 <= reference < len(VARIABLES):
+            raise Refusal(refusal_texts.unknown_reference(reference, len(VARIABLES) - 1))
         variable = VARIABLES[reference]
         if variable.type != kind:
-            raise Refusal(
-                f"{variable.name} (valueReference = {reference}) refused: its type is "
-                f"{variable.type}, not {kind}"
-            )
+            raise Refusal(refusal_texts.wrong_type(variable.name, reference, variable.type, kind))
         found.append(variable)
     return found

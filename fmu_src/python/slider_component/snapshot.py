@@ -1,4 +1,4 @@
-"""The complete state of a component as plain numbers and names, which JSON carries exactly."""
+"""The complete state of a component as plain numbers and names, which JSON keeps exactly."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from dataclasses import fields
 from math import inf
 from typing import Any
 
+from . import refusal_texts
 from .contact import BACKWARD, LIFTED
 from .moment import Counts, Moment
 from .motion import State
@@ -17,12 +18,12 @@ from .refusal import Refusal
 from .values import integer, number
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
-"""Names the build, for inside an FMU the package is named after its content: a state of one build
-does not fit another."""
+"""The package inside an FMU is named after its content, so this names the build: a state of one
+build does not fit another."""
 
 
 def moment_to_plain(moment: Moment) -> dict[str, Any]:
-    """The moment as nested dictionaries; an event that never was has the age None."""
+    """Return the moment as nested dictionaries; before any event its age is None."""
     plain: dict[str, Any] = {f.name: getattr(moment, f.name) for f in fields(moment)}
     for name in ("state", "counts", "means"):
         plain[name] = plain[name]._asdict()
@@ -32,7 +33,7 @@ def moment_to_plain(moment: Moment) -> dict[str, Any]:
 
 
 def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
-    """The inverse of `moment_to_plain`. Raises Refusal when an entry is missing or no number."""
+    """Invert `moment_to_plain`. Raises Refusal for a missing entry or one that is not a number."""
     try:
         age = plain["event_age"]
         means = dict(plain["means"])
@@ -51,7 +52,7 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
     except (KeyError, TypeError, AttributeError) as error:
         raise Refusal(f"FMU state refused: its motion does not fit ({error!r})") from error
     if not BACKWARD <= moment.mode <= LIFTED:
-        raise Refusal(f"FMU state refused: mode = {moment.mode!r}; allowed is -1 to 2")
+        raise Refusal(refusal_texts.out_of_range_in_state("mode", moment.mode, BACKWARD, LIFTED))
     return moment
 
 
@@ -60,16 +61,16 @@ def _numbers(name: str, plain: Mapping[str, Any]) -> dict[str, float]:
 
 
 def to_bytes(plain: Mapping[str, Any]) -> bytes:
-    """A snapshot in bytes, headed by their checksum."""
+    """Return a snapshot in bytes, after their checksum."""
     body = json.dumps(plain, sort_keys=True).encode()
     return _checksum(body) + b"\n" + body
 
 
 def from_bytes(data: bytes) -> dict[str, Any]:
-    """The inverse of `to_bytes`. What is no snapshot becomes one whose format says so.
+    """Invert `to_bytes`. Bytes that are not a snapshot become one whose format says so.
 
-    It raises nothing, because no instance is at hand there that could outlive an error; setting
-    such a snapshot is refused.
+    Never raises: there is no instance here that could survive an error. To set such a snapshot is
+    refused.
     """
     checksum, _, body = data.partition(b"\n")
     if checksum != _checksum(body):

@@ -1,19 +1,21 @@
-"""Checks of the values that a host sets."""
+"""Checks of values that a host sets, and of numbers in a stored state."""
 
 from __future__ import annotations
 
 from math import isfinite
 
+from . import refusal_texts
 from .refusal import Refusal
-from .variables import VARIABLES, Variable
+from .variable import Variable
+from .variables import VARIABLES
 
 BY_NAME = {variable.name: variable for variable in VARIABLES}
 SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "output")
 
 
 def checked(variable: Variable, value: object) -> float:
-    """The value as the variable's type. Raises Refusal when it is not one that is allowed."""
-    refused = Refusal(f"{variable.name} = {value!r} refused: allowed is {variable.allowed}")
+    """Return the value in the variable's type. Raises Refusal for one that the table excludes."""
+    refused = Refusal(refusal_texts.out_of_bounds(variable.name, value, variable.requirement))
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not isfinite(value):
         raise refused
     low, high = variable.minimum, variable.maximum
@@ -27,14 +29,14 @@ def checked(variable: Variable, value: object) -> float:
 
 
 def number(name: str, value: object) -> float:
-    """A finite number of a stored state. Raises Refusal when it is none."""
+    """Return a finite number of a stored state. Raises Refusal for anything else."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not isfinite(value):
-        raise Refusal(f"FMU state refused: {name} = {value!r}; allowed is a finite number")
+        raise Refusal(refusal_texts.infinite_in_state(name, value))
     return float(value)
 
 
 def integer(name: str, value: object) -> int:
-    """An integer of a stored state. Raises Refusal when it is none."""
+    """Return an integer of a stored state. Raises Refusal for anything else."""
     if isinstance(value, bool) or not isinstance(value, int):
-        raise Refusal(f"FMU state refused: {name} = {value!r}; allowed is an integer")
+        raise Refusal(f"FMU state refused: {name} = {value!r}; must be an integer")
     return value

@@ -1,55 +1,20 @@
-"""The one table of FMU variables: names, units, bounds and starts (SI throughout).
+"""The table of FMU variables: names, units, bounds and start values (SI units).
 
-Everything that describes the interface is generated from these rows: the model description, the
-checks of values that a host sets, and the table in the documentation. The value reference of a
-variable is its position in `VARIABLES`.
+All descriptions of the interface are generated from these rows: the model description, checks of
+values, fields of the device in both twins, and the documentation. The value reference of a variable
+is its position in `VARIABLES`.
+
+During initialization both phases are zero, so neither a rate nor `tangential_force` (which acts as
+its amplitude times sin(0)) acts on a force directly. The other dependencies follow from the
+equations: the stick condition needs the force of the resonator's spring and damper, `fidelity` 1
+replaces those by the steady resonator force (34), and LuGre friction depends on its bristle.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
-from typing import Literal
 
-Type = Literal["Real", "Integer"]
-Causality = Literal["input", "parameter", "output"]
-Variability = Literal["continuous", "discrete", "tunable", "fixed"]
-
-
-@dataclass(frozen=True)
-class Variable:
-    """One row of the interface.
-
-    `start` is None for outputs. `minimum` and `maximum` are inclusive; None means unbounded.
-    `depends_on` lists the inputs that an output depends on directly at a communication point.
-    """
-
-    name: str
-    description: str
-    type: Type
-    causality: Causality
-    variability: Variability
-    start: float | None = None
-    unit: str | None = None
-    display_unit: str | None = None
-    minimum: float | None = None
-    maximum: float | None = None
-    nominal: float | None = None
-    depends_on: tuple[str, ...] = ()
-
-    @property
-    def allowed(self) -> str:
-        """The allowed values in words, for error messages."""
-        kind = "an integer" if self.type == "Integer" else "a finite number"
-        unit = f" {self.unit}" if self.unit and self.unit != "1" else ""
-        if self.minimum is not None and self.maximum is not None:
-            return f"{kind} from {self.minimum:g} to {self.maximum:g}{unit}"
-        if self.minimum is not None:
-            return f"{kind} of at least {self.minimum:g}{unit}"
-        if self.maximum is not None:
-            return f"{kind} of at most {self.maximum:g}{unit}"
-        return kind
-
+from .variable import Variable
 
 _input = partial(Variable, type="Real", causality="input", variability="continuous")
 _fixed = partial(Variable, type="Real", causality="parameter", variability="fixed")
@@ -59,6 +24,43 @@ _output = partial(Variable, type="Real", causality="output", variability="contin
 _count = partial(Variable, type="Real", causality="output", variability="discrete")
 
 _INPUTS = ("phase", "load", "frequency_ratio")
+_CHOICES = ("friction_law", "fidelity")
+_NORMAL_FORCE = ("phase", "normal_preload", "normal_amplitude")
+
+_MASSES_AND_SPRING = ("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio")
+# The parameters of the resonator's steady motion (32) and of its force on the slider (33).
+_STEADY_RESONATOR = (
+    *_MASSES_AND_SPRING,
+    "base_amplitude",
+    "drive_frequency",
+    "tangential_force",
+)
+_FRICTION = (
+    *_NORMAL_FORCE,
+    *_CHOICES,
+    *_STEADY_RESONATOR,
+    "load",
+    # At the boundary of a flight its sign is the direction of the normal phase.
+    "frequency_ratio",
+    "friction_coefficient",
+    "friction_faces",
+    "bristle_stiffness",
+    "bristle_damping",
+    "initial_velocity",
+    "initial_resonator_displacement",
+    "initial_resonator_velocity",
+    "initial_bristle_deflection",
+)
+_AVERAGED_THEORY = (
+    *_NORMAL_FORCE,
+    *_STEADY_RESONATOR,
+    "frequency_ratio",
+    "friction_coefficient",
+    "friction_faces",
+    "friction_law",
+    "bristle_stiffness",
+    "bristle_damping",
+)
 
 VARIABLES: tuple[Variable, ...] = (
     _input(
@@ -262,6 +264,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m",
         display_unit="mm",
         nominal=1e-3,
+        depends_initially_on=("initial_position",),
     ),
     _output(
         "velocity",
@@ -269,6 +272,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
+        depends_initially_on=("initial_velocity",),
     ),
     _output(
         "mean_velocity",
@@ -277,6 +281,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
+        depends_initially_on=("initial_velocity",),
     ),
     _output(
         "resonator_displacement",
@@ -284,6 +289,11 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m",
         display_unit="um",
         nominal=1e-3,
+        depends_initially_on=(
+            "fidelity",
+            *_STEADY_RESONATOR,
+            "initial_resonator_displacement",
+        ),
     ),
     _output(
         "resonator_velocity",
@@ -291,6 +301,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=1.0,
+        depends_initially_on=("fidelity", *_STEADY_RESONATOR, "initial_resonator_velocity"),
     ),
     _output(
         "normal_force",
@@ -298,6 +309,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="N",
         nominal=1.0,
         depends_on=("phase",),
+        depends_initially_on=_NORMAL_FORCE,
     ),
     _output(
         "friction_force",
@@ -306,6 +318,7 @@ VARIABLES: tuple[Variable, ...] = (
         display_unit="mN",
         nominal=0.1,
         depends_on=_INPUTS,
+        depends_initially_on=_FRICTION,
     ),
     _count(
         "contact_mode",
@@ -314,6 +327,7 @@ VARIABLES: tuple[Variable, ...] = (
         minimum=-1.0,
         maximum=2.0,
         depends_on=_INPUTS,
+        depends_initially_on=_FRICTION,
     ),
     _count(
         "reversals",
@@ -329,6 +343,8 @@ VARIABLES: tuple[Variable, ...] = (
         minimum=0.0,
         maximum=1.0,
         nominal=1.0,
+        # 0 or 1 by the contact mode until time has passed.
+        depends_initially_on=_FRICTION,
     ),
     _count(
         "last_event_time",
@@ -343,6 +359,7 @@ VARIABLES: tuple[Variable, ...] = (
         display_unit="mm/s",
         nominal=0.1,
         depends_on=_INPUTS,
+        depends_initially_on=(*_AVERAGED_THEORY, "load"),
     ),
     _output(
         "blocking_force",
@@ -351,6 +368,7 @@ VARIABLES: tuple[Variable, ...] = (
         display_unit="mN",
         nominal=0.1,
         depends_on=("phase", "frequency_ratio"),
+        depends_initially_on=_AVERAGED_THEORY,
     ),
 )
 

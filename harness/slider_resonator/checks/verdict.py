@@ -63,7 +63,7 @@ def _signal_sentence(check: Check, unit: str) -> str:
 def _times(check: Check) -> str:
     assert check.deviation is not None
     if not check.allowed:
-        return "allowed is 0"
+        return "must be 0"
     ratio = check.deviation / check.allowed
     return f"{ratio:.3g} times the allowed {check.allowed:.2g}"
 

@@ -18,9 +18,7 @@ TOOL = "slider-resonator"
 
 def _folder_name(context: click.Context, option: click.Parameter, name: str) -> str:
     if not FOLDER_NAME.fullmatch(name):
-        raise click.BadParameter(
-            f"{name!r}: allowed are letters, digits and . _ + -", context, option
-        )
+        raise click.BadParameter(f"{name!r}: must be letters, digits and . _ + -", context, option)
     return name
 
 

@@ -43,7 +43,7 @@ class Setting(click.ParamType[tuple[str, float]]):
         try:
             read = float(number)
         except ValueError:
-            self.fail(f"{name} = {number!r}: allowed is a number", param, ctx)
+            self.fail(f"{name} = {number!r}: must be a number", param, ctx)
         try:
             check_value(name, read)
         except ValueError as error:
@@ -96,7 +96,7 @@ def _each_once(
     for name, value in settings:
         if name in given:
             raise click.BadParameter(
-                f"{name} = {given[name]!r} and {name} = {value!r}: allowed is one value",
+                f"{name} = {given[name]!r} and {name} = {value!r}: must be one value",
                 context,
                 option,
             )
@@ -111,7 +111,7 @@ def check_left_to_choose(settings: Mapping[str, float]) -> None:
     ]
     if given:
         raise click.UsageError(
-            f"'--set': {', '.join(given)}: it is chosen; allowed are other parameters and inputs"
+            f"'--set': {', '.join(given)}: it is chosen; must be another parameter or input"
         )
 
 

@@ -1,10 +1,14 @@
-"""The device parameters of the contract, with table 1 of the paper as start values."""
+"""The device parameters of the contract: SI units, and table 1 of the paper as start values."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
+
+
+def _parameter(start: float, unit: str) -> Any:
+    return field(default=start, metadata={"unit": unit})
 
 
 @dataclass(frozen=True)
@@ -15,27 +19,27 @@ class Device:
     ``fidelity`` the number of resolved degrees of freedom (0 averaged, 1, 2).
     """
 
-    slider_mass: float = 1.0
-    resonator_mass: float = 0.1
-    resonator_frequency: float = 3500.0
-    damping_ratio: float = 0.05
-    normal_preload: float = 1.0
-    normal_amplitude: float = 1.0
-    base_amplitude: float = 1e-4
-    drive_frequency: float = 3500.0
-    tangential_force: float = 0.0
-    friction_coefficient: float = 0.1
-    friction_faces: int = 2
-    friction_law: int = 0
-    bristle_stiffness: float = 1e5
-    bristle_damping: float = 10.0
-    fidelity: int = 2
-    tolerance: float = 1e-8
-    initial_position: float = 0.0
-    initial_velocity: float = 0.0
-    initial_resonator_displacement: float = 0.0
-    initial_resonator_velocity: float = 0.0
-    initial_bristle_deflection: float = 0.0
+    slider_mass: float = _parameter(1.0, "kg")
+    resonator_mass: float = _parameter(0.1, "kg")
+    resonator_frequency: float = _parameter(3500.0, "rad/s")
+    damping_ratio: float = _parameter(0.05, "1")
+    normal_preload: float = _parameter(1.0, "N")
+    normal_amplitude: float = _parameter(1.0, "N")
+    base_amplitude: float = _parameter(1e-4, "m")
+    drive_frequency: float = _parameter(3500.0, "rad/s")
+    tangential_force: float = _parameter(0.0, "N")
+    friction_coefficient: float = _parameter(0.1, "1")
+    friction_faces: int = _parameter(2, "1")
+    friction_law: int = _parameter(0, "1")
+    bristle_stiffness: float = _parameter(1e5, "1/m")
+    bristle_damping: float = _parameter(10.0, "s/m")
+    fidelity: int = _parameter(2, "1")
+    tolerance: float = _parameter(1e-8, "1")
+    initial_position: float = _parameter(0.0, "m")
+    initial_velocity: float = _parameter(0.0, "m/s")
+    initial_resonator_displacement: float = _parameter(0.0, "m")
+    initial_resonator_velocity: float = _parameter(0.0, "m/s")
+    initial_bristle_deflection: float = _parameter(0.0, "m")
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, float]) -> Device:
@@ -50,7 +54,7 @@ class Device:
             if name not in known:
                 raise ValueError(
                     f"unknown device parameter {name!r} = {value!r}; "
-                    f"allowed: {', '.join(sorted(known))}"
+                    f"must be one of {', '.join(sorted(known))}"
                 )
             if name in integer_names:
                 if not float(value).is_integer():

@@ -7,6 +7,9 @@ agree with itself.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import fields
+
+from slider_resonator.device.device import Device
 
 INPUTS: Mapping[str, str] = {"phase": "rad", "load": "N", "frequency_ratio": "1"}
 """Input name to unit."""
@@ -14,32 +17,10 @@ INPUTS: Mapping[str, str] = {"phase": "rad", "load": "N", "frequency_ratio": "1"
 INPUT_STARTS: Mapping[str, float] = {"phase": 0.0, "load": 0.0, "frequency_ratio": 1.0}
 """Value of each input that a scene or command leaves alone."""
 
-PARAMETERS: Mapping[str, str] = {
-    "slider_mass": "kg",
-    "resonator_mass": "kg",
-    "resonator_frequency": "rad/s",
-    "damping_ratio": "1",
-    "normal_preload": "N",
-    "normal_amplitude": "N",
-    "base_amplitude": "m",
-    "drive_frequency": "rad/s",
-    "tangential_force": "N",
-    "friction_coefficient": "1",
-    "friction_faces": "1",
-    "friction_law": "1",
-    "bristle_stiffness": "1/m",
-    "bristle_damping": "s/m",
-    "fidelity": "1",
-    "tolerance": "1",
-    "initial_position": "m",
-    "initial_velocity": "m/s",
-    "initial_resonator_displacement": "m",
-    "initial_resonator_velocity": "m/s",
-    "initial_bristle_deflection": "m",
-}
+PARAMETERS: Mapping[str, str] = {f.name: f.metadata["unit"] for f in fields(Device)}
 """Parameter name to unit."""
 
-INTEGERS = frozenset({"friction_faces", "friction_law", "fidelity"})
+INTEGERS = frozenset(f.name for f in fields(Device) if f.type == "int")
 """Parameters that are Integers; all others, and all inputs, are Real."""
 
 OUTPUTS: Mapping[str, str] = {

@@ -114,7 +114,7 @@ def step_count(stop: float, step: float) -> int:
     if not ratio <= MOST_STEPS:
         raise ValueError(
             f"a stop time of {stop:.6g} s in steps of {step:.6g} s makes {ratio:.3g} communication "
-            f"steps; allowed are up to {MOST_STEPS}"
+            f"steps; must be at most {MOST_STEPS}"
         )
     return int(np.ceil(ratio))
 

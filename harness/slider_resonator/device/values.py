@@ -18,14 +18,14 @@ def check_value(name: str, value: float) -> None:
     if name in INTEGERS:
         check_integer(name, value)
     elif not isfinite(value):
-        raise ValueError(f"{name} = {value!r}: allowed is a finite number")
+        raise ValueError(f"{name} = {value!r}: must be a finite number")
     elif name == "drive_frequency" and not value > 0.0:
-        raise ValueError(f"{name} = {value!r}: allowed is a number above 0")
+        raise ValueError(f"{name} = {value!r}: must be a number above 0")
 
 
 def check_integer(name: str, value: float) -> None:
     """Raise ValueError, with name, value and what is allowed, unless it is an FMI Integer."""
     if not float(value).is_integer():
-        raise ValueError(f"{name} = {value!r}: allowed is an integer")
+        raise ValueError(f"{name} = {value!r}: must be an integer")
     if abs(value) > LARGEST_INTEGER:
-        raise ValueError(f"{name} = {value!r}: allowed is an integer up to {LARGEST_INTEGER}")
+        raise ValueError(f"{name} = {value!r}: must be an integer up to {LARGEST_INTEGER}")

@@ -172,7 +172,7 @@ class Instance:
         if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * steps.max():
             raise FmuError(
                 f"{self.fmu.path.name} says canHandleVariableCommunicationStepSize = false, but "
-                f"this needs steps from {steps.min():.6g} s to {steps.max():.6g} s; allowed is one "
+                f"this needs steps from {steps.min():.6g} s to {steps.max():.6g} s; must be one "
                 "size for the whole run"
             )
 

@@ -75,7 +75,7 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
 
 def _read_description(path: Path) -> ModelDescription:
     if path.is_dir():
-        raise FmuError(f"{path}: is a directory; allowed is an FMU file")
+        raise FmuError(f"{path}: is a directory; must be an FMU file")
     if not path.is_file():
         raise FmuError(f"{path}: no such file")
     if not zipfile.is_zipfile(path):
@@ -83,7 +83,7 @@ def _read_description(path: Path) -> ModelDescription:
     try:
         version = _fmi_version(path)
         if version != "2.0":
-            raise FmuError(f"{path}: FMI version {version}; allowed is 2.0")
+            raise FmuError(f"{path}: FMI version {version}; must be 2.0")
         return read_model_description(str(path))
     except FmuError:
         raise
@@ -103,7 +103,7 @@ def _fmi_version(path: Path) -> str:
 
 def _check_interface(path: Path, description: ModelDescription) -> None:
     if description.coSimulation is None:
-        raise FmuError(f"{path}: an FMU for model exchange only; allowed is co-simulation")
+        raise FmuError(f"{path}: an FMU for model exchange only; must be co-simulation")
     problems = interface_problems(description)
     platforms = fmpy.supported_platforms(str(path))
     if not problems and fmpy.platform not in platforms:

@@ -32,7 +32,7 @@ def _embedded(before: str, text: str, path: Path, begin: str, end: str) -> str:
         or before.count(end) != 1
         or before.index(begin) > before.index(end)
     ):
-        raise HarnessError(f"{path}: allowed is one {begin} and one {end} after it")
+        raise HarnessError(f"{path}: must have one {begin} and one {end} after it")
     head, _, rest = before.partition(begin)
     _, _, tail = rest.partition(end)
     return f"{head}{begin}\n{text}\n{end}{tail}"

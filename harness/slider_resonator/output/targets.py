@@ -18,7 +18,7 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
     Raises HarnessError, also for a suffix other than one of `suffixes`, if any.
     """
     if not text:
-        raise HarnessError("'' names no file; allowed is the name of a file")
+        raise HarnessError("'' names no file; must be the name of a file")
     path = Path(text)
     try:
         mode = path.lstat().st_mode
@@ -27,10 +27,10 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
     except OSError as error:
         raise HarnessError(f"{path}: cannot be written: {error.strerror}") from error
     if not stat.S_ISREG(mode):
-        raise HarnessError(f"{path} is {_kind(mode)}; allowed is a regular file or a new one")
+        raise HarnessError(f"{path} is {_kind(mode)}; must be a regular file or a new one")
     if suffixes and path.suffix.lower() not in suffixes:
         allowed = ", ".join(suffixes)
-        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; allowed is one of {allowed}")
+        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be one of {allowed}")
     if not path.parent.is_dir():
         raise HarnessError(f"{path}: there is no folder {path.parent}; create it first")
     if not os.access(path.parent, os.W_OK):
@@ -57,7 +57,7 @@ def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) ->
             continue
         for name, other in taken.items():
             if _same(path, other):
-                raise HarnessError(f"{option} {path} is {name}; allowed is a file of its own")
+                raise HarnessError(f"{option} {path} is {name}; must be a file of its own")
         taken[f"the file of {option}"] = path
 
 

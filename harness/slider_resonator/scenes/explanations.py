@@ -10,7 +10,7 @@ from pydantic import BaseModel, ValidationError
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.schema import SceneTable
 
-_ALLOWED: Mapping[str, str] = {
+_REQUIREMENTS: Mapping[str, str] = {
     "dict_type": "a table of keys and values",
     "finite_number": "a finite number",
     "float_type": "a number",
@@ -23,7 +23,7 @@ _ALLOWED: Mapping[str, str] = {
     "too_long": "a list of {max_length} numbers",
     "tuple_type": "a list in brackets",
 }
-"""What is allowed, by the type of error that pydantic finds."""
+"""What a value must be, by the type of error that pydantic finds."""
 
 
 def explanations(source: str, error: ValidationError) -> list[str]:
@@ -41,10 +41,10 @@ def explanations(source: str, error: ValidationError) -> list[str]:
             value = problem["input"]
             shown = "" if isinstance(value, dict) else f" = {value!r}"
             wrong = problem["msg"].removeprefix("Value error, ")
-            if problem["type"] in _ALLOWED:
-                wrong = "allowed is " + _ALLOWED[problem["type"]].format(**problem.get("ctx", {}))
+            if problem["type"] in _REQUIREMENTS:
+                wrong = "must be " + _REQUIREMENTS[problem["type"]].format(**problem.get("ctx", {}))
             if location == ("expect",):
-                wrong = "allowed is a list of tables, each headed [[expect]]"
+                wrong = "must be a list of tables, each headed [[expect]]"
             lines.append(f"{source}: {key}{shown}: {wrong}")
     return lines
 

@@ -211,7 +211,7 @@ def find_scene(name_or_file: str) -> Path:
     if path.is_file():
         return path
     if path.is_dir():
-        raise SceneError(f"{path}: is a directory; allowed is a scene file or a built-in scene")
+        raise SceneError(f"{path}: is a directory; must be a scene file or a built-in scene")
     if path.suffix == ".toml":
         raise SceneError(f"{path}: no such scene file")
     raise SceneError(unknown_name("scene", name_or_file, built_in))
@@ -228,7 +228,7 @@ def scene_files(scene: str) -> list[Path]:
     files = sorted(folder.glob("*.toml"))
     if not files:
         raise SceneError(
-            f"{folder}: is a directory; allowed is a scene file, a built-in scene or a directory "
+            f"{folder}: is a directory; must be a scene file, a built-in scene or a directory "
             "with scene files (*.toml)"
         )
     return files

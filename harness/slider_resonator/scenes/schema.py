@@ -113,7 +113,7 @@ class ExpectTable(_Table):
     def _number_or_word(cls, value: object) -> object:
         number = isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
         if not (number or isinstance(value, str)):
-            raise ValueError("allowed is a finite number or a text in quotes")
+            raise ValueError("must be a finite number or a text in quotes")
         return value
 
     @model_validator(mode="after")
@@ -153,9 +153,7 @@ class ExpectTable(_Table):
         signal = quantity.kind == "signal"
         alone = quantity.exact or not self.relative > 0.0
         if signal and "absolute" in self.model_fields_set and alone:
-            raise ValueError(
-                f"{self.quantity} is a signal: allowed is relative, not absolute alone"
-            )
+            raise ValueError(f"{self.quantity} is a signal: must be relative, not absolute alone")
         if not quantity.exact and not self.model_fields_set & {"absolute", "relative"}:
             needed = "relative, a share of the peak" if signal else "relative or absolute"
             raise ValueError(f"{self.quantity} is a real number: it needs a tolerance, {needed}")
@@ -179,7 +177,7 @@ class SweepTable(_Table):
     @classmethod
     def _some(cls, values: tuple[float, ...]) -> tuple[float, ...]:
         if not values:
-            raise ValueError("allowed is a list of at least one number")
+            raise ValueError("must be a list of at least one number")
         return values
 
     @model_validator(mode="after")
@@ -203,7 +201,7 @@ class AllowedTable(_Table):
     @classmethod
     def _a_table(cls, value: object) -> object:
         if not isinstance(value, dict):
-            raise ValueError("allowed is a table with abs or rel, such as { rel = 0.01 }")
+            raise ValueError("must be a table with abs or rel, such as { rel = 0.01 }")
         return value
 
     @model_validator(mode="after")

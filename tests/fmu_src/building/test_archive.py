@@ -36,5 +36,5 @@ def test_an_older_file_is_replaced_or_stays(tmp_path: Path) -> None:
 def test_a_file_in_the_way_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     check_folder(tmp_path / "not" / "there")
-    with pytest.raises(BuildError, match="is a file; allowed is a folder"):
+    with pytest.raises(BuildError, match="is a file; must be a folder"):
         check_folder(tmp_path / "file" / "below")

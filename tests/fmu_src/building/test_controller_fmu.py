@@ -11,8 +11,8 @@ from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
 from fmu_src.building.compiling import FLAGS
-from fmu_src.c_header import C_SOURCES, CONTROLLER_SOURCES
 from fmu_src.controller.variables import VARIABLES
+from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
 from tests.fmu_src.building.test_native_fmu import WARNINGS
 
 

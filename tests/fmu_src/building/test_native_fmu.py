@@ -15,7 +15,7 @@ from fmu_src.building.build_error import BuildError
 from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform
-from fmu_src.c_header import C_SOURCES
+from fmu_src.sources import C_SOURCES
 
 # Those of this machine, each once; the build's own is always there.
 _FOUND = {os.path.realpath(p): n for n in ("clang", "gcc", "cc") if (p := shutil.which(n))}
@@ -119,7 +119,7 @@ def test_a_compiler_of_the_user_gives_the_same_motion(
 
 def test_a_compiler_for_another_platform_is_refused(tmp_path: Path) -> None:
     other = "win64" if host_platform().name != "win64" else "linux64"
-    with pytest.raises(BuildError, match=f"refused for {other}: allowed is {host_platform().name}"):
+    with pytest.raises(BuildError, match=f"refused for {other}: must be {host_platform().name}"):
         build_native(tmp_path / "dist", platforms=[other], compiler=sys.executable)
     assert not (tmp_path / "dist").exists()
 

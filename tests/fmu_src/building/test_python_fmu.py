@@ -11,7 +11,8 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.python_fmu import PACKAGE, build_python
+from fmu_src.building.python_fmu import build_python
+from fmu_src.sources import PACKAGE
 
 
 def guid(fmu: Path) -> str:

@@ -27,5 +27,5 @@ def test_every_library_is_found_where_the_header_says() -> None:
 
 
 def test_what_is_no_library_of_macos_is_refused() -> None:
-    with pytest.raises(ValueError, match="begins with 0x464c457f: allowed is 0xfeedfacf"):
+    with pytest.raises(ValueError, match="begins with 0x464c457f: must be 0xfeedfacf"):
         universal_binary([b"\x7fELF" + bytes(60)])

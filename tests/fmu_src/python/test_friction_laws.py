@@ -6,10 +6,10 @@ import re
 
 import pytest
 
-from fmu_src.c_header import C_SOURCES
 from fmu_src.python.slider_component.friction_laws import FRICTION_LAWS, friction_law_of
 from fmu_src.python.slider_component.refusal import Refusal
 from fmu_src.python.slider_component.values import BY_NAME
+from fmu_src.sources import C_SOURCES
 
 
 def test_the_table_has_a_row_for_each_value() -> None:

@@ -1,4 +1,4 @@
-"""Values are checked against the table, and the message names name, value and what is allowed."""
+"""Values are checked against the table; the message names variable, value and requirement."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_the_table_is_the_interface() -> None:
 @pytest.mark.parametrize("name", [v.name for v in SETTABLE])
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, "1", True, None])
 def test_what_is_no_finite_number_is_refused(name: str, value: object) -> None:
-    with pytest.raises(Refusal, match=rf"{name} = .* refused: allowed is (a finite|an integer)"):
+    with pytest.raises(Refusal, match=rf"{name} = .* refused: must be (a finite|an integer)"):
         checked(BY_NAME[name], value)
 
 
@@ -37,17 +37,15 @@ def test_below_the_minimum_is_refused(name: str) -> None:
     variable = BY_NAME[name]
     assert variable.minimum is not None
     low = variable.minimum - max(1.0, abs(variable.minimum))
-    with pytest.raises(
-        Refusal, match=f"{name} = {low!r} refused: allowed is .*{variable.minimum:g}"
-    ):
+    with pytest.raises(Refusal, match=f"{name} = {low!r} refused: must be .*{variable.minimum:g}"):
         checked(variable, low)
 
 
 @pytest.mark.parametrize(
     ("name", "value", "reason"),
     [
-        ("friction_faces", 1.5, "allowed is an integer from 1 to 2"),
-        ("tolerance", 0.1, "allowed is a finite number from 1e-14 to 0.01"),
+        ("friction_faces", 1.5, "must be an integer from 1 to 2"),
+        ("tolerance", 0.1, "must be a finite number from 1e-14 to 0.01"),
     ],
 )
 def test_refused_by_name(name: str, value: float, reason: str) -> None:
@@ -55,6 +53,6 @@ def test_refused_by_name(name: str, value: float, reason: str) -> None:
         checked(BY_NAME[name], value)
 
 
-def test_starts_are_allowed() -> None:
+def test_starts_are_accepted() -> None:
     for variable in SETTABLE:
         assert checked(variable, variable.start) == variable.start

@@ -59,7 +59,7 @@ def test_a_run_with_unequal_steps_is_refused_where_the_fmu_takes_equal_ones(
     assert validation.exit_code == 2
     (run_failure,) = validation.run_failures
     assert "canHandleVariableCommunicationStepSize = false" in run_failure.reason
-    assert "allowed is one size" in run_failure.reason
+    assert "must be one size" in run_failure.reason
 
 
 def test_bent_bristles_need_unequal_steps(stranger: Path, tmp_path: Path) -> None:

@@ -15,9 +15,7 @@ def test_a_number_is_off_by_so_much() -> None:
 
 
 def test_a_bound_says_which_side() -> None:
-    assert sentence(BOUND) == (
-        "the FMU gives 120, expected is at most 100: off by 20, allowed is 0"
-    )
+    assert sentence(BOUND) == ("the FMU gives 120, expected is at most 100: off by 20, must be 0")
 
 
 def test_a_signal_says_where() -> None:
@@ -29,7 +27,7 @@ def test_a_signal_says_where() -> None:
 
 def test_a_contact_mode_differs_at_points() -> None:
     mode = replace(SIGNAL, quantity="contact_mode", unit="1", deviation=0.25, allowed=0.0)
-    assert sentence(mode).startswith("differs at 25.00% of the points, allowed is 0; from 0.0125 s")
+    assert sentence(mode).startswith("differs at 25.00% of the points, must be 0; from 0.0125 s")
 
 
 def test_what_there_is_none_of() -> None:

@@ -73,7 +73,7 @@ def test_hosts_that_are_not_installed_are_no_verdict(
     [
         (["--host", "matlab"], "'matlab' is not one of"),
         (["no_such.fmu"], "no_such.fmu"),
-        (["--out", "hosts.txt"], "allowed is one of .md"),
+        (["--out", "hosts.txt"], "must be one of .md"),
     ],
 )
 def test_bad_arguments_are_refused(

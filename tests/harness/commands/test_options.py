@@ -57,8 +57,8 @@ def test_several_settings_may_follow_one_option(arguments: list[str]) -> None:
     ("arguments", "reported"),
     [
         (["--set", "phase=1", "phse=1"], "did you mean 'phase'"),
-        (["--set", "phase=1", "load=x"], "allowed is a number"),
-        (["--set", "phase=1", "phase=2"], "allowed is one value"),
+        (["--set", "phase=1", "load=x"], "must be a number"),
+        (["--set", "phase=1", "phase=2"], "must be one value"),
         (["--set", "--json"], "is not NAME=VALUE"),
         (["--set"], "requires an argument"),
     ],

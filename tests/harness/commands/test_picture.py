@@ -12,7 +12,7 @@ from slider_resonator.cli import main
     ("arguments", "said"),
     [
         ([], "Missing option '--out'"),
-        (["--out", "p.txt"], "'.txt'; allowed is one of .png, .svg, .pdf"),
+        (["--out", "p.txt"], "'.txt'; must be one of .png, .svg, .pdf"),
         (["--out", "my.png"], "--out my.png is the FMU"),
     ],
 )

@@ -57,12 +57,12 @@ def test_two_results_need_two_files(tmp_path: Path) -> None:
         (["--out", ""], "'' names no file"),
         (["--out", "/"], "is a directory"),
         (["--out", "/no/such/out.csv"], "there is no folder /no/such"),
-        (["--plot", "p.txt"], "'.txt'; allowed is one of .png, .svg, .pdf"),
-        (["--set", "load=nan"], "'--set': load = nan: allowed is a finite number"),
-        (["--set", "load=inf"], "'--set': load = inf: allowed is a finite number"),
-        (["--set", "fidelity=nan"], "'--set': fidelity = nan: allowed is an integer"),
-        (["--set", "drive_frequency=0"], "'--set': drive_frequency = 0.0: allowed is"),
-        (["--set", "load=1", "--set", "load=2"], "load = 1.0 and load = 2.0: allowed is one"),
+        (["--plot", "p.txt"], "'.txt'; must be one of .png, .svg, .pdf"),
+        (["--set", "load=nan"], "'--set': load = nan: must be a finite number"),
+        (["--set", "load=inf"], "'--set': load = inf: must be a finite number"),
+        (["--set", "fidelity=nan"], "'--set': fidelity = nan: must be an integer"),
+        (["--set", "drive_frequency=0"], "'--set': drive_frequency = 0.0: must be"),
+        (["--set", "load=1", "--set", "load=2"], "load = 1.0 and load = 2.0: must be one"),
     ],
 )
 def test_mistakes_are_named_by_their_option_before_the_fmu_is_opened(

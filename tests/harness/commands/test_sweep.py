@@ -44,7 +44,7 @@ def test_a_failed_point_is_reported_and_exits_with_1(native_fmu: Path, tmp_path:
     ("text", "arguments", "words"),
     [
         ("[grid]\nfase = [1]", ["--out", "a.csv"], "did you mean 'phase'"),
-        ("[grid]\nphase = [1]", ["--out", "a.txt"], "allowed is one of .parquet, .csv"),
+        ("[grid]\nphase = [1]", ["--out", "a.txt"], "must be one of .parquet, .csv"),
         ("[grid]\nphase = [1]", ["--out", "a.csv", "--fmu", "none.fmu"], "none.fmu: no such file"),
         (
             "[grid]\nphase = [1]\nload = [0]\nfidelity = [2]",

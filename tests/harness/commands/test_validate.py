@@ -101,7 +101,7 @@ def test_json_takes_no_fmu_for_its_file(native_fmu: Path) -> None:
     before = native_fmu.read_bytes()
     result = call("--json", native_fmu)
     assert result.exit_code == 2
-    assert "allowed is one of .json" in result.stderr
+    assert "must be one of .json" in result.stderr
     assert native_fmu.read_bytes() == before
 
 
@@ -111,9 +111,9 @@ def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) 
     fmu.write_bytes(native_fmu.read_bytes())
     mine.write_text(scene.read_text())
     for target, reason in (
-        (scene, "allowed is one of .xml"),
-        (mine, "allowed is a file of its own"),
-        (fmu, "allowed is a file of its own"),
+        (scene, "must be one of .xml"),
+        (mine, "must be a file of its own"),
+        (fmu, "must be a file of its own"),
     ):
         before = target.read_bytes()
         result = call(fmu, "--scene", mine, "--junit", target)

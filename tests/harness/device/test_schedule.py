@@ -91,7 +91,7 @@ def test_communication_points_contain_every_jump_inside(
 def test_more_steps_than_memory_can_hold_are_refused_before_they_are_made(
     stop: float, step: float
 ) -> None:
-    with pytest.raises(ValueError, match=f"communication steps; allowed are up to {MOST_STEPS}"):
+    with pytest.raises(ValueError, match=f"communication steps; must be at most {MOST_STEPS}"):
         communication_points(stop, step)
 
 

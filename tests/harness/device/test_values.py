@@ -12,13 +12,13 @@ from slider_resonator.device.values import check_integer, check_value
 @pytest.mark.parametrize(
     ("name", "value", "said"),
     [
-        ("load", nan, "load = nan: allowed is a finite number"),
-        ("phase", -inf, "phase = -inf: allowed is a finite number"),
-        ("friction_law", nan, "friction_law = nan: allowed is an integer"),
-        ("fidelity", inf, "fidelity = inf: allowed is an integer"),
-        ("friction_faces", 1.5, "friction_faces = 1.5: allowed is an integer"),
-        ("fidelity", 2.0**32 + 2, "allowed is an integer up to 2147483647"),
-        ("drive_frequency", 0.0, "drive_frequency = 0.0: allowed is a number above 0"),
+        ("load", nan, "load = nan: must be a finite number"),
+        ("phase", -inf, "phase = -inf: must be a finite number"),
+        ("friction_law", nan, "friction_law = nan: must be an integer"),
+        ("fidelity", inf, "fidelity = inf: must be an integer"),
+        ("friction_faces", 1.5, "friction_faces = 1.5: must be an integer"),
+        ("fidelity", 2.0**32 + 2, "must be an integer up to 2147483647"),
+        ("drive_frequency", 0.0, "drive_frequency = 0.0: must be a number above 0"),
     ],
 )
 def test_an_impossible_value_is_named_with_what_is_allowed(

@@ -50,10 +50,10 @@ def test_inputs_reach_the_fmu_at_their_time_and_not_before(instance: Instance) -
 def test_integers_are_set_as_integers(instance: Instance) -> None:
     instance.start({"friction_faces": 1.0})
     assert instance.value("friction_faces") == 1.0
-    with pytest.raises(FmuError, match=r"friction_faces = 1.5: allowed is an integer"):
+    with pytest.raises(FmuError, match=r"friction_faces = 1.5: must be an integer"):
         instance.start({"friction_faces": 1.5})
     for bad in (float("nan"), float("inf"), 2.0**32 + 2.0):
-        with pytest.raises(FmuError, match=r"friction_law = .*: allowed is an integer"):
+        with pytest.raises(FmuError, match=r"friction_law = .*: must be an integer"):
             instance.start({"friction_law": bad})
 
 

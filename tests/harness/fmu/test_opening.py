@@ -57,7 +57,7 @@ def test_a_directory_is_named_as_one(tmp_path: Path) -> None:
 def test_another_version_of_fmi_is_named(tmp_path: Path, version: str) -> None:
     with zipfile.ZipFile(tmp_path / "other.fmu", "w") as archive:
         archive.writestr(XML, f'<fmiModelDescription fmiVersion="{version}" modelName="x"/>')
-    said = rf"FMI version {version}; allowed is 2\.0"
+    said = rf"FMI version {version}; must be 2\.0"
     with pytest.raises(FmuError, match=said), open_fmu(tmp_path / "other.fmu"):
         pass
 
@@ -69,7 +69,7 @@ def test_model_exchange_alone_is_refused(python_fmu: Path, tmp_path: Path) -> No
         return text.replace(element[0], '<ModelExchange modelIdentifier="SliderResonatorPy"/>')
 
     path = altered(python_fmu, tmp_path / "me.fmu", change)
-    with pytest.raises(FmuError, match="model exchange only; allowed is co-simulation"):
+    with pytest.raises(FmuError, match="model exchange only; must be co-simulation"):
         open_fmu(path).__enter__()
 
 

@@ -26,7 +26,7 @@ def test_what_is_no_regular_file_is_refused_by_its_kind(tmp_path: Path) -> None:
         (tmp_path / "link", "a symbolic link"),
         (Path("/dev/null"), "a device"),
     ):
-        with pytest.raises(HarnessError, match=f"is {kind}; allowed is a regular file"):
+        with pytest.raises(HarnessError, match=f"is {kind}; must be a regular file"):
             writable(str(target))
 
 
@@ -62,7 +62,7 @@ def test_a_folder_for_results_is_made_unless_a_file_is_there(tmp_path: Path) -> 
 
 
 def test_a_suffix_that_no_picture_has_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(HarnessError, match=r"'\.txt'; allowed is one of \.png, \.svg"):
+    with pytest.raises(HarnessError, match=r"'\.txt'; must be one of \.png, \.svg"):
         writable(str(tmp_path / "p.txt"), (".png", ".svg"))
     assert writable(str(tmp_path / "p.PNG"), (".png",)).name == "p.PNG"
 

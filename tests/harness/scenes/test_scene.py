@@ -82,12 +82,12 @@ def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Pa
     ("text", "parts"),
     [
         ("[device]\nslider_mas = 1.0\n", ["device", "slider_mas", "'slider_mass'"]),
-        ("[device]\nslider_mass = true\n", ["device.slider_mass", "True", "allowed is a number"]),
+        ("[device]\nslider_mass = true\n", ["device.slider_mass", "True", "must be a number"]),
         ("[device]\nslider_mass = nan\n", ["device.slider_mass", "nan", "finite"]),
         ("[device]\nfriction_faces = 1.5\n", ["friction_faces", "1.5", "integer"]),
         ("[devices]\nslider_mass = 1.0\n", ["devices", "did you mean 'device'?"]),
         ("[inputs]\nphse = 1.0\n", ["inputs.phse", "did you mean 'phase'?"]),
-        ('[inputs]\nphase = "1"\n', ["inputs.phase", "'1'", "allowed is a number"]),
+        ('[inputs]\nphase = "1"\n', ["inputs.phase", "'1'", "must be a number"]),
         (
             "[inputs]\nphase = { steps = [[0, 1, 2]] }\n",
             ["inputs.phase.steps[0]", "a list of 2 numbers"],
@@ -129,7 +129,7 @@ def test_a_mistake_is_named_with_its_key_its_value_and_what_is_allowed(
 
 def test_a_name_that_is_no_word_is_refused_in_words(tmp_path: Path) -> None:
     message = refusal(tmp_path, 'name = "a b"\ntitle = "x"\n')
-    assert "name = 'a b': allowed is a word of letters, digits, _ and -" in message
+    assert "name = 'a b': must be a word of letters, digits, _ and -" in message
 
 
 @pytest.mark.parametrize(
@@ -224,7 +224,7 @@ def test_a_missing_scene_file_is_named(tmp_path: Path) -> None:
 
 
 def test_a_directory_is_named_as_one(tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match="is a directory; allowed is a scene file"):
+    with pytest.raises(SceneError, match="is a directory; must be a scene file"):
         find_scene(str(tmp_path))
 
 
@@ -301,7 +301,7 @@ def test_drive_periods_follow_the_drive_frequency_of_the_scene(tmp_path: Path) -
         ("positon = { rel = 0.1 }", ["need.positon", "did you mean 'position'?"]),
         ("position = {}", ["need.position", "needs a tolerance: abs, rel or both"]),
         ("position = 0.1", ["need.position = 0.1", "such as { rel = 0.01 }"]),
-        ("position = { rel = 0.0 }", ["need.position.rel = 0.0", "allowed is a number above 0"]),
+        ("position = { rel = 0.0 }", ["need.position.rel = 0.0", "must be a number above 0"]),
         ("position = { abs = -1e-6 }", ["need.position.abs = -1e-06", "a number above 0"]),
         ("position = { rel = nan }", ["need.position.rel = nan", "a finite number"]),
         ("position = { relative = 0.1 }", ["need.position.relative", "did you mean 'rel'?"]),

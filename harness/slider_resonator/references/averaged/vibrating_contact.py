@@ -63,7 +63,7 @@ def check_amplitude_ratio(amplitude_ratio: float) -> None:
     """Raise ValueError unless an amplitude ratio is a finite number of at least 0."""
     if not 0.0 <= amplitude_ratio < math.inf:
         raise ValueError(
-            f"amplitude_ratio = {amplitude_ratio!r}: allowed is a finite number of at least 0"
+            f"amplitude_ratio = {amplitude_ratio!r}: must be a finite number of at least 0"
         )
 
 

@@ -10,7 +10,7 @@ METHODS: Mapping[str, type[OdeSolver]] = {"DOP853": DOP853, "LSODA": LSODA, "Rad
 
 
 def scipy_method(name: str) -> type[OdeSolver]:
-    """Return a solver; ValueError, with what is allowed, for an unknown name."""
+    """Return a solver; ValueError, with the known names, for an unknown one."""
     if name not in METHODS:
-        raise ValueError(f"method = {name!r}: allowed are {', '.join(METHODS)}")
+        raise ValueError(f"method = {name!r}: must be one of {', '.join(METHODS)}")
     return METHODS[name]

@@ -71,7 +71,7 @@ class _Choosing:
     def __init__(self, instance: Instance, scene: Scene) -> None:
         if scene.need is None:
             raise SceneError(
-                f"{scene.source}: scene {scene.name} has no [need]; allowed is a table of what it "
+                f"{scene.source}: scene {scene.name} has no [need]; must have a table of what it "
                 "needs, such as mean_velocity = { rel = 0.01 }"
             )
         self.instance = instance
@@ -146,7 +146,7 @@ class _Choosing:
         for name in ("mean_velocity", "velocity") if self.law == COULOMB else ():
             need = self.needs.get(name)
             if need and need.rel is None and law > HOPELESS * (need.abs or inf):
-                return f"{name}: {self._law_of(model)}, allowed is {need.abs:.2g} m/s"
+                return f"{name}: {self._law_of(model)}, must be at most {need.abs:.2g} m/s"
         return None
 
     def _law_of(self, model: Model) -> str:

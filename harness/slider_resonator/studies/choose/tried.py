@@ -37,7 +37,7 @@ class Tried:
         """The worst error in words."""
         wrong, allowed = self.wrong[self.worst], self.allowed[self.worst]
         if isfinite(wrong.error):
-            return f"{self.worst} is off by {wrong.error:.3g}, allowed is {allowed:.3g}"
+            return f"{self.worst} is off by {wrong.error:.3g}, must be at most {allowed:.3g}"
         return f"{self.worst}: {wrong.reason}"
 
     def _share(self, name: str) -> float:

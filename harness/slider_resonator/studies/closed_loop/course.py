@@ -61,8 +61,8 @@ def run_loop(package: Path, host: Host, duty: Duty) -> tuple[Course, Course]:
         rows = np.array(answer.rows, dtype=np.float64)
         if rows.shape != (job.steps, len(OUTPUTS)) or not np.isfinite(rows).all():
             raise HarnessError(
-                f"{package} in {host.name}: {rows.shape} values, allowed are "
-                f"{(job.steps, len(OUTPUTS))} finite ones"
+                f"{package} in {host.name}: {rows.shape} values, must be "
+                f"{(job.steps, len(OUTPUTS))}, all finite"
             )
         times = duty.step * np.arange(1.0, job.steps + 1.0)
         fidelity = int(job.start[FIDELITY])

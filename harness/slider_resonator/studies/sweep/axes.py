@@ -38,7 +38,7 @@ def list_points(table: Mapping[str, Any]) -> Points:
     lengths = {name: len(column) for name, column in zip(table, columns, strict=True)}
     if len(set(lengths.values())) > 1:
         shown = ", ".join(f"{name} {length}" for name, length in lengths.items())
-        raise AxisError(f"[list]: the lengths differ ({shown}); allowed are lists of equal length")
+        raise AxisError(f"[list]: the lengths differ ({shown}); must be of equal length")
     return tuple(table), tuple(zip(*columns, strict=True))
 
 
@@ -56,7 +56,9 @@ def random_points(table: Mapping[str, Any]) -> Points:
     check_count(numbers["count"])
     ranges = {name: value for name, value in table.items() if name not in numbers}
     if not ranges:
-        raise AxisError("[random]: no variable; allowed is such as load = { from = 0, to = 0.05 }")
+        raise AxisError(
+            "[random]: no variable; must have some, such as load = { from = 0, to = 0.05 }"
+        )
     bounds = [_bounds(f"random.{name}", value, ()) for name, value in ranges.items()]
     generator = random.Random(numbers["seed"])
     rows = (
@@ -69,7 +71,7 @@ def random_points(table: Mapping[str, Any]) -> Points:
 def check_count(count: int) -> None:
     """Raise AxisError for more points than a sweep may have."""
     if count > MOST_POINTS:
-        raise AxisError(f"{count} points; allowed are {MOST_POINTS}")
+        raise AxisError(f"{count} points; must be at most {MOST_POINTS}")
 
 
 def _axis(key: str, value: object) -> Sequence[float]:
@@ -83,7 +85,7 @@ def _axis(key: str, value: object) -> Sequence[float]:
 
 def _values(key: str, value: object) -> Sequence[float]:
     if not isinstance(value, list) or not value:
-        raise AxisError(f"{key} = {value!r}: allowed is a list of one number or more")
+        raise AxisError(f"{key} = {value!r}: must be a list of one number or more")
     for entry in value:
         _number(key, entry)
     return [float(entry) for entry in value]
@@ -92,7 +94,7 @@ def _values(key: str, value: object) -> Sequence[float]:
 def _bounds(key: str, value: object, more: Sequence[str]) -> tuple[float, float, str]:
     """Return from, to and spacing of a table that has these keys and those of `more`."""
     if not isinstance(value, dict):
-        raise AxisError(f"{key} = {value!r}: allowed is a table with from and to")
+        raise AxisError(f"{key} = {value!r}: must be a table with from and to")
     allowed = ("from", "to", "spacing", *more)
     for name in value:
         if name not in allowed:
@@ -100,9 +102,9 @@ def _bounds(key: str, value: object, more: Sequence[str]) -> tuple[float, float,
     first, last = (_number(f"{key}.{name}", value.get(name)) for name in ("from", "to"))
     spacing = value.get("spacing", "linear")
     if spacing not in SPACINGS:
-        raise AxisError(f"{key}.spacing = {spacing!r}: allowed is one of {', '.join(SPACINGS)}")
+        raise AxisError(f"{key}.spacing = {spacing!r}: must be one of {', '.join(SPACINGS)}")
     if spacing == "log" and not (first > 0.0 and last > 0.0):
-        raise AxisError(f"{key}: from {first!r} to {last!r}: allowed for log are numbers above 0")
+        raise AxisError(f"{key}: from {first!r} to {last!r}: must be above 0 for log")
     return first, last, spacing
 
 
@@ -117,13 +119,13 @@ def _between(first: float, last: float, spacing: str, share: float) -> float:
 
 def _whole(key: str, value: object, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise AxisError(f"{_given(key, value)}: allowed is a whole number from {least} on")
+        raise AxisError(f"{_given(key, value)}: must be a whole number from {least} on")
     return value
 
 
 def _number(key: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-        raise AxisError(f"{_given(key, value)}: allowed is a finite number")
+        raise AxisError(f"{_given(key, value)}: must be a finite number")
     return float(value)
 
 

@@ -38,7 +38,7 @@ class FmuPlugin(WorkerPlugin):
         """Write the FMU on the worker's machine, in the folder that goes with the worker."""
         if __version__ != self.version:
             raise HarnessError(
-                f"worker {worker.address} has slider-resonator {__version__}; allowed is "
+                f"worker {worker.address} has slider-resonator {__version__}; must be "
                 f"{self.version}, as where the sweep was started"
             )
         folder = tempfile.mkdtemp(prefix="fmu-", dir=worker.local_directory)

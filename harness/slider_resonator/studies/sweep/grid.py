@@ -65,13 +65,13 @@ def _sweep(content: Mapping[str, Any]) -> Sweep:
     ]
     names = [name for _, (own, _) in parts for name in own]
     if not names:
-        raise AxisError("nothing is varied; allowed is any of [grid], [list] and [random]")
+        raise AxisError("nothing is varied; must have any of [grid], [list] and [random]")
     fixed = _table(content, "fixed")
     for name in [*names, *fixed]:
         if name not in PARAMETERS and name not in INPUTS:
             raise AxisError(unknown_name("parameter or input", name, [*PARAMETERS, *INPUTS]))
         if [*names, *fixed].count(name) > 1:
-            raise AxisError(f"{name} is given more than once; allowed is one place")
+            raise AxisError(f"{name} is given more than once; must be in one place")
     count = 1
     for _, (own, rows) in parts:
         count *= len(rows) if own else 1
@@ -94,14 +94,14 @@ def _sweep(content: Mapping[str, Any]) -> Sweep:
     is_grid = not content.get("list") and not content.get("random")
     title = content.get("title", "")
     if not isinstance(title, str):
-        raise AxisError(f"title = {title!r}: allowed is a text in quotes")
+        raise AxisError(f"title = {title!r}: must be a text in quotes")
     return Sweep(title, task, tuple(points), is_grid)
 
 
 def _measures(content: Mapping[str, Any]) -> tuple[str, ...]:
     names = content.get("measures", ["steady_velocity"])
     if not isinstance(names, list) or not names or len(set(map(str, names))) < len(names):
-        raise AxisError(f"measures = {names!r}: allowed is a list of different measures")
+        raise AxisError(f"measures = {names!r}: must be a list of different measures")
     for name in names:
         check_measure(name)
     return tuple(names)
@@ -115,8 +115,7 @@ def _run(table: Mapping[str, Any]) -> Run:
     )
     if skipped >= periods:
         raise AxisError(
-            f"run.skip_periods = {skipped}: allowed is a whole number below drive_periods = "
-            f"{periods}"
+            f"run.skip_periods = {skipped}: must be a whole number below drive_periods = {periods}"
         )
     return Run(periods, steps, skipped)
 
@@ -124,14 +123,14 @@ def _run(table: Mapping[str, Any]) -> Run:
 def _count(table: Mapping[str, Any], key: str, default: int, least: int) -> int:
     value = table.get(key, default)
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise AxisError(f"{key} = {value!r}: allowed is a whole number not below {least}")
+        raise AxisError(f"{key} = {value!r}: must be a whole number not below {least}")
     return value
 
 
 def _check(name: str, values: Iterable[object]) -> None:
     for value in values:
         if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-            raise AxisError(f"{name} = {value!r}: allowed is a finite number")
+            raise AxisError(f"{name} = {value!r}: must be a finite number")
         try:
             check_value(name, value)
         except ValueError as error:
@@ -141,7 +140,7 @@ def _check(name: str, values: Iterable[object]) -> None:
 def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     table = content.get(key, {})
     if not isinstance(table, dict):
-        raise AxisError(f"{key} = {table!r}: allowed is a table headed [{key}]")
+        raise AxisError(f"{key} = {table!r}: must be a table headed [{key}]")
     return table
 
 

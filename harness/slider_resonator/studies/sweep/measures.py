@@ -75,7 +75,7 @@ class Task:
 def check_measure(name: object) -> None:
     """Raise AxisError unless this is the name of a measure."""
     if not isinstance(name, str):
-        raise AxisError(f"measure {name!r}: allowed is a name in quotes")
+        raise AxisError(f"measure {name!r}: must be a name in quotes")
     output, dot, statistic = name.partition(".")
     if dot and output not in OUTPUTS:
         raise AxisError(f"measure {name!r}: {unknown_name('output', output, OUTPUTS)}")

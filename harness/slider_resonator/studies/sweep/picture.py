@@ -29,7 +29,7 @@ def check_picture(sweep: Sweep) -> None:
     if len(sweep.task.names) > 2:
         raise HarnessError(
             f"--plot: {len(sweep.task.names)} variables ({', '.join(sweep.task.names)}); "
-            "allowed are one, drawn as lines, or two, drawn as lines or a map"
+            "must be one, drawn as lines, or two, drawn as lines or a map"
         )
 
 

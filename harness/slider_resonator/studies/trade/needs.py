@@ -75,7 +75,7 @@ def write_choices(path: Path, trades: Sequence[Trade]) -> None:
     """
     if path.suffix not in SUFFIXES:
         allowed = " or ".join(SUFFIXES)
-        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; allowed is {allowed}")
+        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be {allowed}")
     part = _markdown if path.suffix == ".md" else _html
     write_marked(path, "\n".join(part(trade) for trade in trades), BEGIN, END)
 

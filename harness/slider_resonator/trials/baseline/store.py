@@ -138,10 +138,10 @@ def _read(path: Path) -> Iterator[tuple[int, list[str]]]:
         raise HarnessError(f"{path}: cannot be read: {error}") from error
     header = list(HEADERS[path.name])
     if found != header:
-        raise HarnessError(f"{path} line 1: {','.join(found)!r}; allowed is {','.join(header)!r}")
+        raise HarnessError(f"{path} line 1: {','.join(found)!r}; must be {','.join(header)!r}")
     for line, row in enumerate(rows, start=2):
         if len(row) != len(header):
-            raise HarnessError(f"{path} line {line}: {len(row)} cells; allowed are {len(header)}")
+            raise HarnessError(f"{path} line {line}: {len(row)} cells; must be {len(header)}")
         yield line, row
 
 
@@ -172,7 +172,7 @@ def _number(text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise ValueError(f"{text!r}: allowed is a number") from None
+        raise ValueError(f"{text!r}: must be a number") from None
 
 
 def _place(at: At) -> str:

@@ -57,7 +57,7 @@ def record(
     names = [scene.name for scene in scenes]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
-        raise SceneError(f"several scenes are called {', '.join(twice)}; allowed is one")
+        raise SceneError(f"several scenes are called {', '.join(twice)}; must be only one")
     there = [name for name in names if (folder / name).exists()]
     if there and not replace:
         raise HarnessError(

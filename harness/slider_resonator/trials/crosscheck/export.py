@@ -41,7 +41,7 @@ def case_folders(out: Path, fmu: Fmu, tool: str) -> list[tuple[Path, Case]]:
     version = fmu.description.version or ""
     if not FOLDER_NAME.fullmatch(version):
         raise FmuError(
-            f"{fmu.path}: the model's version is {version!r}; allowed is the name of a folder of "
+            f"{fmu.path}: the model's version is {version!r}; must be the name of a folder of "
             "letters, digits and . _ + -"
         )
     platforms = [name for name in PLATFORMS if name in fmpy.supported_platforms(str(fmu.path))]

@@ -18,10 +18,11 @@ from slider_resonator.trials.extremes.verdict import (
 )
 
 NAMES = "|".join([*PARAMETERS, *INPUTS, "communicationStepSize"])
-NAMED = re.compile(rf"\b({NAMES}) = (\S+) refused\b.*\ballowed ")
+NAMED = re.compile(rf"\b({NAMES}) = (\S+) refused\b.*\bmust ")
 MAX_RELATIVE_COST = 1000.0
-"""Largest allowed cost of a step, per period it spans (at least 1), relative to a drive period: a
-step may have to tabulate friction, or to find events that nearly coincide."""
+"""Maximum cost of a step, per period it spans (at least 1), relative to a drive period.
+
+A step may have to tabulate friction, or to find events that nearly coincide."""
 
 
 def judge(cell: Cell, seen: Observation) -> CellVerdict:

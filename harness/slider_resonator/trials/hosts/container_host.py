@@ -23,7 +23,7 @@ LEADER, FOLLOWER, PAIR = "leader.fmu", "follower.fmu", "pair.fmu"
 def run(job: Job) -> Rows:
     """Build the container and step it."""
     if job.partner is None:
-        raise ValueError("partner = None refused: allowed is an FMU to couple with")
+        raise ValueError("partner = None refused: must be an FMU to couple with")
     with tempfile.TemporaryDirectory(prefix="slider-resonator-") as name:
         folder = Path(name)
         shutil.copy(job.partner, folder / LEADER)

@@ -61,7 +61,7 @@ def read_python_fmu(path: Path) -> PythonFmu:
     packages = [str(home) for home in homes if home.name != _TOOL]
     if len(packages) != 1 or DESCRIPTION not in files:
         raise FmuError(
-            f"{path}: has {len(packages)} Python packages to change; allowed is an FMU with "
+            f"{path}: has {len(packages)} Python packages to change; must be an FMU with "
             "one, such as SliderResonatorPy.fmu"
         )
     return PythonFmu(files, packages[0])

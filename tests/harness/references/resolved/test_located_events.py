@@ -248,5 +248,5 @@ def test_another_method_finds_the_same_events(method: str) -> None:
 
 
 def test_an_unknown_method_is_refused() -> None:
-    with pytest.raises(ValueError, match="method = 'Euler': allowed are DOP853, LSODA, Radau"):
+    with pytest.raises(ValueError, match="method = 'Euler': must be one of DOP853, LSODA, Radau"):
         simulate(Device(), [HeldInputs(0.0, PERIOD)], np.empty(0), method="Euler")

@@ -63,7 +63,7 @@ def test_a_worker_of_another_version_refuses(native_fmu: Path, tmp_path: Path) -
     plugin = cluster.FmuPlugin("digest", native_fmu.name, native_fmu.read_bytes())
     plugin.version = "0.0"
     worker = SimpleNamespace(address="tcp://192.0.2.7:1", local_directory=str(tmp_path))
-    with pytest.raises(HarnessError, match=r"worker tcp://192\.0\.2\.7:1 has .*allowed is 0\.0"):
+    with pytest.raises(HarnessError, match=r"worker tcp://192\.0\.2\.7:1 has .*must be 0\.0"):
         plugin.setup(worker)
     assert list(tmp_path.iterdir()) == []
 

@@ -52,5 +52,5 @@ def test_lines_maps_and_samples_are_drawn_with_gaps_for_failures(
 def test_three_variables_have_no_picture(tmp_path: Path) -> None:
     path = tmp_path / "grid.toml"
     path.write_text("[grid]\nphase = [0]\nload = [0]\nfriction_law = [0]", encoding="utf-8")
-    with pytest.raises(HarnessError, match=r"3 variables.*allowed are one"):
+    with pytest.raises(HarnessError, match=r"3 variables.*must be one"):
         check_picture(read_grid(path))

@@ -76,7 +76,7 @@ def test_markdown_and_html_hold_the_same(tmp_path: Path) -> None:
         write_choices(path, [TRADE])
     assert tables(paths[0]) == tables(paths[1])
     assert all("old" not in path.read_text() for path in paths)
-    with pytest.raises(HarnessError, match=r"the suffix is '\.txt'; allowed is \.md or \.html"):
+    with pytest.raises(HarnessError, match=r"the suffix is '\.txt'; must be \.md or \.html"):
         write_choices(tmp_path / "page.txt", [TRADE])
 
 

@@ -86,7 +86,7 @@ def test_a_file_that_is_no_record_is_named_with_its_line(tmp_path: Path, name: s
     with pytest.raises(HarnessError, match=rf"{name} line {line}: 3 cells"):
         read_recorded(tmp_path / "mine")
     file.write_text("")
-    with pytest.raises(HarnessError, match=rf"{name} line 1: ''; allowed is '(at|what),"):
+    with pytest.raises(HarnessError, match=rf"{name} line 1: ''; must be '(at|what),"):
         read_recorded(tmp_path / "mine")
     (tmp_path / "mine" / "numbers.csv").unlink()
     with pytest.raises(HarnessError, match=r"numbers.csv: cannot be read"):
@@ -96,13 +96,13 @@ def test_a_file_that_is_no_record_is_named_with_its_line(tmp_path: Path, name: s
 @pytest.mark.parametrize(
     ("name", "row", "reason"),
     [
-        ("numbers.csv", ",reversals,1,many", "'many': allowed is a number"),
-        ("numbers.csv", ",reversals,1,", "'': allowed is a number"),
+        ("numbers.csv", ",reversals,1,many", "'many': must be a number"),
+        ("numbers.csv", ",reversals,1,", "'': must be a number"),
         ("numbers.csv", ",reversal,1,3", "did you mean 'reversals'"),
         ("numbers.csv", ",position,m,3", "unknown quantity 'position'"),
-        ("numbers.csv", "phase,reversals,1,3", "'': allowed is a number"),
-        ("trajectory.csv", "phase=x" + ",0" * (1 + len(SIGNALS)), "'x': allowed is a number"),
-        ("trajectory.csv", ",0,?" + ",0" * (len(SIGNALS) - 1), r"'\?': allowed is a number"),
+        ("numbers.csv", "phase,reversals,1,3", "'': must be a number"),
+        ("trajectory.csv", "phase=x" + ",0" * (1 + len(SIGNALS)), "'x': must be a number"),
+        ("trajectory.csv", ",0,?" + ",0" * (len(SIGNALS) - 1), r"'\?': must be a number"),
     ],
 )
 def test_a_line_that_makes_no_sense_is_named(

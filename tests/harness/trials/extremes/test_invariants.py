@@ -73,9 +73,9 @@ def test_a_replay_that_differs_fails(seen: Observation) -> None:
 @pytest.mark.parametrize(
     "words",
     [
-        "x.fmu: load = 0.0 refused: allowed is a finite number",
-        "x.fmu: base_amplitude = 0.0001 refused: allowed is a finite number of at least 0 m",
-        "doStep: communicationStepSize = 0.0001 refused: it takes more than 9; allowed is less",
+        "x.fmu: load = 0.0 refused: must be a finite number",
+        "x.fmu: base_amplitude = 0.0001 refused: must be a finite number of at least 0 m",
+        "doStep: communicationStepSize = 0.0001 refused: it takes more than 9; must be less",
     ],
 )
 def test_a_refusal_names_thing_value_and_what_is_allowed(seen: Observation, words: str) -> None:
@@ -86,11 +86,11 @@ def test_a_refusal_names_thing_value_and_what_is_allowed(seen: Observation, word
     "words",
     [
         "x.fmu: fmi2DoStep failed with status 3 (error).",
-        "the parameters are refused: allowed are smaller ones",
+        "the parameters are refused: must be smaller",
         "base_amplitude = 0.0001 refused",
-        "base_amplitude = 1.0 refused: allowed is a finite number of at least 0 m",
-        "doStep: communicationStepSize = 7.0 refused: allowed is a finite number above 0",
-        "a finer fidelity refused: allowed is 1 or 2",
+        "base_amplitude = 1.0 refused: must be a finite number of at least 0 m",
+        "doStep: communicationStepSize = 7.0 refused: must be a finite number above 0",
+        "a finer fidelity refused: must be 1 or 2",
     ],
 )
 def test_any_other_refusal_fails(seen: Observation, words: str) -> None:

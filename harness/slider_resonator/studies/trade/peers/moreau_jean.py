@@ -38,7 +38,7 @@ def simulate(
     ``event_times`` is empty. Raises ValueError as the other does and for fewer steps than 1.
     """
     if steps_per_period < 1:
-        raise ValueError(f"steps_per_period = {steps_per_period!r}: allowed is at least 1")
+        raise ValueError(f"steps_per_period = {steps_per_period!r}: must be at least 1")
     check_contiguous(held)
     check_times(times, held)
     run = _Run(equations_of(device), initial_state(device), times)

@@ -36,5 +36,5 @@ def simulate(
     method.
     """
     if not 0.0 < width < np.inf:
-        raise ValueError(f"width = {width!r} m/s: allowed is a finite number above 0")
+        raise ValueError(f"width = {width!r} m/s: must be a finite number above 0")
     return EventFreeRun(device, times, scipy_method(method), rtol, atol, width).run(held)

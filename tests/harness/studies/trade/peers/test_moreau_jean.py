@@ -84,5 +84,5 @@ def test_a_contact_that_lifts_has_no_friction() -> None:
 
 
 def test_fewer_steps_than_one_are_refused() -> None:
-    with pytest.raises(ValueError, match="steps_per_period = 0: allowed is at least 1"):
+    with pytest.raises(ValueError, match="steps_per_period = 0: must be at least 1"):
         simulate(Device(), [HeldInputs(0.0, 1.0)], np.empty(0), steps_per_period=0)

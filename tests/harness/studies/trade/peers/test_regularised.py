@@ -46,10 +46,10 @@ def test_it_creeps_where_friction_should_hold(method: str) -> None:
 
 @pytest.mark.parametrize("width", [0.0, -1.0, math.nan, math.inf])
 def test_a_width_that_is_none_is_refused(width: float) -> None:
-    with pytest.raises(ValueError, match=r"width = .* m/s: allowed is a finite number above 0"):
+    with pytest.raises(ValueError, match=r"width = .* m/s: must be a finite number above 0"):
         simulate(BLOCK, [HeldInputs(0.0, 1.0)], np.empty(0), width=width)
 
 
 def test_an_unknown_method_is_refused() -> None:
-    with pytest.raises(ValueError, match="method = 'Euler': allowed are DOP853, LSODA, Radau"):
+    with pytest.raises(ValueError, match="method = 'Euler': must be one of DOP853, LSODA, Radau"):
         simulate(BLOCK, [HeldInputs(0.0, 1.0)], np.empty(0), width=1e-3, method="Euler")

@@ -1,0 +1,1 @@
+"""Generators of what the twins share, one per file or pair of files."""

@@ -1,0 +1,95 @@
+from __future__ import annotations
+
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from fmu_src.generate import generated_files
+from fmu_src.generators.refusal_texts import c_function
+from fmu_src.generators.variable_table import c_table
+from fmu_src.python.slider_component import constants
+from fmu_src.python.slider_component.parameters import Inputs, Parameters
+from fmu_src.python.slider_component.variables import VARIABLES
+from fmu_src.sources import C_SOURCES
+
+FILES = generated_files()
+TABLE = c_table(VARIABLES)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.name}")
+def test_the_generated_file_is_current(path: Path) -> None:
+    assert path.read_text() == FILES[path], (
+        f"{path} is out of date: `python -m fmu_src.generate` writes it again"
+    )
+
+
+def test_references_are_positions_in_the_table() -> None:
+    found = re.findall(r"VR_(\w+) = (\d+),", TABLE["variables.h"])
+    assert found == [(v.name.upper(), str(i)) for i, v in enumerate(VARIABLES)]
+
+
+def test_bounds_read_back_exactly() -> None:
+    rows = re.findall(
+        r'\{"(\w+)", (true|false), (true|false), (\S+), (\S+), (\S+),\s+"', TABLE["variables.c"]
+    )
+    assert [r[0] for r in rows] == [v.name for v in VARIABLES]
+    for variable, (_, integer, fixed, start, minimum, maximum) in zip(VARIABLES, rows, strict=True):
+        assert integer == str(variable.type == "Integer").lower(), variable.name
+        assert fixed == str(variable.variability == "fixed").lower(), variable.name
+        assert float(start) == (variable.start or 0.0), variable.name
+        for text, bound, absent in (
+            (minimum, variable.minimum, "-INFINITY"),
+            (maximum, variable.maximum, "INFINITY"),
+        ):
+            assert (text == absent) == (bound is None), variable.name
+            assert bound is None or float(text) == bound, variable.name
+
+
+def test_outputs_must_come_last() -> None:
+    with pytest.raises(ValueError, match="outputs must come last"):
+        c_table(tuple(reversed(VARIABLES)))
+
+
+def test_fields_of_the_twins_are_those_of_the_table() -> None:
+    header = FILES[C_SOURCES / "parameters.h"]
+    in_c = re.findall(r"^    (double|int) (\w+);", header, re.MULTILINE)
+    types = {"float": "double", "int": "int"}
+    in_python = [(types[str(f.type)], f.name) for f in (*fields(Parameters), *fields(Inputs))]
+    assert in_c == in_python
+    assert [name for _, name in in_c] == [
+        v.name for kind in ("parameter", "input") for v in VARIABLES if v.causality == kind
+    ]
+
+
+def test_constants_read_back_exactly() -> None:
+    found = re.findall(r"^#define ([A-Z_]+) (\S+)$", FILES[C_SOURCES / "constants.h"], re.MULTILINE)
+    in_python = {name: value for name, value in vars(constants).items() if name.isupper()}
+    assert {name: float(text) for name, text in found} == in_python
+
+
+def out_of_stock(name: str, value: float, count: int, found: object) -> str:
+    """Refuse it."""
+    return f"{count} {name}: {value!r} is 100 % over {found!r}, and the rest of this text is long."
+
+
+def test_a_refusal_in_c_takes_its_arguments_in_the_order_of_the_text() -> None:
+    text = c_function(out_of_stock)
+    assert "(Refusal *refusal, const char *name, double value,\n" in text
+    assert "long long count, const char *found) {\n    char value_text[NUMBER_SIZE];\n" in text
+    assert "%lld %s: %s is 100 %% over %s, and" in text
+    assert "count, name, number_text(value, value_text), found);\n}" in text
+
+
+def test_a_refusal_must_show_each_argument_in_the_form_that_c_has() -> None:
+    def unused(name: str, count: int) -> str:
+        return f"{name}"
+
+    def rounded(value: float) -> str:
+        return f"{value}"
+
+    with pytest.raises(ValueError, match="must show each of its arguments once"):
+        c_function(unused)
+    with pytest.raises(ValueError, match="value: float must be shown"):
+        c_function(rounded)
