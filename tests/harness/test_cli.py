@@ -17,7 +17,7 @@ from tests.harness import faulty_fmus
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
 COMMANDS = (
-    *("validate", "baseline", "mutants", "crosscheck", "choose", "run", "steady", "blocking"),
+    *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
     *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "picture", "paper"),
 )
 
