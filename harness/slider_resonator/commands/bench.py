@@ -17,7 +17,6 @@ from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import output, progress_bar
 from slider_resonator.output.json_output import to_json
-from slider_resonator.studies.benchmark.c_host import StepCost, measure_steps
 from slider_resonator.studies.benchmark.cost import Cost, Ratio
 from slider_resonator.studies.benchmark.coulomb import CoulombBenchmark, measure_coulomb
 from slider_resonator.studies.benchmark.lugre import (
@@ -26,6 +25,7 @@ from slider_resonator.studies.benchmark.lugre import (
     LugreBenchmark,
     measure_lugre,
 )
+from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps
 
 PARTS = ("coulomb", "lugre", "c-host")
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.device.device import Device
-from slider_resonator.studies.benchmark.in_turn import Progress, Timed, in_turn
+from slider_resonator.studies.trade.in_turn import Progress, Timed, in_turn
 
 REFEREE = "Taylor with located events"
 """The method that tells the errors of all others, and its name where it is timed too."""

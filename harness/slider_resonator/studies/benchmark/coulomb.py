@@ -29,7 +29,7 @@ from slider_resonator.studies.benchmark.cost import (
     ratio,
 )
 from slider_resonator.studies.benchmark.fmu_method import parameters, run_fmu
-from slider_resonator.studies.benchmark.in_turn import Progress
+from slider_resonator.studies.trade.in_turn import Progress
 from slider_resonator.studies.trade.peers import paper_method, switching_taylor
 
 DEVICE = Device(

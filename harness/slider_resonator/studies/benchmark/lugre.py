@@ -26,7 +26,7 @@ from slider_resonator.studies.benchmark.cost import (
 )
 from slider_resonator.studies.benchmark.coulomb import PERIOD, switching_outcome
 from slider_resonator.studies.benchmark.fmu_method import parameters, run_fmu
-from slider_resonator.studies.benchmark.in_turn import Progress
+from slider_resonator.studies.trade.in_turn import Progress
 from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
 from slider_resonator.studies.trade.peers.switching_taylor import SlidingEnd, simulate_sliding
 

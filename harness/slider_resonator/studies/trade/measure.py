@@ -10,8 +10,8 @@ from time import process_time
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.drive import Instance
-from slider_resonator.studies.benchmark.in_turn import Progress, Timed, in_turn
 from slider_resonator.studies.trade.fmu_methods import FmuMethods
+from slider_resonator.studies.trade.in_turn import Progress, Timed, in_turn
 from slider_resonator.studies.trade.method import Answer, Label, Method, cpu_seconds
 from slider_resonator.studies.trade.motion import QUANTITIES, Motion, errors
 from slider_resonator.studies.trade.peer_methods import peer_answers, peer_methods

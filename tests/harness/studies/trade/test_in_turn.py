@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from slider_resonator.studies.benchmark.in_turn import Timed, in_turn
+from slider_resonator.studies.trade.in_turn import Timed, in_turn
 
 
 def test_everybody_has_a_turn_in_each_round() -> None:

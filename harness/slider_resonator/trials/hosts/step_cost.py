@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from slider_resonator.studies.benchmark.in_turn import Progress
+from slider_resonator.studies.trade.in_turn import Progress
 from slider_resonator.trials.hosts.driver_host import BINARY, converse, native_driver
 from slider_resonator.trials.hosts.job import describe
 
