@@ -138,7 +138,8 @@ def _follow(
         return []
     horizons = [periods for periods in task.lengths if periods >= method.least_periods]
     try:
-        begun = _timed_run(method, method.least_periods)[0]  # compiles, fills caches
+        _timed_run(method, method.least_periods + 1)  # compiles, fills caches
+        begun = _timed_run(method, method.least_periods)[0]
         taken = _timed_run(method, method.least_periods + 1)[0]
         first = taken + (horizons[0] - method.least_periods - 1) * max(0.0, taken - begun)
         if first > 2.0 * budget:
