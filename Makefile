@@ -58,7 +58,7 @@ lint: $(READY) ## check style, formatting and types
 	$(PY) -m ruff format --check .
 	$(PY) -m mypy
 
-bench: build ## measure what accuracy costs
+bench: build ## measure the cost of a step in a C host
 	$(PY) -m harness bench
 
 clean: ## remove .venv, dist and every cache
