@@ -27,7 +27,6 @@ COMMANDS = (
     "hosts",
     "mutants",
     "paper",
-    "picture",
     "run",
     "scenes",
     "steady",

@@ -18,7 +18,7 @@ HEAD = 'name = "mine"\ntitle = "Mine"\n'
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
 COMMANDS = (
     *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
-    *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "picture", "paper"),
+    *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "paper"),
 )
 
 
@@ -88,7 +88,6 @@ def test_validate_as_json(python_fmu: Path, tmp_path: Path) -> None:
         (["validate", "--scene", "/"], "is a directory; allowed is a scene"),
         (["blocking", "no.fmu"], "no such file"),
         (["bench", "no.fmu"], "no such file"),
-        (["picture", "no.fmu", "--out", "p.png"], "no such file"),
         (["steady"], "Missing argument"),
         (["stedy"], "No such command"),
         (["scenes", "--jsn"], "No such option"),
