@@ -18,7 +18,7 @@ from slider_resonator.studies.paper.reproduce import NAMES, Outcome, reproduce
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
     required=True,
-    help="Folder to write to; what is there and still holds is kept.",
+    help="Folder to write to.",
 )
 @click.option(
     "--only",
@@ -35,9 +35,8 @@ def paper_command(
     """Reproduce the paper: its figures, three more, and a verdict on each of its statements.
 
     Writes figures as PNG and SVG with captions in FIGURES.md, tables of LuGre friction as JSON and
-    in TABLES.md, and claims.md and claims.json. Runs only what is missing or has changed. Leaves
-    with 0, with 1 when a statement is not found as it is known to be or a table deviates, 2 when
-    the FMU could not be run.
+    in TABLES.md, and claims.md and claims.json. Leaves with 0, with 1 when a statement is not found
+    as it is known to be or a table deviates, 2 when the FMU could not be run.
 
     \b
     Examples:
@@ -52,9 +51,7 @@ def paper_command(
 
 def _sentences(outcome: Outcome) -> str:
     lines = [f"written  {outcome.out} in {outcome.wall_time:.1f} s"]
-    lines.append(f"run      {', '.join(outcome.run) or 'nothing'}")
-    if outcome.kept:
-        lines.append(f"kept     {', '.join(outcome.kept)}")
+    lines.append(f"run      {', '.join(outcome.run)}")
     for table in outcome.tables:
         for name, size in table.largest.items():
             verdict = "table   " if size <= table.allowed[name] else "FAIL    "

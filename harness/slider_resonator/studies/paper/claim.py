@@ -7,7 +7,6 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from slider_resonator.fmu.drive import Instance
-from slider_resonator.studies.paper.figure import Progress
 
 AGREES = "agrees"
 PARTLY = "agrees in part"
@@ -44,8 +43,7 @@ class ClaimGroup:
 
     name: str
     title: str
-    parameters: Mapping[str, Any]
-    measure: Callable[[Instance, Progress], list[Claim]]
+    measure: Callable[[Instance], list[Claim]]
 
 
 def near(found: float, expected: float, share: float) -> bool:

@@ -11,9 +11,8 @@ from slider_resonator.fmu.drive import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.studies.paper.claim import AGREES, DISAGREES, Claim, ClaimGroup, near
-from slider_resonator.studies.paper.figure import Progress
 from slider_resonator.studies.paper.mapping import coulomb_case
-from slider_resonator.studies.paper.measure import course, steady_velocity
+from slider_resonator.studies.paper.measure import record, steady_velocity
 
 FREQUENCY = 1000.0
 HIGH_FREQUENCY = 10000.0
@@ -124,8 +123,8 @@ def _ripple(instance: Instance) -> Claim:
     amplitudes = {}
     for frequency in RIPPLE_FREQUENCIES:
         period = 2.0 * pi / frequency
-        run = course(instance, coulomb_case(1.0, frequency), 40 * period, 40 * 32)
-        amplitude = ripple_amplitude(run.time, run.position, period)
+        run = record(instance, coulomb_case(1.0, frequency), 40 * period, 40 * 32)
+        amplitude = ripple_amplitude(run.times, run["position"], period)
         amplitudes[f"ripple_times_Omega_at_{frequency:g}"] = amplitude * frequency
     return Claim(
         "ripple_over_frequency",
@@ -139,19 +138,17 @@ def _ripple(instance: Instance) -> Claim:
     )
 
 
-def _measure(instance: Instance, progress: Progress) -> list[Claim]:
-    claims = _phase(instance)
-    progress(0.3)
-    claims += _strengths(instance)
-    progress(0.6)
-    claims += _blocking(instance)
-    progress(0.8)
-    return [*claims, _ripple(instance)]
+def _measure(instance: Instance) -> list[Claim]:
+    return [
+        *_phase(instance),
+        *_strengths(instance),
+        *_blocking(instance),
+        _ripple(instance),
+    ]
 
 
 GROUP = ClaimGroup(
     "claims_coulomb",
     "Coulomb friction",
-    {"frequency": [FREQUENCY, HIGH_FREQUENCY], "phases": PHASES, "ripples": RIPPLE_FREQUENCIES},
     _measure,
 )
