@@ -17,7 +17,7 @@ from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.studies.trade.motion import Motion
 from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
 from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, motion_of
-from slider_resonator.studies.trade.peers.switching_taylor import SlidingEnd, simulate_sliding
+from slider_resonator.studies.trade.peers.switching_taylor import SlidingRun, simulate_sliding
 
 Array = NDArray[np.float64]
 
@@ -55,10 +55,12 @@ def heyoka_in_one_call(
             initial_bristle_deflection=float(getattr(start, "bristle_deflection", [0.0])[-1]),
         )
         later = times[times > begin]
-        end = simulate_sliding(
-            moving, inputs, tolerance=tolerance, bristle=bristle, begin=begin, times=later
+        rest = _motion(
+            simulate_sliding(
+                moving, inputs, later, tolerance=tolerance, bristle=bristle, start=begin
+            ),
+            later,
         )
-        rest = _sliding_motion(end, later)
         return replace(
             rest,
             times=times,
@@ -84,10 +86,8 @@ def cvode_in_one_call(tolerance: float) -> Peer:
 
 
 def _cvode(device: Device, held: Sequence[HeldInputs], times: Array, *, tolerance: float) -> Motion:
-    inputs = _single(held)
-    return _sliding_motion(
-        simulate_lugre_cvode(device, inputs, tolerance=tolerance, times=times), times
-    )
+    run = simulate_lugre_cvode(device, _single(held), times, tolerance=tolerance)
+    return _motion(run, times)
 
 
 def _single(held: Sequence[HeldInputs]) -> HeldInputs:
@@ -96,12 +96,12 @@ def _single(held: Sequence[HeldInputs]) -> HeldInputs:
     return held[0]
 
 
-def _sliding_motion(end: SlidingEnd, times: Array) -> Motion:
+def _motion(run: SlidingRun, times: Array) -> Motion:
     return Motion(
         times,
-        end.samples[:, 0],
-        end.samples[:, 1],
-        steps=end.steps or None,
-        evaluations=end.evaluations or None,
-        events=end.reversals or None,
+        run.samples[:, 0],
+        run.samples[:, 1],
+        steps=run.steps or None,
+        evaluations=run.evaluations or None,
+        events=run.reversals or None,
     )

@@ -17,19 +17,14 @@ from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.studies.trade.motion import Motion
-from slider_resonator.studies.trade.peers import (
-    located_cvode,
-    moreau_jean,
-    paper_method,
-    regularised,
-)
+from slider_resonator.studies.trade.peers import event_free, located_cvode, moreau_jean
 from slider_resonator.studies.trade.peers.one_call import cvode_in_one_call, heyoka_in_one_call
 from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, motion_of
 from slider_resonator.studies.trade.task import Task
 
 Array = NDArray[np.float64]
 
-MOST_EVALUATIONS = 1_000_000
+MAX_EVALUATIONS = 1_000_000
 """Evaluations that a method on sgn may take: one that chatters is given up early."""
 
 
@@ -62,7 +57,7 @@ def _coulomb() -> Iterator[Peer]:
         simulate = partial(located_cvode.simulate, tolerance=tolerance)
         yield _at("CVODE with root finding", tolerance, simulate)
     for atol in (1e-4, 1e-6, 1e-8, 1e-10):
-        simulate = partial(paper_method.simulate, atol=atol, most_evaluations=MOST_EVALUATIONS)
+        simulate = partial(event_free.simulate_sgn, atol=atol, max_evaluations=MAX_EVALUATIONS)
         yield _trajectory(
             "DOP853 on sgn (the paper)",
             f"rtol 1e-06, atol {atol:.0e}",
@@ -106,10 +101,10 @@ def _regularised(
 ) -> Trajectory:
     """Return the motion with a width of tanh that is a share of the fast velocity.
 
-    Raises ValueError where there is no steady vibration, besides what `regularised` raises.
+    Raises ValueError where there is no steady vibration, besides what `simulate_tanh` raises.
     """
     width = share * equivalent_force(device).velocity_amplitude
-    return regularised.simulate(device, held, times, width=width, rtol=1e-7, atol=1e-9)
+    return event_free.simulate_tanh(device, held, times, width=width, rtol=1e-7, atol=1e-9)
 
 
 def _at(family: str, tolerance: float, simulate: Simulate, *, located: bool = True) -> Peer:

@@ -10,7 +10,7 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import taylor
-from slider_resonator.studies.trade.peers.regularised import simulate
+from slider_resonator.studies.trade.peers.event_free import simulate_tanh
 
 PERIOD = 2.0 * math.pi / 3500.0
 BLOCK = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
@@ -23,7 +23,7 @@ def test_the_limit_of_zero_width_is_coulomb_friction() -> None:
     widths = np.array([1e-2, 1e-3, 1e-4, 1e-5])
     errors = np.array(
         [
-            np.abs(simulate(Device(), held, times, width=w).position - referee.position).max()
+            np.abs(simulate_tanh(Device(), held, times, width=w).position - referee.position).max()
             for w in widths
         ]
     )
@@ -36,7 +36,7 @@ def test_the_limit_of_zero_width_is_coulomb_friction() -> None:
 @pytest.mark.parametrize("method", ["DOP853", "LSODA", "Radau"])
 def test_it_creeps_where_friction_should_hold(method: str) -> None:
     width, stop = 1e-3, 0.1
-    run = simulate(
+    run = simulate_tanh(
         BLOCK, [HeldInputs(0.0, stop, load=0.1)], np.array([stop]), width=width, method=method
     )
     creep = -width * math.atanh(0.1 / 0.2)
@@ -46,10 +46,10 @@ def test_it_creeps_where_friction_should_hold(method: str) -> None:
 
 @pytest.mark.parametrize("width", [0.0, -1.0, math.nan, math.inf])
 def test_a_width_that_is_none_is_refused(width: float) -> None:
-    with pytest.raises(ValueError, match=r"width = .* m/s: allowed is a finite number above 0"):
-        simulate(BLOCK, [HeldInputs(0.0, 1.0)], np.empty(0), width=width)
+    with pytest.raises(ValueError, match=r"width = .* m/s: must be a finite number above 0"):
+        simulate_tanh(BLOCK, [HeldInputs(0.0, 1.0)], np.empty(0), width=width)
 
 
 def test_an_unknown_method_is_refused() -> None:
     with pytest.raises(ValueError, match="method = 'Euler': allowed are DOP853, LSODA, Radau"):
-        simulate(BLOCK, [HeldInputs(0.0, 1.0)], np.empty(0), width=1e-3, method="Euler")
+        simulate_tanh(BLOCK, [HeldInputs(0.0, 1.0)], np.empty(0), width=1e-3, method="Euler")
