@@ -1,7 +1,7 @@
 """heyoka at its fastest on a slider that never sticks: the peer for measurements of cost.
 
 One compiled system per friction law; the direction of sliding is a runtime parameter that an event
-callback turns round where the velocity is zero, so that a whole run is one call. It knows neither
+callback reverses where the velocity is zero, so that a whole run is one call. It covers neither
 sticking nor flight: `simulate_sliding` refuses devices that lift, and a start at rest.
 """
 

@@ -31,8 +31,8 @@ def test_error_falls_with_tolerance() -> None:
 def test_states_at_the_times_asked_for() -> None:
     times = np.linspace(0.0, HELD.stop, 5)
     run = simulate_lugre_cvode(DEVICE, HELD, times, tolerance=1e-9)
-    referee = simulate_lugre(DEVICE, [HELD], times)
-    assert run.samples[:, 1] == pytest.approx(referee.velocity, abs=1e-5)
+    reference = simulate_lugre(DEVICE, [HELD], times)
+    assert run.samples[:, 1] == pytest.approx(reference.velocity, abs=1e-5)
     assert run.evaluations > 0
 
 

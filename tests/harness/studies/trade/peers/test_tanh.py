@@ -19,18 +19,20 @@ BLOCK = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
 def test_the_limit_of_zero_width_is_coulomb_friction() -> None:
     held = [HeldInputs(0.0, 6 * PERIOD, phase=0.4)]
     times = np.linspace(0.0, held[0].stop, 49)
-    referee = taylor.simulate(Device(), held, times)
+    reference = taylor.simulate(Device(), held, times)
     widths = np.array([1e-2, 1e-3, 1e-4, 1e-5])
     errors = np.array(
         [
-            np.abs(simulate_tanh(Device(), held, times, width=w).position - referee.position).max()
+            np.abs(
+                simulate_tanh(Device(), held, times, width=w).position - reference.position
+            ).max()
             for w in widths
         ]
     )
     assert (np.diff(errors) < 0.0).all(), f"a narrower tanh is nearer to sgn: {errors}"
     order = np.polyfit(np.log(widths), np.log(errors), 1)[0]
     assert order > 0.3, f"the error vanishes with a power of the width, not {order}"
-    assert errors[-1] < 1e-3 * np.abs(referee.position).max()
+    assert errors[-1] < 1e-3 * np.abs(reference.position).max()
 
 
 @pytest.mark.parametrize("method", ["DOP853", "LSODA", "Radau"])
