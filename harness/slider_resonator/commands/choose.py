@@ -57,8 +57,8 @@ def choose_command(
     steady_velocity, blocking_force, event_times and beat, each with abs or rel, and friction_law =
     "free" where either law will do. Laws of the errors say where to look, and a short resolved run
     in the FMU confirms the answer. Fidelity and tolerance of the scene itself do not matter, its
-    step is how often it looks at signals; of a scene with a sweep the unvaried device is taken.
-    Leaves with 0 when something suffices, with 1 when nothing does (then the nearest is told), and
+    step is where signals are compared; of a scene with a sweep the unvaried device is taken.
+    Leaves with 0 when something suffices, with 1 when nothing does (then the nearest is shown), and
     with 2 when the scene could not be run.
 
     \b
@@ -84,8 +84,8 @@ def _show(choice: Choice, console: Console) -> None:
     for column in ("need", "predicted error", "allowed", "unit"):
         needs.add_column(column)
     for name, error in choice.error.items():
-        told = f"{error:.3g}" if isfinite(error) else "no bound"
-        needs.add_row(name, told, f"{choice.allowed[name]:.3g}", UNITS[name])
+        shown = f"{error:.3g}" if isfinite(error) else "no bound"
+        needs.add_row(name, shown, f"{choice.allowed[name]:.3g}", UNITS[name])
     console.print(needs)
     if choice.ruled_out:
         others = Table(box=box.SIMPLE_HEAD, pad_edge=False)

@@ -14,7 +14,7 @@ Points = tuple[tuple[str, ...], tuple[tuple[float, ...], ...]]
 """Names that are varied, and their values point by point."""
 
 SPACINGS = ("linear", "log")
-MOST_POINTS = 10_000_000
+MAX_POINTS = 10_000_000
 """More would not fit beside each other in the memory of the process that writes the table."""
 
 
@@ -50,8 +50,8 @@ def random_points(table: Mapping[str, Any]) -> Points:
     if not table:
         return (), ()
     numbers = {
-        key: _whole(f"random.{key}", table.get(key), least)
-        for key, least in (("count", 1), ("seed", 0))
+        key: _whole(f"random.{key}", table.get(key), minimum)
+        for key, minimum in (("count", 1), ("seed", 0))
     }
     check_count(numbers["count"])
     ranges = {name: value for name, value in table.items() if name not in numbers}
@@ -68,8 +68,8 @@ def random_points(table: Mapping[str, Any]) -> Points:
 
 def check_count(count: int) -> None:
     """Raise AxisError for more points than a sweep may have."""
-    if count > MOST_POINTS:
-        raise AxisError(f"{count} points; allowed are {MOST_POINTS}")
+    if count > MAX_POINTS:
+        raise AxisError(f"{count} points; allowed are {MAX_POINTS}")
 
 
 def _axis(key: str, value: object) -> Sequence[float]:
@@ -115,9 +115,9 @@ def _between(first: float, last: float, spacing: str, share: float) -> float:
     return first + (last - first) * share
 
 
-def _whole(key: str, value: object, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise AxisError(f"{_given(key, value)}: allowed is a whole number from {least} on")
+def _whole(key: str, value: object, minimum: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < minimum:
+        raise AxisError(f"{_given(key, value)}: allowed is a whole number from {minimum} on")
     return value
 
 

@@ -110,9 +110,9 @@ def _measures(content: Mapping[str, Any]) -> tuple[str, ...]:
 
 def _run(table: Mapping[str, Any]) -> Run:
     _known("key of [run]", table, RUN_KEYS)
-    least = {"skip_periods": 0}
+    minimum = {"skip_periods": 0}
     periods, steps, skipped = (
-        _count(table, key, RUN_DEFAULTS[key], least.get(key, 1)) for key in RUN_KEYS
+        _count(table, key, RUN_DEFAULTS[key], minimum.get(key, 1)) for key in RUN_KEYS
     )
     if skipped >= periods:
         raise AxisError(
@@ -122,10 +122,10 @@ def _run(table: Mapping[str, Any]) -> Run:
     return Run(periods, steps, skipped)
 
 
-def _count(table: Mapping[str, Any], key: str, default: int, least: int) -> int:
+def _count(table: Mapping[str, Any], key: str, default: int, minimum: int) -> int:
     value = table.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise AxisError(f"{key} = {value!r}: allowed is a whole number not below {least}")
+    if isinstance(value, bool) or not isinstance(value, int) or value < minimum:
+        raise AxisError(f"{key} = {value!r}: allowed is a whole number not below {minimum}")
     return value
 
 

@@ -16,7 +16,7 @@ COUNT = 200
 STEADY_SHARE = 0.2
 LONGEST = {0: 50_000.0, 1: 8000.0}
 """Drive periods of the longest run, by friction law."""
-MOST_LOOKS = 3000
+MAX_CHECKPOINTS = 3000
 """Communication points of a scene in its own step."""
 
 
@@ -52,7 +52,7 @@ def generated_scene(seed: int, folder: Path) -> Scene:
     lines += [f"{name} = {value!r}" for name, value in device.items()]
     lines += ["[inputs]", *(f"{name} = {value}" for name, value in inputs.items())]
     if not steady:
-        per_period = min(draw.one_of(1.0, 4.0, 16.0), MOST_LOOKS / periods)
+        per_period = min(draw.one_of(1.0, 4.0, 16.0), MAX_CHECKPOINTS / periods)
         lines += ["[run]", f"stop_time = {duration!r}", f"steps_per_period = {per_period!r}"]
     beats = _beats(inputs)
     tightest = 1e-4 if any("ramp" in given for given in inputs.values()) else 1e-5
