@@ -33,7 +33,7 @@ def test_a_claim_that_is_not_confirmed_ends_with_1(
     from slider_resonator.studies.paper.claim import AGREES, Claim, ClaimGroup
 
     claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, AGREES, "it does not", False)
-    group = ClaimGroup("claims_x", "X", lambda instance: [claim])
+    group = ClaimGroup("claims_x", "X", (lambda instance: [claim],))
     monkeypatch.setattr(reproduce, "GROUPS", (group,))
     arguments = ["--out", str(tmp_path), "--only", "claims", "--fmu", str(native_fmu)]
     result = CliRunner().invoke(main, ["paper", *arguments])

@@ -43,7 +43,11 @@ class ClaimGroup:
 
     name: str
     title: str
-    measure: Callable[[Instance], list[Claim]]
+    measures: tuple[Callable[[Instance], list[Claim]], ...]
+
+    def measure(self, instance: Instance) -> list[Claim]:
+        """Return all claims as measured."""
+        return [claim for measure in self.measures for claim in measure(instance)]
 
 
 def near(found: float, expected: float, share: float) -> bool:

@@ -119,36 +119,29 @@ def _blocking(instance: Instance) -> list[Claim]:
     ]
 
 
-def _ripple(instance: Instance) -> Claim:
+def _ripple(instance: Instance) -> list[Claim]:
     amplitudes = {}
     for frequency in RIPPLE_FREQUENCIES:
         period = 2.0 * pi / frequency
         run = record(instance, coulomb_case(1.0, frequency), 40 * period, 40 * 32)
         amplitude = ripple_amplitude(run.times, run["position"], period)
         amplitudes[f"ripple_times_Omega_at_{frequency:g}"] = amplitude * frequency
-    return Claim(
-        "ripple_over_frequency",
-        "2.3",
-        "The fast oscillation has the amplitude q / Omega and falls with the frequency",
-        amplitudes,
-        AGREES,
-        "q = 1: the product tends to 1; at Omega = 10 the impact of friction on it shows",
-        near(amplitudes["ripple_times_Omega_at_1000"], 1.0, 5e-3)
-        and near(amplitudes["ripple_times_Omega_at_100"], 1.0, 0.03),
-    )
-
-
-def _measure(instance: Instance) -> list[Claim]:
     return [
-        *_phase(instance),
-        *_strengths(instance),
-        *_blocking(instance),
-        _ripple(instance),
+        Claim(
+            "ripple_over_frequency",
+            "2.3",
+            "The fast oscillation has the amplitude q / Omega and falls with the frequency",
+            amplitudes,
+            AGREES,
+            "q = 1: the product tends to 1; at Omega = 10 the impact of friction on it shows",
+            near(amplitudes["ripple_times_Omega_at_1000"], 1.0, 5e-3)
+            and near(amplitudes["ripple_times_Omega_at_100"], 1.0, 0.03),
+        )
     ]
 
 
 GROUP = ClaimGroup(
     "claims_coulomb",
     "Coulomb friction",
-    _measure,
+    (_phase, _strengths, _blocking, _ripple),
 )

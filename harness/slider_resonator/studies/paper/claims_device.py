@@ -142,5 +142,5 @@ def _measure(instance: Instance) -> list[Claim]:
 GROUP = ClaimGroup(
     "claims_device",
     "The device of table 1",
-    _measure,
+    (_measure,),
 )

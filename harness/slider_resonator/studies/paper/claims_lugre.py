@@ -179,12 +179,8 @@ def _blocking_claims(instance: Instance) -> list[Claim]:
     ]
 
 
-def _measure(instance: Instance) -> list[Claim]:
-    return _shapes(instance) + _manifold(instance) + _blocking_claims(instance)
-
-
 GROUP = ClaimGroup(
     "claims_lugre",
     "LuGre friction",
-    _measure,
+    (_shapes, _manifold, _blocking_claims),
 )

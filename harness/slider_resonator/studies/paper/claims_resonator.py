@@ -167,12 +167,8 @@ def _beats(instance: Instance) -> list[Claim]:
     ]
 
 
-def _measure(instance: Instance) -> list[Claim]:
-    return _models(instance) + _ratios(instance) + _beats(instance)
-
-
 GROUP = ClaimGroup(
     "claims_resonator",
     "The device with its resonator, and frequencies that differ",
-    _measure,
+    (_models, _ratios, _beats),
 )

@@ -50,7 +50,7 @@ def random_points(table: Mapping[str, Any]) -> Points:
     if not table:
         return (), ()
     numbers = {
-        key: _whole(f"random.{key}", table.get(key), minimum)
+        key: whole_number(f"random.{key}", table.get(key), minimum)
         for key, minimum in (("count", 1), ("seed", 0))
     }
     check_count(numbers["count"])
@@ -76,7 +76,7 @@ def _axis(key: str, value: object) -> Sequence[float]:
     if not isinstance(value, dict):
         return _values(key, value)
     first, last, spacing = _bounds(key, value, ("count",))
-    count = _whole(f"{key}.count", value.get("count"), 2)
+    count = whole_number(f"{key}.count", value.get("count"), 2)
     check_count(count)
     return [_between(first, last, spacing, index / (count - 1)) for index in range(count)]
 
@@ -85,7 +85,7 @@ def _values(key: str, value: object) -> Sequence[float]:
     if not isinstance(value, list) or not value:
         raise AxisError(f"{key} = {value!r}: allowed is a list of one number or more")
     for entry in value:
-        _number(key, entry)
+        finite_number(key, entry)
     return [float(entry) for entry in value]
 
 
@@ -97,7 +97,7 @@ def _bounds(key: str, value: object, more: Sequence[str]) -> tuple[float, float,
     for name in value:
         if name not in allowed:
             raise AxisError(f"{key}: {unknown_name('key', name, allowed)}")
-    first, last = (_number(f"{key}.{name}", value.get(name)) for name in ("from", "to"))
+    first, last = (finite_number(f"{key}.{name}", value.get(name)) for name in ("from", "to"))
     spacing = value.get("spacing", "linear")
     if spacing not in SPACINGS:
         raise AxisError(f"{key}.spacing = {spacing!r}: allowed is one of {', '.join(SPACINGS)}")
@@ -115,13 +115,15 @@ def _between(first: float, last: float, spacing: str, share: float) -> float:
     return first + (last - first) * share
 
 
-def _whole(key: str, value: object, minimum: int) -> int:
+def whole_number(key: str, value: object, minimum: int) -> int:
+    """Return a whole number of at least `minimum`; AxisError for anything else."""
     if isinstance(value, bool) or not isinstance(value, int) or value < minimum:
         raise AxisError(f"{_given(key, value)}: allowed is a whole number from {minimum} on")
     return value
 
 
-def _number(key: str, value: object) -> float:
+def finite_number(key: str, value: object) -> float:
+    """Return a finite number; AxisError for anything else."""
     if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
         raise AxisError(f"{_given(key, value)}: allowed is a finite number")
     return float(value)
