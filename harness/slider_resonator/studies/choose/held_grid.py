@@ -49,7 +49,7 @@ def sampled_inputs(scene: Scene, stop: float, step: float) -> HeldGrid:
 
 
 def averaged_inputs(scene: Scene, stop: float, step: float, start: float = 0.0) -> HeldGrid:
-    """Return the inputs nearly as they vary, held at their mean over each small step (s).
+    """Return the inputs held at their mean over each small step (s).
 
     The impulse of the load and the angle psi are then exact at the points: the error is of second
     order in the step, that of `sampled_inputs` of first.

@@ -169,10 +169,10 @@ class Probe:
         return self._follow(candidate, held, stretch), self._reference(step, stretch)
 
     def _holding(self, step: float) -> dict[str, float]:
-        """Return what holding the inputs over a step (s) adds to the errors.
+        """Return the errors that come from holding the inputs over a step (s).
 
-        It hardly depends on the model and is of first order in the step, so that averaged motion in
-        coarse steps tells.
+        They hardly depend on the model and are of first order in the step, so that averaged motion
+        in coarse steps gives them.
         """
         if not self.varying:
             return {}
@@ -184,18 +184,13 @@ class Probe:
         return {name: error * step / coarse for name, error in self._holdings[coarse].items()}
 
     def _grown(self, candidate: Candidate, seen: Estimates) -> Estimates:
-        """Return the errors of the resolved model itself as they can have grown by the end."""
+        """Return the errors of the resolved model itself, extrapolated to the end of the scene."""
         if candidate.model != self.reference_model:
             reason = "the scene is too long, and changes too often, for a short probe to confirm it"
-            return {
-                name: ErrorEstimate(inf, estimate.magnitude, reason)
-                for name, estimate in seen.items()
-            }
+            return {name: replace(e, error=inf, reason=reason) for name, e in seen.items()}
         growth = CAUTION * self.duration / self.probed_duration
         return {
-            name: estimate
-            if name == "beat"
-            else ErrorEstimate(growth * estimate.error, estimate.magnitude)
+            name: estimate if name == "beat" else replace(estimate, error=growth * estimate.error)
             for name, estimate in seen.items()
         }
 

@@ -10,7 +10,7 @@ end of the resolved beginning to that of the scene.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, log
 
 import numpy as np
@@ -131,8 +131,8 @@ def holding_errors(
 def with_holding(estimates: Mapping[str, ErrorEstimate], added: Mapping[str, float]) -> Estimates:
     """Return errors with those of holding the inputs added."""
     return {
-        name: ErrorEstimate(w.error + added.get(name, 0.0), w.magnitude, w.reason)
-        for name, w in estimates.items()
+        name: replace(estimate, error=estimate.error + added.get(name, 0.0))
+        for name, estimate in estimates.items()
     }
 
 
