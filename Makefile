@@ -5,10 +5,14 @@ VENV := .venv
 PY := $(VENV)/bin/python
 READY := $(VENV)/.ready
 READY_WITH_HOSTS := $(VENV)/.ready_with_hosts
-INSTALL := $(PY) -m pip install --quiet --disable-pip-version-check --editable
+LINT := .venv-lint
+# -qq: errors are shown; what pip finds odd about the machine's own configuration is not.
+PIP_INSTALL := -m pip install -qq --disable-pip-version-check
+
+COVER := --cov=slider_resonator --cov=fmu_src --cov-report=html:build/coverage --cov-report=term:skip-covered
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build validate test lint bench ci hosts interop clean
+.PHONY: help setup build validate test lint lock bench ci hosts interop clean
 
 help: ## print this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -23,12 +27,17 @@ $(PY):
 	@$(PYTHON) -m venv $(VENV)
 
 $(READY): pyproject.toml | $(PY)
-	$(INSTALL) '.[dev]'
+	$(PY) $(PIP_INSTALL) --editable '.[dev]'
 	@touch $@
 
 $(READY_WITH_HOSTS): pyproject.toml | $(PY)
-	$(INSTALL) '.[dev,hosts]'
+	$(PY) $(PIP_INSTALL) --editable '.[dev,hosts]'
 	@touch $(READY) $@
+
+$(LINT)/.ready: requirements-lint.lock
+	@test -x $(LINT)/bin/python || $(PYTHON) -m venv $(LINT)
+	$(LINT)/bin/python $(PIP_INSTALL) -r requirements-lint.lock
+	@touch $@
 
 build: $(READY) ## build both FMUs into dist
 	$(PY) build_fmu.py
@@ -36,31 +45,38 @@ build: $(READY) ## build both FMUs into dist
 validate: build ## build both FMUs, run every built-in scene and compare them with the references
 	$(PY) -m harness validate
 
-test: lint ## lint, check types, run the tests that take seconds; SLOW=1 runs the slow ones too
-	$(PY) -m pytest -n 2 $(if $(SLOW),--dist worksteal -m "not interop",--dist loadfile)
+test: $(READY) ## run the tests that take seconds; SLOW=1 runs the slow ones too, COVERAGE=1 reports the lines reached
+	$(PY) -m pytest -n 2 $(if $(SLOW),--dist worksteal -m "not interop",--dist loadfile) $(if $(COVERAGE),$(COVER))
 
-ci: SLOW := 1
-ci: test ## make test SLOW=1
+lint: $(LINT)/.ready ## check style, formatting, types and layers, with the versions of requirements-lint.lock
+	$(LINT)/bin/ruff check .
+	$(LINT)/bin/ruff format --check .
+	$(LINT)/bin/mypy
+	PYTHONPATH=harness $(LINT)/bin/lint-imports
+
+lock: ## write the lock files anew, with uv
+	uv pip compile -q --universal --python-version 3.11 --all-extras pyproject.toml -o requirements.lock
+	uv pip compile -q --universal --python-version 3.11 --group lint -o requirements-lint.lock
+
+ci: ## run lint and all tests
+	$(MAKE) lint
+	$(MAKE) test SLOW=1
 
 hosts: $(READY_WITH_HOSTS) .venv-hosts/.ready ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
 	.ci/install-tools.sh
 
 .venv-hosts/.ready:
 	@test -x .venv-hosts/bin/python || $(PYTHON) -m venv .venv-hosts
-	.venv-hosts/bin/python -m pip install --quiet --disable-pip-version-check cofmupy==1.0.0
+	.venv-hosts/bin/python $(PIP_INSTALL) cofmupy==1.0.0
 	@touch $@
 
 interop: hosts ## run table 1 in all of them
 	$(PY) -m pytest -n 2 --dist loadfile -m interop
 
-lint: $(READY) ## check style, formatting and types
-	$(PY) -m ruff check .
-	$(PY) -m ruff format --check .
-	$(PY) -m mypy
-
-bench: build ## measure the cost of a step in a C host
+bench: build ## measure what a step costs a host in C
 	$(PY) -m harness bench
 
 clean: ## remove .venv, dist and every cache
-	rm -rf $(VENV) .venv-hosts dist build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(LINT) .venv-hosts dist build *.egg-info harness/*.egg-info
+	rm -rf .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache .coverage
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from slider_resonator.checks.compare import Check
-from slider_resonator.checks.validate import Curves, Trouble, Validation
+from slider_resonator.checks.validate import Curves, RunFailure, Validation
 
 PASSED = Check(
     *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),
@@ -29,7 +29,7 @@ SIGNAL = Check(
 )
 TIMES = np.linspace(0.0, 0.1, 200)
 CURVES = Curves(SIGNAL, TIMES, 1e-4 * np.sin(300.0 * TIMES) + 3e-8, 1e-4 * np.sin(300.0 * TIMES))
-CRASH = Trouble("lift_off", "the FMU crashed in fmi2DoStep: \x01 | <b>", {"phase": 0.4})
+CRASH = RunFailure("lift_off", "the FMU crashed in fmi2DoStep: \x01 | <b>", {"phase": 0.4})
 
 GOOD = Validation("good.fmu", (PASSED,), 1.5)
 BAD = Validation("bad.fmu", (PASSED, SLOWER, SIGNAL), 2.5, (), (CURVES,))

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from slider_resonator.studies.closed_loop.course import HOSTS, run_loop
 from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.studies.closed_loop.judge import judge_agreement, judge_holds
+from slider_resonator.studies.closed_loop.loop import HOSTS, run_loop
 from slider_resonator.studies.closed_loop.prediction import predicted_errors
 
 pytestmark = pytest.mark.interop

@@ -1,10 +1,10 @@
-"""What the FMU says about a scene: each thing is computed once, when it is first asked for."""
+"""The FMU in a scene: run, steady motion and blocking force, each computed once on first use."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
-from math import pi
+from functools import cached_property, partial
+from typing import Any
 
 from slider_resonator.fmu.drive import Instance, Record, run
 from slider_resonator.scenes.scene import Scene
@@ -45,4 +45,16 @@ class FmuSide:
     @property
     def drive_period(self) -> float:
         """Drive period in seconds."""
-        return 2.0 * pi / self.scene.device.drive_frequency
+        return self.scene.drive_period
+
+
+def task_in_scene(scene: Scene, measure: Callable[[FmuSide], Any]) -> Callable[[Instance], Any]:
+    """Return the task, for an isolated FMU, of measuring in a scene.
+
+    `measure` must be picklable: a function of a module.
+    """
+    return partial(_measure, scene=scene, measure=measure)
+
+
+def _measure(instance: Instance, scene: Scene, measure: Callable[[FmuSide], Any]) -> Any:
+    return measure(FmuSide(instance, scene))

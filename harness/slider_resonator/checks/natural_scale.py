@@ -1,4 +1,4 @@
-"""What counts as near zero: the size that a quantity has in a device of this kind."""
+"""The natural scale of a quantity in a device, which says what counts as near zero."""
 
 from __future__ import annotations
 
@@ -10,15 +10,18 @@ from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
 
 NEAR_ZERO = 0.01
-"""A reference is taken to be at least this share of the natural scale, unless a scene says how
-near the FMU must be in absolute terms."""
+"""Share of the natural scale that a reference counts as at least, unless a scene gives an absolute
+tolerance."""
 
 
 def _vibration(pick: Callable[[EquivalentForce], float]) -> Callable[[Device], float]:
-    """Return a size in the steady vibration (32)-(34) without friction; 0 where there is none."""
+    """Return a function for an amplitude of the steady vibration without friction, (32)-(34).
+
+    It gives 0 where there is none.
+    """
 
     def size(device: Device) -> float:
-        # Friction has no part in the vibration, but must be there for the other figures.
+        # The vibration does not depend on friction, without which there is no equivalent force.
         driven = replace(device, friction_coefficient=1.0, friction_faces=1, normal_preload=1.0)
         try:
             return abs(pick(equivalent_force(driven)))

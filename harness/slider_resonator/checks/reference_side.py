@@ -1,11 +1,11 @@
-"""What the references say about a scene: each thing is computed once, when first asked for."""
+"""The references in a scene: trajectories, steady motion, closed forms, each computed once."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
-from math import floor, pi
+from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,75 +31,79 @@ _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
 }
 
 TUBE_POINTS = 3
-"""Points on each side of a time at which a tube looks at the reference."""
+"""Points on each side of a time at which a tube samples the reference."""
 COINCIDENCE = 1e-6
 """Share of a drive period within which an event and a communication point coincide."""
 
 
 class ReferenceSide:
-    """Trajectories, steady motion and closed forms for one scene."""
+    """Trajectories, steady motion and closed forms for one scene, computed on first use.
 
-    def __init__(self, scene: Scene) -> None:
+    Steady motion and closed forms are for constant `inputs` by name (rad, N, 1), by default those
+    at the start.
+    """
+
+    def __init__(self, scene: Scene, inputs: Mapping[str, float] | None = None) -> None:
         self.scene = scene
         self.device = scene.device
-        self.inputs = {name: signal.at(0.0) for name, signal in scene.signals.items()}
+        start = {name: signal.at(0.0) for name, signal in scene.signals.items()}
+        self.inputs = start if inputs is None else inputs
         self._trajectories: dict[str, Trajectory] = {}
         self._around: dict[tuple[str, float], Trajectory] = {}
 
     @property
     def drive_period(self) -> float:
         """Drive period in seconds."""
-        return 2.0 * pi / self.device.drive_frequency
+        return self.scene.drive_period
 
     @cached_property
     def times(self) -> Array:
         """Communication points of the scene (s), shape (n,)."""
         return self.scene.schedule().times
 
-    def trajectory(self, referee: str) -> Trajectory:
-        """Return the run of the scene by `located_events`, `taylor` or, for LuGre, `bristle_state`.
+    def trajectory(self, reference: str) -> Trajectory:
+        """Return the trajectory of `located_events`, `taylor` or, for LuGre, `bristle_state`.
 
-        It also has the two ends of the last whole drive period.
+        Its times are the communication points and both ends of the last whole drive period.
         """
-        if referee not in self._trajectories:
+        if reference not in self._trajectories:
             times = np.union1d(self.times, self._last_period)
-            self._trajectories[referee] = self._simulate(referee, times)
-        return self._trajectories[referee]
+            self._trajectories[reference] = self._simulate(reference, times)
+        return self._trajectories[reference]
 
-    def signal(self, referee: str, name: str) -> Array:
-        """Return one output of that run at the communication points, shape (n,)."""
-        run = self.trajectory(referee)
+    def signal(self, reference: str, name: str) -> Array:
+        """Return one output of a trajectory at the communication points, shape (n,)."""
+        run = self.trajectory(reference)
         values = np.asarray(getattr(run, name), dtype=np.float64)
         return values[np.searchsorted(run.time, self.times)]
 
-    def tube(self, referee: str, name: str, share: float) -> Tube:
-        """Return one output with what it takes on within a share of a drive period around."""
+    def tube(self, reference: str, name: str, share: float) -> Tube:
+        """Return one output with its range within a share of a drive period to each side."""
         offsets = share * self.drive_period * np.linspace(-1.0, 1.0, 2 * TUBE_POINTS + 1)
         around = np.clip(self.times[:, None] + offsets, 0.0, self.times[-1])
-        if (referee, share) not in self._around:
-            self._around[referee, share] = self._simulate(referee, np.unique(around))
-        run = self._around[referee, share]
+        if (reference, share) not in self._around:
+            self._around[reference, share] = self._simulate(reference, np.unique(around))
+        run = self._around[reference, share]
         values = np.asarray(getattr(run, name), dtype=np.float64)
         window = values[np.searchsorted(run.time, around)]
         return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
 
-    def event_times(self, referee: str) -> Tube:
+    def event_times(self, reference: str) -> Tube:
         """Return the time of the last event before each communication point, in drive periods.
 
-        Where an event all but coincides with a point the tube leaves open which of the two was
-        first.
+        Where an event and a point coincide to `COINCIDENCE`, the tube allows either order.
         """
-        events = np.append(0.0, self.trajectory(referee).event_times)
+        events = np.append(0.0, self.trajectory(reference).event_times)
 
         def last_before(times: Array) -> Array:
             return events[np.searchsorted(events, np.maximum(times, 0.0), side="right") - 1]
 
         margin = COINCIDENCE * self.drive_period
-        courses = [last_before(self.times + shift) for shift in (0.0, -margin, margin)]
-        return Tube(*(course / self.drive_period for course in courses))
+        bounds = [last_before(self.times + shift) for shift in (0.0, -margin, margin)]
+        return Tube(*(bound / self.drive_period for bound in bounds))
 
-    def _simulate(self, referee: str, times: Array) -> Trajectory:
-        return _SIMULATORS[referee](self.device, self.scene.schedule().held(), times)
+    def _simulate(self, reference: str, times: Array) -> Trajectory:
+        return _SIMULATORS[reference](self.device, self.scene.schedule().held(), times)
 
     @cached_property
     def averaged_motion(self) -> AveragedMotion:
@@ -121,7 +125,7 @@ class ReferenceSide:
 
     @property
     def last_event_time(self) -> float:
-        """Time (s) of the last change of contact mode, 0 without any."""
+        """Time (s) of the last event, 0 without any."""
         events = self.trajectory("located_events").event_times
         return float(events[-1]) if events.size else 0.0
 
@@ -143,7 +147,7 @@ class ReferenceSide:
 
     @property
     def predicted_velocity(self) -> float:
-        """Steady velocity (m/s) by averages: any ratio, both friction laws, a contact may lift."""
+        """Steady velocity (m/s) of averaged motion: any ratio, both laws, with lift-off."""
         phase, load = self.inputs["phase"], self.inputs["load"]
         ratio = self.inputs["frequency_ratio"]
         if self.device.friction_law == 1:
@@ -152,7 +156,7 @@ class ReferenceSide:
 
     @property
     def predicted_blocking_force(self) -> float:
-        """Blocking force (N) by the same averages."""
+        """Blocking force (N) of averaged motion, as for `predicted_velocity`."""
         phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
         if self.device.friction_law == 1:
             return uniform_average.device_blocking_force(self.device, phase, ratio)
@@ -162,18 +166,14 @@ class ReferenceSide:
     def at_the_end(self) -> ReferenceSide:
         """The same device under the inputs at the end of the run.
 
-        What earlier frequency ratios have left of the normal phase is part of its phase (rad).
+        The phase (rad) includes the lead of the normal force from earlier frequency ratios.
         """
         held = self.scene.schedule().held()
         ratio = held[-1].frequency_ratio
         lead = sum((h.frequency_ratio - ratio) * (h.stop - h.start) for h in held)
-        end = ReferenceSide(self.scene)
-        end.inputs = {
-            "phase": held[-1].phase + lead * self.device.drive_frequency,
-            "load": held[-1].load,
-            "frequency_ratio": ratio,
-        }
-        return end
+        phase = held[-1].phase + lead * self.device.drive_frequency
+        inputs = {"phase": phase, "load": held[-1].load, "frequency_ratio": ratio}
+        return ReferenceSide(self.scene, inputs)
 
     @property
     def averaged_velocity(self) -> float:

@@ -1,10 +1,11 @@
-"""Running scenes against FMUs, each in a process of its own, and collecting the verdicts."""
+"""Running scenes against FMUs, each in a process of its own, and judging what they give."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -12,26 +13,35 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.checks.compare import Check, Measurement, check, measure_all, wanted
+from slider_resonator.checks.compare import Check, Comparison, compare
+from slider_resonator.checks.expecting import expected_value
+from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measures.tube import Tube
-from slider_resonator.checks.natural_scale import smallest_reference
-from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
-from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT, isolated_runs
-from slider_resonator.scenes.scene import Scene, read_scene, sweep_points
-from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Trouble:
-    """What could not be run: a scene, at a point of its sweep, or without a scene the whole FMU."""
+class RunFailure:
+    """A scene that could not be run, at a point of its sweep; no `scene` means the whole FMU."""
 
     scene: str
     reason: str
     at: Mapping[str, float]
+
+    @classmethod
+    def of(cls, fmu: Path, point: ScenePoint | None, error: Exception | None) -> RunFailure:
+        """Return the failure at a point, or without one that of the FMU, naming its file."""
+        text = str(error)
+        if point is not None:
+            return cls(point.scene.name, text, point.at)
+        return cls("", text if text.startswith(f"{fmu}") else f"{fmu}: {text}", {})
 
 
 @dataclass(frozen=True)
@@ -46,36 +56,26 @@ class Curves:
 
 @dataclass(frozen=True)
 class Validation:
-    """All verdicts on an FMU, in the order of the scenes, and the seconds that they took.
+    """All checks of an FMU, in the order of the scenes, and the seconds that they took.
 
-    `troubles` is what could not be judged, `curves` are the signals that differ.
+    `run_failures` are scenes that could not be run, `curves` the signals that differ.
     """
 
     fmu: str
     checks: tuple[Check, ...]
     wall_time: float
-    troubles: tuple[Trouble, ...] = ()
+    run_failures: tuple[RunFailure, ...] = ()
     curves: tuple[Curves, ...] = ()
 
     @property
     def passed(self) -> bool:
-        """True when everything could be judged and every check has passed."""
-        return not self.troubles and all(check.passed for check in self.checks)
+        """True when every scene could be run and every check has passed."""
+        return not self.run_failures and all(check.passed for check in self.checks)
 
     @property
     def exit_code(self) -> int:
-        """0 for a pass, 1 for a failed check, 2 when something could not be run."""
-        return 2 if self.troubles else int(not self.passed)
-
-
-@dataclass(frozen=True)
-class _Point:
-    """A scene, or one of the points of its sweep, with its references."""
-
-    file: Path
-    at: Mapping[str, float]
-    scene: Scene
-    reference: ReferenceSide
+        """0 for a pass, 1 for a failed check, 2 when a scene could not be run."""
+        return 2 if self.run_failures else int(not self.passed)
 
 
 def validate(
@@ -85,112 +85,102 @@ def validate(
     *,
     time_limit: float = TIME_LIMIT,
 ) -> tuple[Validation, ...]:
-    """Run every scene on every FMU and judge every expectation in it.
+    """Compare each FMU with the references in every scene and at every point of its sweep.
 
-    The references are computed once for all FMUs; their time counts for the first. `progress` is
-    told the scene at work and the share of all the work that is done. An FMU that does not answer
-    within `time_limit` (s) for a scene, or point of a sweep, is ended. Raises SceneError when a
-    scene file is at fault; what is wrong with an FMU is among its validation's troubles.
+    Expected values are computed once for all FMUs; their time counts for the first. `progress`
+    gets the scene at work and the share of all the work that is done. An FMU that does not answer
+    within `time_limit` (s) for a point is stopped. Raises SceneError for a faulty scene file; what
+    is wrong with an FMU is among the run failures of its validation.
     """
-    points = [point for path in scene_files for point in _points(path)]
+    points = [point for file in scene_files for point in points_to_check(read_scene(file))]
+    expected = ExpectedValues()
     validations = []
-    for turn, path in enumerate(fmu_paths):
+    for number, path in enumerate(fmu_paths):
 
-        def told(name: str, share: float, turn: int = turn) -> None:
-            progress(name, (turn + share) / len(fmu_paths))
+        def report(name: str, share: float, number: int = number) -> None:
+            progress(name, (number + share) / len(fmu_paths))
 
-        validations.append(_Judge(path, time_limit).validation(points, told))
+        validations.append(_validation(path, points, expected, time_limit, report))
     progress("", 1.0)
     return tuple(validations)
 
 
-def _points(path: Path) -> Iterator[_Point]:
-    scene = read_scene(path)
+def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
+    """Return the points of a scene; SceneError for a scene without expectations."""
     if not scene.expect:
-        raise SceneError(f"{path}: scene {scene.name} expects nothing: [[expect]] is missing")
-    for at, point in sweep_points(scene, path):
-        yield _Point(path, at, point, ReferenceSide(point))
-
-
-class _Judge:
-    """Runs the points on one FMU and keeps the verdicts."""
-
-    def __init__(self, path: Path, time_limit: float) -> None:
-        self.path = path
-        self.time_limit = time_limit
-        self.checks: list[Check] = []
-        self.troubles: list[Trouble] = []
-        self.curves: list[Curves] = []
-
-    def validation(
-        self, points: Sequence[_Point], told: Callable[[str, float], None]
-    ) -> Validation:
-        """Judge all points; the references are computed while the FMU is at work."""
-        began = perf_counter()
-        references: dict[int, list[Any]] = {}
-
-        def meanwhile(point: _Point) -> None:
-            told(point.scene.name, len(references) / len(points))
-            references[id(point)] = [_wanted(e, point.reference) for e in point.scene.expect]
-
-        runs = isolated_runs(self.path, points, measure_all, self.time_limit, meanwhile)
-        with closing(runs):
-            for ran in runs:
-                if ran.error is not None:
-                    self._trouble(ran.error, ran.point)
-                elif ran.point is not None:
-                    self._judge(ran.point, ran.result, references[id(ran.point)])
-        return Validation(
-            str(self.path),
-            tuple(self.checks),
-            perf_counter() - began,
-            tuple(self.troubles),
-            tuple(self.curves),
+        raise SceneError(
+            f"{scene.source}: scene {scene.name} expects nothing: [[expect]] is missing"
         )
+    return scene.points()
 
-    def _judge(
-        self, point: _Point, measurements: Sequence[Measurement], references: Sequence[Any]
-    ) -> None:
-        for expect, measured, reference in zip(
-            point.scene.expect, measurements, references, strict=True
-        ):
-            if isinstance(reference, SceneError):
-                self._trouble(reference, point)
+
+class ExpectedValues:
+    """What scenes expect at their points, each value computed once."""
+
+    def __init__(self) -> None:
+        self._values: dict[ScenePoint, list[Any]] = {}
+
+    def at(self, point: ScenePoint) -> list[Any]:
+        """Return a value for each expectation, or the SceneError where there is none."""
+        if point not in self._values:
+            references = ReferenceSide(point.scene)
+            values: list[Any] = []
+            for expect in point.scene.expect:
+                try:
+                    values.append(expected_value(expect, references))
+                except SceneError as error:
+                    values.append(error)
+            self._values[point] = values
+        return self._values[point]
+
+
+def _validation(
+    path: Path,
+    points: Sequence[ScenePoint],
+    expected: ExpectedValues,
+    time_limit: float,
+    report: Callable[[str, float], None],
+) -> Validation:
+    """Run the points on one FMU and judge; expected values are computed while it runs."""
+    began = perf_counter()
+    number = count()
+
+    def meanwhile(point: ScenePoint) -> None:
+        report(point.scene.name, next(number) / len(points))
+        expected.at(point)
+
+    checks: list[Check] = []
+    run_failures: list[RunFailure] = []
+    curves: list[Curves | None] = []
+    with closing(measure_points(path, points, measure_all, time_limit, meanwhile)) as finished:
+        for one in finished:
+            point = one.item
+            if one.error is not None or point is None:
+                run_failures.append(RunFailure.of(path, point, one.error))
                 continue
-            smallest = smallest_reference(expect.quantity, point.scene.device)
-            verdict = check(expect, measured, reference, point.scene.name, point.at, smallest)
-            self.checks.append(verdict)
-            curves = curves_of(verdict, measured, reference)
-            if curves is not None:
-                self.curves.append(curves)
-
-    def _trouble(self, error: Exception, point: _Point | None) -> None:
-        if point is None:
-            self.troubles.append(trouble_of_fmu(self.path, error))
-        else:
-            self.troubles.append(Trouble(point.scene.name, str(error), point.at))
-
-
-def _wanted(expect: ExpectTable, reference: ReferenceSide) -> Any:
-    try:
-        return wanted(expect, reference)
-    except SceneError as error:
-        return error
+            values = expected.at(point)
+            for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
+                if isinstance(value, SceneError):
+                    run_failures.append(RunFailure.of(path, point, value))
+                else:
+                    checks.append(compare(Comparison.of(expect), measured, value, point))
+                    curves.append(curves_of(checks[-1], measured, value))
+    return Validation(
+        str(path),
+        tuple(checks),
+        perf_counter() - began,
+        tuple(run_failures),
+        tuple(curve for curve in curves if curve is not None),
+    )
 
 
-def trouble_of_fmu(path: Path, error: Exception) -> Trouble:
-    """Return what is wrong with an FMU as a whole, with its file named."""
-    text = str(error)
-    return Trouble("", text if text.startswith(f"{path}") else f"{path}: {text}", {})
-
-
-def curves_of(verdict: Check, measured: Measurement, reference: Any) -> Curves | None:
-    """Return the signals behind a check that has failed, None for one that has none."""
-    signal = QUANTITIES[verdict.quantity].kind == "signal"
-    if not signal or verdict.passed or measured.times is None:
+def curves_of(check: Check, measured: Measurement, expected: Any) -> Curves | None:
+    """Return the signals behind a failed check, None where it has passed or has no signal."""
+    signal = QUANTITIES[check.quantity].kind == "signal"
+    if not signal or check.passed or measured.times is None:
         return None
-    middle = reference.middle if isinstance(reference, Tube) else reference
-    return Curves(verdict, measured.times, measured.value, middle)
+    middle = expected.middle if isinstance(expected, Tube) else expected
+    return Curves(check, measured.times, measured.value, middle)
 
 
 def worst_of_sweeps(checks: Sequence[Check]) -> list[tuple[Check, int]]:

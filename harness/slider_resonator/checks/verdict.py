@@ -1,32 +1,33 @@
-"""A verdict in a sentence: by how much, of what, and where."""
+"""The verdict of a check in a sentence: deviation, tolerance and time."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from slider_resonator.checks.compare import Check, Value
-from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.checks.compare import AT_LEAST, AT_MOST, Check, Value
 from slider_resonator.output.readable import readable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 TITLE = "Slider-resonator validation"
-"""What a report is called unless its command calls it otherwise."""
+"""Default title of a report."""
 DIGITS = 9
 
 
 def title(check: Check) -> str:
-    """Return what is compared with what, in which tube and at which point of a sweep."""
+    """Return the quantity, its reference, the tube and the point of the sweep."""
     tube = "" if check.tube is None else f" in a tube of {check.tube:g} periods"
     return f"{check.quantity} against {check.against}{tube}{place(check.at, ' at ')}"
 
 
 def place(at: Mapping[str, float], before: str = "") -> str:
-    """Return the point of a sweep, such as "phase 0.4", after `before`; nothing without a sweep."""
-    return before * bool(at) + ", ".join(f"{name} {value:g}" for name, value in at.items())
+    """Return `before` and the point of a sweep, such as "phase 0.4"; nothing without a sweep."""
+    values = ", ".join(f"{name} {value:g}" for name, value in at.items())
+    return before + values if at else ""
 
 
 def sentence(check: Check) -> str:
-    """Return by how much and where the FMU is off."""
-    unit = f" {check.unit}" * (check.unit not in ("", "1"))
+    """Return the deviation of the FMU, where it is and how it compares with the tolerance."""
+    unit = "" if check.unit in ("", "1") else f" {check.unit}"
     if check.fmu is None:
         return f"the FMU gives none, expected is {_value(check.reference, unit)}: {check.note}"
     if check.reference is None:
@@ -35,7 +36,7 @@ def sentence(check: Check) -> str:
         return f"the FMU gives {check.fmu!r}, expected is {check.reference!r}"
     if QUANTITIES[check.quantity].kind == "signal":
         return _signal_sentence(check, unit)
-    bound = f"{check.against} " * check.against.startswith("at ")
+    bound = f"{check.against} " if check.against in (AT_MOST, AT_LEAST) else ""
     return (
         f"the FMU gives {_value(check.fmu, unit)}, expected is {bound}"
         f"{_value(check.reference, unit)}: off by {check.deviation:.2g}{unit}, {_times(check)}"

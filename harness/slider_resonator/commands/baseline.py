@@ -9,12 +9,12 @@ import click
 from slider_resonator.commands.options import fmu_argument, scenes_option, time_limit_option
 from slider_resonator.commands.reports import (
     Reports,
-    print_troubles,
+    print_run_failures,
     print_verdicts,
     report_options,
 )
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import progress_bar
 from slider_resonator.scenes.scene import files_of_scenes
 from slider_resonator.trials.baseline.judge import TOLERANCE
@@ -73,12 +73,12 @@ def record_command(
     """
     files = files_of_scenes(scenes)
     with progress_bar() as progress:
-        names, troubles = record(
+        names, run_failures = record(
             fmu, files, folder, progress, replace=replace, time_limit=time_limit
         )
     click.echo(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {folder}")
-    print_troubles(str(fmu), troubles)
-    context.exit(2 if troubles else 0)
+    print_run_failures(str(fmu), run_failures)
+    context.exit(2 if run_failures else 0)
 
 
 @baseline_command.command("check")

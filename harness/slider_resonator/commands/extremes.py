@@ -13,7 +13,7 @@ from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import make_folder
 from slider_resonator.trials.extremes.listing import as_plain, write_matrices
 from slider_resonator.trials.extremes.matrix import all_cells
-from slider_resonator.trials.extremes.run import LIMIT, Matrix, run_matrix
+from slider_resonator.trials.extremes.run import TIME_LIMIT, Matrix, run_matrix
 from slider_resonator.trials.extremes.verdict import PASSED
 
 
@@ -28,9 +28,9 @@ from slider_resonator.trials.extremes.verdict import PASSED
 @click.option(
     "--limit",
     type=click.FloatRange(min=0.0, min_open=True),
-    default=LIMIT,
+    default=TIME_LIMIT,
     show_default=True,
-    help="Time in s in which a cell must be done; one that hangs has failed.",
+    help="Time limit of a cell in s; a cell that exceeds it fails.",
 )
 @click.option(
     "--long",
@@ -51,9 +51,9 @@ def extremes_command(
 ) -> None:
     """Run FMUs at the extremes of every parameter, input and step, and judge them by physics.
 
-    Each cell runs apart from this process. It passes the bounds that follow from the equations, is
-    refused by name, or has failed; a hang or a crash is a failure of its cell. Without FMUS: those
-    that build_fmu.py has built in dist. Leaves with 0 when no cell failed, 1 when one did, 2 when
+    The FMU runs in a process of its own. A cell passes the bounds that follow from the equations,
+    is refused by name, or fails; a hang or a crash fails its cell. Without FMUS: those that
+    build_fmu.py has built in dist. Leaves with 0 when no cell failed, 1 when one did, 2 when
     an FMU could not be run.
 
     \b

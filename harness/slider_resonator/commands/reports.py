@@ -14,7 +14,7 @@ from slider_resonator.checks.reports.json_report import validations_as_json, wri
 from slider_resonator.checks.reports.junit import write_junit
 from slider_resonator.checks.reports.step_summary import VARIABLE, append_summary
 from slider_resonator.checks.reports.terminal import print_validation
-from slider_resonator.checks.validate import Trouble, Validation
+from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.checks.verdict import place
 from slider_resonator.commands.options import Target
 from slider_resonator.output.console import output
@@ -112,11 +112,13 @@ def print_verdicts(
     for validation in validations:
         if validation.checks and not as_json:
             print_validation(output(), validation, details=details, only_failed=only_failed)
-        print_troubles(validation.fmu, validation.troubles)
+        print_run_failures(validation.fmu, validation.run_failures)
 
 
-def print_troubles(fmu: str, troubles: Sequence[Trouble]) -> None:
+def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:
     """Print on standard error what could not be run, and where."""
-    for trouble in troubles:
-        where = f"{fmu}: scene {trouble.scene}{place(trouble.at, ' at ')}: " * bool(trouble.scene)
-        click.echo(f"error: {where}{trouble.reason}", err=True)
+    for run_failure in run_failures:
+        where = f"{fmu}: scene {run_failure.scene}{place(run_failure.at, ' at ')}: " * bool(
+            run_failure.scene
+        )
+        click.echo(f"error: {where}{run_failure.reason}", err=True)

@@ -6,11 +6,11 @@ import click
 from rich import box
 from rich.table import Table
 
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.commands.options import json_option
 from slider_resonator.output.console import output
 from slider_resonator.output.json_output import to_json
 from slider_resonator.scenes.scene import built_in_scenes, read_scene
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
 @click.command("scenes")

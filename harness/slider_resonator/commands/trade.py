@@ -14,7 +14,7 @@ from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
-from slider_resonator.scenes.scene import find_scene, read_scene, sweep_points
+from slider_resonator.scenes.scene import find_scene, read_scene
 from slider_resonator.studies.trade.files import write_omissions, write_rows
 from slider_resonator.studies.trade.measure import BUDGET, REPEATS, measure_trade
 from slider_resonator.studies.trade.needs import SUFFIXES, title, write_choices
@@ -132,8 +132,7 @@ def trade_command(
 def _problems(scenes: Sequence[str], periods: int | None) -> list[Problem]:
     problems = []
     for path in map(find_scene, scenes):
-        scene = read_scene(path)
-        problems += [problem_of(point, at, periods) for at, point in sweep_points(scene, path)]
+        problems += [problem_of(p.scene, p.at, periods) for p in read_scene(path).points()]
     return problems
 
 

@@ -6,13 +6,12 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.checks.repeated import repeated
 from slider_resonator.checks.validate import validate
 from slider_resonator.checks.verdict import TITLE
 from slider_resonator.commands.options import default_fmus, scenes_option, time_limit_option
 from slider_resonator.commands.reports import Reports, print_verdicts, report_options
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import progress_bar
 from slider_resonator.scenes.scene import files_of_scenes
 
@@ -26,14 +25,6 @@ from slider_resonator.scenes.scene import files_of_scenes
     help="Show every check of many scenes, every point of a sweep, and the reasons.",
 )
 @time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
-@click.option(
-    "--repeat",
-    type=click.IntRange(min=1),
-    default=1,
-    metavar="N",
-    help="Validate each FMU so often, and say whether that is the same each time; the worst run is "
-    "shown and reported.",
-)
 @report_options
 @click.pass_context
 def validate_command(
@@ -42,7 +33,6 @@ def validate_command(
     scenes: tuple[str, ...],
     details: bool,
     time_limit: float,
-    repeat: int,
     junit: Path | None,
     html: Path | None,
     json: Path | None,
@@ -61,7 +51,6 @@ def validate_command(
       python -m harness validate my.fmu --scene table_1 --details
       python -m harness validate my.fmu --scene scenes/mine.toml --json > report.json
       python -m harness validate my.fmu --scene my_scenes --junit report.xml --html report.html
-      python -m harness validate my.fmu --repeat 10
     """
     sources = {f"the FMU {path}": path for path in fmus}
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
@@ -70,15 +59,10 @@ def validate_command(
         files = files_of_scenes(scenes)
         paths = fmus or default_fmus()
         with progress_bar() as progress:
-            again = [path for path in paths for _ in range(repeat)]
-            runs = validate(again, files, progress, time_limit=time_limit)
+            validations = validate(paths, files, progress, time_limit=time_limit)
     except HarnessError as error:
         reports.write([], str(error))
         raise
-    found = [repeated(runs[i : i + repeat]) for i in range(0, len(runs), repeat)]
-    validations = [one.worst for one in found]
     print_verdicts(validations, details=details, as_json=reports.prints_json)
-    if repeat > 1:
-        click.echo("\n".join(one.sentence for one in found), err=reports.prints_json)
     reports.write(validations)
     context.exit(max(validation.exit_code for validation in validations))

@@ -1,4 +1,4 @@
-"""Points of an input from a CSV file."""
+"""Read the points of an input from a CSV file."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
-    """Return (time, value) from a CSV whose header is time and the named column, or value.
+    """Return (time, value) of a CSV file with the columns `time` and `column`, or `value`.
 
     Raises ValueError naming the file, the line and what is wrong.
     """
@@ -19,10 +19,10 @@ def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
     header = [name.strip() for name in rows[0]] if rows else []
     if not header or header[0] != "time":
         raise ValueError(f"csv {path}: the first column must be 'time', the header is {header}")
-    wanted = column if column in header else "value"
-    if wanted not in header:
+    name = column if column in header else "value"
+    if name not in header:
         raise ValueError(f"csv {path}: no column {column!r} or 'value', only {header[1:]}")
-    index = header.index(wanted)
+    index = header.index(name)
     points = []
     for line, row in enumerate(rows[1:], start=2):
         try:

@@ -1,4 +1,4 @@
-"""Problems of a scene file in words: file, key, value, what is allowed."""
+"""Explain the errors of a scene file: file, key, value, what is allowed."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ _ALLOWED: Mapping[str, str] = {
     "too_long": "a list of {max_length} numbers",
     "tuple_type": "a list in brackets",
 }
-"""What is allowed where the schema finds a problem of this type."""
+"""What is allowed, by the type of error that pydantic finds."""
 
 
 def explanations(source: str, error: ValidationError) -> list[str]:
-    """Return one line per problem: file, key path, value, what is allowed."""
+    """Return one line per error: file, key path, value, what is allowed."""
     lines = []
     for problem in error.errors():
         location = tuple(part for part in problem["loc"] if part != "constant")

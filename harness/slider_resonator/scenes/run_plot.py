@@ -1,8 +1,7 @@
-"""A run as a picture: the slow course, and the last drive periods in full."""
+"""Plot a run: position and mean velocity over time, and the last drive periods in full."""
 
 from __future__ import annotations
 
-from math import pi
 from pathlib import Path
 
 import numpy as np
@@ -20,29 +19,31 @@ from slider_resonator.scenes.scene import Scene
 Array = NDArray[np.float64]
 
 ZOOM_PERIODS = 6
-RESOLVING = 8
-"""Points per drive period below which the fast motion is not drawn."""
-SMOOTH = 64
-"""Points per drive period that make it look smooth."""
+"""Drive periods at the end of the run that are drawn in full."""
+MIN_POINTS = 8
+"""Points per drive period below which they are not drawn."""
+SMOOTH_POINTS = 64
+"""Points per drive period for a smooth curve."""
 
 
 def schedule_to_plot(scene: Scene) -> Schedule:
-    """Return the schedule of a scene with the points that show its last drive periods smoothly."""
-    period = 2.0 * pi / scene.device.drive_frequency
+    """Return the schedule of a scene with more points in its last drive periods."""
+    period = scene.drive_period
     schedule = scene.schedule()
-    return schedule.refined(float(schedule.times[-1]) - ZOOM_PERIODS * period, period / SMOOTH)
+    return schedule.refined(
+        float(schedule.times[-1]) - ZOOM_PERIODS * period, period / SMOOTH_POINTS
+    )
 
 
 def plot_run(record: Record, scene: Scene, path: Path) -> None:
-    """Write a picture of a run to `path`, whose suffix is one of `PICTURE_SUFFIXES`."""
-    period = 2.0 * pi / scene.device.drive_frequency
+    """Write the plot of a run to `path`, whose suffix is one of `PICTURE_SUFFIXES`."""
+    period = scene.drive_period
     varying = [i for i in range(len(INPUTS)) if np.ptp(record.inputs[:, i]) > 0.0]
     gaps = np.diff(record.times[_last_periods(record, period)])
-    resolved = gaps.size > 0 and bool(gaps.max() * RESOLVING <= period)
+    resolved = gaps.size > 0 and bool(gaps.max() * MIN_POINTS <= period)
     with style():
-        height = 4.3 + 2.1 * resolved + 1.3 * bool(varying)
-        figure = Figure(figsize=(8.0, height), layout="constrained")
-        heights = [2.0, 2.0] + [2.0] * resolved + [1.3] * bool(varying)
+        heights = [2.0, 2.0, *([2.0] if resolved else []), *([1.3] if varying else [])]
+        figure = Figure(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
         axes = figure.subplots(len(heights), 1, height_ratios=heights)
         figure.suptitle(f"{scene.title}  ({scene.name}){_constant_inputs(record, varying)}")
         times, unit = _readable(record.times)
@@ -78,7 +79,7 @@ def _velocity(axes: Axes, record: Record, times: Array, unit: str) -> None:
 
 
 def _zoom(axes: Axes, record: Record, period: float) -> None:
-    """Show the last drive periods with the directions of slip, as finely as they were stepped."""
+    """Plot the last drive periods over the directions of slip."""
     window = _last_periods(record, period)
     periods = (record.times[window] - record.times[-1]) / period
     entries = shade_directions(axes, periods, record["contact_mode"][window])
@@ -91,20 +92,20 @@ def _zoom(axes: Axes, record: Record, period: float) -> None:
 
 
 def _last_periods(record: Record, period: float) -> NDArray[np.bool_]:
-    """Return which points of the run lie in the drive periods that are shown in full."""
+    """Return which points of the run are in the last drive periods."""
     window: NDArray[np.bool_]
     window = record.times >= record.times[-1] - ZOOM_PERIODS * period * (1.0 + 1e-9)
     return window
 
 
 def _constant_inputs(record: Record, varying: list[int]) -> str:
-    """Return a line with the inputs that stay at another value than their start."""
+    """Return a line with the inputs that are constant, but not at their start value."""
     shown = [
         f"{name} {record.inputs[0, index]:g} {INPUTS[name].removeprefix('1')}".strip()
         for index, name in enumerate(INPUTS)
         if index not in varying and record.inputs[0, index] != INPUT_STARTS[name]
     ]
-    return "\n" * bool(shown) + ", ".join(shown)
+    return "\n" + ", ".join(shown) if shown else ""
 
 
 def _inputs(axes: Axes, record: Record, times: Array, unit: str, varying: list[int]) -> None:

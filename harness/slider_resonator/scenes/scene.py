@@ -1,13 +1,14 @@
-"""Scenes: what is run and what must come out, read from TOML files."""
+"""Scenes: what is run and what must come out, as data, and how they are read from TOML files."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib import resources
 from math import pi
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -30,6 +31,7 @@ from slider_resonator.scenes.schema import (
     ExpectTable,
     InputTable,
     NeedTable,
+    RunTable,
     SceneTable,
     SweepTable,
 )
@@ -37,11 +39,10 @@ from slider_resonator.scenes.schema import (
 
 @dataclass(frozen=True)
 class Scene:
-    """A scene that has been read and found sound.
+    """A valid scene; it can be pickled. Raises SceneError for a run of too many steps.
 
     `parameters` are the device parameters that differ from their start, `signals` the inputs by
-    name. `stop_time` and `step_size` (s) are None for a scene without a run. `files` are all that
-    it was read from.
+    name. `source` names the scene in messages; `files` are all that it was read from.
     """
 
     name: str
@@ -50,17 +51,43 @@ class Scene:
     source: str
     parameters: Mapping[str, float]
     signals: Mapping[str, Signal]
-    stop_time: float | None
-    step_size: float | None
+    run: RunTable | None
     expect: tuple[ExpectTable, ...]
     sweep: SweepTable | None
     need: NeedTable | None
     files: tuple[Path, ...]
 
+    def __post_init__(self) -> None:
+        if self.stop_time is None or self.step_size is None:
+            return
+        try:
+            step_count(self.stop_time, self.step_size)
+        except ValueError as error:
+            raise SceneError(f"{self.source}: run: {error}") from error
+
     @property
     def device(self) -> Device:
         """The device with all its parameters."""
         return Device.from_mapping(self.parameters)
+
+    @property
+    def drive_period(self) -> float:
+        """Drive period in seconds."""
+        return 2.0 * pi / self.device.drive_frequency
+
+    @property
+    def stop_time(self) -> float | None:
+        """Length of the run in seconds, None for a scene without a run."""
+        if self.run is None:
+            return None
+        return self.run.stop_time or (self.run.drive_periods or 0.0) * self.drive_period
+
+    @property
+    def step_size(self) -> float | None:
+        """Communication step in seconds, None for a scene without a run."""
+        if self.run is None:
+            return None
+        return self.run.step_size or self.drive_period / (self.run.steps_per_period or 1.0)
 
     @property
     def values(self) -> dict[str, float]:
@@ -76,11 +103,47 @@ class Scene:
             )
         return schedule(self.stop_time, self.step_size, **self.signals)
 
+    def with_values(self, values: Mapping[str, float]) -> Scene:
+        """Return the scene with parameters replaced, and inputs by a constant.
 
-def read_scene(path: Path, overrides: Mapping[str, float] | None = None) -> Scene:
-    """Read a scene file; `overrides` replace parameters, or inputs by a constant.
+        The values must be ones that `check_value` accepts.
+        """
+        inputs = {name: constant(value) for name, value in values.items() if name in INPUTS}
+        parameters = {name: value for name, value in values.items() if name not in INPUTS}
+        return replace(
+            self,
+            parameters={**self.parameters, **parameters},
+            signals={**self.signals, **inputs},
+        )
 
-    Values that `check_value` refuses must not be among them.
+    def with_step(self, step_size: float) -> Scene:
+        """Return the scene, which must have a run, with communication steps of a size in s."""
+        assert self.run is not None
+        step = {"step_size": step_size, "steps_per_period": None}
+        return replace(self, run=self.run.model_copy(update=step))
+
+    def points(self) -> tuple[ScenePoint, ...]:
+        """Return the points of the sweep, or without a sweep the scene as its only point."""
+        if self.sweep is None:
+            return (ScenePoint(self),)
+        swept = ({self.sweep.variable: value} for value in self.sweep.values)
+        return tuple(ScenePoint(self.with_values(at), at) for at in swept)
+
+
+@dataclass(frozen=True, eq=False)
+class ScenePoint:
+    """A scene at a point of its sweep: `at` is what is varied there, nothing without a sweep.
+
+    Points are equal only to themselves, and can be keys.
+    """
+
+    scene: Scene
+    at: Mapping[str, float] = field(default_factory=dict)
+
+
+def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
+    """Read a scene file; `values` replace those in it as in `Scene.with_values`.
+
     Raises SceneError with file, key, value and what is allowed.
     """
     source = str(path)
@@ -91,11 +154,47 @@ def read_scene(path: Path, overrides: Mapping[str, float] | None = None) -> Scen
         raise SceneError(f"{source}: cannot be read: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SceneError(f"{source}: not TOML: {error}") from error
+    scene = scene_from(content, source, path.parent)
+    return replace(scene, files=(path, *scene.files)).with_values(values or {})
+
+
+def scene_from(content: Mapping[str, Any], source: str, folder: Path = Path()) -> Scene:
+    """Return the scene of parsed TOML, or data of the same form, whose CSV files are in `folder`.
+
+    Raises SceneError with `source`, key, value and what is allowed.
+    """
     try:
         table = SceneTable.model_validate(content)
     except ValidationError as error:
         raise SceneError("\n".join(explanations(source, error))) from error
-    return _scene(table, path, overrides or {})
+    inputs = {name: getattr(table.inputs, name) for name in INPUTS}
+    return Scene(
+        name=table.name,
+        title=table.title,
+        description=table.description.strip(),
+        source=source,
+        parameters=table.device,
+        signals={name: _signal(given, name, source, folder) for name, given in inputs.items()},
+        run=table.run,
+        expect=table.expect,
+        sweep=table.sweep,
+        need=table.need,
+        files=tuple(folder / given.csv for given in inputs.values() if given.csv is not None),
+    )
+
+
+def _signal(table: InputTable, name: str, source: str, folder: Path) -> Signal:
+    try:
+        if table.steps is not None:
+            return steps(table.steps)
+        if table.ramp is not None:
+            return ramp(table.ramp)
+        if table.csv is not None:
+            points = csv_points(folder / table.csv, table.column or name)
+            return steps(points) if table.between == "hold" else ramp(points)
+        return constant(table.constant or 0.0)
+    except ValueError as error:
+        raise SceneError(f"{source}: inputs.{name}: {error}") from error
 
 
 def built_in_scenes() -> dict[str, Path]:
@@ -139,61 +238,3 @@ def scene_files(scene: str) -> list[Path]:
 def files_of_scenes(scenes: Sequence[str]) -> list[Path]:
     """Return the files of scenes, each as for `scene_files`; of all built-in ones without any."""
     return [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
-
-
-def sweep_points(scene: Scene, path: Path) -> Iterator[tuple[Mapping[str, float], Scene]]:
-    """Yield what is varied and the scene with it, once with nothing varied without a sweep."""
-    if scene.sweep is None:
-        yield {}, scene
-        return
-    for value in scene.sweep.values:
-        varied = {scene.sweep.variable: value}
-        yield varied, read_scene(path, varied)
-
-
-def _scene(table: SceneTable, path: Path, overrides: Mapping[str, float]) -> Scene:
-    parameters = {**table.device, **{k: v for k, v in overrides.items() if k not in INPUTS}}
-    device = Device.from_mapping(parameters)
-    signals = {}
-    for name in INPUTS:
-        given = constant(overrides[name]) if name in overrides else None
-        signals[name] = given or _signal(getattr(table.inputs, name), name, path)
-    period = 2.0 * pi / device.drive_frequency
-    run = table.run
-    stop_time = step_size = None
-    if run is not None:
-        stop_time = run.stop_time or (run.drive_periods or 0.0) * period
-        step_size = run.step_size or period / (run.steps_per_period or 1.0)
-        try:
-            step_count(stop_time, step_size)
-        except ValueError as error:
-            raise SceneError(f"{path}: run: {error}") from error
-    tables = [getattr(table.inputs, name) for name in INPUTS]
-    return Scene(
-        name=table.name,
-        title=table.title,
-        description=table.description.strip(),
-        source=str(path),
-        parameters=parameters,
-        signals=signals,
-        stop_time=stop_time,
-        step_size=step_size,
-        expect=table.expect,
-        sweep=table.sweep,
-        need=table.need,
-        files=(path, *(path.parent / read.csv for read in tables if read.csv is not None)),
-    )
-
-
-def _signal(table: InputTable, name: str, path: Path) -> Signal:
-    try:
-        if table.steps is not None:
-            return steps(table.steps)
-        if table.ramp is not None:
-            return ramp(table.ramp)
-        if table.csv is not None:
-            points = csv_points(path.parent / table.csv, table.column or name)
-            return steps(points) if table.between == "hold" else ramp(points)
-        return constant(table.constant or 0.0)
-    except ValueError as error:
-        raise SceneError(f"{path}: inputs.{name}: {error}") from error

@@ -7,11 +7,10 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
-from slider_resonator.checks.measures.tube import WIDEST
-from slider_resonator.checks.quantities import QUANTITIES, Quantity
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.names import unknown_name
+from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, Quantity
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
@@ -19,7 +18,7 @@ NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
 Point = tuple[Number, Number]
 
 STEADY_NEEDS = ("steady_velocity", "blocking_force")
-"""Needs that hold for ever under constant inputs."""
+"""Needs in the steady motion under constant inputs."""
 RUN_NEEDS = ("mean_velocity", "position", "velocity", "event_times", "beat")
 """Needs that are measured in a run."""
 
@@ -83,13 +82,13 @@ class RunTable(_Table):
 
 
 class ExpectTable(_Table):
-    """One thing that must hold: a quantity of the FMU against a reference, a value or a bound.
+    """One expectation: a quantity of the FMU against a reference, a value or a bound.
 
-    The deviation allowed is `absolute + relative * |reference|`; for a signal it is `relative`, a
+    The allowed deviation is `absolute + relative * |reference|`; for a signal it is `relative`, a
     share of the reference's peak, and an `absolute` beside it is for a reference near zero.
     Without an `absolute` a reference counts as no smaller than a hundredth of its natural scale.
-    Whoever expects a real number says how near it must be, be it 0. A `tube` leaves a signal room
-    in time, as a share of the drive period to each side; for event times it is the tolerance.
+    A real number needs a tolerance, be it 0. A `tube` allows a signal to be early or late by a
+    share of the drive period; for event times it is the tolerance.
     """
 
     quantity: str
@@ -99,7 +98,7 @@ class ExpectTable(_Table):
     at_least: Number | None = None
     absolute: NotNegative = 0.0
     relative: NotNegative = 0.0
-    tube: Annotated[float, Field(strict=True, gt=0.0, lt=WIDEST)] | None = None
+    tube: Annotated[float, Field(strict=True, gt=0.0, lt=MAX_TUBE)] | None = None
     why: str
 
     @field_validator("quantity")
@@ -146,8 +145,8 @@ class ExpectTable(_Table):
             if self.tube is None or given:
                 raise ValueError(f"{self.quantity} needs a tube, a share of the period, alone")
             return
-        if self.tube is not None and self.reference not in quantity.referees:
-            allowed = ", ".join(quantity.referees) or "none"
+        if self.tube is not None and self.reference not in quantity.tube_references:
+            allowed = ", ".join(quantity.tube_references) or "none"
             raise ValueError(
                 f"tube = {self.tube!r}: references of {self.quantity} that allow one: {allowed}"
             )
@@ -163,7 +162,7 @@ class ExpectTable(_Table):
 
 
 class SweepTable(_Table):
-    """One parameter or input that takes several values in turn; every expectation holds at each."""
+    """One parameter or input and its values; every expectation must hold at each."""
 
     variable: str
     values: tuple[Number, ...]
@@ -191,10 +190,10 @@ class SweepTable(_Table):
 
 
 class AllowedTable(_Table):
-    """How wrong a needed quantity may be: `abs + rel * size`, where either alone may be given.
+    """Allowed error of a needed quantity: `abs + rel * size`, where either may be left out.
 
-    `abs` is in the quantity's unit. The size is that of a number, the peak of a signal and the
-    drive period for the times of events.
+    `abs` is in the quantity's unit. The size is the magnitude of a number, the peak of a signal and
+    the drive period for event times.
     """
 
     abs: Positive | None = None
@@ -219,7 +218,10 @@ class AllowedTable(_Table):
 
 
 class NeedTable(_Table):
-    """What the scene needs to know and how well; `friction_law = "free"` allows either law."""
+    """The quantities that the scene needs, and how accurately.
+
+    `friction_law = "free"` allows either law.
+    """
 
     mean_velocity: AllowedTable | None = None
     position: AllowedTable | None = None

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
 import pytest
 
-from slider_resonator.checks.compare import Check, check, measure, wanted
+from slider_resonator.checks.compare import Check, Comparison, compare
+from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.tube import Tube, no_tube
+from slider_resonator.checks.measuring import measure
+from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.verdict import sentence
+from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
+from slider_resonator.scenes.scene import ScenePoint, scene_from
 from slider_resonator.scenes.schema import ExpectTable
 
+TABLE_1 = {"name": "scene", "title": "Scene"}
+STILL = {**TABLE_1, "device": {"base_amplitude": 0.0}}
+"""A device without a natural scale of velocities and displacements."""
 WAVE = np.sin(np.linspace(0.0, 50.0, 1000))
 
 
@@ -36,12 +45,12 @@ def reference(**parts: Any) -> ReferenceSide:
 def judge(
     fmu_side: FmuSide,
     reference_side: ReferenceSide | None = None,
-    smallest: float = 0.0,
+    content: Mapping[str, Any] = STILL,
     **expect: Any,
 ) -> Check:
     table = ExpectTable.model_validate({"why": "test", **expect})
-    sides = measure(table, fmu_side), wanted(table, reference_side or reference())
-    return check(table, *sides, scene="scene", at={}, smallest=smallest)
+    sides = measure(table.quantity, fmu_side), expected_value(table, reference_side or reference())
+    return compare(Comparison.of(table), *sides, ScenePoint(scene_from(content, "scene.toml")))
 
 
 class RecordOf(dict[str, np.ndarray]):
@@ -59,7 +68,7 @@ def test_a_number_may_deviate_by_the_relative_tolerance(velocity: float, passed:
 
 
 def test_with_a_tolerance_of_0_only_equality_passes() -> None:
-    expect = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
     assert judge(steady(0.0), **expect).passed
     assert not judge(steady(1e-300), **expect).passed
 
@@ -78,7 +87,11 @@ def test_a_missing_result_carries_its_reason() -> None:
 
 def test_a_reference_without_a_result_fails() -> None:
     side = reference(steady_velocity=None)
-    expect = {"quantity": "steady_velocity", "reference": "located_events", "relative": 1.0}
+    expect: dict[str, Any] = {
+        "quantity": "steady_velocity",
+        "reference": "located_events",
+        "relative": 1.0,
+    }
     assert not judge(steady(0.1), side, **expect).passed
 
 
@@ -95,6 +108,12 @@ def test_bounds_are_one_sided() -> None:
     assert not judge(steady(0.1), quantity="steady_periods", at_least=38).passed
 
 
+@pytest.mark.parametrize("bound", ["at_most", "at_least"])
+def test_what_is_no_number_is_within_no_bound(bound: str) -> None:
+    expect: dict[str, Any] = {"quantity": "steady_velocity", bound: 0.1}
+    assert not judge(steady(float("nan")), **expect).passed
+
+
 @pytest.mark.parametrize(
     ("signal", "passed"),
     [
@@ -107,7 +126,7 @@ def test_bounds_are_one_sided() -> None:
     ],
 )
 def test_a_signal_is_judged_by_its_largest_deviation(signal: np.ndarray, passed: bool) -> None:
-    side = reference(signal=lambda referee, name: WAVE)
+    side = reference(signal=lambda name, output: WAVE)
     verdict = judge(
         fmu(record=RecordOf(position=signal)),
         side,
@@ -140,7 +159,7 @@ def test_a_comparison_that_makes_no_sense_could_not_run() -> None:
 def judge_position(signal: np.ndarray, expected: np.ndarray, **expect: Any) -> Check:
     return judge(
         fmu(record=RecordOf(position=signal)),
-        reference(signal=lambda referee, name: expected),
+        reference(signal=lambda name, output: expected),
         quantity="position",
         reference="located_events",
         **expect,
@@ -186,45 +205,50 @@ def test_a_scene_that_does_not_allow_a_measure_could_not_run() -> None:
         judge(fmu(record=record), quantity="ripple_frequency", value=557.0, relative=1e-6)
 
 
-@pytest.mark.parametrize(("velocity", "passed"), [(9e-10, True), (2e-9, False)])
-def test_a_reference_next_to_zero_counts_as_its_smallest_size(
-    velocity: float, passed: bool
+@pytest.mark.parametrize(("share", "passed"), [(9e-7, True), (2e-6, False)])
+def test_a_reference_near_zero_counts_as_a_share_of_its_natural_scale(
+    share: float, passed: bool
 ) -> None:
-    expect = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
-    verdict = judge(steady(velocity), smallest=1e-3, **expect)
+    smallest = smallest_reference("steady_velocity", Device())
+    velocity = share * smallest
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
+    verdict = judge(steady(velocity), content=TABLE_1, **expect)
     assert verdict.passed is passed
-    assert verdict.allowed == pytest.approx(1e-9)
+    assert verdict.allowed == pytest.approx(1e-6 * smallest)
     assert not judge(steady(velocity), **expect).passed
-    assert not judge(steady(velocity), smallest=1e-3, **expect, absolute=0.0).passed, (
+    assert not judge(steady(velocity), content=TABLE_1, **expect, absolute=0.0).passed, (
         "the scene has the last word"
     )
 
 
-def test_the_smallest_size_loosens_nothing_else() -> None:
-    expect = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
-    assert judge(steady(0.1), smallest=1e-3, **expect).allowed == pytest.approx(1e-7)
+def test_the_natural_scale_loosens_nothing_else() -> None:
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
+    assert judge(steady(0.1), content=TABLE_1, **expect).allowed == pytest.approx(1e-7)
 
 
-@pytest.mark.parametrize(("noise", "passed"), [(9e-12, True), (2e-11, False)])
-def test_a_signal_next_to_zero_counts_as_its_smallest_size(noise: float, passed: bool) -> None:
+@pytest.mark.parametrize(("share", "passed"), [(9e-9, True), (2e-8, False)])
+def test_a_signal_near_zero_counts_as_a_share_of_its_natural_scale(
+    share: float, passed: bool
+) -> None:
+    noise = share * smallest_reference("position", Device())
     verdict = judge(
         fmu(record=RecordOf(position=np.full(1000, noise))),
-        reference(signal=lambda referee, name: np.zeros(1000)),
-        smallest=1e-3,
+        reference(signal=lambda name, output: np.zeros(1000)),
+        content=TABLE_1,
         quantity="position",
         reference="located_events",
         relative=1e-8,
     )
     assert verdict.passed is passed
-    assert verdict.deviation == pytest.approx(noise / 1e-3)
+    assert verdict.deviation == pytest.approx(share)
 
 
 def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
     tube = Tube(WAVE, np.minimum(np.roll(WAVE, 1), WAVE), np.maximum(np.roll(WAVE, 1), WAVE))
-    asked = []
+    requested = []
 
-    def around(referee: str, name: str, share: float) -> Tube:
-        asked.append((referee, name, share))
+    def around(name: str, output: str, share: float) -> Tube:
+        requested.append((name, output, share))
         return tube
 
     def judged(signal: np.ndarray) -> Check:
@@ -238,7 +262,7 @@ def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
         )
 
     assert judged(np.roll(WAVE, 1)).passed
-    assert asked == [("located_events", "position", 0.01)]
+    assert requested == [("located_events", "position", 0.01)]
     late = judged(np.roll(WAVE, 2))
     assert not late.passed
     assert "outside a tube of 0.01 drive periods to each side by" in sentence(late)
@@ -253,7 +277,7 @@ def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) 
     side = fmu(record=RecordOf(last_event_time=0.5 * found), drive_period=0.5)
     verdict = judge(
         side,
-        reference(event_times=lambda referee: no_tube(events)),
+        reference(event_times=lambda name: no_tube(events)),
         quantity="event_times",
         reference="located_events",
         tube=1e-3,

@@ -8,8 +8,8 @@ import pytest
 
 from slider_resonator.checks import natural_scale
 from slider_resonator.checks.natural_scale import NEAR_ZERO, smallest_reference
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.device.device import Device
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 TABLE_1 = Device()
 

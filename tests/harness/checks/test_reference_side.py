@@ -1,25 +1,21 @@
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.references.resolved import located_events
-from slider_resonator.scenes.scene import read_scene
+from tests.harness.scene_text import scene_of
 
 RUN = "[run]\ndrive_periods = 12.3\nsteps_per_period = 8\n"
 
 
-def side(folder: Path, text: str) -> ReferenceSide:
-    path = folder / "scene.toml"
-    path.write_text('name = "scene"\ntitle = "Scene"\n' + text)
-    return ReferenceSide(read_scene(path))
+def side(text: str) -> ReferenceSide:
+    return ReferenceSide(scene_of(text))
 
 
-def test_signals_are_at_the_communication_points(tmp_path: Path) -> None:
-    reference = side(tmp_path, RUN)
+def test_signals_are_at_the_communication_points() -> None:
+    reference = side(RUN)
     position = reference.signal("located_events", "position")
     assert position.shape == reference.times.shape
     assert position[0] == 0.0
@@ -27,80 +23,80 @@ def test_signals_are_at_the_communication_points(tmp_path: Path) -> None:
     assert np.abs(position - taylor).max() < 1e-10 * np.abs(taylor).max()
 
 
-def test_the_mean_velocity_is_that_of_the_last_whole_period(tmp_path: Path) -> None:
-    reference = side(tmp_path, RUN.replace("12.3", "12").replace("8", "1"))
+def test_the_mean_velocity_is_that_of_the_last_whole_period() -> None:
+    reference = side(RUN.replace("12.3", "12").replace("8", "1"))
     position = reference.signal("located_events", "position")
     expected = (position[-1] - position[-2]) / reference.drive_period
     assert reference.mean_velocity == pytest.approx(expected, rel=1e-12)
-    assert side(tmp_path, RUN).mean_velocity == pytest.approx(expected, rel=1e-9), (
+    assert side(RUN).mean_velocity == pytest.approx(expected, rel=1e-9), (
         "the third of a period after it does not count"
     )
 
 
-def test_a_device_that_never_moves_sticks_all_the_time(tmp_path: Path) -> None:
+def test_a_device_that_never_moves_sticks_all_the_time() -> None:
     weak = "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n"
-    reference = side(tmp_path, weak + RUN)
+    reference = side(weak + RUN)
     assert reference.stick_fraction == pytest.approx(1.0, abs=1e-12)
     assert reference.last_event_time == 0.0
 
 
-def test_closed_forms_are_those_of_the_paper(tmp_path: Path) -> None:
-    reference = side(tmp_path, RUN)
+def test_closed_forms_are_those_of_the_paper() -> None:
+    reference = side(RUN)
     assert reference.averaged_velocity == pytest.approx(0.126731, rel=1e-5)
     assert reference.averaged_blocking_force == pytest.approx(0.085222, rel=1e-5)
     assert reference.ripple_amplitude == pytest.approx(67.603e-6, rel=1e-4)
 
 
-def test_closed_forms_hold_for_equal_frequencies_only(tmp_path: Path) -> None:
-    reference = side(tmp_path, "[inputs]\nfrequency_ratio = 3.0\n" + RUN)
+def test_closed_forms_hold_for_equal_frequencies_only() -> None:
+    reference = side("[inputs]\nfrequency_ratio = 3.0\n" + RUN)
     with pytest.raises(ValueError, match=r"frequency_ratio = 3.0"):
         _ = reference.averaged_velocity
     with pytest.raises(ValueError, match=r"frequency_ratio = 3.0"):
         _ = reference.averaged_blocking_force
 
 
-def test_the_difference_frequency_is_that_of_normal_force_and_drive(tmp_path: Path) -> None:
-    reference = side(tmp_path, "[inputs]\nfrequency_ratio = 1.02\n" + RUN)
+def test_the_difference_frequency_is_that_of_normal_force_and_drive() -> None:
+    reference = side("[inputs]\nfrequency_ratio = 1.02\n" + RUN)
     assert reference.difference_frequency == pytest.approx(11.1408460, rel=1e-7)
 
 
-def test_a_run_shorter_than_a_period_has_no_mean_velocity(tmp_path: Path) -> None:
-    reference = side(tmp_path, RUN.replace("12.3", "0.7"))
+def test_a_run_shorter_than_a_period_has_no_mean_velocity() -> None:
+    reference = side(RUN.replace("12.3", "0.7"))
     with pytest.raises(ValueError, match="shorter than one drive period"):
         _ = reference.mean_velocity
 
 
-def test_the_difference_frequency_counts_from_the_nearest_multiple(tmp_path: Path) -> None:
-    reference = side(tmp_path, "[inputs]\nfrequency_ratio = 2.98\n" + RUN)
+def test_the_difference_frequency_counts_from_the_nearest_multiple() -> None:
+    reference = side("[inputs]\nfrequency_ratio = 2.98\n" + RUN)
     assert reference.difference_frequency == pytest.approx(11.1408460, rel=1e-7)
 
 
 @pytest.mark.parametrize("law", [0, 1])
-def test_predictions_for_table_1_are_the_averages(tmp_path: Path, law: int) -> None:
-    reference = side(tmp_path, f"[device]\nfriction_law = {law}\nbristle_stiffness = 1e10\n" + RUN)
+def test_predictions_for_table_1_are_the_averages(law: int) -> None:
+    reference = side(f"[device]\nfriction_law = {law}\nbristle_stiffness = 1e10\n" + RUN)
     assert reference.predicted_velocity == pytest.approx(0.126731, rel=2e-3), (
         "LuGre friction on hard bristles is Coulomb friction"
     )
     assert reference.predicted_blocking_force == pytest.approx(0.085222, rel=2e-3)
 
 
-def test_predictions_hold_for_other_ratios_and_lifting_contacts(tmp_path: Path) -> None:
-    ratio_3 = side(tmp_path, "[inputs]\nfrequency_ratio = 3.0\nphase = 0.4\n" + RUN)
+def test_predictions_hold_for_other_ratios_and_lifting_contacts() -> None:
+    ratio_3 = side("[inputs]\nfrequency_ratio = 3.0\nphase = 0.4\n" + RUN)
     assert ratio_3.predicted_velocity == pytest.approx(-0.0362968, abs=2e-4)
-    lifting = side(tmp_path, "[device]\nnormal_amplitude = 2.0\n[inputs]\nphase = 0.4\n" + RUN)
+    lifting = side("[device]\nnormal_amplitude = 2.0\n[inputs]\nphase = 0.4\n" + RUN)
     assert lifting.steady_velocity == pytest.approx(lifting.predicted_velocity, abs=1e-3)
 
 
-def test_averaged_motion_is_at_the_communication_points(tmp_path: Path) -> None:
-    reference = side(tmp_path, RUN)
+def test_averaged_motion_is_at_the_communication_points() -> None:
+    reference = side(RUN)
     averaged = reference.averaged_motion
     assert (averaged.time == reference.times).all()
     resolved = reference.signal("located_events", "position")
     assert averaged.position == pytest.approx(resolved, abs=0.1 * np.abs(resolved).max())
 
 
-def test_a_tube_holds_what_is_early_or_late_by_less_than_its_width(tmp_path: Path) -> None:
-    reference = side(tmp_path, RUN)
+def test_a_tube_holds_what_is_early_or_late_by_less_than_its_width() -> None:
+    reference = side(RUN)
     tube = reference.tube("located_events", "velocity", 0.02)
     velocity = reference.signal("located_events", "velocity")
     assert np.abs(tube.middle - velocity).max() < 1e-12 * np.abs(velocity).max()
@@ -113,28 +109,26 @@ def test_a_tube_holds_what_is_early_or_late_by_less_than_its_width(tmp_path: Pat
         assert (tube.outside(shifted).max() < 1e-3 * np.abs(velocity).max()) == inside
 
 
-def test_event_times_are_in_drive_periods_and_open_where_they_coincide(tmp_path: Path) -> None:
-    reference = side(tmp_path, RUN)
+def test_event_times_are_in_drive_periods_and_open_where_they_coincide() -> None:
+    reference = side(RUN)
     tube = reference.event_times("located_events")
     last = tube.middle[-1] * reference.drive_period
     assert last == pytest.approx(reference.last_event_time, rel=1e-12)
     assert (tube.middle * reference.drive_period <= reference.times).all()
     assert (np.diff(tube.middle) >= 0.0).all()
     assert np.array_equal(tube.lower, tube.upper), "no event falls on a communication point here"
-    rest = side(tmp_path, "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n" + RUN)
+    rest = side("[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n" + RUN)
     assert not rest.event_times("located_events").upper.any()
 
 
-def test_at_the_end_of_a_run_the_inputs_are_the_last_and_the_phase_has_its_lead(
-    tmp_path: Path,
-) -> None:
+def test_at_the_end_of_a_run_the_inputs_are_the_last_and_the_phase_has_its_lead() -> None:
     inputs = (
         "[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.02]] }\n"
         "frequency_ratio = { steps = [[0.0, 1.0], [0.002, 1.5], [0.003, 1.0]] }\n"
     )
-    end = side(tmp_path, inputs + RUN).at_the_end
+    end = side(inputs + RUN).at_the_end
     lead = 0.5 * 3500.0 * 0.001  # rad: half the drive frequency for a millisecond
     assert end.inputs == pytest.approx({"phase": lead, "load": 0.02, "frequency_ratio": 1.0})
-    there = side(tmp_path, f"[inputs]\nphase = {lead}\nload = 0.02\n" + RUN)
+    there = side(f"[inputs]\nphase = {lead}\nload = 0.02\n" + RUN)
     assert end.predicted_velocity == pytest.approx(there.predicted_velocity, rel=1e-9)
     assert end.predicted_blocking_force == pytest.approx(there.predicted_blocking_force, rel=1e-9)

@@ -47,10 +47,10 @@ def test_a_broken_scene_is_noticed_before_anything_runs(tmp_path: Path) -> None:
 
 
 def test_progress_names_the_scene_at_work(python_fmu: Path, tmp_path: Path) -> None:
-    told: list[tuple[str, float]] = []
+    reported: list[tuple[str, float]] = []
     path = write(tmp_path, EXPECT.format(0.126667))
-    validate([python_fmu], [path], lambda scene, share: told.append((scene, share)))
-    assert told == [("mine", 0.0), ("", 1.0)]
+    validate([python_fmu], [path], lambda scene, share: reported.append((scene, share)))
+    assert reported == [("mine", 0.0), ("", 1.0)]
 
 
 def test_a_failure_is_worse_than_any_pass() -> None:
@@ -72,12 +72,25 @@ def test_a_scene_of_each_kind_passes(python_fmu: Path, scene: str) -> None:
     assert not failed
 
 
+@pytest.mark.parametrize("build", ["native_fmu", "python_fmu"])
+def test_repeated_validations_of_a_correct_fmu_give_equal_checks(
+    request: pytest.FixtureRequest, build: str
+) -> None:
+    fmu: Path = request.getfixturevalue(build)
+    scenes = [find_scene(name) for name in ("changing_inputs", "lugre", "lift_off", "phase_sweep")]
+    first, *others = validate([fmu] * 4, scenes)
+    assert first.passed
+    for other in others:
+        assert other.checks == first.checks, "every verdict and number must be the same"
+        assert not other.run_failures
+
+
 def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) -> None:
     copy = tmp_path / "copy.fmu"
     copy.write_bytes(python_fmu.read_bytes())
     scene = write(tmp_path, EXPECT.format(0.126667))
-    told: list[float] = []
-    results = validate([python_fmu, copy], [scene], lambda name, share: told.append(share))
+    reported: list[float] = []
+    results = validate([python_fmu, copy], [scene], lambda name, share: reported.append(share))
     assert [result.fmu for result in results] == [str(python_fmu), str(copy)]
     assert all(result.passed and len(result.checks) == 1 for result in results)
-    assert told == sorted(told)
+    assert reported == sorted(reported)

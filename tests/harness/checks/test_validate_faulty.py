@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import Validation, validate
-from slider_resonator.fmu.isolation.isolated_runs import MOST_DEATHS
+from slider_resonator.fmu.isolation.tasks import MAX_CRASHES
 from tests.harness import faulty_fmus
 from tests.harness.faulty_fmus import compiled
 
@@ -26,7 +26,7 @@ def scene(tmp_path: Path) -> Path:
 def test_a_missing_file(tmp_path: Path, scene: Path) -> None:
     validation = judged(tmp_path / "no.fmu", scene)
     assert validation.exit_code == 2
-    assert "no.fmu: no such file" in validation.troubles[0].reason
+    assert "no.fmu: no such file" in validation.run_failures[0].reason
 
 
 @pytest.mark.parametrize(
@@ -44,8 +44,8 @@ def test_a_crash_or_an_endless_loop_elsewhere(
     fmu = compiled(native_fmu, tmp_path / "faulty.fmu", define)
     validation = judged(fmu, scene, time_limit=2.0)
     assert validation.exit_code == 2
-    (trouble,) = validation.troubles
-    assert reason in trouble.reason
+    (run_failure,) = validation.run_failures
+    assert reason in run_failure.reason
 
 
 def test_an_fmu_that_does_nothing_fails_and_what_it_prints_harms_nothing(
@@ -65,16 +65,19 @@ def test_what_lies_in_the_present_folder_is_not_imported(
     (tmp_path / "numpy.py").write_text("raise RuntimeError('a script of the user')")
     monkeypatch.chdir(tmp_path)
     validation = judged(native_fmu.resolve(), scene)
-    assert validation.exit_code == 0, validation.troubles
+    assert validation.exit_code == 0, validation.run_failures
 
 
 def test_an_fmu_that_keeps_crashing_is_given_up(native_fmu: Path, tmp_path: Path) -> None:
-    names = [f"scene_{number}" for number in range(MOST_DEATHS + 2)]
+    names = [f"scene_{number}" for number in range(MAX_CRASHES + 2)]
     scenes = [faulty_fmus.scene(tmp_path, name) for name in names]
     fmu = compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
     validation = judged(fmu, *scenes)
-    assert [trouble.scene for trouble in validation.troubles] == [*names[:MOST_DEATHS], ""]
-    assert validation.troubles[-1].reason.endswith("not run: scene_3, scene_4")
+    assert [run_failure.scene for run_failure in validation.run_failures] == [
+        *names[:MAX_CRASHES],
+        "",
+    ]
+    assert validation.run_failures[-1].reason.endswith("not run: scene_3, scene_4")
 
 
 def test_a_refused_scene_does_not_keep_others_from_being_judged(
@@ -84,9 +87,9 @@ def test_a_refused_scene_does_not_keep_others_from_being_judged(
     refused.write_text(refused.read_text() + "\n[device]\nfriction_faces = 7\n")
     validation = judged(native_fmu, refused, scene)
     assert validation.exit_code == 2
-    (trouble,) = validation.troubles
-    assert trouble.scene == "refused"
-    assert "friction_faces = 7 refused" in trouble.reason
+    (run_failure,) = validation.run_failures
+    assert run_failure.scene == "refused"
+    assert "friction_faces = 7 refused" in run_failure.reason
     assert [(c.scene, c.passed) for c in validation.checks] == [("short", True)]
 
 

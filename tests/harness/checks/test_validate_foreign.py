@@ -47,7 +47,7 @@ def test_references_order_and_missing_capabilities_do_not_matter(
     stranger: Path, tmp_path: Path
 ) -> None:
     validation = judged(stranger, tmp_path, STEADY)
-    assert validation.exit_code == 0, (validation.troubles, validation.checks)
+    assert validation.exit_code == 0, (validation.run_failures, validation.checks)
     assert len(validation.checks) == 4
 
 
@@ -57,9 +57,9 @@ def test_a_run_with_unequal_steps_is_refused_where_the_fmu_takes_equal_ones(
     jump = "\n[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.05]] }\n"
     validation = judged(stranger, tmp_path, jump)
     assert validation.exit_code == 2
-    (trouble,) = validation.troubles
-    assert "canHandleVariableCommunicationStepSize = false" in trouble.reason
-    assert "allowed is one size" in trouble.reason
+    (run_failure,) = validation.run_failures
+    assert "canHandleVariableCommunicationStepSize = false" in run_failure.reason
+    assert "allowed is one size" in run_failure.reason
 
 
 def test_bent_bristles_need_unequal_steps(stranger: Path, tmp_path: Path) -> None:
@@ -69,4 +69,4 @@ def test_bent_bristles_need_unequal_steps(stranger: Path, tmp_path: Path) -> Non
     scene.write_text(scene.read_text().replace("located_events", "bristle_state") + lugre + device)
     (validation,) = validate([stranger], [scene])
     assert validation.exit_code == 2
-    assert "canHandleVariableCommunicationStepSize = false" in validation.troubles[0].reason
+    assert "canHandleVariableCommunicationStepSize = false" in validation.run_failures[0].reason

@@ -4,14 +4,17 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.checks.validate import Trouble
-from slider_resonator.commands.reports import Reports, print_troubles
+from slider_resonator.checks.validate import RunFailure
+from slider_resonator.commands.reports import Reports, print_run_failures
 from slider_resonator.errors import HarnessError
 
 
 def test_what_could_not_be_run_is_told_with_its_place(capsys: pytest.CaptureFixture[str]) -> None:
-    troubles = [Trouble("swept", "crashed", {"phase": 0.4}), Trouble("", "my.fmu: corrupt", {})]
-    print_troubles("my.fmu", troubles)
+    run_failures = [
+        RunFailure("swept", "crashed", {"phase": 0.4}),
+        RunFailure("", "my.fmu: corrupt", {}),
+    ]
+    print_run_failures("my.fmu", run_failures)
     assert capsys.readouterr().err.splitlines() == [
         "error: my.fmu: scene swept at phase 0.4: crashed",
         "error: my.fmu: corrupt",

@@ -4,8 +4,8 @@ import json
 
 from click.testing import CliRunner
 
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.cli import main
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
 def test_the_list_says_which_scenes_can_be_run() -> None:

@@ -109,13 +109,3 @@ def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) 
         assert result.exit_code == 2
         assert said in result.stderr
         assert target.read_bytes() == before
-
-
-def test_repetitions_must_agree(native_fmu: Path, tmp_path: Path) -> None:
-    scene = faulty_fmus.scene(tmp_path)
-    result = call(native_fmu, "--scene", scene, "--repeat", 3)
-    assert result.exit_code == 0, result.output
-    assert "of 3 runs 3 passed; the same numbers in all" in result.stdout
-    printed = call(native_fmu, "--scene", scene, "--repeat", 2, "--json")
-    assert json.loads(printed.stdout)["passed"] is True
-    assert "of 2 runs 2 passed" in printed.stderr

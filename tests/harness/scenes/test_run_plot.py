@@ -7,7 +7,7 @@ import pytest
 from matplotlib.image import imread
 
 from slider_resonator.fmu.drive import Instance, run
-from slider_resonator.scenes.run_plot import SMOOTH, ZOOM_PERIODS, plot_run, schedule_to_plot
+from slider_resonator.scenes.run_plot import SMOOTH_POINTS, ZOOM_PERIODS, plot_run, schedule_to_plot
 from slider_resonator.scenes.scene import Scene, find_scene, read_scene
 
 
@@ -40,8 +40,8 @@ def test_the_last_drive_periods_are_drawn_smoothly_under_the_same_inputs(name: s
     period = 2.0 * np.pi / scene.device.drive_frequency
     own, shown = scene.schedule(), schedule_to_plot(scene)
     late = shown.times[shown.times >= own.times[-1] - (ZOOM_PERIODS - 0.5) * period]
-    assert np.diff(late).max() <= 1.01 * period / SMOOTH * (1.0 + 1e-6)
-    assert len(shown.times) <= len(own.times) + ZOOM_PERIODS * SMOOTH + 1
+    assert np.diff(late).max() <= 1.01 * period / SMOOTH_POINTS * (1.0 + 1e-6)
+    assert len(shown.times) <= len(own.times) + ZOOM_PERIODS * SMOOTH_POINTS + 1
     assert shown.held() == own.held(), "the motion must be that of the scene"
 
 

@@ -1,11 +1,12 @@
 from __future__ import annotations
 
+import pickle
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, sweep_points
+from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, scene_from
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 RUN = "[run]\ndrive_periods = 10\nsteps_per_period = 4\n"
@@ -241,14 +242,50 @@ def test_a_scene_without_a_run_says_where_to_find_one(tmp_path: Path) -> None:
 def test_a_sweep_varies_parameters_and_inputs(tmp_path: Path) -> None:
     sweep = '[sweep]\nvariable = "{}"\nvalues = [1.0, 2.0]\n'
     path = write(tmp_path, HEAD + "[inputs]\nload = 0.3\n" + sweep.format("load"))
-    points = list(sweep_points(read_scene(path), path))
-    assert [(at, point.values["load"]) for at, point in points] == [
+    points = read_scene(path).points()
+    assert [(point.at, point.scene.values["load"]) for point in points] == [
         ({"load": 1.0}, 1.0),
         ({"load": 2.0}, 2.0),
     ]
     path = write(tmp_path, HEAD + sweep.format("slider_mass"))
-    points = list(sweep_points(read_scene(path), path))
-    assert [point.device.slider_mass for _, point in points] == [1.0, 2.0]
+    points = read_scene(path).points()
+    assert [point.scene.device.slider_mass for point in points] == [1.0, 2.0]
+
+
+def test_a_swept_drive_frequency_changes_a_run_in_drive_periods(tmp_path: Path) -> None:
+    sweep = '[sweep]\nvariable = "drive_frequency"\nvalues = [3500.0, 7000.0]\n'
+    slow, fast = (p.scene for p in read_scene(write(tmp_path, HEAD + RUN + sweep)).points())
+    assert slow.stop_time == 2.0 * (fast.stop_time or 0.0)
+    assert slow.step_size == 2.0 * (fast.step_size or 0.0)
+
+
+def test_a_swept_run_of_too_many_steps_is_refused(tmp_path: Path) -> None:
+    run = "[run]\nstop_time = 1.0\nsteps_per_period = 4\n"
+    sweep = '[sweep]\nvariable = "drive_frequency"\nvalues = [1e9]\n'
+    with pytest.raises(SceneError, match=r"mine.toml: run: .* communication steps"):
+        read_scene(write(tmp_path, HEAD + run + sweep)).points()
+
+
+@pytest.mark.parametrize("name", built_in_scenes())
+def test_a_scene_is_data_that_can_be_sent_to_another_process(name: str) -> None:
+    scene = read_scene(find_scene(name))
+    assert pickle.loads(pickle.dumps(scene)) == scene
+
+
+def test_a_scene_is_made_of_data_without_a_file(tmp_path: Path) -> None:
+    (tmp_path / "load.csv").write_text("time,load\n0,0.1\n")
+    content = {"name": "mine", "title": "Mine", "inputs": {"load": {"csv": "load.csv"}}}
+    scene = scene_from(content, "a table", tmp_path)
+    assert scene.values["load"] == 0.1
+    assert (scene.source, scene.files) == ("a table", (tmp_path / "load.csv",))
+    with pytest.raises(SceneError, match="a table: titel: unknown key 'titel'"):
+        scene_from({"name": "mine", "titel": "Mine"}, "a table")
+
+
+def test_a_scene_can_have_another_step(tmp_path: Path) -> None:
+    scene = read_scene(write(tmp_path, HEAD + RUN)).with_step(1e-4)
+    assert scene.step_size == 1e-4
+    assert scene.stop_time == read_scene(write(tmp_path, HEAD + RUN)).stop_time
 
 
 def test_drive_periods_follow_the_drive_frequency_of_the_scene(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""How far two sampled signals are apart."""
+"""The deviation of one sampled signal from another."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def share_of(difference: float, size: float) -> float:
 
 
 def mismatch_share(error: NDArray[np.float64]) -> float:
-    """Return the share of points at which two signals of whole numbers differ, by their error (n,).
+    """Return the share of points at which two signals of integers differ, from the error (n,).
 
-    What is not finite differs.
+    An error that is not finite counts as a difference.
     """
     return float(np.mean(~(error <= 0.5)))

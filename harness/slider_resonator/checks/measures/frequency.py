@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 HARMONICS = 3
-"""Harmonics that are fitted along, so that a distorted wave keeps its frequency."""
+"""Harmonics in the fit: without them a distorted wave would shift the frequency."""
 
 
 class NoOscillation(ValueError):
-    """A signal that has no frequency, being constant or not finite."""
+    """A signal that is constant or not finite, and has no frequency."""
 
 
 def dominant_frequency(times: Array, signal: Array) -> float:

@@ -1,4 +1,4 @@
-"""The ripple: the fast oscillation of a position around its slow course."""
+"""The ripple: the oscillation of a position at the drive frequency."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The slow displacement: what is left of a position without its ripple."""
+"""The slow displacement: a position without its ripple."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bounds around a reference signal, as wide in time as a share of the drive period allows."""
+"""Bounds around a reference signal."""
 
 from __future__ import annotations
 
@@ -8,9 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-
-WIDEST = 0.25
-"""Share of a drive period that a tube stays below: at half a period it holds a reversed sign."""
 
 
 @dataclass(frozen=True)
@@ -22,10 +19,10 @@ class Tube:
     upper: Array
 
     def outside(self, signal: Array) -> Array:
-        """Return how far a signal (n,) is outside at each point, NaN where it is NaN."""
+        """Return the distance of a signal (n,) from the tube at each point, NaN where it is NaN."""
         return np.maximum(0.0, np.maximum(self.lower - signal, signal - self.upper))
 
 
 def no_tube(reference: Array) -> Tube:
-    """Return the tube of no width around a signal (n,)."""
+    """Return a tube of width 0 around a signal (n,)."""
     return Tube(reference, reference, reference)

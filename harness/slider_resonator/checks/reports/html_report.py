@@ -7,12 +7,12 @@ from html import escape
 from pathlib import Path
 
 from slider_resonator.checks.compare import Check, Value
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.checks.reports.deviation_plot import deviation_png
 from slider_resonator.checks.validate import Curves, Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.output.html_page import write_page
 from slider_resonator.output.readable import readable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MOST_PICTURES = 40
 """Pictures for each FMU, of the worst point of a sweep only: a hopeless FMU fails everywhere."""
@@ -40,9 +40,9 @@ def _section(validation: Validation) -> list[str]:
         f'<p><span class="{colour}">{verdict}</span>: {passed} of {len(validation.checks)} checks '
         f"passed in {validation.wall_time:.1f} s</p>",
     ]
-    for trouble in validation.troubles:
-        where = f"{trouble.scene}{place(trouble.at, ' at ')}: " * bool(trouble.scene)
-        parts.append(f'<p class="fail">{escape(where + trouble.reason)}</p>')
+    for run_failure in validation.run_failures:
+        where = f"{run_failure.scene}{place(run_failure.at, ' at ')}: " * bool(run_failure.scene)
+        parts.append(f'<p class="fail">{escape(where + run_failure.reason)}</p>')
     worst = [check for check, _ in worst_of_sweeps(failed)]
     pictures = {id(curves.check): curves for curves in validation.curves}
     for index, check in enumerate(worst):

@@ -40,6 +40,6 @@ def _plain(validation: Validation) -> dict[str, object]:
         "passed": validation.passed,
         "exit_code": validation.exit_code,
         "wall_time": validation.wall_time,
-        "errors": validation.troubles,
+        "errors": validation.run_failures,
         "checks": checks,
     }

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from slider_resonator.checks.validate import Trouble, Validation
+from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.output.atomic import replacing
 
@@ -27,7 +27,7 @@ def write_junit(
     for validation in validations:
         _suite(root, validation)
     if error:
-        _suite(root, Validation(title, (), 0.0, (Trouble("", error, {}),)))
+        _suite(root, Validation(title, (), 0.0, (RunFailure("", error, {}),)))
     counts = {"tests": 0, "failures": 0, "errors": 0}
     for suite in root:
         for name in counts:
@@ -44,9 +44,9 @@ def _suite(root: ET.Element, validation: Validation) -> None:
         root,
         "testsuite",
         name=_text(validation.fmu),
-        tests=str(len(validation.checks) + len(validation.troubles)),
+        tests=str(len(validation.checks) + len(validation.run_failures)),
         failures=str(sum(not check.passed for check in validation.checks)),
-        errors=str(len(validation.troubles)),
+        errors=str(len(validation.run_failures)),
         time=f"{validation.wall_time:.3f}",
     )
     for check in validation.checks:
@@ -54,10 +54,12 @@ def _suite(root: ET.Element, validation: Validation) -> None:
         if not check.passed:
             failure = ET.SubElement(case, "failure", message=_text(sentence(check)))
             failure.text = _text(f"{sentence(check)}\nexpected because: {check.why}")
-    for trouble in validation.troubles:
-        name = f"could not be run{place(trouble.at, ' at ')}"
-        case = ET.SubElement(suite, "testcase", classname=trouble.scene or "FMU", name=name)
-        ET.SubElement(case, "error", message=_text(trouble.reason)).text = _text(trouble.reason)
+    for run_failure in validation.run_failures:
+        name = f"could not be run{place(run_failure.at, ' at ')}"
+        case = ET.SubElement(suite, "testcase", classname=run_failure.scene or "FMU", name=name)
+        ET.SubElement(case, "error", message=_text(run_failure.reason)).text = _text(
+            run_failure.reason
+        )
 
 
 def _text(text: str) -> str:

@@ -37,8 +37,8 @@ def _markdown(validations: Sequence[Validation], error: str, heading: str) -> st
     for validation in validations:
         failed = sum(not check.passed for check in validation.checks)
         verdict = ("pass", "**fail**", "**could not be run**")[validation.exit_code]
-        passed, troubles = len(validation.checks) - failed, len(validation.troubles)
-        cells = (_cell(validation.fmu), verdict, passed, failed, troubles)
+        passed, run_failures = len(validation.checks) - failed, len(validation.run_failures)
+        cells = (_cell(validation.fmu), verdict, passed, failed, run_failures)
         lines.append(f"| {' | '.join(map(str, cells))} | {validation.wall_time:.1f} |")
     rows = [row for validation in validations for row in _failures(validation)]
     if rows:
@@ -48,7 +48,8 @@ def _markdown(validations: Sequence[Validation], error: str, heading: str) -> st
 
 def _failures(validation: Validation) -> list[str]:
     found = [
-        (trouble.scene, place(trouble.at) or "-", trouble.reason) for trouble in validation.troubles
+        (run_failure.scene, place(run_failure.at) or "-", run_failure.reason)
+        for run_failure in validation.run_failures
     ]
     found += [(c.scene, title(c), sentence(c)) for c in validation.checks if not c.passed]
     name = _cell(Path(validation.fmu).name)

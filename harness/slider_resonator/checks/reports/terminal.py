@@ -11,10 +11,10 @@ from rich.table import Table
 from rich.text import Text
 
 from slider_resonator.checks.compare import Check, Value
-from slider_resonator.checks.quantities import QUANTITIES
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import place, sentence
 from slider_resonator.output.readable import readable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 FEW_SCENES = 3
 """Up to so many scenes are shown check by check; of more only what has failed."""
@@ -50,8 +50,8 @@ def print_validation(
             console.print(Text.assemble(("FAIL ", "bold red"), text, f"\n     {sentence(check)}"))
     failed = sum(not check.passed for check in validation.checks)
     verdict = f"[bold red]{failed} failed[/], " if failed else ""
-    if validation.troubles:
-        verdict += f"[bold red]{len(validation.troubles)} could not be run[/], "
+    if validation.run_failures:
+        verdict += f"[bold red]{len(validation.run_failures)} could not be run[/], "
     console.print(
         f"{escape(validation.fmu)}: {verdict}{len(validation.checks) - failed} of "
         f"{len(validation.checks)} checks passed in {validation.wall_time:.1f} s",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Candidate, Model
@@ -56,8 +56,8 @@ class Choice:
 
     def applied_to(self, scene: Scene) -> Scene:
         """Return the scene with what was chosen."""
-        parameters = {**scene.parameters, **self.parameters}
-        return replace(scene, parameters=parameters, step_size=self.step or scene.step_size)
+        chosen = scene.with_values(self.parameters)
+        return chosen if self.step is None else chosen.with_step(self.step)
 
     def sentences(self) -> list[str]:
         """Return what was chosen, without the needs, for people."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from fmpy.ssp.ssd import read_ssd
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.drive import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.studies.choose.choosing import choose_with
 from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
 from slider_resonator.studies.closed_loop.loop import DESIGN, FIDELITY, LoopRecord, parameters
@@ -36,11 +36,11 @@ def predicted_errors(
     need, the mean velocity within the duty's band. Raises HarnessError without a slider.
     """
     device = _device(package)
-    with _slider(package) as instance, tempfile.TemporaryDirectory() as folder:
+    with _slider(package) as instance:
         largest: list[float | None] = []
         for index, interval in enumerate(duty.load_steps):
             found = [
-                _error(instance, _scene(design, duty, device, stop), Path(folder) / "loop.toml")
+                _error(instance, _scene(design, duty, device, stop))
                 for stop in _instants(duty, interval)
             ]
             progress((index + 1) / len(duty.load_steps))
@@ -55,43 +55,35 @@ def _instants(duty: Duty, interval: LoadInterval) -> list[int]:
     return [*range(start + 1, start + FIRST + 1), settled, end]
 
 
-def _device(package: Path) -> str:
-    """Return the slider's parameters in the design's set, but for its fidelity, as TOML."""
+def _device(package: Path) -> dict[str, float]:
+    """Return the slider's parameters in the design's set, but for its fidelity."""
     values = {
         name: value for name, value in parameters(package, DESIGN).items() if name != FIDELITY
     }
-    own = {n.removeprefix("slider."): v for n, v in values.items() if n.startswith("slider.")}
-    return "".join(f"{name} = {value!r}\n" for name, value in own.items())
+    return {n.removeprefix("slider."): v for n, v in values.items() if n.startswith("slider.")}
 
 
-def _error(instance: Instance, scene: str, file: Path) -> float | None:
-    file.write_text(scene, encoding="utf-8")
-    choice = choose_with(instance, read_scene(file))
+def _error(instance: Instance, scene: Scene) -> float | None:
+    choice = choose_with(instance, scene)
     return choice.error["mean_velocity"] if choice.meets and choice.fidelity == 0 else None
 
 
-def _scene(design: LoopRecord, duty: Duty, device: str, stop: int) -> str:
+def _scene(design: LoopRecord, duty: Duty, device: Mapping[str, float], stop: int) -> Scene:
     """Return the scene of the first `stop` communication steps, in which nothing is fed back."""
     phases = [design.phase[0], *design.phase[:-1]]  # each holds over the step after
-    phase = [[t, float(p)] for t, p in zip(duty.times, phases, strict=True)][:stop]
-    load = [[t, float(p)] for t, p in zip(duty.times, design.load, strict=True)][:stop]
-    return f"""\
-name = "loop"
-title = "What the controller did at fidelity 0"
-
-[device]
-{device}
-[inputs]
-phase = {{ steps = {phase} }}
-load = {{ steps = {load} }}
-
-[run]
-stop_time = {stop * duty.step!r}
-step_size = {duty.step!r}
-
-[need]
-mean_velocity = {{ abs = {duty.band * duty.reference!r} }}
-"""
+    inputs = {
+        name: [(time, float(value)) for time, value in zip(duty.times, values, strict=True)]
+        for name, values in (("phase", phases), ("load", design.load))
+    }
+    content = {
+        "name": "loop",
+        "title": "What the controller did at fidelity 0",
+        "device": device,
+        "inputs": {name: {"steps": points[:stop]} for name, points in inputs.items()},
+        "run": {"stop_time": stop * duty.step, "step_size": duty.step},
+        "need": {"mean_velocity": {"abs": duty.band * duty.reference}},
+    }
+    return scene_from(content, "the closed loop")
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""Golden results of an FMU: recorded in CSV files, checked against, accepted when meant to change.
+"""Golden results of an FMU in CSV files: recorded, checked, and replaced by accepted changes.
 
-`validate` says whether an FMU is right; a baseline says whether it is what it was.
+`validate` compares an FMU with references, a baseline with its own earlier results.
 """

@@ -1,4 +1,4 @@
-"""What is recorded of an FMU in a scene."""
+"""The golden results of an FMU in a scene, and how they are measured."""
 
 from __future__ import annotations
 
@@ -7,45 +7,44 @@ from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.checks.compare import Measurement, measure
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.checks.measuring import Measurement, measure
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
-MOST_POINTS = 48
+MAX_POINTS = 48
 """Points that are kept of a run, evenly spaced over its communication points."""
 
 SIGNALS = (
     *("position", "velocity", "resonator_displacement", "resonator_velocity"),
     *("normal_force", "friction_force", "contact_mode", "event_times"),
 )
-"""Kept at those points; `event_times` has the last event before each."""
+"""Signals kept at those points; `event_times` is the last event before each."""
 OF_A_RUN = (
     *("mean_velocity", "stick_fraction", "reversals", "ripple_amplitude", "ripple_frequency"),
 )
-"""Kept of a run as a whole, or of its last drive periods."""
+"""Numbers kept of a run as a whole, or of its last drive periods."""
 OF_CONSTANT_INPUTS = (
     *("steady_status", "steady_velocity", "predicted_velocity"),
     *("blocking_status", "blocking_force", "predicted_blocking_force"),
 )
-"""Found by shooting, and predicted by the FMU."""
+"""Numbers and words found by shooting, and predicted by the FMU."""
 NUMBERS_AND_WORDS = (*OF_CONSTANT_INPUTS, *OF_A_RUN)
-"""All that is kept beside the signals, in the order of the files."""
+"""All that is kept besides the signals, in the order of the files."""
 
 Golden = Mapping[str, Measurement]
 """Quantity to its measurement; signals at few points."""
 
 
 def measure_golden(fmu: FmuSide) -> Golden:
-    """Measure all that the scene allows; a ripple, say, needs enough points in a drive period.
+    """Measure all quantities that the scene allows: a ripple needs enough points per period.
 
     Raises FmuError and Refusal as the FMU does.
     """
     found = {}
     for name in _quantities(fmu):
         try:
-            measured = measure(_asked(name), fmu)
+            measured = measure(name, fmu)
         except SceneError:
             continue
         found[name] = _decimated(measured) if name in SIGNALS else measured
@@ -61,15 +60,10 @@ def _quantities(fmu: FmuSide) -> Iterator[str]:
         yield from OF_CONSTANT_INPUTS
 
 
-def _asked(name: str) -> ExpectTable:
-    """Return an expectation of a quantity, whatever it is compared with."""
-    return ExpectTable.model_construct(quantity=name, why="")
-
-
 def _decimated(measured: Measurement) -> Measurement:
     assert measured.times is not None
     count = len(measured.times)
-    kept = np.unique(np.rint(np.linspace(0, count - 1, min(count, MOST_POINTS))).astype(int))
+    kept = np.unique(np.rint(np.linspace(0, count - 1, min(count, MAX_POINTS))).astype(int))
     return replace(measured, value=measured.value[kept], times=measured.times[kept])
 
 

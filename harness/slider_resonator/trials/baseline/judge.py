@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.checks.compare import Check, Measurement, check
-from slider_resonator.checks.natural_scale import smallest_reference
-from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.checks.compare import Check, Comparison, compare
+from slider_resonator.checks.measuring import Measurement
+from slider_resonator.checks.tolerance import Tolerance
+from slider_resonator.checks.validate import Curves, curves_of
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.scene import ScenePoint
+from slider_resonator.scenes.vocabulary import QUANTITIES
 from slider_resonator.trials.baseline.golden import SIGNALS, Golden, order
 
 TOLERANCE = 1e-8
@@ -21,50 +21,37 @@ TOLERANCE = 1e-8
 AGAINST = "baseline"
 
 
-@dataclass(frozen=True)
-class Compared:
-    """A verdict with what it was made from."""
-
-    check: Check
-    measured: Measurement
-    golden: Any
-
-
-def compared(
-    scene: Scene, at: Mapping[str, float], golden: Golden, now: Golden, tolerance: float
-) -> Iterator[Compared]:
-    """Compare every quantity that was recorded, or is there now.
+def compare_golden(
+    point: ScenePoint, golden: Golden, now: Golden, tolerance: float
+) -> Iterator[tuple[Check, Curves | None]]:
+    """Compare every quantity that was recorded, or is there now; yield checks and their curves.
 
     Numbers may change by `tolerance` times their size, signals by that share of their peak, times
     of events by that share of a drive period; counts, words and contact modes must be equal. Raises
     SceneError where the run has other points.
     """
     for name in sorted({*golden, *now}, key=order):
-        wanted = golden.get(name, Measurement(None, "it was not recorded"))
+        recorded = golden.get(name, Measurement(None, "it was not recorded"))
         measured = now.get(name, Measurement(None, "the scene does not allow it any more"))
-        if name in SIGNALS and not _same_points(wanted, measured):
+        if name in SIGNALS and not _same_points(recorded, measured):
             raise SceneError(
-                f"{scene.source}: the run of {scene.name} has other points than when it was "
-                "recorded; record it again with --replace"
+                f"{point.scene.source}: the run of {point.scene.name} has other points than when "
+                "it was recorded; record it again with --replace"
             )
-        expect = _expectation(name, tolerance)
-        smallest = smallest_reference(name, scene.device)
-        verdict = check(expect, measured, wanted.value, scene.name, at, smallest)
-        if measured.value is None and wanted.value is None:
-            verdict = replace(verdict, passed=True)
-        yield Compared(replace(verdict, against=AGAINST), measured, wanted.value)
+        check = compare(_comparison(name, tolerance), measured, recorded.value, point)
+        if measured.value is None and recorded.value is None:
+            check = replace(check, passed=True)
+        yield check, curves_of(check, measured, recorded.value)
 
 
-def _expectation(name: str, tolerance: float) -> ExpectTable:
+def _comparison(name: str, share: float) -> Comparison:
     quantity = QUANTITIES[name]
-    given: dict[str, Any] = {"relative": tolerance}
+    tolerance = Tolerance(relative=share)
     if quantity.exact:
-        given = {}
+        tolerance = Tolerance()
     elif quantity.in_periods:
-        given = {"tube": tolerance}
-    return ExpectTable.model_construct(
-        quantity=name, reference=AGAINST, why="it was so when it was recorded", **given
-    )
+        tolerance = Tolerance(tube=share)
+    return Comparison(name, AGAINST, tolerance, "it was so when it was recorded")
 
 
 def _same_points(one: Measurement, other: Measurement) -> bool:

@@ -1,17 +1,17 @@
-"""Running an FMU in scenes to see what is to be recorded, or has been."""
+"""Running an FMU in scenes for the results that a baseline keeps or checks."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 
-from slider_resonator.checks.validate import Trouble, trouble_of_fmu
-from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
+from slider_resonator.checks.measure_points import measure_points
+from slider_resonator.checks.validate import RunFailure
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.scenes.scene import Scene, read_scene, sweep_points
+from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.trials.baseline.golden import Golden, measure_golden
 from slider_resonator.trials.baseline.provenance import provenance
 from slider_resonator.trials.baseline.store import At, Recorded, key
@@ -20,61 +20,44 @@ Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
-class _Point:
-    """A scene, or a point of its sweep."""
-
-    file: Path
-    at: Mapping[str, float]
-    scene: Scene
-
-
-@dataclass(frozen=True)
 class Measured:
-    """What an FMU gave in each scene that could be run to its end, and what could not be run."""
+    """The results of an FMU by the source of the scene, and what could not be run."""
 
-    scenes: Mapping[Path, Recorded]
-    troubles: tuple[Trouble, ...]
+    scenes: Mapping[str, Recorded]
+    run_failures: tuple[RunFailure, ...]
 
 
 def measure_scenes(
-    fmu: Path, files: Sequence[Path], folder: Path, progress: Progress, time_limit: float
+    fmu: Path, scenes: Sequence[Scene], folder: Path, progress: Progress, time_limit: float
 ) -> Measured:
-    """Run every scene and point of a sweep; a scene that does not get to its end is left out.
+    """Run every scene and point of a sweep; a scene that fails at a point is left out.
 
     `folder` is where the results are to be kept. Raises FmuError for a file that is no FMU.
     """
-    points = [
-        _Point(file, at, scene)
-        for file in files
-        for at, scene in sweep_points(read_scene(file), file)
-    ]
-    found: dict[Path, dict[At, Golden]] = {}
-    troubles: list[Trouble] = []
-    told = 0
+    points = {scene.source: scene.points() for scene in scenes}
+    all_points = [point for some in points.values() for point in some]
+    found: dict[str, dict[At, Golden]] = {source: {} for source in points}
+    run_failures: list[RunFailure] = []
+    number = count()
 
-    def meanwhile(point: _Point) -> None:
-        nonlocal told
-        progress(point.scene.name, told / len(points))
-        told += 1
+    def meanwhile(point: ScenePoint) -> None:
+        progress(point.scene.name, next(number) / len(all_points))
 
     with open_fmu(fmu) as opened:
-        told_of = {file: provenance(opened, read_scene(file), folder) for file in files}
-        with closing(isolated_runs(fmu, points, measure_golden, time_limit, meanwhile)) as runs:
-            for ran in runs:
-                if ran.point is None:
-                    troubles.append(trouble_of_fmu(fmu, ran.error or HarnessError()))
-                elif ran.error is not None:
-                    point = ran.point
-                    troubles.append(Trouble(point.scene.name, str(ran.error), point.at))
+        origins = {scene.source: provenance(opened, scene, folder) for scene in scenes}
+        runs = measure_points(fmu, all_points, measure_golden, time_limit, meanwhile)
+        with closing(runs) as finished:
+            for one in finished:
+                if one.error is not None or one.item is None:
+                    run_failures.append(RunFailure.of(fmu, one.item, one.error))
                 else:
-                    found.setdefault(ran.point.file, {})[key(ran.point.at)] = ran.result
+                    found[one.item.scene.source][key(one.item.at)] = one.result
     progress("", 1.0)
-    whole = {file for file in files if len(found.get(file, ())) == _count(points, file)}
     return Measured(
-        {file: Recorded(found[file], told_of[file]) for file in files if file in whole},
-        tuple(troubles),
+        {
+            source: Recorded(found[source], origins[source])
+            for source in points
+            if len(found[source]) == len(points[source])
+        },
+        tuple(run_failures),
     )
-
-
-def _count(points: Sequence[_Point], file: Path) -> int:
-    return sum(point.file == file for point in points)

@@ -1,4 +1,4 @@
-"""Where golden results come from."""
+"""The provenance of golden results: FMU, scene, host and tools."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ import numpy as np
 from slider_resonator import __version__
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.scenes.scene import Scene, built_in_scenes
-from slider_resonator.trials.baseline.golden import MOST_POINTS
+from slider_resonator.trials.baseline.golden import MAX_POINTS
 
 FMU_DIGEST = "fmu_sha256"
 SCENE_DIGEST = "scene_sha256"
 SCENE_FILE = "scene_file"
 BUILT_IN = "built in"
-"""Stands for the file of a scene of the harness."""
+"""In place of the file of a built-in scene."""
 
 Provenance = Mapping[str, str]
-"""What is told, in the order of the file."""
+"""What is recorded beside the results, in the order of the file."""
 
 
 def provenance(fmu: Fmu, scene: Scene, folder: Path) -> dict[str, str]:
@@ -40,7 +40,7 @@ def provenance(fmu: Fmu, scene: Scene, folder: Path) -> dict[str, str]:
         "scene": scene.name,
         SCENE_FILE: BUILT_IN if _is_built_in(scene) else _seen_from(folder, scene.files[0]),
         SCENE_DIGEST: scene_digest(scene),
-        "points_kept": str(MOST_POINTS),
+        "points_kept": str(MAX_POINTS),
         "harness": __version__,
         "fmpy": fmpy.__version__,
         "numpy": np.__version__,
@@ -56,7 +56,7 @@ def file_digest(file: Path) -> str:
 
 
 def scene_digest(scene: Scene) -> str:
-    """Return the SHA-256 of what a scene runs, whatever it is called and expects."""
+    """Return the SHA-256 of what a scene runs, without its names and expectations."""
     swept = (scene.sweep.variable, scene.sweep.values) if scene.sweep else None
     signals = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.signals.items())]
     runs = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size, swept)

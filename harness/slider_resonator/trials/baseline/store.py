@@ -12,18 +12,19 @@ from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.checks.compare import Measurement, Value
-from slider_resonator.checks.quantities import QUANTITIES
+from slider_resonator.checks.compare import Value
+from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError
 from slider_resonator.names import unknown_name
+from slider_resonator.scenes.vocabulary import QUANTITIES
 from slider_resonator.trials.baseline.golden import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
 from slider_resonator.trials.baseline.provenance import Provenance
 
 NUMBERS, TRAJECTORY, PROVENANCE = "numbers.csv", "trajectory.csv", "provenance.csv"
 DIGITS = 13
-"""Significant digits in the files: what differs beyond them hangs on the platform's sine."""
+"""Significant digits in the files: more depend on the sine of the platform."""
 NONE = "none"
-"""Written for a quantity that does not exist there, such as the velocity of a slow beat."""
+"""Written for a quantity that does not exist, such as the velocity of a slow beat."""
 HEADERS: Mapping[str, Sequence[str]] = {
     NUMBERS: ("at", "quantity", "unit", "value"),
     TRAJECTORY: ("at", "time", *SIGNALS),
@@ -37,7 +38,7 @@ At = tuple[tuple[str, float], ...]
 
 @dataclass(frozen=True)
 class Recorded:
-    """Golden results at every point of a scene's sweep, and where they come from."""
+    """Golden results at every point of a scene's sweep, and their provenance."""
 
     points: Mapping[At, Golden]
     provenance: Provenance
@@ -49,7 +50,7 @@ def key(at: Mapping[str, float]) -> At:
 
 
 def write_recorded(folder: Path, recorded: Recorded) -> None:
-    """Write the files of a scene, in place of those that are there, all of them or none.
+    """Write the files of a scene in place of earlier ones, all of them or none.
 
     Raises HarnessError when the folder cannot be written.
     """
@@ -70,7 +71,7 @@ def write_recorded(folder: Path, recorded: Recorded) -> None:
 
 
 def replace_folder(fresh: Path, folder: Path) -> None:
-    """Put one folder in the place of another, which there need not be; OSError when it cannot."""
+    """Move a folder to the place of another, if there is one; OSError when that fails."""
     if folder.exists():
         with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as old:
             folder.rename(Path(old) / folder.name)

@@ -1,4 +1,4 @@
-"""Recording golden results, checking an FMU against them, accepting what has changed."""
+"""The three commands of a baseline: record golden results, check an FMU, accept changes."""
 
 from __future__ import annotations
 
@@ -7,15 +7,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 
-from slider_resonator.checks.validate import Curves, Trouble, Validation, curves_of
+from slider_resonator.checks.compare import Check
+from slider_resonator.checks.validate import Curves, RunFailure, Validation
 from slider_resonator.errors import HarnessError, SceneError
-from slider_resonator.fmu.isolation.isolated_runs import TIME_LIMIT
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.names import unknown_name
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.targets import make_folder
 from slider_resonator.scenes.scene import Scene, built_in_scenes, read_scene
-from slider_resonator.trials.baseline.judge import TOLERANCE, Compared, compared
+from slider_resonator.trials.baseline.judge import TOLERANCE, compare_golden
 from slider_resonator.trials.baseline.measuring import Progress, measure_scenes
 from slider_resonator.trials.baseline.provenance import (
     BUILT_IN,
@@ -27,6 +28,7 @@ from slider_resonator.trials.baseline.provenance import (
 )
 from slider_resonator.trials.baseline.store import (
     Recorded,
+    key,
     read_recorded,
     recorded_scenes,
     replace_folder,
@@ -34,7 +36,7 @@ from slider_resonator.trials.baseline.store import (
 )
 
 CHANGED = ".changed"
-"""Folder beside the scenes with what the last check has found instead; git ignores it."""
+"""Folder beside the scenes with the changed results of the last check; git ignores it."""
 
 
 def record(
@@ -45,7 +47,7 @@ def record(
     *,
     replace: bool = False,
     time_limit: float = TIME_LIMIT,
-) -> tuple[tuple[str, ...], tuple[Trouble, ...]]:
+) -> tuple[tuple[str, ...], tuple[RunFailure, ...]]:
     """Record scenes; return the names of those written and what could not be run.
 
     Raises HarnessError, before anything is run, where a scene is recorded already and `replace` is
@@ -66,13 +68,12 @@ def record(
     with open_fmu(fmu):
         pass  # nothing is made in `folder` for a file that is no FMU
     make_folder(folder)
-    measured = measure_scenes(fmu, files, folder, progress, time_limit)
-    for scene, file in zip(scenes, files, strict=True):
-        if file in measured.scenes:
-            write_recorded(folder / scene.name, measured.scenes[file])
-            shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
-    written = (s.name for s, file in zip(scenes, files, strict=True) if file in measured.scenes)
-    return tuple(written), measured.troubles
+    measured = measure_scenes(fmu, scenes, folder, progress, time_limit)
+    whole = [scene for scene in scenes if scene.source in measured.scenes]
+    for scene in whole:
+        write_recorded(folder / scene.name, measured.scenes[scene.source])
+        shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
+    return tuple(scene.name for scene in whole), measured.run_failures
 
 
 def check(
@@ -84,47 +85,46 @@ def check(
     tolerance: float = TOLERANCE,
     time_limit: float = TIME_LIMIT,
 ) -> Validation:
-    """Compare an FMU with what is recorded of scenes, of all that are without `files`.
+    """Compare an FMU with the golden results of scenes, by default of all that are recorded.
 
-    What has changed is kept for `accept`; where it cannot be, that is a trouble beside the
-    verdicts. Raises HarnessError where nothing is recorded or a record cannot be read, FmuError
-    for a file that is no FMU.
+    Changed results are kept for `accept`; where that fails, it is a run failure. Raises
+    HarnessError where nothing is recorded or a record cannot be read, FmuError for a file that is
+    no FMU.
     """
     began = perf_counter()
-    files = files or recorded_files(folder)
-    scenes = {file: read_scene(file) for file in files}
-    golden = {file: _recorded(folder, scene) for file, scene in scenes.items()}
-    measured = measure_scenes(fmu, files, folder, progress, time_limit)
-    verdicts: list[Compared] = []
-    troubles = list(measured.troubles)
-    for file, scene in scenes.items():
+    scenes = [read_scene(file) for file in dict.fromkeys(files or recorded_files(folder))]
+    golden = [_recorded(folder, scene) for scene in scenes]
+    measured = measure_scenes(fmu, scenes, folder, progress, time_limit)
+    compared: list[tuple[Check, Curves | None]] = []
+    run_failures = list(measured.run_failures)
+    for scene, before in zip(scenes, golden, strict=True):
         shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
-        if file not in measured.scenes:
+        now = measured.scenes.get(scene.source)
+        if now is None:
             continue
         try:
-            found = _compare(scene, golden[file], measured.scenes[file], tolerance)
+            found = _compare(scene, before, now, tolerance)
         except SceneError as error:
-            troubles.append(Trouble(scene.name, str(error), {}))
+            run_failures.append(RunFailure(scene.name, str(error), {}))
             continue
-        verdicts += found
-        if not all(verdict.check.passed for verdict in found):
+        compared += found
+        if not all(verdict.passed for verdict, _ in found):
             try:
-                _keep(folder, scene.name, measured.scenes[file])
+                _keep(folder, scene.name, now)
             except HarnessError as error:
                 reason = f"what has changed could not be kept for accept: {error}"
-                troubles.append(Trouble(scene.name, reason, {}))
-    curves = (curves_of(one.check, one.measured, one.golden) for one in verdicts)
+                run_failures.append(RunFailure(scene.name, reason, {}))
     return Validation(
         str(fmu),
-        tuple(verdict.check for verdict in verdicts),
+        tuple(verdict for verdict, _ in compared),
         perf_counter() - began,
-        tuple(troubles),
-        tuple(curve for curve in curves if isinstance(curve, Curves)),
+        tuple(run_failures),
+        tuple(curves for _, curves in compared if curves is not None),
     )
 
 
 def accept(fmu: Path, folder: Path, names: Sequence[str] = ()) -> tuple[str, ...]:
-    """Take over what the last check of this FMU has found changed; return the scenes' names.
+    """Accept the changes that the last check of this FMU found; return the names of the scenes.
 
     Without `names` that is every scene that has changed. Raises HarnessError for a name that is not
     among them, and where it was another FMU that was checked.
@@ -188,7 +188,9 @@ def _recorded(folder: Path, scene: Scene) -> Recorded:
     return read_recorded(path)
 
 
-def _compare(scene: Scene, golden: Recorded, now: Recorded, tolerance: float) -> list[Compared]:
+def _compare(
+    scene: Scene, golden: Recorded, now: Recorded, tolerance: float
+) -> list[tuple[Check, Curves | None]]:
     if golden.provenance.get(SCENE_DIGEST) != scene_digest(scene):
         raise SceneError(
             f"{scene.source}: does not run what was recorded of {scene.name}; record it again "
@@ -196,8 +198,10 @@ def _compare(scene: Scene, golden: Recorded, now: Recorded, tolerance: float) ->
         )
     return [
         one
-        for at, results in now.points.items()
-        for one in compared(scene, dict(at), golden.points.get(at, {}), results, tolerance)
+        for point in scene.points()
+        for one in compare_golden(
+            point, golden.points.get(key(point.at), {}), now.points[key(point.at)], tolerance
+        )
     ]
 
 

@@ -1,4 +1,4 @@
-"""A cell of the stability matrix: what is run, and where it stands."""
+"""A cell of the stability matrix: what is run, and its place."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from math import tau
 
 from slider_resonator.device.device import Device
 
-REPEATED = 3
-"""Parts into which a step that does not repeat is cut for the other partition of a cell."""
-DIVISIBLE = 1e-300
-"""Steps, s, up to this one are not cut."""
+SUBSTEPS = 3
+"""Substeps per step in the second partition of a cell, for steps that do not repeat."""
+MIN_DIVISIBLE = 1e-300
+"""Steps up to this size, s, are not divided."""
 
 
 @dataclass(frozen=True)
@@ -95,11 +95,11 @@ class Cell:
 
     @property
     def other_holds(self) -> tuple[Hold, ...]:
-        """The same inputs over the same times in other steps: repeated ones merged, else cut."""
+        """The same inputs over the same times in other steps: repeated merged, others divided."""
         if any(hold.count > 1 for hold in self.holds):
             return tuple(replace(h, size=h.size * h.count, count=1) for h in self.holds)
         return tuple(
-            replace(h, size=h.size / REPEATED, count=REPEATED) if h.size > DIVISIBLE else h
+            replace(h, size=h.size / SUBSTEPS, count=SUBSTEPS) if h.size > MIN_DIVISIBLE else h
             for h in self.holds
         )
 

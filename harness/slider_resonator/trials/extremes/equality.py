@@ -1,4 +1,4 @@
-"""Motions that must be equal: other steps, another start time, the referee."""
+"""Motions that must be equal: in other steps, from another start time, by the reference."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.taylor import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.trials.extremes import averaged_referee
+from slider_resonator.trials.extremes import averaged_reference
 from slider_resonator.trials.extremes.cell import Cell
 from slider_resonator.trials.extremes.observe import NAMES, Observation
-from slider_resonator.trials.extremes.verdict import NO_REFEREE, REFEREE, Check
+from slider_resonator.trials.extremes.verdict import NO_REFERENCE, REFERENCE, BoundCheck
 
 Array = NDArray[np.float64]
 
@@ -26,27 +26,28 @@ EXACT = 1e-10
 """Deviation of resolved motion by rounding, as a fraction of peaks, where events are the same."""
 AVERAGED = 1e-7
 """The same of averaged motion: the errors, 1e-9 each, of a hundred steps of its own."""
-MOST_TURNS = 600.0
-"""Turns of the fastest oscillation that the referee follows."""
-MOST_HOLDS = 400
-MOST_DECAY = 30.0
-"""Greatest rate of decay, in drive frequencies, of a motion that the referee follows."""
+MAX_TURNS = 600.0
+"""Turns of the fastest oscillation that the reference is run for."""
+MAX_HOLDS = 400
+"""Changes of inputs that the reference is run for."""
+MAX_DECAY = 30.0
+"""Fastest decay, in drive frequencies, that the reference is run for."""
 
 
-def equalities(cell: Cell, seen: Observation) -> Iterator[Check]:
+def equalities(cell: Cell, seen: Observation) -> Iterator[BoundCheck]:
     """Yield the checks against other runs of the same motion."""
     yield _compare_last("other steps", cell, seen, seen.other)
     if seen.from_zero is not None:
         yield _compare_last("from time 0", cell, seen, seen.from_zero)
-    words = "the same start or stored state goes on differently"
-    yield Check("replay", 0.0 if seen.replayed else 2.0, words)
+    words = "a run from the same start or stored state differs"
+    yield BoundCheck("replay", 0.0 if seen.replayed else 2.0, words)
     for limit in cell.limits:
         off = abs(float(seen.signal(limit.output)[-1]) - limit.value)
         found = off / limit.allowed if limit.allowed else 2.0 * float(off > 0.0)
         words = f"{limit.output} off by {off:.3g}, allowed {limit.allowed:.3g}: {limit.why}"
-        yield Check("limit case", found, words)
-    if refereed(cell):
-        yield _referee(cell, seen)
+        yield BoundCheck("limit case", found, words)
+    if has_reference(cell):
+        yield _compare_with_reference(cell, seen)
 
 
 def allowed_deviation(cell: Cell, seen: Observation) -> float:
@@ -64,12 +65,12 @@ def allowed_deviation(cell: Cell, seen: Observation) -> float:
     return EXACT + rounding + device.tolerance * device.friction_law
 
 
-def refereed(cell: Cell) -> bool:
-    """Whether the referee covers the cell at a cost that can be borne."""
+def has_reference(cell: Cell) -> bool:
+    """Return whether a reference covers the cell at a bearable cost."""
     device = cell.device
     if device.fidelity == 0:
-        return averaged_referee.follows(cell)
-    if cell.start_time or len(cell.holds) > MOST_HOLDS:
+        return averaged_reference.covers(cell)
+    if cell.start_time or len(cell.holds) > MAX_HOLDS:
         return False
     if device.fidelity == 1 and device.damping_ratio < 1e-9:
         return False
@@ -82,12 +83,12 @@ def refereed(cell: Cell) -> bool:
         device.resonator_frequency / math.sqrt(max(1.0 - device.mass_ratio, 1e-12)),
     )
     decay = device.damping_ratio * device.resonator_frequency / max(1.0 - device.mass_ratio, 1e-12)
-    if decay > MOST_DECAY * device.drive_frequency or min(h.size for h in cell.holds) < 1e-9:
+    if decay > MAX_DECAY * device.drive_frequency or min(h.size for h in cell.holds) < 1e-9:
         return False
-    return duration * fastest <= math.tau * MOST_TURNS
+    return duration * fastest <= math.tau * MAX_TURNS
 
 
-def _referee(cell: Cell, seen: Observation) -> Check:
+def _compare_with_reference(cell: Cell, seen: Observation) -> BoundCheck:
     ends = np.cumsum([0, *(hold.count for hold in cell.holds)])
     times = np.concatenate([[0.0], np.cumsum(seen.sizes)])
     held = [
@@ -96,22 +97,24 @@ def _referee(cell: Cell, seen: Observation) -> Check:
     ]
     try:
         if cell.device.fidelity == 0:
-            return averaged_referee.compare(cell, seen, held, times, allowed_deviation(cell, seen))
+            return averaged_reference.compare(
+                cell, seen, held, times, allowed_deviation(cell, seen)
+            )
         if cell.device.friction_law == 0:
             motion: Trajectory | LugreTrajectory = simulate(cell.device, held, times)
         else:
             motion = simulate_lugre(cell.device, held, times)
     except (RuntimeError, ValueError, ArithmeticError) as error:
-        return Check(NO_REFEREE, 0.0, f"the referee gave up: {error}", is_deviation=False)
-    return _compare(REFEREE, cell, seen, [getattr(motion, name) for name in SIGNALS])
+        return BoundCheck(NO_REFERENCE, 0.0, f"the reference gave up: {error}", is_deviation=False)
+    return _compare(REFERENCE, cell, seen, [getattr(motion, name) for name in SIGNALS])
 
 
-def _compare_last(name: str, cell: Cell, seen: Observation, other: Array) -> Check:
+def _compare_last(name: str, cell: Cell, seen: Observation, other: Array) -> BoundCheck:
     last = [np.append(seen.signal(signal)[:-1], other[NAMES.index(signal)]) for signal in SIGNALS]
     return _compare(name, cell, seen, last)
 
 
-def _compare(name: str, cell: Cell, seen: Observation, other: Sequence[Array]) -> Check:
+def _compare(name: str, cell: Cell, seen: Observation, other: Sequence[Array]) -> BoundCheck:
     """Compare four signals, each with its own scale."""
     scales = _scales(cell, seen)
     worst, words = 0.0, ""
@@ -124,7 +127,7 @@ def _compare(name: str, cell: Cell, seen: Observation, other: Sequence[Array]) -
         if not found <= worst:
             worst = found
             words = f"{signal} off by {off:.3g}, {off / scale if scale else 1:.3g} of its peak"
-    return Check(name, worst, words)
+    return BoundCheck(name, worst, words)
 
 
 def _scales(cell: Cell, seen: Observation) -> tuple[float, float, float, float]:
@@ -138,19 +141,19 @@ def _scales(cell: Cell, seen: Observation) -> tuple[float, float, float, float]:
     swing = max(swing, rate / w)
     slip = 0.0
     if device.friction_law == 1:
-        slip = _greatest_friction(device) / (device.total_mass * w)
+        slip = _max_friction(device) / (device.total_mass * w)
     velocity += share * w * swing + slip
     return max(position, velocity / w), velocity, swing + slip / w, w * swing + slip
 
 
 def _rounding(cell: Cell, seen: Observation) -> tuple[float, float, float, float]:
-    """What forces that are known to rounding do to the four signals over the run.
+    """Return the effect of rounding in the forces on the four signals over the run.
 
-    With LuGre friction a velocity that is known to `tolerance` adds up to positions.
+    With LuGre friction the error `tolerance` of the velocity accumulates in the position.
     """
     device = cell.device
     time = float(seen.sizes.sum())
-    force = _greatest_friction(device) + float(np.abs(seen.inputs[:, 1]).max())
+    force = _max_friction(device) + float(np.abs(seen.inputs[:, 1]).max())
     force += abs(device.tangential_force)
     force += device.resonator_mass * device.base_amplitude * device.drive_frequency**2
     velocity = 8.0 * np.finfo(float).eps * force * time / device.slider_mass
@@ -160,6 +163,6 @@ def _rounding(cell: Cell, seen: Observation) -> tuple[float, float, float, float
     return drift, velocity, velocity * time, velocity
 
 
-def _greatest_friction(device: Device) -> float:
-    greatest = device.normal_preload + device.normal_amplitude
-    return device.friction_faces * device.friction_coefficient * greatest
+def _max_friction(device: Device) -> float:
+    max_normal = device.normal_preload + device.normal_amplitude
+    return device.friction_faces * device.friction_coefficient * max_normal

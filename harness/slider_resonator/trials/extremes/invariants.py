@@ -12,7 +12,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.trials.extremes.cell import Cell
 from slider_resonator.trials.extremes.observe import NAMES, Observation
-from slider_resonator.trials.extremes.verdict import Check
+from slider_resonator.trials.extremes.verdict import BoundCheck
 
 Exact = NDArray[np.longdouble]
 
@@ -21,7 +21,7 @@ BOUND = 1e-9
 """Rounding allowed in a bound, as a fraction of the quantities in it."""
 
 
-def invariants(cell: Cell, seen: Observation) -> Iterator[Check]:
+def invariants(cell: Cell, seen: Observation) -> Iterator[BoundCheck]:
     """Yield the checks of everything that must hold by the equations (26)-(27) alone."""
     yield _finite(seen)
     theta, psi = _angles(cell, seen)
@@ -34,13 +34,13 @@ def invariants(cell: Cell, seen: Observation) -> Iterator[Check]:
     yield _share(seen)
 
 
-def _finite(seen: Observation) -> Check:
+def _finite(seen: Observation) -> BoundCheck:
     wrong = [
         name for name, column in zip(NAMES, seen.outputs.T, strict=True)
         if not np.isfinite(column).all()
     ]  # fmt: skip
     wrong = wrong if np.isfinite(seen.other).all() else [*wrong, "the other partition"]
-    return Check("finite", 2.0 if wrong else 0.0, f"not finite: {', '.join(wrong)}")
+    return BoundCheck("finite", 2.0 if wrong else 0.0, f"not finite: {', '.join(wrong)}")
 
 
 def _angles(cell: Cell, seen: Observation) -> tuple[Exact, Exact]:
@@ -51,7 +51,7 @@ def _angles(cell: Cell, seen: Observation) -> tuple[Exact, Exact]:
     return np.cumsum(turns), np.cumsum(ratios * turns)
 
 
-def _phase(cell: Cell, seen: Observation, psi: Exact) -> Check:
+def _phase(cell: Cell, seen: Observation, psi: Exact) -> BoundCheck:
     """The normal load is max(0, N0 + dN sin(psi + phase)) at all times: no phase drifts."""
     device = cell.device
     held = np.concatenate([seen.inputs[:1, 0], seen.inputs[:, 0]])
@@ -63,16 +63,16 @@ def _phase(cell: Cell, seen: Observation, psi: Exact) -> Check:
     return _largest("phase of the normal load", seen.signal("normal_force") - expected, allowed)
 
 
-def _friction_bound(cell: Cell, seen: Observation) -> Check:
+def _friction_bound(cell: Cell, seen: Observation) -> BoundCheck:
     """|F| <= faces mu N, and with LuGre friction what the damping of the bristle adds.
 
-    By (8) |s0 z| <= mu and |z'| <= 2 |v|. An averaged motion is judged with the greatest N.
+    By (8) |s0 z| <= mu and |z'| <= 2 |v|. An averaged motion is judged with the largest N.
     """
     device = cell.device
     normal = seen.signal("normal_force")
-    greatest = device.normal_preload + device.normal_amplitude
+    max_normal = device.normal_preload + device.normal_amplitude
     if device.fidelity == 0:
-        normal = np.full_like(normal, greatest)
+        normal = np.full_like(normal, max_normal)
     share = np.full_like(normal, device.friction_coefficient)
     if device.friction_law == 1:
         velocity = np.abs(seen.signal("velocity"))
@@ -80,7 +80,7 @@ def _friction_bound(cell: Cell, seen: Observation) -> Check:
             velocity = np.abs(seen.signal("mean_velocity")) + _vibration(device)
         share += 2.0 * device.bristle_damping * velocity
     force = np.abs(seen.signal("friction_force"))
-    allowed = BOUND * device.friction_faces * share * greatest
+    allowed = BOUND * device.friction_faces * share * max_normal
     return _largest(
         "friction bound", np.maximum(0.0, force - device.friction_faces * share * normal), allowed
     )
@@ -93,7 +93,7 @@ def _vibration(device: Device) -> float:
     return abs(force) / (device.total_mass * device.drive_frequency)
 
 
-def _momentum(cell: Cell, seen: Observation, theta: Exact) -> Check:
+def _momentum(cell: Cell, seen: Observation, theta: Exact) -> BoundCheck:
     """Momentum changes by the drive, the load, and friction of at most faces mu max(N).
 
     The averaged motion has the momentum (M+m) V - D cos(theta) with D the impulse of the drive; at
@@ -116,8 +116,8 @@ def _momentum(cell: Cell, seen: Observation, theta: Exact) -> Check:
             slack = 2.0 * float(np.abs(body - momentum).max())
     load = np.concatenate([[0.0], np.cumsum(seen.inputs[:, 1] * seen.sizes)])
     time = np.concatenate([[0.0], np.cumsum(seen.sizes)])
-    greatest = device.normal_preload + device.normal_amplitude
-    friction = device.friction_faces * device.friction_coefficient * greatest * time
+    max_normal = device.normal_preload + device.normal_amplitude
+    friction = device.friction_faces * device.friction_coefficient * max_normal * time
     change = np.abs(momentum - momentum[0] + load)
     sizes = abs(drive) + (np.abs(body) + np.abs(resonator)).max() + np.abs(load) + friction
     rounding = (BOUND + 4.0 * ROUNDING * theta.astype(float)) * sizes
@@ -130,7 +130,7 @@ def _undriven(cell: Cell) -> bool:
     return not forced and not any(hold.load for hold in cell.holds)
 
 
-def _energy(cell: Cell, seen: Observation) -> Check:
+def _energy(cell: Cell, seen: Observation) -> BoundCheck:
     """Without drive and load, kinetic and spring energy never grow, and never fall undamped."""
     device = cell.device
     velocity, rate = seen.signal("velocity"), seen.signal("resonator_velocity")
@@ -154,23 +154,25 @@ def _stored_in_bristles(device: Device) -> float:
     return device.friction_faces * (device.normal_preload + device.normal_amplitude) * bent
 
 
-def _share(seen: Observation) -> Check:
+def _share(seen: Observation) -> BoundCheck:
     """Shares lie between 0 and 1, contact modes are known, counts never fall."""
     stick = seen.signal("stick_fraction")
     wrong = float(np.maximum(stick - 1.0, -stick).max() > BOUND)
     wrong += float(not np.isin(seen.signal("contact_mode"), (-1.0, 0.0, 1.0, 2.0)).all())
     wrong += float((np.diff(seen.signal("reversals")) < 0.0).any())
     wrong += float((np.diff(seen.signal("last_event_time")) < 0.0).any())
-    return Check(
+    return BoundCheck(
         "counts and shares", 2.0 * wrong, "share outside 0 to 1, mode unknown or count fell"
     )
 
 
 def _largest(
     name: str, deviation: NDArray[np.float64], allowed: float | NDArray[np.float64]
-) -> Check:
+) -> BoundCheck:
     """Return a check of the largest deviation; nothing may deviate where nothing is allowed."""
     deviation = np.abs(np.asarray(deviation, dtype=float))
     floor = np.finfo(float).tiny
     found = float(np.max(deviation / np.maximum(allowed, floor)))
-    return Check(name, found, f"off by up to {deviation.max():.3g}, {found:.3g} times the allowed")
+    return BoundCheck(
+        name, found, f"off by up to {deviation.max():.3g}, {found:.3g} times the allowed"
+    )

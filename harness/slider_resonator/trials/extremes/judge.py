@@ -1,4 +1,4 @@
-"""The verdict on a cell, from what was observed."""
+"""Judging a cell by what was observed."""
 
 from __future__ import annotations
 
@@ -9,16 +9,22 @@ from slider_resonator.trials.extremes.cell import Cell
 from slider_resonator.trials.extremes.equality import equalities
 from slider_resonator.trials.extremes.invariants import invariants
 from slider_resonator.trials.extremes.observe import Observation
-from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFUSED, Check, Verdict
+from slider_resonator.trials.extremes.verdict import (
+    FAILED,
+    PASSED,
+    REFUSED,
+    BoundCheck,
+    CellVerdict,
+)
 
 NAMES = "|".join([*PARAMETERS, *INPUTS, "communicationStepSize"])
 NAMED = re.compile(rf"\b({NAMES}) = (\S+) refused\b.*\ballowed ")
-MOST_COST = 1000.0
-"""Cost of a step, per drive period in it but at least one, over that of a period, that is allowed:
-a step may have to tabulate friction, or to find events that nearly coincide."""
+MAX_RELATIVE_COST = 1000.0
+"""Largest allowed cost of a step, per period it spans (at least 1), relative to a drive period: a
+step may have to tabulate friction, or to find events that nearly coincide."""
 
 
-def judge(cell: Cell, seen: Observation) -> Verdict:
+def judge(cell: Cell, seen: Observation) -> CellVerdict:
     """Return the verdict on a cell that ran to its end or was refused."""
     if seen.refusal is not None:
         named = refused_by_name(cell, seen.refusal)
@@ -35,7 +41,7 @@ def judge(cell: Cell, seen: Observation) -> Verdict:
 
 
 def refused_by_name(cell: Cell, text: str) -> bool:
-    """Whether a refusal names a variable or the step, its value here, and what is allowed."""
+    """Return whether a refusal names a variable or the step, its value, and what is allowed."""
     found = NAMED.search(text)
     if found is None:
         return False
@@ -49,14 +55,17 @@ def refused_by_name(cell: Cell, text: str) -> bool:
     return any(value == repr(one) for one in present)
 
 
-def _cost(seen: Observation) -> Check:
+def _cost(seen: Observation) -> BoundCheck:
     ratio = seen.worst_step / seen.period_cost if seen.period_cost > 0.0 else 0.0
-    words = f"the dearest step costs {ratio:.3g} drive periods of the device, allowed {MOST_COST:g}"
-    return Check("cost of a step", ratio / MOST_COST, words, is_deviation=False)
+    words = (
+        f"the most expensive step costs {ratio:.3g} drive periods of the device, "
+        f"allowed {MAX_RELATIVE_COST:g}"
+    )
+    return BoundCheck("cost of a step", ratio / MAX_RELATIVE_COST, words, is_deviation=False)
 
 
-def broken(cell: Cell, reason: str) -> Verdict:
-    """Return the verdict on a cell that hung, or ended its process."""
+def broken(cell: Cell, reason: str) -> CellVerdict:
+    """Return the verdict on a cell that crashed or exceeded its time limit."""
     return _verdict(cell, FAILED, reason)
 
 
@@ -64,10 +73,10 @@ def _verdict(
     cell: Cell,
     verdict: str,
     reason: str,
-    checks: tuple[Check, ...] = (),
+    checks: tuple[BoundCheck, ...] = (),
     seen: Observation | None = None,
-) -> Verdict:
-    return Verdict(
+) -> CellVerdict:
+    return CellVerdict(
         cell.axis,
         cell.value,
         cell.model.name,

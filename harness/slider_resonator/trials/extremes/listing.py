@@ -11,7 +11,7 @@ from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import make_folder
 from slider_resonator.trials.extremes.picture import draw_matrix
 from slider_resonator.trials.extremes.run import Matrix
-from slider_resonator.trials.extremes.verdict import PASSED, Verdict
+from slider_resonator.trials.extremes.verdict import PASSED, CellVerdict
 
 
 def write_matrices(matrices: Sequence[Matrix], out: Path) -> None:
@@ -38,8 +38,9 @@ def as_plain(matrices: Sequence[Matrix]) -> dict[str, object]:
                 "cells": len(matrix.verdicts),
                 "counts": matrix.counts,
                 "wall_time": matrix.wall_time,
-                "worst_step_over_period_cost": matrix.dearest and matrix.dearest.cost_ratio,
-                "worst_step_cell": matrix.dearest and matrix.dearest.name,
+                "worst_step_over_period_cost": matrix.most_expensive
+                and matrix.most_expensive.cost_ratio,
+                "worst_step_cell": matrix.most_expensive and matrix.most_expensive.name,
                 "verdicts": matrix.verdicts,
             }
             for matrix in matrices
@@ -67,7 +68,7 @@ def _page(matrix: Matrix) -> str:
     return "\n\n".join(parts)
 
 
-def _axis_row(axis: str, verdicts: Sequence[Verdict]) -> str:
+def _axis_row(axis: str, verdicts: Sequence[CellVerdict]) -> str:
     checks = [check for one in verdicts for check in one.checks]
     names = ", ".join(dict.fromkeys(check.name for check in checks))
     nearest = max(checks, key=lambda check: check.found, default=None)

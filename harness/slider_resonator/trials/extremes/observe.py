@@ -1,4 +1,4 @@
-"""Running a cell in an FMU: everything that is judged later, and what the steps cost."""
+"""Running a cell in an FMU and recording outputs and costs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from slider_resonator.trials.extremes.cell import Cell, Hold
 Array = NDArray[np.float64]
 NAMES = tuple(OUTPUTS)
 BASELINE_STEPS = 5
-"""Steps of a drive period, or of the whole run if that is less, that tell what a period costs."""
+"""Steps of a drive period, or of the whole run if that is shorter, that measure its cost."""
 
 
 @dataclass(frozen=True)
@@ -27,11 +27,11 @@ class Observation:
 
     `sizes` (n,) and `inputs` (n, 3) are those of each step, `outputs` (n + 1, 13) start with the
     first moment. `other` (13,) are the last outputs in the other partition, `from_zero` those of
-    a run from time 0, where one was made. `replayed` tells whether a second run, and steps after a
-    return to a stored state, were equal bit by bit. `worst_step` is the CPU time (s) of the dearest
-    step, the lesser of two runs, per drive period in it but at least one; `period_cost` is the
-    median of a drive period of the device.
-    `refusal` holds the words of the FMU where it refused the cell: nothing else counts then.
+    a run from time 0, where one was made. `replayed` is whether a second run, and steps after a
+    return to a stored state, were equal bit by bit. `worst_step` is the CPU time (s) of the most
+    expensive step, the smaller of two runs, per drive period it spans (at least 1); `period_cost`
+    is the median of a drive period of the device. `refusal` is the message of the FMU where it
+    refused the cell; all else is empty then.
     """
 
     sizes: Array
@@ -51,7 +51,7 @@ class Observation:
 
 
 def observe(instance: Instance, cell: Cell) -> Observation:
-    """Run a cell. A refusal is an observation; FmuError is raised for a wrong FMU."""
+    """Run a cell; a refusal is part of the observation. Raises FmuError for an unusable FMU."""
     try:
         return _observe(instance, cell)
     except Refusal as refusal:
@@ -115,7 +115,7 @@ def _follow(instance: Instance, holds: Sequence[Hold]) -> tuple[Array, list[tupl
 
 
 def _replayed(instance: Instance, cell: Cell) -> bool:
-    """Whether every second step, taken again from a stored state, repeats itself."""
+    """Return whether every second step, repeated from a stored state, gives the same outputs."""
     begin(instance, cell, 0.0)
     block = instance.block(NAMES)
     slave = instance.slave

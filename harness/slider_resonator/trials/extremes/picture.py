@@ -16,7 +16,7 @@ from matplotlib.patches import Patch, Rectangle
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.trials.extremes.cell import MODELS
 from slider_resonator.trials.extremes.run import Matrix
-from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFUSED, Verdict
+from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFUSED, CellVerdict
 
 FAR, NEAR = -8.0, 0.0
 """Decimal logarithm of a deviation over its bound, at the ends of the scale."""
@@ -30,7 +30,7 @@ GAP = 0.35
 LABEL = 11.5
 """Width kept for the names of values, in columns."""
 
-Groups = dict[str, list[Verdict]]
+Groups = dict[str, list[CellVerdict]]
 
 
 def draw_matrix(matrix: Matrix, path: Path) -> None:
@@ -51,7 +51,7 @@ def draw_matrix(matrix: Matrix, path: Path) -> None:
         save(figure, path)
 
 
-def margin(verdict: Verdict) -> float:
+def margin(verdict: CellVerdict) -> float:
     """Return the largest deviation over its bound, as a decimal logarithm within the scale.
 
     What a step costs is no deviation and does not count.
@@ -60,13 +60,13 @@ def margin(verdict: Verdict) -> float:
     return min(max(math.log10(found), FAR), NEAR) if found > 0.0 else FAR
 
 
-def _colour(verdict: Verdict) -> tuple[float, float, float, float] | str:
+def _colour(verdict: CellVerdict) -> tuple[float, float, float, float] | str:
     if verdict.verdict == PASSED:
         return SHADES((margin(verdict) - FAR) / (NEAR - FAR))
     return {REFUSED: REFUSED_COLOUR, FAILED: FAILED_COLOUR}[verdict.verdict]
 
 
-def _height(group: Sequence[Verdict]) -> float:
+def _height(group: Sequence[CellVerdict]) -> float:
     return HEADING + len({one.value for one in group})
 
 

@@ -1,26 +1,31 @@
-"""Running the whole matrix in an FMU."""
+"""Running and judging all cells of the matrix in an FMU."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.trials.extremes.cell import Cell
-from slider_resonator.trials.extremes.judge import MOST_COST, broken, judge
+from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, broken, judge
+from slider_resonator.trials.extremes.observe import observe
 from slider_resonator.trials.extremes.verdict import (
     FAILED,
-    NO_REFEREE,
+    NO_REFERENCE,
     PASSED,
-    REFEREE,
+    REFERENCE,
     REFUSED,
-    Verdict,
+    CellVerdict,
 )
-from slider_resonator.trials.extremes.worker import Broken, Worker, working
 
-LIMIT = 300.0
-"""Time, s, in which a cell must be done."""
+TIME_LIMIT = 300.0
+"""Time limit of a cell, s."""
 
 
 @dataclass(frozen=True)
@@ -28,12 +33,12 @@ class Matrix:
     """The verdicts of an FMU, one for each cell, and the wall time in s."""
 
     fmu: str
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[CellVerdict, ...]
     wall_time: float
 
-    def by_axis(self) -> dict[str, list[Verdict]]:
+    def by_axis(self) -> dict[str, list[CellVerdict]]:
         """Return axis to verdicts, in order."""
-        groups: dict[str, list[Verdict]] = {}
+        groups: dict[str, list[CellVerdict]] = {}
         for one in self.verdicts:
             groups.setdefault(one.axis, []).append(one)
         return groups
@@ -53,8 +58,8 @@ class Matrix:
         return self.count(FAILED) == 0
 
     @property
-    def dearest(self) -> Verdict | None:
-        """The cell with the worst cost of a step over that of a period of its device."""
+    def most_expensive(self) -> CellVerdict | None:
+        """The cell with the worst cost of a step relative to a period of its device."""
         ran = [one for one in self.verdicts if one.period_cost > 0.0]
         return max(ran, key=lambda one: one.cost_ratio, default=None)
 
@@ -65,15 +70,15 @@ class Matrix:
             f"{len(self.verdicts)} cells: {self.count(PASSED)} passed, "
             f"{self.count(REFUSED)} refused by name, {self.count(FAILED)} failed, none skipped; "
             f"{self.wall_time:.0f} s",
-            f"{sum(one.has(REFEREE) for one in self.verdicts)} cells held against a reference as "
-            f"well, which gave up in {sum(one.has(NO_REFEREE) for one in self.verdicts)} others",
+            f"{sum(one.has(REFERENCE) for one in self.verdicts)} cells compared with a reference, "
+            f"which gave up in {sum(one.has(NO_REFERENCE) for one in self.verdicts)} others",
         ]
-        if self.dearest is not None:
+        worst = self.most_expensive
+        if worst is not None:
             lines.append(
-                f"worst cost of a step, per drive period in it but at least one: "
-                f"{self.dearest.cost_ratio:.3g} times the median cost of a period of the same "
-                f"device (bound {MOST_COST:g}), {1e6 * self.dearest.worst_step:.3g} us "
-                f"({self.dearest.name})"
+                f"worst cost of a step, per drive period it spans (at least 1): "
+                f"{worst.cost_ratio:.3g} times the median cost of a period of the same device "
+                f"(bound {MAX_RELATIVE_COST:g}), {1e6 * worst.worst_step:.3g} us ({worst.name})"
             )
         return "\n".join(lines)
 
@@ -82,21 +87,36 @@ def run_matrix(
     fmu: Path,
     cells: Sequence[Cell],
     progress: Callable[[str, float], None],
-    limit: float = LIMIT,
+    time_limit: float = TIME_LIMIT,
 ) -> Matrix:
-    """Run and judge every cell; FmuError when the FMU cannot be run at all."""
+    """Run and judge every cell; FmuError when the FMU cannot be run at all.
+
+    A crash or a missed `time_limit` (s) fails its cell only.
+    """
     began = time.perf_counter()
-    verdicts = []
-    with working(fmu, limit) as worker:
-        for index, cell in enumerate(cells):
-            progress(f"{fmu.name}: {cell.axis}", index / len(cells))
-            verdicts.append(_verdict(worker, cell))
+    verdicts: list[CellVerdict] = []
+
+    def report(cell: Cell) -> None:
+        progress(f"{fmu.name}: {cell.axis}", len(verdicts) / len(cells))
+
+    tasks = [(cell, partial(observe, cell=cell)) for cell in cells]
+    with closing(
+        run_tasks(
+            fmu,
+            tasks,
+            time_limit,
+            name=lambda cell: cell.name,
+            meanwhile=report,
+            max_crashes=None,
+        )
+    ) as finished:
+        for one in finished:
+            if one.item is None:
+                raise one.error or FmuError(f"{fmu}: cannot be run")
+            if one.error is None:
+                verdicts.append(judge(one.item, one.result))
+            elif isinstance(one.error, FmuDied):
+                verdicts.append(broken(one.item, str(one.error)))
+            else:
+                raise one.error
     return Matrix(str(fmu), tuple(verdicts), time.perf_counter() - began)
-
-
-def _verdict(worker: Worker, cell: Cell) -> Verdict:
-    try:
-        seen = worker.observe(cell)
-    except Broken as error:
-        return broken(cell, str(error))
-    return judge(cell, seen)

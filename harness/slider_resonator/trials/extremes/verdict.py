@@ -1,4 +1,4 @@
-"""What is said of a cell."""
+"""The verdict on a cell and the bounds behind it."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ PASSED = "passed"
 REFUSED = "refused by name"
 FAILED = "failed"
 
-REFEREE = "referee"
+REFERENCE = "reference"
 """Name of the check against a reference that shares no code with the FMU."""
-NO_REFEREE = "no referee"
-"""Name of the check that tells why that reference gave up."""
+NO_REFERENCE = "no reference"
+"""Name of the check that reports why that reference gave up."""
 
 
 @dataclass(frozen=True)
-class Check:
-    """One bound: the largest deviation that was found, in units of what is allowed.
+class BoundCheck:
+    """One bound: the largest deviation found, in units of the allowed one.
 
-    `is_deviation` is false for what is counted or told apart, where nearness means nothing.
+    `is_deviation` is false for counts and yes-or-no answers, which have no distance to a bound.
     """
 
     name: str
@@ -28,26 +28,26 @@ class Check:
 
     @property
     def passed(self) -> bool:
-        """Whether the bound holds; not a number never does."""
+        """Whether the bound holds; it does not for NaN."""
         return self.found <= 1.0
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """The verdict on one cell, the checks behind it, and its reason where it did not pass."""
+class CellVerdict:
+    """The verdict on one cell, the bounds behind it, and the reason where it did not pass."""
 
     axis: str
     value: str
     model: str
     verdict: str
     reason: str
-    checks: tuple[Check, ...] = ()
+    checks: tuple[BoundCheck, ...] = ()
     worst_step: float = 0.0
     period_cost: float = 0.0
 
     @property
     def cost_ratio(self) -> float:
-        """Worst cost of a step, per period in it but at least one, over that of a period."""
+        """Worst cost of a step, per period it spans (at least 1), relative to a period."""
         return self.worst_step / self.period_cost if self.period_cost > 0.0 else 0.0
 
     def has(self, check: str) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -13,8 +12,8 @@ import numpy as np
 
 from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.isolation.child_environment import child_environment
 from slider_resonator.fmu.isolation.process_group import end_group
-from slider_resonator.fmu.isolation.temporary_files import temporary_files_in
 from slider_resonator.trials.hosts.hosts import Host
 from slider_resonator.trials.hosts.job import Answer, Job, Rows, read_answers, write_jobs
 
@@ -119,12 +118,8 @@ def _run(command: Sequence[str], said: Path) -> int | None:
     with said.open("wb") as log:
         process = subprocess.Popen(
             command,
-            env={
-                **os.environ,
-                # Hosts leave what they have unpacked where it is when an FMU fails.
-                **temporary_files_in(str(said.parent)),
-                "PYTHONPATH": str(Path(__file__).resolve().parents[3]),
-            },
+            # Hosts leave what they have unpacked where it is when an FMU fails.
+            env=child_environment(str(said.parent)),
             stdin=subprocess.DEVNULL,
             stdout=log,
             stderr=log,
@@ -135,8 +130,7 @@ def _run(command: Sequence[str], said: Path) -> int | None:
         except subprocess.TimeoutExpired:
             return None
         finally:
-            if process.poll() is None:
-                end_group(process)
+            end_group(process)
 
 
 def coupled(jobs: Sequence[Job], leaders: Sequence[Rows]) -> list[Job]:

@@ -14,7 +14,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.mutant import Mutant
 from slider_resonator.trials.mutants.points import probe_points, scene_points
-from slider_resonator.trials.mutants.probes import write_probes
+from slider_resonator.trials.mutants.probes import probe_scenes
 from slider_resonator.trials.mutants.reach import Reach, reaches
 from slider_resonator.trials.mutants.trial import Passed, Point, Rejection, trial
 from slider_resonator.trials.mutants.verdict import (
@@ -89,8 +89,7 @@ def run_mutants(
         points = scene_points(scene_files, progress)
         progress("the unchanged FMU", 0.0)
         _check_original(path, points, time_limit)
-        probe_files = write_probes(folder, probes, seed)
-        probing = probe_points(path, probe_files, time_limit)
+        probing = probe_points(path, probe_scenes(probes, seed), time_limit)
         reach = reaches(fmu, [*points, *probing], time_limit, jobs)
         bench = _Bench(
             fmu,

@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.checks.compare import wanted
+from slider_resonator.checks.expecting import expected_value
+from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.reference_side import ReferenceSide
-from slider_resonator.errors import SceneError
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
-from slider_resonator.scenes.scene import read_scene, sweep_points
+from slider_resonator.checks.validate import points_to_check
+from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
 from slider_resonator.trials.mutants.trial import Point, see
 
@@ -24,28 +24,26 @@ def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) 
     for index, file in enumerate(files):
         scene = read_scene(file)
         progress(f"references of {scene.name}", index / len(files))
-        if not scene.expect:
-            raise SceneError(f"{file}: scene {scene.name} expects nothing: [[expect]] is missing")
-        for at, point in sweep_points(scene, file):
-            reference = ReferenceSide(point)
-            told = tuple(wanted(expect, reference) for expect in point.expect)
-            points.append(Point(file, at, point, told))
+        for point in points_to_check(scene):
+            references = ReferenceSide(point.scene)
+            expected = tuple(expected_value(expect, references) for expect in scene.expect)
+            points.append(Point(point.scene, point.at, expected))
     return points
 
 
-def probe_points(fmu: Path, files: Sequence[Path], time_limit: float) -> list[Point]:
+def probe_points(fmu: Path, probes: Sequence[Scene], time_limit: float) -> list[Point]:
     """Return the probes with what the original FMU gives.
 
     Those that it refuses are left out: no mutant can be told from it there.
     """
-    asked = [Point(file, {}, read_scene(file), ()) for file in files]
+    points = [Point(probe) for probe in probes]
     return [
         replace(
-            ran.point,
-            wanted=tuple(measurement.value for measurement in ran.result.measured),
-            course=ran.result.course,
-            share=allowed_share(ran.point.scene.device),
+            one.item,
+            expected=tuple(measurement.value for measurement in one.result.measured),
+            outputs=one.result.outputs,
+            share=allowed_share(one.item.scene.device),
         )
-        for ran in isolated_runs(fmu, asked, see, time_limit)
-        if ran.point is not None and ran.error is None
+        for one in measure_points(fmu, points, see, time_limit)
+        if one.item is not None and one.error is None
     ]

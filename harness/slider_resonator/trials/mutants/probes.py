@@ -1,19 +1,18 @@
-"""Random scenes that tell whether a mutant changes any result at all.
+"""Random scenes that show whether a mutant changes any result at all.
 
-A probe is a scene file like any other, but what it expects is what the original FMU gives: devices,
-inputs and communication steps of all kinds, drawn so that sliding, sticking, flight and every model
-occur.
+A probe is a scene like any other, but expects what the original FMU gives: devices, inputs and
+communication steps of all kinds, drawn so that sliding, sticking, flight and every model occur.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from math import pi, sqrt
-from pathlib import Path
 from random import Random
+from typing import Any
 
 from slider_resonator.device.device import Device
+from slider_resonator.scenes.scene import Scene, scene_from
 
 COULOMB_ALLOWED = 1e-8
 ALLOWED = 1e-6
@@ -42,68 +41,41 @@ _SPECIAL: tuple[Mapping[str, float], ...] = (
 """Devices that lack something."""
 
 
-@dataclass(frozen=True)
-class Expectation:
-    """A quantity and by how much it may change, in a share of it and in its unit."""
-
-    quantity: str
-    relative: float = 0.0
-    absolute: float = 0.0
-
-    def toml(self) -> str:
-        """Return the entry of a scene file; the reference in it is never asked."""
-        asked = {"quantity": self.quantity, "reference": "located_events"}
-        if self.quantity.endswith("_status"):
-            asked = {"quantity": self.quantity, "value": "steady"}
-        elif self.quantity.startswith("predicted_"):
-            asked["reference"] = "averaged"
-        lines = [f'{key} = "{value}"' for key, value in asked.items()]
-        if self.relative or self.absolute:
-            lines.append(f"relative = {self.relative!r}")
-        if self.absolute:
-            lines.append(f"absolute = {self.absolute!r}")
-        return "\n".join(["[[expect]]", *lines, 'why = "as the original"'])
-
-
-def write_probes(folder: Path, count: int, seed: int) -> list[Path]:
-    """Write `count` scene files, the same ones for the same seed, and return their paths."""
-    paths = []
-    for index in range(count):
-        path = folder / f"probe_{index}.toml"
-        path.write_text(_probe(index, Random(f"{seed} {index}")), encoding="utf-8")
-        paths.append(path)
-    return paths
+def probe_scenes(count: int, seed: int) -> list[Scene]:
+    """Return `count` scenes, the same ones for the same seed."""
+    names = (f"probe_{index}" for index in range(count))
+    return [
+        scene_from(_probe(name, index, Random(f"{seed} {index}")), name)
+        for index, name in enumerate(names)
+    ]
 
 
 def allowed_share(device: Device) -> float:
     """Return by which share of its peak a signal of such a device may change."""
-    return _near(device.fidelity, device.friction_law)
+    return _allowed_share(device.fidelity, device.friction_law)
 
 
-def _near(fidelity: int, law: int) -> float:
+def _allowed_share(fidelity: int, law: int) -> float:
     return COULOMB_ALLOWED if fidelity > 0 and law == 0 else ALLOWED
 
 
-def _probe(index: int, draw: Random) -> str:
+def _probe(name: str, index: int, draw: Random) -> dict[str, Any]:
+    """Return the content of a scene file."""
     fidelity, law = MODELS[index % len(MODELS)]
     device = _device(draw, fidelity, law)
     steady = index % 2 == 0 and fidelity > 0 and law == 0
-    inputs = _inputs(draw, device, changing=not steady)
     periods = draw.choice((6, 9, 12))
     if fidelity == 0:  # slow motion takes its time, and a bristle's mean friction much of ours
         periods *= 3 if law else 10
     stepping = draw.choice((5.0, 11.0, 16.0)) if fidelity else draw.choice((0.3, 0.9, 4.0))
-    parts = [
-        f'name = "probe_{index}"\ntitle = "Probe {index}"',
-        "[device]",
-        *(f"{name} = {value!r}" for name, value in device.items()),
-        "[inputs]",
-        *inputs,
-        "[run]",
-        f"drive_periods = {periods}\nsteps_per_period = {stepping!r}",
-        *(e.toml() for e in _expectations(fidelity, law, steady=steady)),
-    ]
-    return "\n".join(parts) + "\n"
+    return {
+        "name": name,
+        "title": f"Probe {index}",
+        "device": device,
+        "inputs": _inputs(draw, device, changing=not steady),
+        "run": {"drive_periods": periods, "steps_per_period": stepping},
+        "expect": _expectations(fidelity, law, steady=steady),
+    }
 
 
 def _device(draw: Random, fidelity: int, law: int) -> dict[str, float]:
@@ -158,7 +130,7 @@ def _device(draw: Random, fidelity: int, law: int) -> dict[str, float]:
     return device
 
 
-def _inputs(draw: Random, device: Mapping[str, float], *, changing: bool) -> Iterator[str]:
+def _inputs(draw: Random, device: Mapping[str, float], *, changing: bool) -> dict[str, Any]:
     friction = device["friction_faces"] * device["friction_coefficient"] * device["normal_preload"]
     period = 2.0 * pi / device["drive_frequency"]
     ratios = (1.0, 1.0, 2.0, 3.0, -1.0, 0.0, 0.5, 0.01, 1.03, draw.uniform(0.2, 4.0))
@@ -167,28 +139,45 @@ def _inputs(draw: Random, device: Mapping[str, float], *, changing: bool) -> Ite
         "load": [draw.choice((0.0, draw.uniform(-1.2, 1.2))) * friction for _ in range(2)],
         "frequency_ratio": [draw.choice(ratios) for _ in range(2)],
     }
+    inputs: dict[str, Any] = {}
     for name, (first, second) in values.items():
         if changing and draw.random() < 0.6:
             at = draw.uniform(1.0, 5.0) * period
-            yield f"{name} = {{ steps = [[0.0, {first!r}], [{at!r}, {second!r}]] }}"
+            inputs[name] = {"steps": [[0.0, first], [at, second]]}
         elif changing or name != "frequency_ratio":
-            yield f"{name} = {first!r}"
+            inputs[name] = first
         else:  # a common period, which steady motion needs
-            yield f"{name} = {draw.choice((1.0, 1.0, 2.0, 3.0, 0.5, 1.5))!r}"
+            inputs[name] = draw.choice((1.0, 1.0, 2.0, 3.0, 0.5, 1.5))
+    return inputs
 
 
-def _expectations(fidelity: int, law: int, *, steady: bool) -> Iterator[Expectation]:
-    near = _near(fidelity, law)
-    for name in _SIGNALS:
-        wider = 10.0 if name == "friction_force" and law == 1 else 1.0
-        yield Expectation(name, wider * near)
-    yield Expectation("contact_mode")
+def _expectations(fidelity: int, law: int, *, steady: bool) -> list[dict[str, Any]]:
+    share = _allowed_share(fidelity, law)
+    rough = 10.0 * share if law == 1 else share
+    shares = {name: rough if name == "friction_force" else share for name in _SIGNALS}
+    expect = [_expectation(name, relative) for name, relative in shares.items()]
+    expect.append(_expectation("contact_mode"))
     if steady:
-        yield Expectation("steady_velocity", 1e-6, 1e-8)
-        yield Expectation("steady_status")
-        yield Expectation("blocking_force", 1e-5, 1e-8)
-        yield Expectation("predicted_velocity", 1e-8, 1e-10)
-        yield Expectation("predicted_blocking_force", 1e-8, 1e-10)
+        expect += [
+            _expectation("steady_velocity", 1e-6, 1e-8),
+            _expectation("steady_status"),
+            _expectation("blocking_force", 1e-5, 1e-8),
+            _expectation("predicted_velocity", 1e-8, 1e-10),
+            _expectation("predicted_blocking_force", 1e-8, 1e-10),
+        ]
+    return expect
+
+
+def _expectation(quantity: str, relative: float = 0.0, absolute: float = 0.0) -> dict[str, Any]:
+    """Return an expectation; what the original gives replaces its reference or value."""
+    against = {"reference": "located_events"}
+    if quantity.endswith("_status"):
+        against = {"value": "steady"}
+    elif quantity.startswith("predicted_"):
+        against = {"reference": "averaged"}
+    tolerance = {"relative": relative, "absolute": absolute}
+    given = {name: size for name, size in tolerance.items() if size}
+    return {"quantity": quantity, **against, **given, "why": "as the original"}
 
 
 def _log(draw: Random, low: float, high: float) -> float:

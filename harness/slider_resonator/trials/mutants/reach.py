@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from slider_resonator.checks.compare import measure_all
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
+from slider_resonator.checks.measure_points import measure_points
+from slider_resonator.checks.measuring import measure_all
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.enumerate_source import Function, blocks
 from slider_resonator.trials.mutants.trial import Point
@@ -85,10 +85,10 @@ def _note(body: list[ast.stmt]) -> None:
 
 def _observe(noting: Path, time_limit: float, points: Sequence[Point]) -> list[Reach]:
     found = []
-    for ran in isolated_runs(noting, points, noted_while_measuring, time_limit):
-        if ran.error is not None:
-            raise ran.error
-        found.append(ran.result)
+    for one in measure_points(noting, points, noted_while_measuring, time_limit):
+        if one.error is not None:
+            raise one.error
+        found.append(one.result)
     return found
 
 

@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.checks.compare import Check, Measurement, check, measure_all
+from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measures.deviation import peak
-from slider_resonator.checks.natural_scale import smallest_reference
+from slider_resonator.checks.measuring import Measurement, measure_all
+from slider_resonator.checks.tolerance import Tolerance
 from slider_resonator.checks.verdict import place, sentence
-from slider_resonator.fmu.isolation.isolated_runs import isolated_runs
-from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.scene import ScenePoint
 
-COURSES: Mapping[str, float | None] = {
+OUTPUTS: Mapping[str, float | None] = {
     "mean_velocity": None,
     "stick_fraction": 1e-9,
     "reversals": 0.0,
@@ -31,28 +31,23 @@ COURSES: Mapping[str, float | None] = {
 """Outputs that scenes expect something of at one time only, and by how much they may change, in
 their unit; None stands for a share of the peak."""
 
-Course = Mapping[str, NDArray[np.float64]]
+Outputs = Mapping[str, NDArray[np.float64]]
 """Output to its values at the communication points, shape (n,)."""
 
-_ANY = "located_events"
-"""A reference that all of these have: it is not asked for what the original has said."""
 _ROUNDING = 1e-12
 """m/s or N: what differs by less is rounding."""
 
 
-@dataclass(frozen=True)
-class Point:
-    """A scene, or a point of its sweep, with what is wanted of it, one for each expectation.
+@dataclass(frozen=True, eq=False)
+class Point(ScenePoint):
+    """A scene point with an expected value for each of its expectations.
 
-    A `course` is wanted as well where there is one: at each communication point, up to
+    Where there are `outputs`, they are expected as well: at each communication point, up to
     `share` of an output's peak.
     """
 
-    file: Path
-    at: Mapping[str, float]
-    scene: Scene
-    wanted: tuple[Any, ...]
-    course: Course = field(default_factory=dict)
+    expected: tuple[Any, ...] = ()
+    outputs: Outputs = field(default_factory=dict)
     share: float = 0.0
 
     @property
@@ -63,10 +58,10 @@ class Point:
 
 @dataclass(frozen=True)
 class Seen:
-    """What an FMU gives at a point: a measurement for each expectation, and courses if asked."""
+    """What an FMU gives at a point: a measurement for each expectation, and outputs if asked."""
 
     measured: tuple[Measurement, ...]
-    course: Course
+    outputs: Outputs
 
 
 @dataclass(frozen=True)
@@ -94,23 +89,24 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
     Where the FMU crashes, hangs or refuses, that is a rejection as well.
     """
     nearest: Check | None = None
-    wants_course = any(point.course for point in points)
-    runs = isolated_runs(fmu, points, see if wants_course else _see_expected, time_limit)
-    with closing(runs):
-        for ran in runs:
-            if ran.error is not None or ran.point is None:
-                return Rejection(ran.point.name if ran.point else "", "", str(ran.error))
-            for verdict in _checks(ran.point, ran.result):
-                if not verdict.passed:
-                    return Rejection(ran.point.name, verdict.quantity, sentence(verdict))
-                if nearest is None or verdict.severity > nearest.severity:
-                    nearest = verdict
+    with_outputs = any(point.outputs for point in points)
+    measure = see if with_outputs else _see_expected
+    with closing(measure_points(fmu, points, measure, time_limit)) as finished:
+        for one in finished:
+            point = one.item
+            if one.error is not None or point is None:
+                return Rejection(point.name if point else "", "", str(one.error))
+            for check in _checks(point, one.result):
+                if not check.passed:
+                    return Rejection(point.name, check.quantity, sentence(check))
+                if nearest is None or check.severity > nearest.severity:
+                    nearest = check
     return Passed(nearest)
 
 
 def see(fmu: FmuSide) -> Seen:
-    """Measure what the scene expects, and read the course of the other outputs."""
-    return Seen(measure_all(fmu), {name: fmu.record[name] for name in COURSES})
+    """Measure what the scene expects, and read the other outputs."""
+    return Seen(measure_all(fmu), {name: fmu.record[name] for name in OUTPUTS})
 
 
 def _see_expected(fmu: FmuSide) -> Seen:
@@ -119,18 +115,17 @@ def _see_expected(fmu: FmuSide) -> Seen:
 
 def _checks(point: Point, seen: Seen) -> Iterator[Check]:
     """Yield the verdicts on what exists in the FMU, or should."""
-    for expect, measurement, wanted in zip(
-        point.scene.expect, seen.measured, point.wanted, strict=True
+    for expect, measured, expected in zip(
+        point.scene.expect, seen.measured, point.expected, strict=True
     ):
-        if measurement.value is not None or wanted is not None:
-            smallest = smallest_reference(expect.quantity, point.scene.device)
-            yield check(expect, measurement, wanted, point.scene.name, point.at, smallest)
-    for name, wanted in point.course.items():
-        allowed = COURSES[name]
+        if measured.value is not None or expected is not None:
+            yield compare(Comparison.of(expect), measured, expected, point)
+    for name, values in point.outputs.items():
+        allowed = OUTPUTS[name]
         if allowed is None:
-            allowed = point.share * peak(wanted) + _ROUNDING
-        difference = np.abs(seen.course[name] - wanted)
+            allowed = point.share * peak(values) + _ROUNDING
+        difference = np.abs(seen.outputs[name] - values)
         worst = int(np.argmax(np.where(np.isnan(difference), np.inf, difference)))
-        expect = ExpectTable(quantity=name, reference=_ANY, absolute=allowed, why="as before")
-        measurement = Measurement(float(seen.course[name][worst]))
-        yield check(expect, measurement, float(wanted[worst]), point.scene.name, point.at)
+        comparison = Comparison(name, "original", Tolerance(absolute=allowed), "as the original")
+        measured = Measurement(float(seen.outputs[name][worst]))
+        yield compare(comparison, measured, float(values[worst]), point)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil, pi
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene import Scene, scene_from
 
 COUNT = 200
 STEADY_SHARE = 0.2
@@ -39,8 +39,8 @@ class Draw:
         return values[int(self.rng.integers(len(values)))]
 
 
-def generated_scene(seed: int, folder: Path) -> Scene:
-    """Return the scene of a seed, written to and read from a file in `folder`."""
+def generated_scene(seed: int) -> Scene:
+    """Return the scene of a seed."""
     draw = Draw(np.random.default_rng([20261121, seed]))
     device = _device(draw)
     steady = draw.chance(STEADY_SHARE)
@@ -48,21 +48,22 @@ def generated_scene(seed: int, folder: Path) -> Scene:
     periods = draw.log(30.0, LONGEST[law])
     duration = periods * 2.0 * pi / device["drive_frequency"]
     inputs = _inputs(draw, Device.from_mapping(device), duration, steady)
-    lines = [f'name = "scene_{seed}"', f'title = "Scene {seed}"', "[device]"]
-    lines += [f"{name} = {value!r}" for name, value in device.items()]
-    lines += ["[inputs]", *(f"{name} = {value}" for name, value in inputs.items())]
+    content: dict[str, Any] = {
+        "name": f"scene_{seed}",
+        "title": f"Scene {seed}",
+        "device": device,
+        "inputs": inputs,
+    }
     if not steady:
         per_period = min(draw.one_of(1.0, 4.0, 16.0), MAX_CHECKPOINTS / periods)
-        lines += ["[run]", f"stop_time = {duration!r}", f"steps_per_period = {per_period!r}"]
+        content["run"] = {"stop_time": duration, "steps_per_period": per_period}
     beats = _beats(inputs)
-    tightest = 1e-4 if any("ramp" in given for given in inputs.values()) else 1e-5
+    ramps = any(isinstance(given, dict) and "ramp" in given for given in inputs.values())
     fast = equivalent_force(Device.from_mapping(device)).velocity_amplitude
-    lines += ["[need]", *_needs(draw, steady, beats, tightest, fast)]
+    need: dict[str, Any] = _needs(draw, steady, beats, 1e-4 if ramps else 1e-5, fast)
     if law == 1 and draw.chance(0.5):
-        lines.append('friction_law = "free"')
-    path = folder / f"scene_{seed}.toml"
-    path.write_text("\n".join(lines) + "\n")
-    return read_scene(path)
+        need["friction_law"] = "free"
+    return scene_from({**content, "need": need}, f"scene_{seed}")
 
 
 def _device(draw: Draw) -> dict[str, float]:
@@ -87,9 +88,9 @@ def _device(draw: Draw) -> dict[str, float]:
     }
     force = equivalent_force(Device.from_mapping(device))
     strength = draw.log(30.0, 1e5) if draw.chance(0.7) else draw.log(0.5, 30.0)
-    wanted = strength * faces * coefficient * preload
-    device["base_amplitude"] *= wanted / force.amplitude
-    fast = force.velocity_amplitude * wanted / force.amplitude
+    drive = strength * faces * coefficient * preload
+    device["base_amplitude"] *= drive / force.amplitude
+    fast = force.velocity_amplitude * drive / force.amplitude
     if device["friction_law"]:
         kappa = draw.log(1e-2, 1e4)
         device["bristle_stiffness"] = kappa * coefficient * frequency / fast
@@ -97,7 +98,7 @@ def _device(draw: Draw) -> dict[str, float]:
     return device
 
 
-def _inputs(draw: Draw, device: Device, duration: float, steady: bool) -> dict[str, str]:
+def _inputs(draw: Draw, device: Device, duration: float, steady: bool) -> dict[str, Any]:
     friction = device.friction_faces * device.friction_coefficient * device.normal_preload
     alpha = device.normal_amplitude / device.normal_preload
     angle = equivalent_force(device).angle
@@ -112,14 +113,14 @@ def _inputs(draw: Draw, device: Device, duration: float, steady: bool) -> dict[s
         load = blocking * draw.uniform(-1.0, 1.0)
     else:
         load = friction * draw.uniform(-0.7, 0.7)
-    inputs = {"phase": repr(phase), "load": repr(float(load))}
+    inputs: dict[str, Any] = {"phase": phase, "load": float(load)}
     ratio = draw.one_of(0, 0, 0, 0, 1, 2, 3)
     if ratio == 1:
-        inputs["frequency_ratio"] = repr(draw.one_of(2.0, 3.0, 5.0, 1.5, 0.0))
+        inputs["frequency_ratio"] = draw.one_of(2.0, 3.0, 5.0, 1.5, 0.0)
     elif ratio == 2 and not steady:
-        inputs["frequency_ratio"] = repr(1.0 + draw.one_of(-1, 1) * draw.log(1e-4, 0.05))
+        inputs["frequency_ratio"] = 1.0 + draw.one_of(-1, 1) * draw.log(1e-4, 0.05)
     elif ratio == 3 and not steady:
-        inputs["frequency_ratio"] = repr(draw.uniform(0.2, 3.0))
+        inputs["frequency_ratio"] = draw.uniform(0.2, 3.0)
     if steady or draw.chance(0.5):
         return inputs
     times = np.sort([draw.uniform(0.0, duration) for _ in range(ceil(draw.uniform(0.0, 3.0)))])
@@ -128,15 +129,14 @@ def _inputs(draw: Draw, device: Device, duration: float, steady: bool) -> dict[s
     phases = [phase] + [phase + draw.uniform(-1.0, 1.0) for _ in times]
     for name, values in (("load", loads), ("phase", phases)):
         if draw.chance(0.6):
-            points = zip([0.0, *times.tolist()], values, strict=True)
-            inputs[name] = f"{{ {way} = [{', '.join(f'[{t!r}, {v!r}]' for t, v in points)}] }}"
+            inputs[name] = {way: list(zip([0.0, *times.tolist()], values, strict=True))}
     if way == "ramp" and draw.chance(0.2):
         start, end = draw.uniform(0.9, 1.1), draw.uniform(0.9, 1.1)
-        inputs["frequency_ratio"] = f"{{ ramp = [[0.0, {start!r}], [{duration!r}, {end!r}]] }}"
+        inputs["frequency_ratio"] = {"ramp": [(0.0, start), (duration, end)]}
     return inputs
 
 
-def _needs(draw: Draw, steady: bool, beats: bool, tightest: float, fast: float) -> list[str]:
+def _needs(draw: Draw, steady: bool, beats: bool, tightest: float, fast: float) -> dict[str, Any]:
     if steady:
         names = ["steady_velocity", "blocking_force"]
     else:
@@ -144,15 +144,14 @@ def _needs(draw: Draw, steady: bool, beats: bool, tightest: float, fast: float) 
         names += ["beat"] * 3 * beats
     chosen = {names[int(draw.rng.integers(len(names)))] for _ in range(ceil(draw.uniform(0, 1.5)))}
     scale = {"event_times": 1e-2, "beat": 1e-1}
-    lines = []
+    needs = {}
     for name in sorted(chosen):
         share = draw.log(tightest, 0.5) * scale.get(name, 1.0)
         absolute = name.endswith("velocity") and draw.chance(0.5)
-        tolerance = f"abs = {share * fast!r}" if absolute else f"rel = {share!r}"
-        lines.append(f"{name} = {{ {tolerance} }}")
-    return lines
+        needs[name] = {"abs": share * fast} if absolute else {"rel": share}
+    return needs
 
 
-def _beats(inputs: dict[str, str]) -> bool:
-    ratio = inputs.get("frequency_ratio", "1.0")
-    return "ramp" not in ratio and 0.0 < abs(float(ratio) - 1.0) < 0.1
+def _beats(inputs: dict[str, Any]) -> bool:
+    ratio = inputs.get("frequency_ratio", 1.0)
+    return isinstance(ratio, float) and 0.0 < abs(ratio - 1.0) < 0.1

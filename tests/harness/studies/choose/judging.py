@@ -6,7 +6,7 @@ Nothing of the chooser's own probe is used here but the list of candidates and t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf
 
 import numpy as np
@@ -111,7 +111,8 @@ class Judge:
 
     def _record(self, candidate: Candidate) -> Record:
         if candidate not in self._records:
-            own = replace(self.scene, step_size=candidate.step).schedule()
+            assert candidate.step is not None
+            own = self.scene.with_step(candidate.step).schedule()
             values = {**self.scene.parameters, **candidate.parameters}
             self._records[candidate] = run(self.instance, values, own, outputs=SHOWN)
         return self._records[candidate]
@@ -119,7 +120,7 @@ class Judge:
     def true_record(self, step: float) -> Record:
         """Return the resolved run with inputs nearly as they vary, at the points of a run too."""
         if step not in self._true_records:
-            own = replace(self.scene, step_size=step).schedule()
+            own = self.scene.with_step(step).schedule()
             checkpoints = self.scene.schedule().times
             signals = self.scene.signals
             times = np.union1d(own.times, checkpoints)

@@ -10,48 +10,44 @@ from slider_resonator.errors import Refusal, SceneError
 from slider_resonator.fmu.drive import Instance
 from slider_resonator.studies.choose import choose
 from slider_resonator.studies.choose.choosing import candidates, choose_with
-from tests.harness.studies.choose.scene_text import scene_of, table_1
+from tests.harness.scene_text import scene_of, table_1
 
 
-def test_mean_velocity_to_a_per_cent_needs_averaged_motion_in_one_step(
-    instance: Instance, tmp_path: Path
-) -> None:
-    scene = table_1(tmp_path, "mean_velocity = { rel = 0.01 }", periods=2000.0)
+def test_mean_velocity_to_a_per_cent_needs_averaged_motion_in_one_step(instance: Instance) -> None:
+    scene = table_1("mean_velocity = { rel = 0.01 }", periods=2000.0)
     choice = choose_with(instance, scene)
     assert (choice.meets, choice.fidelity) == (True, 0)
     assert choice.step == scene.stop_time
     assert choice.error["mean_velocity"] < choice.allowed["mean_velocity"]
 
 
-def test_what_averaging_leaves_out_needs_the_full_device(
-    instance: Instance, tmp_path: Path
-) -> None:
-    choice = choose_with(instance, table_1(tmp_path, "position = { abs = 1e-9 }"))
+def test_what_averaging_leaves_out_needs_the_full_device(instance: Instance) -> None:
+    choice = choose_with(instance, table_1("position = { abs = 1e-9 }"))
     assert (choice.meets, choice.fidelity) == (True, 2)
     assert {m.fidelity for m in choice.ruled_out} == {0, 1}
     assert all("position is off by" in m.why for m in choice.ruled_out)
 
 
-def test_events_rule_averaged_motion_out_unprobed(instance: Instance, tmp_path: Path) -> None:
-    scene = table_1(tmp_path, "event_times = { abs = 1e-7 }", periods=50.0, steps=8.0)
+def test_events_rule_averaged_motion_out_unprobed(instance: Instance) -> None:
+    scene = table_1("event_times = { abs = 1e-7 }", periods=50.0, steps=8.0)
     choice = choose_with(instance, scene)
     assert (choice.meets, choice.fidelity, choice.step) == (True, 2, scene.step_size)
     assert {m.fidelity: m.why for m in choice.ruled_out}[0] == "averaged motion has no events"
 
 
-def test_a_need_below_rounding_is_not_met(instance: Instance, tmp_path: Path) -> None:
-    choice = choose_with(instance, table_1(tmp_path, "position = { rel = 1e-15 }", periods=20.0))
+def test_a_need_below_rounding_is_not_met(instance: Instance) -> None:
+    choice = choose_with(instance, table_1("position = { rel = 1e-15 }", periods=20.0))
     assert not choice.meets
     assert choice.fidelity == 2, "the nearest is told"
     assert len(choice.ruled_out) == 3
 
 
-def test_a_tighter_need_takes_a_tighter_tolerance(instance: Instance, tmp_path: Path) -> None:
+def test_a_tighter_need_takes_a_tighter_tolerance(instance: Instance) -> None:
     law = "[device]\nfriction_law = 1\n"
     run = "[run]\ndrive_periods = 200\nsteps_per_period = 1\n"
     tolerances = [
         choose_with(
-            instance, scene_of(tmp_path, f"{law}{run}[need]\nposition = {{ rel = {need} }}\n")
+            instance, scene_of(f"{law}{run}[need]\nposition = {{ rel = {need} }}\n")
         ).tolerance
         for need in (1e-4, 1e-6, 1e-8)
     ]
@@ -64,11 +60,10 @@ def test_a_tighter_need_takes_a_tighter_tolerance(instance: Instance, tmp_path: 
     [(1e12, 0), (1e8, 1)],
 )
 def test_a_free_law_is_coulombs_where_the_bristle_is_stiff(
-    instance: Instance, tmp_path: Path, stiffness: float, law: int
+    instance: Instance, stiffness: float, law: int
 ) -> None:
     """The laws differ for a share of 1e-4 of the time in the one case, of 0.01 in the other."""
     scene = scene_of(
-        tmp_path,
         f"[device]\nfriction_law = 1\nbristle_stiffness = {stiffness}\n"
         "[run]\ndrive_periods = 200\nsteps_per_period = 1\n"
         '[need]\nposition = { rel = 1e-4 }\nfriction_law = "free"\n',
@@ -77,9 +72,8 @@ def test_a_free_law_is_coulombs_where_the_bristle_is_stiff(
     assert (choice.meets, choice.fidelity, choice.friction_law) == (True, 2, law)
 
 
-def test_a_law_that_is_given_is_kept(instance: Instance, tmp_path: Path) -> None:
+def test_a_law_that_is_given_is_kept(instance: Instance) -> None:
     scene = scene_of(
-        tmp_path,
         "[device]\nfriction_law = 1\nbristle_stiffness = 1e10\n"
         "[run]\ndrive_periods = 100\nsteps_per_period = 1\n[need]\nposition = { rel = 1e-4 }\n",
     )
@@ -87,15 +81,13 @@ def test_a_law_that_is_given_is_kept(instance: Instance, tmp_path: Path) -> None
     assert choose_with(instance, scene).friction_law == 1
 
 
-def test_inputs_that_vary_are_sampled_as_often_as_the_need_is_tight(
-    instance: Instance, tmp_path: Path
-) -> None:
+def test_inputs_that_vary_are_sampled_as_often_as_the_need_is_tight(instance: Instance) -> None:
     """Holding an input errs in proportion to the step, and the steps go by powers of two."""
     text = (
         "[inputs]\nload = { ramp = [[0, 0], [0.1, 0.1]] }\n[run]\nstop_time = 0.1\n"
         "step_size = 0.02\n[need]\nposition = { rel = %g }\n"
     )
-    loose, tight = (choose_with(instance, scene_of(tmp_path, text % need)) for need in (1e-3, 1e-4))
+    loose, tight = (choose_with(instance, scene_of(text % need)) for need in (1e-3, 1e-4))
     assert loose.meets
     assert tight.meets
     assert loose.step is not None
@@ -103,9 +95,8 @@ def test_inputs_that_vary_are_sampled_as_often_as_the_need_is_tight(
     assert loose.step / tight.step in (8.0, 16.0)
 
 
-def test_inputs_that_jump_need_no_small_steps(instance: Instance, tmp_path: Path) -> None:
+def test_inputs_that_jump_need_no_small_steps(instance: Instance) -> None:
     scene = scene_of(
-        tmp_path,
         "[inputs]\nload = { steps = [[0, 0], [0.0711, 0.05]] }\n[run]\nstop_time = 0.2\n"
         "step_size = 0.02\n[need]\nposition = { rel = 1e-9 }\n",
     )
@@ -114,11 +105,9 @@ def test_inputs_that_jump_need_no_small_steps(instance: Instance, tmp_path: Path
     assert 0.0711 in choice.applied_to(scene).schedule().times
 
 
-def test_steady_needs_choose_between_theory_and_shooting(
-    instance: Instance, tmp_path: Path
-) -> None:
-    loose = choose_with(instance, scene_of(tmp_path, "[need]\nsteady_velocity = { rel = 0.01 }\n"))
-    tight = choose_with(instance, scene_of(tmp_path, "[need]\nsteady_velocity = { rel = 1e-7 }\n"))
+def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> None:
+    loose = choose_with(instance, scene_of("[need]\nsteady_velocity = { rel = 0.01 }\n"))
+    tight = choose_with(instance, scene_of("[need]\nsteady_velocity = { rel = 1e-7 }\n"))
     assert (loose.meets, loose.fidelity, loose.step) == (True, 0, None)
     assert (tight.meets, tight.fidelity, tight.step) == (True, 2, None)
 
@@ -143,18 +132,15 @@ def test_steady_needs_choose_between_theory_and_shooting(
         ),
     ],
 )
-def test_what_does_not_exist_is_met_by_nothing(
-    instance: Instance, tmp_path: Path, text: str, said: str
-) -> None:
-    choice = choose_with(instance, scene_of(tmp_path, text))
+def test_what_does_not_exist_is_met_by_nothing(instance: Instance, text: str, said: str) -> None:
+    choice = choose_with(instance, scene_of(text))
     assert not choice.meets
     assert said in choice.reason
     assert len(choice.ruled_out) == 3
 
 
-def test_a_beat_is_read_from_averaged_motion(instance: Instance, tmp_path: Path) -> None:
+def test_a_beat_is_read_from_averaged_motion(instance: Instance) -> None:
     scene = scene_of(
-        tmp_path,
         "[inputs]\nfrequency_ratio = 1.02\n[run]\ndrive_periods = 1000\nsteps_per_period = 1\n"
         "[need]\nbeat = { rel = 1e-2 }\n",
     )
@@ -164,10 +150,10 @@ def test_a_beat_is_read_from_averaged_motion(instance: Instance, tmp_path: Path)
     assert choice.step * choice.scales.beat <= 1.0 / 8.0
 
 
-def test_a_long_scene_is_not_resolved_as_a_whole(instance: Instance, tmp_path: Path) -> None:
+def test_a_long_scene_is_not_resolved_as_a_whole(instance: Instance) -> None:
     """Half an hour: a million drive periods, of which some thousand are enough."""
     run = "[run]\nstop_time = 1800.0\nsteps_per_period = 0.001\n"
-    scene = scene_of(tmp_path, f"{run}[need]\nmean_velocity = {{ rel = 0.01 }}\n")
+    scene = scene_of(f"{run}[need]\nmean_velocity = {{ rel = 0.01 }}\n")
     choice = choose_with(instance, scene)
     assert (choice.meets, choice.fidelity, choice.probe) == (True, 0, "windows")
     assert choice.probe_drive_periods < 10_000
@@ -184,31 +170,29 @@ def test_a_long_scene_is_not_resolved_as_a_whole(instance: Instance, tmp_path: P
     ],
 )
 def test_without_friction_or_vibration_averaged_motion_serves_but_not_in_undamped_resonance(
-    instance: Instance, tmp_path: Path, device: str, fidelity: int
+    instance: Instance, device: str, fidelity: int
 ) -> None:
     run = "[run]\ndrive_periods = 500\nsteps_per_period = 1\n"
     text = f"[device]\n{device}\n{run}[need]\nmean_velocity = {{ rel = 0.05 }}\n"
-    choice = choose_with(instance, scene_of(tmp_path, text))
+    choice = choose_with(instance, scene_of(text))
     assert (choice.meets, choice.fidelity) == (True, fidelity)
     if fidelity:
         assert "damping_ratio = 0.0 refused" in choice.ruled_out[0].why
 
 
-def test_a_scene_without_needs_says_so(instance: Instance, tmp_path: Path) -> None:
+def test_a_scene_without_needs_says_so(instance: Instance) -> None:
     with pytest.raises(SceneError, match=r"no \[need\].*mean_velocity = \{ rel = 0.01 \}"):
-        choose_with(instance, scene_of(tmp_path, ""))
+        choose_with(instance, scene_of(""))
 
 
-def test_a_device_that_the_fmu_refuses_is_no_answer(instance: Instance, tmp_path: Path) -> None:
+def test_a_device_that_the_fmu_refuses_is_no_answer(instance: Instance) -> None:
     run = "[run]\ndrive_periods = 10\nsteps_per_period = 1\n[need]\nposition = { rel = 1.0 }\n"
     with pytest.raises(Refusal, match="slider_mass"):
-        choose_with(instance, scene_of(tmp_path, f"[device]\nslider_mass = -1.0\n{run}"))
+        choose_with(instance, scene_of(f"[device]\nslider_mass = -1.0\n{run}"))
 
 
-def test_the_python_fmu_gets_the_same_answer(
-    native_fmu: Path, python_fmu: Path, tmp_path: Path
-) -> None:
-    scene = table_1(tmp_path, "mean_velocity = { rel = 0.05 }", periods=100.0)
+def test_the_python_fmu_gets_the_same_answer(native_fmu: Path, python_fmu: Path) -> None:
+    scene = table_1("mean_velocity = { rel = 0.05 }", periods=100.0)
     native, python = (choose(scene, fmu) for fmu in (native_fmu, python_fmu))
     assert (native.fidelity, native.step) == (python.fidelity, python.step)
     assert native.error == pytest.approx(python.error, rel=1e-6)

@@ -1,17 +1,15 @@
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from slider_resonator.studies.choose.candidate import TOLERANCES, Candidate, Model
 from slider_resonator.studies.choose.cost import run_cost
 from slider_resonator.studies.choose.scales import scales_of
-from tests.harness.studies.choose.scene_text import scene_of
+from tests.harness.scene_text import scene_of
 
 
-def test_what_is_more_exact_costs_more(tmp_path: Path) -> None:
-    scales = scales_of(scene_of(tmp_path, ""))
+def test_what_is_more_exact_costs_more() -> None:
+    scales = scales_of(scene_of(""))
     models = [Model(fidelity, law) for law in (0, 1) for fidelity in (0, 1, 2)]
     costs = [run_cost(Candidate(model, 1e-8, 1.0), scales, 10.0, 10) for model in models]
     assert costs[0] < costs[1] < costs[2] < costs[4] < costs[5]
@@ -20,11 +18,10 @@ def test_what_is_more_exact_costs_more(tmp_path: Path) -> None:
     assert tolerances == sorted(tolerances)
 
 
-def test_resolved_motion_costs_by_the_period_and_averaged_motion_does_not(tmp_path: Path) -> None:
-    slow = scales_of(scene_of(tmp_path, ""))
+def test_resolved_motion_costs_by_the_period_and_averaged_motion_does_not() -> None:
+    slow = scales_of(scene_of(""))
     fast = scales_of(
         scene_of(
-            tmp_path,
             "[device]\ndrive_frequency = 35000.0\nresonator_frequency = 35000.0\n"
             "base_amplitude = 1e-5\n",
         )

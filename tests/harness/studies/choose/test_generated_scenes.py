@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,11 +18,11 @@ REFEREED = (46, 50)
 """Short scenes with Coulomb friction, whose inputs do not vary but by jumps."""
 
 
-def verdicts(instance: Instance, seeds: range, folder: Path) -> list[Verdict]:
+def verdicts(instance: Instance, seeds: range) -> list[Verdict]:
     """Choose and judge, and print what the table of a run shows: share met, share cheap, time."""
     found, longest = [], 0.0
     for seed in seeds:
-        scene = generated_scene(seed, folder)
+        scene = generated_scene(seed)
         began = time.process_time()
         choice = choose_with(instance, scene)
         longest = max(longest, time.process_time() - began)
@@ -46,8 +45,8 @@ def described(verdict: Verdict, seed: int) -> str:
     )
 
 
-def judged(instance: Instance, seeds: range, folder: Path) -> None:
-    found = verdicts(instance, seeds, folder)
+def judged(instance: Instance, seeds: range) -> None:
+    found = verdicts(instance, seeds)
     told = [described(verdict, seed) for verdict, seed in zip(found, seeds, strict=True)]
     estimate = [text for verdict, text in zip(found, told, strict=True) if not verdict.met]
     dear = [text for verdict, text in zip(found, told, strict=True) if not verdict.cheap]
@@ -56,21 +55,19 @@ def judged(instance: Instance, seeds: range, folder: Path) -> None:
 
 
 def test_choices_for_the_first_scenes_meet_the_needs_at_little_cost(
-    instance: Instance, tmp_path: Path
+    instance: Instance,
 ) -> None:
-    judged(instance, range(10), tmp_path)
+    judged(instance, range(10))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, COUNT, CHUNK))
-def test_choices_meet_the_needs_at_little_cost(
-    instance: Instance, tmp_path: Path, first: int
-) -> None:
-    judged(instance, range(first, first + CHUNK), tmp_path)
+def test_choices_meet_the_needs_at_little_cost(instance: Instance, first: int) -> None:
+    judged(instance, range(first, first + CHUNK))
 
 
-def test_the_scenes_span_what_averaging_suits_and_what_it_does_not(tmp_path: Path) -> None:
-    scenes = [generated_scene(seed, tmp_path) for seed in range(COUNT)]
+def test_the_scenes_span_what_averaging_suits_and_what_it_does_not() -> None:
+    scenes = [generated_scene(seed) for seed in range(COUNT)]
     devices = [scene.device for scene in scenes]
     assert 0.3 < np.mean([device.friction_law for device in devices]) < 0.6
     assert min(device.damping_ratio for device in devices) < 0.002
@@ -85,10 +82,8 @@ def test_the_scenes_span_what_averaging_suits_and_what_it_does_not(tmp_path: Pat
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", REFEREED)
-def test_the_judge_agrees_with_a_referee_that_shares_no_code(
-    instance: Instance, tmp_path: Path, seed: int
-) -> None:
-    scene = generated_scene(seed, tmp_path)
+def test_the_judge_agrees_with_a_referee_that_shares_no_code(instance: Instance, seed: int) -> None:
+    scene = generated_scene(seed)
     assert scene.step_size is not None
     assert scene.device.friction_law == 0
     assert all(signal.hold for signal in scene.signals.values())

@@ -1,13 +1,11 @@
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs, vary
-from tests.harness.studies.choose.scene_text import scene_of
+from tests.harness.scene_text import scene_of
 
 RAMP = (
     "[inputs]\nload = { ramp = [[0, 0], [0.03, 0.3], [0.1, 0]] }\n"
@@ -18,8 +16,8 @@ RAMP = (
 
 
 @pytest.fixture
-def scene(tmp_path: Path) -> Scene:
-    return scene_of(tmp_path, RAMP)
+def scene() -> Scene:
+    return scene_of(RAMP)
 
 
 def test_a_run_holds_what_the_schedule_of_the_scene_samples(scene: Scene) -> None:
@@ -48,7 +46,7 @@ def test_a_stretch_carries_the_turns_before_it_in_its_phase(scene: Scene) -> Non
     assert stretch.load.at(0.0201) == pytest.approx(0.3 * 2.0 / 7.0, abs=0.003)
 
 
-def test_only_what_changes_within_the_run_other_than_by_jumps_varies(tmp_path: Path) -> None:
+def test_only_what_changes_within_the_run_other_than_by_jumps_varies() -> None:
     run = "[run]\nstop_time = 0.1\nstep_size = 0.01\n"
     for text, varies in (
         ("load = 1.0", False),
@@ -57,4 +55,4 @@ def test_only_what_changes_within_the_run_other_than_by_jumps_varies(tmp_path: P
         ("load = { ramp = [[0.2, 0], [0.3, 1]] }", False),
         ("load = { ramp = [[0.05, 2], [0.07, 2]] }", False),
     ):
-        assert vary(scene_of(tmp_path, f"[inputs]\n{text}\n{run}"), 0.1) is varies, text
+        assert vary(scene_of(f"[inputs]\n{text}\n{run}"), 0.1) is varies, text

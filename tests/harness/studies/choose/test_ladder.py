@@ -2,39 +2,38 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import log2, pi
-from pathlib import Path
 
 import pytest
 
 from slider_resonator.fmu.drive import Instance
 from slider_resonator.studies.choose.ladder import BEAT_POINTS, FINEST, STEPS_PER_BEAT, step_ladder
 from slider_resonator.studies.choose.probe import Probe
-from tests.harness.studies.choose.scene_text import scene_of
+from tests.harness.scene_text import scene_of
 
 PERIOD = 2.0 * pi / 3500.0
 RAMP = "[inputs]\nload = { ramp = [[0, 0], [0.1, 0.1]] }\n"
 
 
-def ladder(instance: Instance, folder: Path, text: str) -> tuple[float, ...]:
-    return step_ladder(Probe(instance, scene_of(folder, text)))
+def ladder(instance: Instance, text: str) -> tuple[float, ...]:
+    return step_ladder(Probe(instance, scene_of(text)))
 
 
 @pytest.mark.parametrize(
     ("need", "step"), [("mean_velocity", 0.1), ("position", 0.003), ("event_times", 0.003)]
 )
 def test_steady_inputs_leave_one_step_the_longest_that_shows_what_is_needed(
-    instance: Instance, tmp_path: Path, need: str, step: float
+    instance: Instance, need: str, step: float
 ) -> None:
     run = f"[run]\nstop_time = 0.1\nstep_size = 0.003\n[need]\n{need} = {{ rel = 0.1 }}\n"
-    assert ladder(instance, tmp_path, run) == (step,)
+    assert ladder(instance, run) == (step,)
 
 
 def test_inputs_that_vary_leave_powers_of_two_of_the_step(
-    instance: Instance, tmp_path: Path
+    instance: Instance,
 ) -> None:
     run = f"{RAMP}[run]\nstop_time = 0.1\nstep_size = 0.003\n[need]\n"
-    signal = ladder(instance, tmp_path, f"{run}position = {{ rel = 0.1 }}\n")
-    number = ladder(instance, tmp_path, f"{run}mean_velocity = {{ rel = 0.1 }}\n")
+    signal = ladder(instance, f"{run}position = {{ rel = 0.1 }}\n")
+    number = ladder(instance, f"{run}mean_velocity = {{ rel = 0.1 }}\n")
     assert signal[0] == 0.003
     assert number[0] == 0.003 * 32
     assert number[-len(signal) :] == signal
@@ -42,10 +41,9 @@ def test_inputs_that_vary_leave_powers_of_two_of_the_step(
     assert PERIOD / FINEST <= number[-1] < 2.0 * PERIOD / FINEST
 
 
-def test_a_beat_is_sampled_often_enough_to_be_seen(instance: Instance, tmp_path: Path) -> None:
+def test_a_beat_is_sampled_often_enough_to_be_seen(instance: Instance) -> None:
     (step,) = ladder(
         instance,
-        tmp_path,
         "[inputs]\nfrequency_ratio = 1.05\n[run]\ndrive_periods = 2000\nsteps_per_period = 0.1\n"
         "[need]\nbeat = { rel = 0.1 }\n",
     )

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from math import inf
-from pathlib import Path
 
 import pytest
 
 from slider_resonator.fmu.drive import Instance
 from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.probe import CAUTION, HEAD_PERIODS, SHORT, Probe
-from tests.harness.studies.choose.scene_text import scene_of
+from tests.harness.scene_text import scene_of
 
 RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.1\n[need]\n{} = {{ rel = 0.1 }}\n"
 
@@ -30,11 +29,11 @@ RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.1\n[need]\n{} = {{ rel = 
     ],
 )
 def test_a_scene_is_resolved_in_windows_where_averaged_motion_can_tell_what_lies_between(
-    instance: Instance, tmp_path: Path, periods: float, inputs: str, device: str, covers: str
+    instance: Instance, periods: float, inputs: str, device: str, covers: str
 ) -> None:
     """Not beats that are faster than the windows lie, a long memory, nor friction that sticks."""
     text = f"[inputs]\n{inputs}\n[device]\n{device}\n{RUN.format(periods, 'mean_velocity')}"
-    probe = Probe(instance, scene_of(tmp_path, text))
+    probe = Probe(instance, scene_of(text))
     assert probe.covers == covers
     if covers == "whole":
         assert probe.probed_duration == probe.duration
@@ -42,9 +41,11 @@ def test_a_scene_is_resolved_in_windows_where_averaged_motion_can_tell_what_lies
         assert probe.probed_duration <= HEAD_PERIODS * probe.scales.period * (1.0 + 1e-12)
 
 
-def test_partial_probe_confirms_only_the_resolved_model(instance: Instance, tmp_path: Path) -> None:
+def test_partial_probe_confirms_only_the_resolved_model(
+    instance: Instance,
+) -> None:
     text = f"[inputs]\nfrequency_ratio = 1.01\n{RUN.format(1e6, 'position')}"
-    probe = Probe(instance, scene_of(tmp_path, text))
+    probe = Probe(instance, scene_of(text))
     step = probe.scene.step_size
     averaged = probe.run_errors(Candidate(Model(0, 0), 1e-8, step))["position"]
     resolved = probe.run_errors(Candidate(Model(2, 0), 1e-8, step))["position"]
@@ -54,8 +55,8 @@ def test_partial_probe_confirms_only_the_resolved_model(instance: Instance, tmp_
     assert resolved.error == pytest.approx(grown * 1e-12 * resolved.magnitude)
 
 
-def test_the_resolved_periods_are_counted(instance: Instance, tmp_path: Path) -> None:
-    probe = Probe(instance, scene_of(tmp_path, RUN.format(500, "mean_velocity")))
+def test_the_resolved_periods_are_counted(instance: Instance) -> None:
+    probe = Probe(instance, scene_of(RUN.format(500, "mean_velocity")))
     for fidelity in (0, 1, 2):
         probe.run_errors(Candidate(Model(fidelity, 0), 1e-8, probe.duration))
     assert probe.drive_periods == pytest.approx(3 * 500.0)

@@ -1,17 +1,16 @@
 from __future__ import annotations
 
 from math import inf, pi
-from pathlib import Path
 
 import pytest
 
 from slider_resonator.studies.choose.scales import scales_of
-from tests.harness.studies.choose.scene_text import scene_of
+from tests.harness.scene_text import scene_of
 
 
-def test_table_1(tmp_path: Path) -> None:
+def test_table_1() -> None:
     """Against the design's own figures: F_T* = 910.947 N on 1.1 kg, a transient of 2.05 s."""
-    scales = scales_of(scene_of(tmp_path, "[device]\nfriction_law = 1\n"))
+    scales = scales_of(scene_of("[device]\nfriction_law = 1\n"))
     assert scales.period == pytest.approx(2.0 * pi / 3500.0)
     assert scales.fast_velocity == pytest.approx(910.947 / (1.1 * 3500.0), rel=1e-6)
     assert scales.relaxation == pytest.approx(2.05, rel=1e-2)
@@ -21,10 +20,9 @@ def test_table_1(tmp_path: Path) -> None:
     assert (scales.detuning, scales.beat, scales.saturation, scales.input_rate) == (0, 0, 0, 0)
 
 
-def test_inputs(tmp_path: Path) -> None:
+def test_inputs() -> None:
     scales = scales_of(
         scene_of(
-            tmp_path,
             "[inputs]\nfrequency_ratio = 2.99\nload = { ramp = [[0, 0], [0.1, -0.15]] }\n",
         )
     )
@@ -42,10 +40,8 @@ def test_inputs(tmp_path: Path) -> None:
         "damping_ratio = 0.0\nresonator_mass = 1.0\nresonator_frequency = 2474.8737341529163",
     ],
 )
-def test_without_vibration_or_friction_there_is_nothing_to_average(
-    tmp_path: Path, device: str
-) -> None:
-    scales = scales_of(scene_of(tmp_path, f"[device]\n{device}\n"))
+def test_without_vibration_or_friction_there_is_nothing_to_average(device: str) -> None:
+    scales = scales_of(scene_of(f"[device]\n{device}\n"))
     assert scales.fast_velocity is None
     assert scales.averaging_error is None
     assert scales.relaxation == inf

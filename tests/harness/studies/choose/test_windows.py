@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -14,7 +12,7 @@ from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_i
 from slider_resonator.studies.choose.probe import Probe
 from slider_resonator.studies.choose.stretch import Stretch, follow
 from slider_resonator.studies.choose.windows import SAFETY, holding_errors
-from tests.harness.studies.choose.scene_text import scene_of
+from tests.harness.scene_text import scene_of
 
 LONG = (
     "{device}[inputs]\nphase = 0.4\nload = {{ {load} }}\n"
@@ -44,9 +42,9 @@ def errors_of_the_whole(instance: Instance, scene: Scene, model: Model) -> dict[
     "load", ["constant = 0.03", "steps = [[0, 0], [3.1, 0.05]]", "ramp = [[0, 0], [5.0, 0.06]]"]
 )
 def test_errors_are_carried_through_a_long_scene(
-    instance: Instance, tmp_path: Path, device: str, load: str
+    instance: Instance, device: str, load: str
 ) -> None:
-    scene = scene_of(tmp_path, LONG.format(device=device, load=load))
+    scene = scene_of(LONG.format(device=device, load=load))
     probe = Probe(instance, scene)
     assert probe.covers == "windows"
     model = Model(0, scene.device.friction_law)
@@ -58,12 +56,10 @@ def test_errors_are_carried_through_a_long_scene(
         assert told[name].error < 2.0 * SAFETY * error, f"{name} is much better than told"
 
 
-def test_holding_an_input_errs_in_proportion_to_the_step(
-    instance: Instance, tmp_path: Path
-) -> None:
+def test_holding_an_input_errs_in_proportion_to_the_step(instance: Instance) -> None:
     """A load that ramps at 0.02 N/s and is held for h pulls 0.01 h N too little on 1.1 kg."""
     text = LONG.format(device="", load="ramp = [[0, 0], [2.0, 0.04], [7.0, 0.04]]")
-    scene = scene_of(tmp_path, text)
+    scene = scene_of(text)
     coarse, fine = (holding_errors(instance, scene, 7.0, step)["position"] for step in (0.02, 0.01))
     assert coarse / fine == pytest.approx(2.0, rel=0.02)
     held, meant = (grid(scene, 7.0, 0.02) for grid in (sampled_inputs, averaged_inputs))

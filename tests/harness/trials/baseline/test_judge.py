@@ -8,28 +8,29 @@ from typing import Any
 import numpy as np
 import pytest
 
-from slider_resonator.checks.compare import Check, Measurement
+from slider_resonator.checks.compare import Check
+from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.scene import Scene, find_scene, read_scene
-from slider_resonator.trials.baseline.judge import compared
+from slider_resonator.scenes.scene import ScenePoint, find_scene, read_scene
+from slider_resonator.trials.baseline.judge import compare_golden
 
 TIMES = np.linspace(0.0, 0.1, 48)
 WAVE = 1e-3 * np.sin(500.0 * TIMES)
 
 
 @pytest.fixture(scope="module")
-def scene() -> Scene:
-    return read_scene(find_scene("table_1"))
+def point() -> ScenePoint:
+    return ScenePoint(read_scene(find_scene("table_1")))
 
 
-def judged(scene: Scene, name: str, golden: Any, now: Any, tolerance: float = 1e-8) -> Check:
+def judged(point: ScenePoint, name: str, golden: Any, now: Any, tolerance: float = 1e-8) -> Check:
     def measured(value: Any) -> Mapping[str, Measurement]:
         times = TIMES[: len(value)] if isinstance(value, np.ndarray) else None
         return {name: Measurement(value, times=times)}
 
-    (one,) = compared(scene, {}, measured(golden), measured(now), tolerance)
-    return one.check
+    ((check, _),) = compare_golden(point, measured(golden), measured(now), tolerance)
+    return check
 
 
 @pytest.mark.parametrize(
@@ -56,30 +57,30 @@ def judged(scene: Scene, name: str, golden: Any, now: Any, tolerance: float = 1e
     ],
 )
 def test_what_counts_as_a_change(
-    scene: Scene, name: str, golden: Any, now: Any, passed: bool
+    point: ScenePoint, name: str, golden: Any, now: Any, passed: bool
 ) -> None:
-    verdict = judged(scene, name, golden, now)
+    verdict = judged(point, name, golden, now)
     assert verdict.passed is passed, sentence(verdict)
     assert verdict.against == "baseline"
 
 
-def test_a_change_says_by_how_much_and_where(scene: Scene) -> None:
+def test_a_change_says_by_how_much_and_where(point: ScenePoint) -> None:
     now = WAVE.copy()
     now[20:] += 1e-6
-    verdict = judged(scene, "position", WAVE, now)
+    verdict = judged(point, "position", WAVE, now)
     assert verdict.first_time == TIMES[20]
     assert sentence(verdict).startswith("off by 0.001 of the peak")
 
 
-def test_other_points_are_no_change_but_another_run(scene: Scene) -> None:
+def test_other_points_are_no_change_but_another_run(point: ScenePoint) -> None:
     with pytest.raises(SceneError, match="has other points"):
-        judged(scene, "position", WAVE, WAVE[:20])
+        judged(point, "position", WAVE, WAVE[:20])
 
 
-def test_what_is_new_or_gone_has_changed(scene: Scene) -> None:
+def test_what_is_new_or_gone_has_changed(point: ScenePoint) -> None:
     golden = {"reversals": Measurement(199.0)}
-    (new,) = compared(scene, {}, {}, golden, 1e-8)
-    (gone,) = compared(scene, {}, golden, {}, 1e-8)
-    assert not new.check.passed
-    assert not gone.check.passed
-    assert "does not allow it" in sentence(gone.check)
+    ((new, _),) = compare_golden(point, {}, golden, 1e-8)
+    ((gone, _),) = compare_golden(point, golden, {}, 1e-8)
+    assert not new.passed
+    assert not gone.passed
+    assert "does not allow it" in sentence(gone)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.checks.compare import Measurement
+from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError
 from slider_resonator.trials.baseline.golden import SIGNALS
 from slider_resonator.trials.baseline.store import (

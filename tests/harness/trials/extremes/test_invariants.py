@@ -9,7 +9,7 @@ import pytest
 from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.trials.extremes.cell import Cell, Hold, Model
-from slider_resonator.trials.extremes.judge import MOST_COST, judge
+from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, judge
 from slider_resonator.trials.extremes.observe import NAMES, Observation, observe
 from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFUSED
 
@@ -32,7 +32,7 @@ def changed(seen: Observation, name: str, change: float) -> Observation:
 def test_table_1_passes(seen: Observation) -> None:
     verdict = judge(TABLE_1, seen)
     assert verdict.verdict == PASSED, verdict.reason
-    assert {"momentum", "phase of the normal load", "referee"} <= {c.name for c in verdict.checks}
+    assert {"momentum", "phase of the normal load", "reference"} <= {c.name for c in verdict.checks}
 
 
 @pytest.mark.parametrize(
@@ -43,7 +43,7 @@ def test_table_1_passes(seen: Observation) -> None:
         ("normal_force", 1e-6, "phase of the normal load"),
         ("friction_force", 1.0, "friction bound"),
         ("velocity", 0.1, "momentum"),
-        ("velocity", 1e-7, "referee"),
+        ("velocity", 1e-7, "reference"),
         ("position", 1e-9, "other steps"),
         ("stick_fraction", 1.5, "counts and shares"),
         ("reversals", -100.0, "counts and shares"),
@@ -98,8 +98,8 @@ def test_any_other_refusal_fails(seen: Observation, words: str) -> None:
 
 
 def test_a_step_that_costs_too_much_fails(seen: Observation) -> None:
-    dear = replace(seen, worst_step=2.0 * MOST_COST * seen.period_cost)
-    assert "cost of a step" in judge(TABLE_1, dear).reason
+    expensive = replace(seen, worst_step=2.0 * MAX_RELATIVE_COST * seen.period_cost)
+    assert "cost of a step" in judge(TABLE_1, expensive).reason
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
@@ -111,7 +111,7 @@ def test_a_tolerance_is_a_bound(native_fmu: Path, tolerance: float) -> None:
     assert judge(cell, rung).verdict == PASSED
     peak = float(np.abs(rung.signal("resonator_velocity")).max())
     verdict = judge(cell, changed(rung, "resonator_velocity", 2.0 * tolerance * peak))
-    assert "referee" in verdict.reason, "twice the tolerance is too much"
+    assert "reference" in verdict.reason, "twice the tolerance is too much"
 
 
 def test_the_phase_is_followed_through_changes_of_ratio(native_fmu: Path) -> None:

@@ -41,7 +41,7 @@ def test_a_scene_reaches_what_its_device_asks_for(python_fmu: Path, tmp_path: Pa
     sticking.write_text(text.replace("[run]", "[device]\nbase_amplitude = 0.0\n\n[run]"))
     lugre = {"friction_law": 1.0}
     points = [
-        Point(file, at, read_scene(file, at), ())
+        Point(read_scene(file, at), at)
         for file, at in ((slipping, {}), (sticking, {}), (slipping, lugre))
     ]
     reached = reaches(read_python_fmu(python_fmu), points, 60.0, jobs=1)

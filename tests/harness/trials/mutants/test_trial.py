@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.scenes.scene import scene_from
 from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
 from slider_resonator.trials.mutants.points import probe_points, scene_points
 from slider_resonator.trials.mutants.trial import Passed, Point, Rejection, trial
@@ -72,13 +73,11 @@ def test_an_fmu_that_cannot_be_loaded_is_rejected(faulty: Faulty, points: list[P
 
 
 def test_a_probe_sees_an_output_that_is_wrong_in_the_run_only(
-    faulty: Faulty, python_fmu: Path, tmp_path: Path
+    faulty: Faulty, python_fmu: Path
 ) -> None:
-    probe = tmp_path / "probe.toml"
-    probe.write_text(
-        'name = "probe"\ntitle = "Nothing but its outputs"\n'
-        "[run]\ndrive_periods = 2\nsteps_per_period = 8\n"
-    )
+    run = {"drive_periods": 2, "steps_per_period": 8}
+    content = {"name": "probe", "title": "Nothing but its outputs", "run": run}
+    probe = scene_from(content, "probe")
     points = probe_points(python_fmu, [probe], 60.0)
     assert isinstance(trial(python_fmu, points, 60.0), Passed)
     wrong = faulty("outputs.py", "view.moment.psi - ratio", "view.moment.psi + ratio")

@@ -1,4 +1,4 @@
-"""What a process that an FMU has ended says about the call that it died in."""
+"""Describing how the process of an FMU ended, and in which call."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import re
 import signal
 from collections.abc import Mapping
 
-LONGEST = 500
-"""Characters of what the FMU itself has printed that are worth repeating."""
+MAX_PRINTED = 500
+"""Characters of the FMU's own output that are repeated."""
 
 _CALLS: Mapping[str, str] = {
     "step_to": "fmi2DoStep",
@@ -25,8 +25,8 @@ _FRAME = re.compile(r'File ".*[\\/]drive\.py", line \d+ in (\w+)')
 _TRACEBACK = re.compile(r"^(Fatal Python error: |Timeout \(|Windows fatal exception: )", re.M)
 
 
-def last_words(log: str, code: int | None, limit: float) -> str:
-    """Return in a sentence how the process ended: `code` is None where it had to be ended.
+def crash_report(log: str, code: int | None, limit: float) -> str:
+    """Return a sentence on how the process ended; `code` is None where it had to be killed.
 
     `log` is what it wrote to standard error, with the traceback of the call it was in; `limit` is
     its time limit (s).
@@ -35,13 +35,13 @@ def last_words(log: str, code: int | None, limit: float) -> str:
     call = next((_CALLS[name] for name in _FRAME.findall(log) if name in _CALLS), "")
     where = f" in {call}" if call else ""
     if timed_out:
-        said = f"no answer within the time limit of {limit:g} s{where}: the FMU was ended"
+        report = f"no answer within the time limit of {limit:g} s{where}: the FMU was ended"
     else:
-        said = f"the FMU crashed{where}: its process ended with {_ending(code)}"
+        report = f"the FMU crashed{where}: its process ended with {_ending(code)}"
     found = _TRACEBACK.search(log)
     printed = log[: found.start()] if found else log
-    own = " ".join(printed.split())[-LONGEST:]
-    return f"{said}; it printed: {own}" if own else said
+    own = " ".join(printed.split())[-MAX_PRINTED:]
+    return f"{report}; it printed: {own}" if own else report
 
 
 def _ending(code: int | None) -> str:

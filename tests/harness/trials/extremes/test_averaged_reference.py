@@ -1,4 +1,4 @@
-"""Averaged motion in the matrix is held against a reference too."""
+"""Averaged motion in the matrix is compared with a reference too."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import pytest
 
 from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.trials.extremes.averaged_referee import REFERENCE, follows
+from slider_resonator.trials.extremes.averaged_reference import REFERENCE_ERROR, covers
 from slider_resonator.trials.extremes.cell import Cell, Hold, Model
 from slider_resonator.trials.extremes.judge import judge
 from slider_resonator.trials.extremes.matrix import all_cells
 from slider_resonator.trials.extremes.observe import NAMES, Observation, observe
-from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFEREE
+from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFERENCE
 
 CELL = Cell("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0.02),))
 
@@ -28,7 +28,7 @@ def seen(native_fmu: Path) -> Observation:
 def test_averaged_motion_agrees(seen: Observation) -> None:
     verdict = judge(CELL, seen)
     assert verdict.verdict == PASSED, verdict.reason
-    (check,) = [check for check in verdict.checks if check.name == REFEREE]
+    (check,) = [check for check in verdict.checks if check.name == REFERENCE]
     assert 0.0 < check.found < 0.2, "well within what the reference's steps leave"
 
 
@@ -38,16 +38,16 @@ def test_a_mean_friction_that_is_slightly_off_fails(
 ) -> None:
     """Sizes are v_q of table 1 and some of the path in 0.2 s; momentum alone bounds neither."""
     outputs = seen.outputs.copy()
-    outputs[-1, NAMES.index(name)] += 3.0 * REFERENCE * size
+    outputs[-1, NAMES.index(name)] += 3.0 * REFERENCE_ERROR * size
     wrong = judge(CELL, replace(seen, outputs=outputs))
     assert wrong.verdict == FAILED
-    assert "referee" in wrong.reason
+    assert "reference" in wrong.reason
 
 
 def test_most_averaged_cells_are_covered() -> None:
     averaged = [cell for cell in all_cells() if cell.model.fidelity == 0]
-    left = {cell.axis for cell in averaged if not follows(cell)}
-    assert sum(map(follows, averaged)) > 0.8 * len(averaged)
+    left = {cell.axis for cell in averaged if not covers(cell)}
+    assert sum(map(covers, averaged)) > 0.8 * len(averaged)
     assert not left & {"Omega", "xi", "critical damping", "frequency ratio", "blocking load"}
 
 
@@ -63,4 +63,4 @@ def test_most_averaged_cells_are_covered() -> None:
 def test_what_the_reference_has_no_average_for_is_left_to_the_other_bounds(
     parameters: dict[str, float],
 ) -> None:
-    assert not follows(replace(CELL, parameters=parameters))
+    assert not covers(replace(CELL, parameters=parameters))

@@ -1,4 +1,4 @@
-"""Averaged motion in the matrix against the reference, which takes the averages another way."""
+"""Comparing averaged motion with the averaged reference, which computes the means differently."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ from numpy.typing import NDArray
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.trials.extremes.cell import DIVISIBLE, Cell
+from slider_resonator.trials.extremes.cell import MIN_DIVISIBLE, Cell
 from slider_resonator.trials.extremes.observe import Observation
-from slider_resonator.trials.extremes.verdict import REFEREE, Check
+from slider_resonator.trials.extremes.verdict import REFERENCE, BoundCheck
 
-REFERENCE = 1e-6
-"""Deviation, as a share of peaks, that the reference's own steps leave: each of them keeps 1e-8."""
-MOST_RELAXATIONS = 5000.0
-"""Times in which friction stops the fast velocity, up to which the reference follows LuGre
-friction: beyond, its quadratures in stiff steps take longer than all the rest."""
+REFERENCE_ERROR = 1e-6
+"""Error of the reference, as a fraction of peaks; each of its steps keeps 1e-8."""
+MAX_RELAXATIONS = 5000.0
+"""Longest run with LuGre friction, in times that friction takes to stop the fast velocity: beyond,
+the quadratures of the reference in stiff steps take longer than all other cells together."""
 
 
-def follows(cell: Cell) -> bool:
-    """Whether the reference covers a cell of averaged motion, at a cost that can be borne.
+def covers(cell: Cell) -> bool:
+    """Return whether the reference covers a cell of averaged motion at a bearable cost.
 
     It needs friction under a mean load, and a vibration.
     """
     device = cell.device
     friction = device.friction_faces * device.friction_coefficient * device.normal_preload
-    if cell.start_time or not friction > 0.0 or min(h.size for h in cell.holds) <= DIVISIBLE:
+    if cell.start_time or not friction > 0.0 or min(h.size for h in cell.holds) <= MIN_DIVISIBLE:
         return False
     try:
         fast = equivalent_force(device).velocity_amplitude
     except ValueError:  # undamped resonance: no steady vibration
         return False
     duration = sum(hold.size * hold.count for hold in cell.holds)
-    lasting = MOST_RELAXATIONS * device.total_mass * fast / friction
+    lasting = MAX_RELAXATIONS * device.total_mass * fast / friction
     return fast > 0.0 and (device.friction_law == 0 or duration <= lasting)
 
 
@@ -45,8 +45,8 @@ def compare(
     held: Sequence[HeldInputs],
     times: NDArray[np.float64],
     own: float,
-) -> Check:
-    """Return the check of mean velocity and position; `own` is the share that the FMU may err.
+) -> BoundCheck:
+    """Return the check of mean velocity and position; `own` is the error allowed to the FMU.
 
     Raises what the reference does: RuntimeError, ValueError.
     """
@@ -58,7 +58,7 @@ def compare(
         # Before the first step there is no mean over a period.
         there, here = getattr(motion, name)[1:], seen.signal(name)[1:]
         off, size = float(np.abs(here - there).max()), max(float(np.abs(there).max()), floor)
-        found = off / (size * (REFERENCE + own))
+        found = off / (size * (REFERENCE_ERROR + own))
         if not found <= worst:
             worst, words = found, f"{name} off by {off:.3g}, {off / size:.3g} of its peak"
-    return Check(REFEREE, worst, words)
+    return BoundCheck(REFERENCE, worst, words)

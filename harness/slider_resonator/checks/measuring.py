@@ -1,0 +1,106 @@
+"""How each quantity of the vocabulary is measured in an FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
+from slider_resonator.checks.measures.ripple import ripple_amplitude
+from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.errors import SceneError
+from slider_resonator.scenes.vocabulary import QUANTITIES
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """The value of a quantity in an FMU: number, word, None or a signal (n,).
+
+    `note` is the reason for a None; `times` (s), shape (n,), are the points of a signal.
+    """
+
+    value: Any
+    note: str = ""
+    times: Array | None = None
+
+
+def measure(quantity: str, fmu: FmuSide) -> Measurement:
+    """Measure a quantity in the FMU; SceneError when the scene does not allow it."""
+    try:
+        value = MEASURES[quantity](fmu)
+    except (NoOscillation, np.linalg.LinAlgError, ArithmeticError) as error:
+        return Measurement(None, f"{quantity} does not exist: {error}")
+    except (ValueError, RuntimeError) as error:
+        where = f"{fmu.scene.source}: {quantity}"
+        raise SceneError(f"{where} cannot be measured: {error}") from error
+    if QUANTITIES[quantity].kind == "signal":
+        return Measurement(value, times=fmu.record.times[-len(value) :])
+    if value is None:
+        search = fmu.steady if quantity == "steady_velocity" else fmu.blocking
+        return Measurement(None, search.reason)
+    return Measurement(value)
+
+
+def measure_all(fmu: FmuSide) -> tuple[Measurement, ...]:
+    """Measure each expectation of the scene in turn; SceneError as `measure` raises it."""
+    return tuple(measure(expect.quantity, fmu) for expect in fmu.scene.expect)
+
+
+def _output(name: str) -> Callable[[FmuSide], Array]:
+    return lambda fmu: fmu.record[name]
+
+
+def _final(name: str) -> Callable[[FmuSide], float]:
+    """Return a function for an output at the end of the run."""
+    return lambda fmu: fmu.record.final(name)
+
+
+def _later_half(times: Array, signal: Array) -> tuple[Array, Array]:
+    half = len(times) // 2
+    return times[half:], signal[half:]
+
+
+MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
+    "steady_velocity": lambda fmu: fmu.steady.steady_velocity,
+    "steady_status": lambda fmu: fmu.steady.status,
+    "steady_periods": lambda fmu: fmu.steady.periods,
+    "blocking_force": lambda fmu: fmu.blocking.blocking_force,
+    "blocking_status": lambda fmu: fmu.blocking.status,
+    "blocking_periods": lambda fmu: fmu.blocking.periods,
+    "predicted_velocity": lambda fmu: fmu.steady.predicted,
+    "predicted_blocking_force": lambda fmu: fmu.blocking.predicted,
+    "final_predicted_velocity": _final("steady_velocity"),
+    "final_predicted_blocking_force": _final("blocking_force"),
+    "position": _output("position"),
+    "velocity": _output("velocity"),
+    "resonator_displacement": _output("resonator_displacement"),
+    "resonator_velocity": _output("resonator_velocity"),
+    "normal_force": _output("normal_force"),
+    "friction_force": _output("friction_force"),
+    "contact_mode": _output("contact_mode"),
+    "slow_displacement": lambda fmu: slow_displacement(
+        fmu.record.times, fmu.record["position"], fmu.drive_period
+    ),
+    "mean_velocity": _final("mean_velocity"),
+    "stick_fraction": _final("stick_fraction"),
+    "reversals": _final("reversals"),
+    "event_times": lambda fmu: fmu.record["last_event_time"] / fmu.drive_period,
+    "last_event_time": _final("last_event_time"),
+    "ripple_amplitude": lambda fmu: ripple_amplitude(
+        fmu.record.times, fmu.record["position"], fmu.drive_period
+    ),
+    "ripple_frequency": lambda fmu: dominant_frequency(
+        *_later_half(fmu.record.times, fmu.record["velocity"])
+    ),
+    "beat_frequency": lambda fmu: dominant_frequency(
+        *_later_half(fmu.record.times, fmu.record["mean_velocity"])
+    ),
+}
+"""Quantity to the function that takes it from the FMU; None is for what does not exist."""

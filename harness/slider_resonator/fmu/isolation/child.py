@@ -1,0 +1,91 @@
+"""The process of an isolated FMU: runs tasks on one instance, whatever the FMU does to it.
+
+`python -m slider_resonator.fmu.isolation.child FMU SECONDS` reads requests from its standard input
+and writes messages to its standard output, both pickled. The FMU itself sees an empty standard
+input, and what it prints goes to standard error. A call that takes longer than SECONDS ends the
+process with a traceback, also inside native code.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import pickle
+import sys
+import traceback
+from collections.abc import Iterator
+from functools import partial
+from typing import BinaryIO
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.isolation.messages import Failure, Message, Progress, Request, Result
+from slider_resonator.fmu.opening import open_fmu
+
+
+def main() -> None:
+    """Instantiate the FMU and run tasks until there are no more requests."""
+    path, limit = sys.argv[1], float(sys.argv[2])
+    requests, messages = _take_standard_streams()
+    faulthandler.enable()
+    faulthandler.dump_traceback_later(limit, exit=True)
+    try:
+        with open_fmu(path) as fmu, instantiate(fmu) as instance:
+            faulthandler.cancel_dump_traceback_later()
+            _send(messages, Result())
+            for request in _read(requests):
+                faulthandler.dump_traceback_later(limit, exit=True)
+                message = _run(instance, request, messages)
+                faulthandler.cancel_dump_traceback_later()
+                _send(messages, message)
+            faulthandler.dump_traceback_later(limit, exit=True)
+    except HarnessError as error:
+        _send(messages, Failure(error))
+
+
+def _take_standard_streams() -> tuple[BinaryIO, BinaryIO]:
+    """Return standard input and output under other descriptors, out of the FMU's way."""
+    requests, messages = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    os.dup2(2, 1)
+    return requests, messages
+
+
+def _read(requests: BinaryIO) -> Iterator[Request]:
+    while True:
+        try:
+            yield pickle.load(requests)
+        except EOFError:
+            return
+
+
+def _run(instance: Instance, request: Request, messages: BinaryIO) -> Message:
+    task = request.task
+    if request.reports_progress:
+        task = partial(task, progress=lambda share: _send(messages, Progress(share)))
+    try:
+        return Result(task(instance))
+    except HarnessError as error:
+        return Failure(error)
+    except Exception:
+        return _internal(traceback.format_exc())
+
+
+def _send(messages: BinaryIO, message: Message) -> None:
+    try:
+        content = pickle.dumps(message)
+    except Exception:  # pickle raises anything
+        content = pickle.dumps(_internal(traceback.format_exc()))
+    messages.write(content)
+    messages.flush()
+
+
+def _internal(trace: str) -> Failure:
+    """Return the failure of a task that raised what only a programming error can raise."""
+    return Failure(RuntimeError(f"a task failed in the process of the FMU:\n{trace}"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,19 @@
+"""Environment variables of the processes that the harness starts."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+PACKAGE_PATH = str(Path(__file__).resolve().parents[3])
+"""The folder that this package is imported from."""
+
+
+def child_environment(folder: str, *search_path: str) -> dict[str, str]:
+    """Return this process's environment with temporary files in `folder`.
+
+    This package is importable there, and what is in the folders of `search_path`.
+    """
+    temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+    search = os.pathsep.join([PACKAGE_PATH, *filter(None, search_path)])
+    return {**os.environ, **temporary, "PYTHONPATH": search}

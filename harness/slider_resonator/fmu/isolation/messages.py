@@ -1,0 +1,40 @@
+"""What an isolated FMU and the process that started it send each other, pickled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Request:
+    """A task to run; one that reports progress is called with a keyword argument `progress`."""
+
+    task: Callable[..., Any]
+    reports_progress: bool
+
+
+@dataclass(frozen=True)
+class Progress:
+    """The share of the present task that is done, from 0 to 1."""
+
+    share: float
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a task returned; the first message is an empty result: the FMU is instantiated."""
+
+    value: Any = None
+
+
+@dataclass(frozen=True)
+class Failure:
+    """What a task raised instead."""
+
+    error: Exception
+
+
+Message = Progress | Result | Failure
+"""What the process of the FMU sends."""

@@ -1,0 +1,90 @@
+"""Many tasks on an isolated FMU, whose process is replaced when a task ends or breaks it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
+
+MAX_CRASHES = 3
+"""Crashes or missed time limits after which no more tasks are run."""
+
+Item = TypeVar("Item")
+
+
+@dataclass(frozen=True)
+class Finished(Generic[Item]):
+    """The `result` of the task of an item, or the `error` in its place.
+
+    Without an item the error is about the FMU as a whole.
+    """
+
+    item: Item | None
+    result: Any = None
+    error: HarnessError | None = None
+
+
+def run_tasks(
+    fmu: Path,
+    tasks: Sequence[tuple[Item, Task]],
+    time_limit: float,
+    *,
+    name: Callable[[Item], str],
+    meanwhile: Callable[[Item], None] = lambda item: None,
+    max_crashes: int | None = MAX_CRASHES,
+) -> Generator[Finished[Item], None, None]:
+    """Run a task for each item, one after the other, and yield what came of each.
+
+    `meanwhile` is called for an item while the FMU is at work on it. After a crash or a missed
+    `time_limit` (s) the other items of that `name` are left out, and after `max_crashes` all.
+    """
+    process: IsolatedFmu | None = None
+    crashed: set[str] = set()
+    crashes = 0
+    try:
+        for index, (item, task) in enumerate(tasks):
+            if name(item) in crashed:
+                continue
+            if process is None:
+                try:
+                    process = IsolatedFmu(fmu, time_limit)
+                except FmuError as error:
+                    yield Finished(None, error=error)
+                    return
+            try:
+                process.submit(task)
+                meanwhile(item)
+                result = process.result()
+            except HarnessError as error:
+                process.kill()
+                process = None
+                if isinstance(error, FmuDied):
+                    crashed.add(name(item))
+                    crashes += 1
+                yield Finished(item, error=error)
+            else:
+                yield Finished(item, result)
+            if crashes == max_crashes:
+                rest = [name(other) for other, _ in tasks[index + 1 :]]
+                left_out = [one for one in dict.fromkeys(rest) if one not in crashed]
+                if left_out:
+                    yield Finished(None, error=_gave_up(crashes, left_out))
+                return
+        if process is not None:
+            try:
+                process.close()
+            except FmuDied as error:
+                yield Finished(None, error=error)
+    finally:
+        if process is not None:
+            process.kill()
+
+
+def _gave_up(crashes: int, names: Sequence[str]) -> FmuError:
+    return FmuError(
+        f"given up after {crashes} crashes or missed time limits; not run: {', '.join(names)}"
+    )

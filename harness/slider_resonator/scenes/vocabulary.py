@@ -1,0 +1,141 @@
+"""The vocabulary of scene files: every quantity with its unit, meaning and references, as data.
+
+How a quantity is measured in an FMU is in `slider_resonator.checks.measuring`, what a reference
+gives for it in `slider_resonator.checks.expecting`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal["number", "word", "signal"]
+
+MAX_TUBE = 0.25
+"""Share of a drive period that a tube stays below: at half a period it holds a reversed sign."""
+
+RESOLVED = ("located_events", "taylor", "bristle_state")
+"""References with the fast motion, known at any time; `bristle_state` is for LuGre friction."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number, word or signal that a scene can expect something of.
+
+    `references` are the names of those that it can be compared with, `tube_references` those that
+    can have a tube. An `exact` quantity, a count or a word, needs no tolerance. A signal
+    `in_periods` is compared by its deviation in drive periods, any other as a share of its peak.
+    """
+
+    kind: Kind
+    unit: str
+    meaning: str
+    references: tuple[str, ...] = ()
+    needs_run: bool = False
+    exact: bool = False
+    tube_references: tuple[str, ...] = ()
+    in_periods: bool = False
+
+    @property
+    def relative_to_peak(self) -> bool:
+        """Whether a deviation is a share of the reference's peak."""
+        return self.kind == "signal" and not self.in_periods
+
+
+def _number(unit: str, meaning: str, *references: str, exact: bool = False) -> Quantity:
+    """Return a quantity that needs no run."""
+    return Quantity("number", unit, meaning, references, exact=exact)
+
+
+def _word(meaning: str) -> Quantity:
+    return Quantity("word", "", meaning, exact=True)
+
+
+def _number_of_run(unit: str, meaning: str, *references: str, exact: bool = False) -> Quantity:
+    return Quantity("number", unit, meaning, references, needs_run=True, exact=exact)
+
+
+def _output(unit: str, meaning: str, *averaged: str) -> Quantity:
+    """Return an output of the FMU that is compared at each communication point."""
+    references = (*RESOLVED, *averaged)
+    return Quantity("signal", unit, meaning, references, needs_run=True, tube_references=RESOLVED)
+
+
+QUANTITIES: Mapping[str, Quantity] = {
+    "steady_velocity": _number(
+        "m/s",
+        "mean velocity of the steady motion, by shooting",
+        *("located_events", "closed_form", "averaged"),
+    ),
+    "steady_status": _word("outcome of the search for steady motion"),
+    "steady_periods": _number("1", "drive periods simulated for it", exact=True),
+    "blocking_force": _number(
+        "N",
+        "load under which the mean velocity is zero, by shooting",
+        *("located_events", "closed_form", "averaged"),
+    ),
+    "blocking_status": _word("outcome of the search for the blocking force"),
+    "blocking_periods": _number("1", "drive periods simulated for it", exact=True),
+    "predicted_velocity": _number(
+        "m/s", "the FMU's output steady_velocity", "closed_form", "averaged"
+    ),
+    "predicted_blocking_force": _number(
+        "N", "the FMU's output blocking_force", "closed_form", "averaged"
+    ),
+    "final_predicted_velocity": _number_of_run(
+        "m/s", "the FMU's output steady_velocity at the end of the run", "averaged"
+    ),
+    "final_predicted_blocking_force": _number_of_run(
+        "N", "the FMU's output blocking_force at the end of the run", "averaged"
+    ),
+    "position": _output("m", "slider position", "averaged"),
+    "velocity": _output("m/s", "slider velocity", "averaged"),
+    "resonator_displacement": _output("m", "relative displacement"),
+    "resonator_velocity": _output("m/s", "relative velocity"),
+    "normal_force": _output("N", "normal force of a face"),
+    "friction_force": _output("N", "friction force of all faces"),
+    "contact_mode": Quantity(
+        "signal",
+        "1",
+        "share of points in another contact mode",
+        RESOLVED,
+        needs_run=True,
+        exact=True,
+    ),
+    "slow_displacement": Quantity(
+        "signal",
+        "m",
+        "position averaged over a drive period",
+        ("located_events", "averaged"),
+        needs_run=True,
+    ),
+    "mean_velocity": _number_of_run(
+        "m/s",
+        "mean velocity over the last whole drive period of the run",
+        *("located_events", "averaged"),
+    ),
+    "stick_fraction": _number_of_run(
+        "1", "share of the last whole drive period of the run spent sticking", "located_events"
+    ),
+    "reversals": _number_of_run("1", "reversals of sliding during the run", *RESOLVED, exact=True),
+    "event_times": Quantity(
+        "signal",
+        "drive periods",
+        "time of the last event before each point of the run",
+        ("located_events", "taylor"),
+        needs_run=True,
+        in_periods=True,
+    ),
+    "last_event_time": _number_of_run("s", "time of the last event of the run", "located_events"),
+    "ripple_amplitude": _number_of_run(
+        "m", "amplitude of the fast oscillation of the position", "closed_form"
+    ),
+    "ripple_frequency": _number_of_run("Hz", "dominant frequency of the velocity", "closed_form"),
+    "beat_frequency": _number_of_run(
+        "Hz",
+        "dominant frequency of the mean velocity in the later half of the run",
+        "closed_form",
+    ),
+}
+"""Every quantity by the name that scene files use."""

@@ -1,0 +1,69 @@
+"""Tasks that the tests run in the process of an FMU, which imports this module."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from slider_resonator.fmu.drive import Instance
+
+
+def position_after(instance: Instance, time: float) -> float:
+    instance.start({})
+    instance.step_to(time)
+    return instance.value("position")
+
+
+def refused(instance: Instance) -> None:
+    instance.start({"friction_faces": 7})
+
+
+def fail(instance: Instance) -> None:
+    raise KeyError("a mistake")
+
+
+def unpicklable(instance: Instance) -> Callable[[], None]:
+    return lambda: None
+
+
+def in_thirds(instance: Instance, progress: Callable[[float], None]) -> str:
+    for third in range(3):
+        progress(third / 3)
+    return "done"
+
+
+def abort(instance: Instance) -> None:
+    os.abort()
+
+
+def leave(instance: Instance) -> None:
+    os._exit(0)
+
+
+def stop(instance: Instance) -> None:
+    """Stop all threads of the process, its own time limit too."""
+    os.kill(os.getpid(), signal.SIGSTOP)
+
+
+def hang(instance: Instance) -> None:
+    time.sleep(600.0)
+
+
+def disturb(instance: Instance) -> str:
+    """Print, and read what there is to read."""
+    os.write(1, b"printed")
+    return os.read(0, 100).decode()
+
+
+def start_child(instance: Instance, pid_file: Path, then: str) -> None:
+    """Start a process that holds the pipes, and end as `then` says."""
+    code = "import time; time.sleep(600)"
+    with subprocess.Popen([sys.executable, "-c", code], close_fds=False) as child:
+        pid_file.write_text(str(child.pid))
+        {"leave": os._exit, "abort": lambda _: os.abort(), "return": lambda _: None}[then](0)
+        child.returncode = 0  # else this waits for it

@@ -1,0 +1,135 @@
+from __future__ import annotations
+
+import os
+import tempfile
+import time
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.errors import FmuError, Refusal
+from slider_resonator.fmu.isolation import process
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
+from tests.harness.fmu.isolation import tasks_of_tests as tasks
+
+REPOSITORY = Path(__file__).resolve().parents[4]
+
+
+@pytest.fixture(autouse=True)
+def importable_tasks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(REPOSITORY))
+
+
+@pytest.fixture
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder for temporary files of the test."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    return folder
+
+
+@pytest.fixture
+def isolated(native_fmu: Path) -> Iterator[IsolatedFmu]:
+    with IsolatedFmu(native_fmu, 60.0) as made:
+        yield made
+
+
+def test_tasks_share_one_instance_and_return_results(isolated: IsolatedFmu) -> None:
+    first = isolated.run(partial(tasks.position_after, time=0.01))
+    assert first != 0.0
+    assert isolated.run(partial(tasks.position_after, time=0.01)) == first
+
+
+def test_an_error_keeps_its_type_and_the_process_goes_on(isolated: IsolatedFmu) -> None:
+    with pytest.raises(Refusal, match="friction_faces = 7 refused"):
+        isolated.run(tasks.refused)
+    assert isolated.run(partial(tasks.position_after, time=0.01)) != 0.0
+
+
+@pytest.mark.parametrize(
+    ("task", "reason"), [(tasks.fail, "in fail\n"), (tasks.unpicklable, "pickle")]
+)
+def test_a_programming_error_has_the_traceback_of_the_process(
+    isolated: IsolatedFmu, task: process.Task, reason: str
+) -> None:
+    with pytest.raises(RuntimeError, match=reason):
+        isolated.run(task)
+
+
+def test_progress_arrives_before_the_result(isolated: IsolatedFmu) -> None:
+    shares: list[float] = []
+    assert isolated.run(tasks.in_thirds, shares.append) == "done"
+    assert shares == [0.0, 1 / 3, 2 / 3]
+
+
+def test_the_fmu_shares_no_stream_with_the_harness(isolated: IsolatedFmu) -> None:
+    assert isolated.run(tasks.disturb) == ""
+
+
+@pytest.mark.parametrize(
+    ("task", "reason"), [(tasks.abort, "SIGABRT"), (tasks.leave, "exit code 0")]
+)
+def test_a_process_that_ends_is_reported_and_cleaned_up(
+    native_fmu: Path, temporary: Path, task: process.Task, reason: str
+) -> None:
+    isolated = IsolatedFmu(native_fmu, 60.0)
+    with pytest.raises(FmuDied, match=reason):
+        isolated.run(task)
+    assert not list(temporary.iterdir())
+    with pytest.raises(FmuDied, match="has been ended"):
+        isolated.run(task)
+
+
+def test_a_task_has_a_time_limit(native_fmu: Path) -> None:
+    with (
+        pytest.raises(FmuDied, match="within the time limit of 1 s"),
+        IsolatedFmu(native_fmu, 1.0) as isolated,
+    ):
+        isolated.run(tasks.hang)
+
+
+def test_a_process_that_does_not_end_itself_is_killed(
+    native_fmu: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    isolated = IsolatedFmu(native_fmu, 1.0)
+    monkeypatch.setattr(process, "GRACE", 0.5)
+    with pytest.raises(FmuDied, match="within the time limit of 1 s"):
+        isolated.run(tasks.stop)
+    assert not list(temporary.iterdir())
+
+
+@pytest.mark.parametrize("then", ["leave", "abort", "return"])
+def test_a_process_that_the_fmu_started_neither_survives_nor_blocks(
+    native_fmu: Path, tmp_path: Path, then: str
+) -> None:
+    pid_file = tmp_path / "pid"
+    began = time.monotonic()
+    try:
+        with IsolatedFmu(native_fmu, 60.0) as isolated:
+            isolated.run(partial(tasks.start_child, pid_file=pid_file, then=then))
+    except FmuDied:
+        assert then != "return"
+    assert time.monotonic() - began < 30.0, "the end of the FMU's own process is noticed"
+    assert _has_ended(int(pid_file.read_text()))
+
+
+def _has_ended(pid: int) -> bool:
+    """Whether a process is gone within seconds, or waits as a zombie for who started it."""
+    for _ in range(100):
+        try:
+            os.kill(pid, 0)
+            if Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
+                return True
+        except (ProcessLookupError, FileNotFoundError):
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def test_an_fmu_that_cannot_be_used(tmp_path: Path, temporary: Path) -> None:
+    with pytest.raises(FmuError, match="no such file"):
+        IsolatedFmu(tmp_path / "none.fmu", 60.0)
+    assert not list(temporary.iterdir())

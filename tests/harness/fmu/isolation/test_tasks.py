@@ -1,0 +1,53 @@
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.fmu.isolation.tasks import Finished, run_tasks
+from tests.harness.fmu.isolation import tasks_of_tests as tasks
+
+REPOSITORY = Path(__file__).resolve().parents[4]
+MOVE = partial(tasks.position_after, time=0.01)
+
+
+@pytest.fixture(autouse=True)
+def importable_tasks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(REPOSITORY))
+
+
+def outcome(finished: Finished[str]) -> str:
+    if finished.error is None:
+        return "done"
+    return "died" if isinstance(finished.error, FmuDied) else "error"
+
+
+def test_a_task_that_fails_leaves_the_others_alone(native_fmu: Path) -> None:
+    given = [("a", MOVE), ("b", tasks.refused), ("c", tasks.abort), ("d", MOVE)]
+    working: list[str] = []
+    finished = list(run_tasks(native_fmu, given, 60.0, name=str, meanwhile=working.append))
+    assert [one.item for one in finished] == working == ["a", "b", "c", "d"]
+    assert [outcome(one) for one in finished] == ["done", "error", "died", "done"]
+    assert finished[0].result == finished[3].result
+
+
+def test_tasks_of_one_name_are_left_out_after_a_crash(native_fmu: Path) -> None:
+    given = [("a", tasks.abort), ("a", MOVE), ("b", MOVE)]
+    finished = list(run_tasks(native_fmu, given, 60.0, name=str))
+    assert [(one.item, outcome(one)) for one in finished] == [("a", "died"), ("b", "done")]
+
+
+def test_an_fmu_that_keeps_crashing_is_given_up_unless_told_otherwise(native_fmu: Path) -> None:
+    given = [(name, tasks.abort) for name in "abc"]
+    *_, last = run_tasks(native_fmu, given, 60.0, name=str, max_crashes=2)
+    assert last.item is None
+    assert str(last.error) == "given up after 2 crashes or missed time limits; not run: c"
+    assert len(list(run_tasks(native_fmu, given, 60.0, name=str, max_crashes=None))) == 3
+
+
+def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:
+    (finished,) = run_tasks(tmp_path / "none.fmu", [("a", MOVE), ("b", MOVE)], 60.0, name=str)
+    assert finished.item is None
+    assert "no such file" in str(finished.error)
