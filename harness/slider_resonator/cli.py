@@ -26,12 +26,10 @@ COMMANDS = (
     "blocking",
     "choose",
     "closed-loop",
-    "crosscheck",
     "extremes",
     "hosts",
     "mutants",
     "paper",
-    "picture",
     "run",
     "scenes",
     "steady",
@@ -134,7 +132,6 @@ def main() -> None:
       python -m harness sweep grid.toml --out table.parquet
       python -m harness trade table_1 --out trade
       python -m harness closed-loop --out closed_loop
-      python -m harness crosscheck --out crosscheck
       python -m harness mutants --sample 200
       python -m harness baseline check my.fmu --dir baseline
     """

@@ -19,8 +19,8 @@ from tests.harness.public_json import assert_public_keys
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
 COMMANDS = (
-    *("validate", "baseline", "mutants", "crosscheck", "choose", "run", "steady", "blocking"),
-    *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "picture", "paper"),
+    *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
+    *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "paper"),
 )
 
 
@@ -90,7 +90,6 @@ def test_validate_as_json(python_fmu: Path, tmp_path: Path) -> None:
         (["validate", "--scene", "/"], "is a directory; must be a scene"),
         (["blocking", "no.fmu"], "no such file"),
         (["bench", "no.fmu"], "no such file"),
-        (["picture", "no.fmu", "--out", "p.png"], "no such file"),
         (["steady"], "Missing argument"),
         (["stedy"], "No such command"),
         (["scenes", "--jsn"], "No such option"),

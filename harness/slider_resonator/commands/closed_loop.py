@@ -18,9 +18,14 @@ from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
-from slider_resonator.studies.closed_loop.course import HOSTS, Course, run_loop
 from slider_resonator.studies.closed_loop.duty import Duty
-from slider_resonator.studies.closed_loop.judge import Agreement, Held, judge_agreement, judge_holds
+from slider_resonator.studies.closed_loop.judge import (
+    Agreement,
+    IntervalResult,
+    judge_agreement,
+    judge_intervals,
+)
+from slider_resonator.studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
 from slider_resonator.studies.closed_loop.picture import draw_loop
 from slider_resonator.studies.closed_loop.prediction import predicted_errors
 
@@ -74,23 +79,23 @@ def closed_loop_command(
     if not package.is_file():
         raise HarnessError(f"{package}: no such file; build it with: python build_fmu.py")
     make_folder(out)
-    held: list[Held] = []
+    held: list[IntervalResult] = []
     agreements: list[Agreement] = []
-    courses: list[Course] = []
+    records: list[LoopRecord] = []
     hosts = [host for host in HOSTS if host.name in (chosen or NAMES[:1])]
     with progress_bar() as progress:
         for index, host in enumerate(hosts):
             share = partial(_shared, progress, host.name, index, len(hosts))
             share(0.0)
             design, proof = run_loop(package, host, duty)
-            courses += [design, proof]
-            held += [*judge_holds(design, duty), *judge_holds(proof, duty)]
+            records += [design, proof]
+            held += [*judge_intervals(design, duty), *judge_intervals(proof, duty)]
             predicted = predicted_errors(package, design, duty, share)
             agreements += judge_agreement(design, proof, duty, predicted)
     title = f"Velocity held by moving the phase: {package.name} in {hosts[0].name}"
     first = agreements[: len(duty.load_steps)]
-    draw_loop(courses[0], courses[1], duty, first, out / "closed_loop.png", title)
-    _write_csv(out / "closed_loop.csv", courses, duty)
+    draw_loop(records[0], records[1], duty, first, out / "closed_loop.png", title)
+    _write_csv(out / "closed_loop.csv", records, duty)
     passed = all(h.passed for h in held) and all(a.passed for a in agreements)
     if as_json:
         facts = {"passed": passed, "package": str(package), "duty": duty}
@@ -112,21 +117,21 @@ def _built() -> Path:
     return PACKAGE if PACKAGE.is_file() else REPOSITORY / PACKAGE
 
 
-def _write_csv(path: Path, courses: Sequence[Course], duty: Duty) -> None:
+def _write_csv(path: Path, records: Sequence[LoopRecord], duty: Duty) -> None:
     """Write the end of each step with the inputs held over it and the outputs."""
     header = ["time [s]", "velocity_reference [m/s]"]
-    columns = [courses[0].times, np.full(len(duty.times), duty.reference)]
-    for course in courses:
-        run = f"{course.host} fidelity {course.fidelity}"
+    columns = [records[0].times, np.full(len(duty.times), duty.reference)]
+    for record in records:
+        run = f"{record.host} fidelity {record.fidelity}"
         header += [f"{run} {name}" for name in ("load [N]", "mean_velocity [m/s]", "phase [rad]")]
-        columns += [course.load, course.velocity, course.phase]
+        columns += [record.load, record.velocity, record.phase]
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(zip(*(column.tolist() for column in columns), strict=True))
 
 
-def _print(held: Sequence[Held], agreements: Sequence[Agreement]) -> None:
+def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> None:
     holds: list[Row] = [
         (
             *(entry.host, str(entry.fidelity), f"{entry.start:g}", f"{1e3 * entry.load:g}"),

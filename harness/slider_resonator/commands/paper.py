@@ -19,7 +19,7 @@ from slider_resonator.studies.paper.reproduce import NAMES, Outcome, reproduce
 
 
 @click.command("paper")
-@out_folder_option("figures, tables and claims; results in it that are still valid are kept")
+@out_folder_option("figures, tables and claims")
 @click.option(
     "--only",
     type=click.Choice(NAMES),
@@ -35,9 +35,8 @@ def paper_command(
     """Reproduce the paper: its figures, three more, and a verdict on each of its statements.
 
     Write figures as PNG and SVG with captions in FIGURES.md, tables of LuGre friction as JSON and
-    in TABLES.md, and claims.md and claims.json. Run only what is missing or has changed. Exit code:
-    0, 1 when a known verdict on a statement is not confirmed or a table deviates, 2 when the FMU
-    could not run.
+    in TABLES.md, and claims.md and claims.json. Exit code: 0, 1 when a known verdict on a statement
+    is not confirmed or a table deviates, 2 when the FMU could not run.
 
     \b
     Examples:
@@ -52,9 +51,7 @@ def paper_command(
 
 def _sentences(outcome: Outcome) -> str:
     lines = [f"written  {outcome.out} in {outcome.wall_time:.1f} s"]
-    lines.append(f"run      {', '.join(outcome.run) or 'nothing'}")
-    if outcome.kept:
-        lines.append(f"kept     {', '.join(outcome.kept)}")
+    lines.append(f"run      {', '.join(outcome.run)}")
     for table in outcome.tables:
         for name, size in table.largest.items():
             verdict = "table   " if size <= table.allowed[name] else "FAIL    "

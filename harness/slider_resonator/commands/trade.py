@@ -25,9 +25,9 @@ from slider_resonator.studies.trade.measure import BUDGET, REPEATS, measure_trad
 from slider_resonator.studies.trade.needs import SUFFIXES, title, write_choices
 from slider_resonator.studies.trade.page import write_trades
 from slider_resonator.studies.trade.plots import draw_picture
+from slider_resonator.studies.trade.problem import Problem, problem_of
 from slider_resonator.studies.trade.result import Trade
 from slider_resonator.studies.trade.summary import comparisons, standings
-from slider_resonator.studies.trade.task import Task, task_of
 
 
 @click.command("trade")
@@ -98,7 +98,7 @@ def trade_command(
       python -m harness trade table_1 lugre detuned_beat --out trade --picture trade.png
       python -m harness trade my.toml --out trade --fmu my.fmu --json
     """
-    tasks = _tasks(scenes or ("table_1",), periods)
+    problems = _problems(scenes or ("table_1",), periods)
     trades: list[Trade] = []
     with ExitStack() as stack:
         progress = stack.enter_context(progress_bar())
@@ -109,8 +109,10 @@ def trade_command(
             name = build if build not in instances else f"{build} {fmu.path.name}"
             instances[name] = stack.enter_context(instantiate(fmu))
         make_folder(out)
-        for task in tasks:
-            trades.append(measure_trade(task, instances, progress, repeats=repeats, budget=budget))
+        for problem in problems:
+            trades.append(
+                measure_trade(problem, instances, progress, repeats=repeats, budget=budget)
+            )
             # After each scene, so that a later failure does not lose minutes of measurement.
             write_rows(out / "trade.csv", trades)
             write_omissions(out / "omissions.csv", trades)
@@ -127,11 +129,11 @@ def trade_command(
         click.echo(f"written {out / 'index.html'}")
 
 
-def _tasks(scenes: Sequence[str], periods: int | None) -> list[Task]:
-    tasks = []
+def _problems(scenes: Sequence[str], periods: int | None) -> list[Problem]:
+    problems = []
     for path in map(find_scene, scenes):
-        tasks += [task_of(p.scene, p.at, periods) for p in read_scene(path).points()]
-    return tasks
+        problems += [problem_of(p.scene, p.at, periods) for p in read_scene(path).points()]
+    return problems
 
 
 def _entry(trade: Trade) -> dict[str, object]:

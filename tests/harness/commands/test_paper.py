@@ -34,7 +34,7 @@ def test_an_unconfirmed_claim_exits_with_1(
     from slider_resonator.studies.paper.claim import AGREES, Claim, ClaimGroup
 
     claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, AGREES, "it does not", False)
-    group = ClaimGroup("claims_x", "X", {}, lambda instance, progress: [claim])
+    group = ClaimGroup("claims_x", "X", (lambda instance: [claim],))
     monkeypatch.setattr(reproduce, "GROUPS", (group,))
     arguments = ["--out", str(tmp_path), "--only", "claims", "--fmu", str(native_fmu)]
     result = CliRunner().invoke(main, ["paper", *arguments])
@@ -51,11 +51,11 @@ def test_a_table_that_deviates_exits_with_1(
     from slider_resonator.studies.paper import reproduce
     from slider_resonator.studies.paper.table import PaperTable
 
-    def measure(instance: object, progress: object) -> dict[str, object]:
+    def measure(instance: object) -> dict[str, object]:
         return {"rows": [{"error": 0.3}]}
 
     name = "lugre_device"
-    table = PaperTable(name, "Forces", "", {"error": "error"}, {"error": 0.1}, {}, measure)
+    table = PaperTable(name, "Forces", "", {"error": "error"}, {"error": 0.1}, measure)
     monkeypatch.setattr(reproduce, "TABLES", {name: table})
     arguments = ["--out", str(tmp_path), "--only", name, "--fmu", str(native_fmu)]
     result = CliRunner().invoke(main, ["paper", *arguments])

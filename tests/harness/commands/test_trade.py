@@ -17,10 +17,10 @@ from slider_resonator.fmu.drive import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.studies.trade.fmu_methods import FmuMethods
 from slider_resonator.studies.trade.peer_methods import peer_methods
+from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import Omission, Trade
-from slider_resonator.studies.trade.task import Task
 from tests.harness.public_json import assert_public_keys
-from tests.harness.studies.trade.scenes import HEAD, TABLE_1, task
+from tests.harness.studies.trade.problems import HEAD, TABLE_1, problem
 from tests.harness.studies.trade.test_needs import TRADE
 
 
@@ -44,7 +44,7 @@ def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
     assert len(rows) == len(document["trade"]["rows"])
     omissions = list(csv.DictReader((out / "omissions.csv").open(encoding="utf-8")))
     assert len(omissions) == len(document["trade"]["omissions"])
-    short = task(tmp_path, TABLE_1, most_periods=8)
+    short = problem(tmp_path, TABLE_1, max_periods=8)
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
         methods = [*FmuMethods(short, "native", instance).methods(), *peer_methods(short)]
     followed = {row["method"] for row in rows if row["answer"] == "run"}
@@ -91,9 +91,9 @@ def test_what_does_not_exist_is_reported_and_nothing_written(
 def test_what_was_measured_before_a_scene_that_fails_is_kept(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def measure(task: Task, *_: object, **__: object) -> Trade:
-        if task.name == "lugre":
-            raise HarnessError("the referee cannot follow it")
+    def measure(problem: Problem, *_: object, **__: object) -> Trade:
+        if problem.name == "lugre":
+            raise HarnessError("the reference cannot follow it")
         return TRADE
 
     monkeypatch.setattr(command, "measure_trade", measure)
@@ -101,7 +101,7 @@ def test_what_was_measured_before_a_scene_that_fails_is_kept(
     arguments = ["trade", "table_1", "lugre", "--out", str(out), "--fmu", str(native_fmu)]
     result = CliRunner().invoke(main, arguments)
     assert result.exit_code == 2
-    assert "the referee cannot follow it" in result.stderr
+    assert "the reference cannot follow it" in result.stderr
     rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
     assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
 

@@ -26,6 +26,6 @@ def test_a_file_with_marks_keeps_all_around_them(tmp_path: Path) -> None:
 def test_marks_that_are_no_pair_are_refused(tmp_path: Path, text: str) -> None:
     path = tmp_path / "README.md"
     path.write_text(text)
-    with pytest.raises(HarnessError, match="allowed is one"):
+    with pytest.raises(HarnessError, match="must have one"):
         write_marked(path, "new", BEGIN, END)
     assert path.read_text() == text

@@ -9,7 +9,7 @@ import pytest
 
 from slider_resonator.references.resolved import located_events, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.studies.trade.peers import paper_method
+from slider_resonator.studies.trade.peers import event_free
 from tests.harness.references.known_motions import (
     FIRST_SLIP,
     FREQUENCY,
@@ -83,7 +83,7 @@ def test_stop_is_complete(simulate: Simulate, allowed: float) -> None:
 )
 def test_paper_method_is_a_plain_integrator_without_contact(name: str) -> None:
     motion = KNOWN_MOTIONS[name]
-    run = paper_method.simulate(motion.device, motion.held, TIMES, rtol=1e-10, atol=1e-12)
+    run = event_free.simulate_sgn(motion.device, motion.held, TIMES, rtol=1e-10, atol=1e-12)
     found = deviation(run, motion.signal, motion.exact(TIMES))
     assert found <= 1e-6, f"{name}: {motion.signal} deviates by {found:.1e} of its peak"
     assert (run.contact_mode == 2).all(), "without normal load the contact is open"

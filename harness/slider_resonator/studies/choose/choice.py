@@ -1,4 +1,4 @@
-"""The answer: what was chosen, what it will get wrong, and what was ruled out."""
+"""The answer: the chosen candidate, its predicted errors, and the models ruled out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The cheapest model that a scene needs: by the laws of the errors, confirmed by a short probe."""
+"""Choose the cheapest model for a scene: by the laws of the errors, confirmed by a probe."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from slider_resonator.studies.choose.candidate import (
 )
 from slider_resonator.studies.choose.choice import Choice, RuledOut
 from slider_resonator.studies.choose.cost import run_cost, search_cost
-from slider_resonator.studies.choose.errors import Wrong
+from slider_resonator.studies.choose.errors import Estimates
+from slider_resonator.studies.choose.evaluation import Evaluation
 from slider_resonator.studies.choose.ladder import step_ladder
 from slider_resonator.studies.choose.probe import FINEST_TOLERANCE, Probe
 from slider_resonator.studies.choose.search import coarsest
 from slider_resonator.studies.choose.steady_need import Found, find, steady_error
-from slider_resonator.studies.choose.tried import Tried
 
 HOPELESS = 1000.0
-"""Times by which the law of averaging must exceed what is allowed to spare the probe."""
-TRIED_FIRST = 1e-6
-"""Tolerance with which communication steps are judged, and the search for the tolerance begins."""
-FEWEST_PERIODS = 40
-"""Drive periods that a search by shooting takes at least."""
+"""Factor by which the law of averaging must exceed the allowed error to skip the probe."""
+FIRST_TOLERANCE = 1e-6
+"""Tolerance at which communication steps are judged and the search for a tolerance starts."""
+MIN_PERIODS = 40
+"""Minimum drive periods of a search by shooting."""
 
 
 def choose(scene: Scene, fmu: str | Path) -> Choice:
@@ -45,7 +45,7 @@ def choose(scene: Scene, fmu: str | Path) -> Choice:
 
 
 def choose_with(instance: Instance, scene: Scene) -> Choice:
-    """Choose as `choose` does, in an instance that is there already."""
+    """Choose as `choose` does, in an existing instance."""
     return _Choosing(instance, scene).answer()
 
 
@@ -66,7 +66,7 @@ def candidates(instance: Instance, scene: Scene) -> tuple[tuple[Candidate, float
 
 
 class _Choosing:
-    """The choice for one scene; SceneError where that needs nothing."""
+    """The choice for one scene; SceneError where it has no needs."""
 
     def __init__(self, instance: Instance, scene: Scene) -> None:
         if scene.need is None:
@@ -84,14 +84,14 @@ class _Choosing:
             self.ladder = step_ladder(self.probe)
         self.law = scene.device.friction_law
         self.periods = 0
-        self._tried: dict[Candidate, Tried] = {}
+        self._evaluations: dict[Candidate, Evaluation] = {}
         self._steady: dict[tuple[str, Candidate], Found] = {}
 
     def answer(self) -> Choice:
         """Try the models from the cheapest on."""
         impossible = self._impossible()
         if impossible:
-            self._try(Candidate(self.probe.truth_model, START_TOLERANCE, self.ladder[0]))
+            self._evaluate(Candidate(self.probe.reference_model, START_TOLERANCE, self.ladder[0]))
             models = self.models()
             return self._choice(
                 None, [RuledOut(m.fidelity, m.friction_law, impossible) for m in models]
@@ -99,22 +99,20 @@ class _Choosing:
         if self.ladder[0] is not None:
             self.probe.resolve(self.ladder[0])
         ruled_out: list[RuledOut] = []
-        best: Tried | None = None
-        for model in sorted(self.models(), key=self._least_cost):
+        best: Evaluation | None = None
+        for model in sorted(self.models(), key=self._min_cost):
             why = self._excluded(model)
-            if why is None and best is not None and self._least_cost(model) >= best.cost:
-                why = (
-                    f"costs at least {self._least_cost(model):.3g} s, the chosen {best.cost:.3g} s"
-                )
+            if why is None and best is not None and self._min_cost(model) >= best.cost:
+                why = f"costs at least {self._min_cost(model):.3g} s, the chosen {best.cost:.3g} s"
             if why is None:
-                tried, why = self._cheapest_of(model)
-                if tried is not None and (best is None or tried.cost < best.cost):
+                evaluation, why = self._cheapest_of(model)
+                if evaluation is not None and (best is None or evaluation.cost < best.cost):
                     if best is not None:
-                        ruled_out.append(_dearer(best, tried))
-                    best = tried
+                        ruled_out.append(_more_expensive(best, evaluation))
+                    best = evaluation
                     continue
-                if tried is not None and best is not None:
-                    ruled_out.append(_dearer(tried, best))
+                if evaluation is not None and best is not None:
+                    ruled_out.append(_more_expensive(evaluation, best))
                     continue
             ruled_out.append(RuledOut(model.fidelity, model.friction_law, why))
         return self._choice(best, ruled_out)
@@ -123,7 +121,7 @@ class _Choosing:
         """Return why not even the resolved device has what is needed, empty where it does."""
         if self.probe.no_beat:
             return f"beat: {self.probe.no_beat}"
-        finest = Candidate(self.probe.truth_model, FINEST_TOLERANCE, None)
+        finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
         for name in self.probe.steady_needs:
             found = self._find(name, finest)
             if found.value is None:
@@ -150,7 +148,7 @@ class _Choosing:
         return None
 
     def _law_of(self, model: Model) -> str:
-        """Return what the laws of the errors say of a model, empty where they say nothing."""
+        """Return what the laws of the errors predict for a model, empty without prediction."""
         scales = self.scales
         if model.friction_law != self.law and scales.kappa:
             share = scales.bristle_share
@@ -164,8 +162,8 @@ class _Choosing:
             )
         return ""
 
-    def _least_cost(self, model: Model) -> float:
-        return self.cost(Candidate(model, model.tolerances[0], self.ladder[0]), FEWEST_PERIODS)
+    def _min_cost(self, model: Model) -> float:
+        return self.cost(Candidate(model, model.tolerances[0], self.ladder[0]), MIN_PERIODS)
 
     def cost(self, candidate: Candidate, periods: int) -> float:
         """Return the cost of the run and of searches that took so many drive periods."""
@@ -177,16 +175,16 @@ class _Choosing:
             cost += search_cost(candidate.model, candidate.tolerance, periods, self.scales)
         return cost
 
-    def _cheapest_of(self, model: Model) -> tuple[Tried | None, str]:
+    def _cheapest_of(self, model: Model) -> tuple[Evaluation | None, str]:
         """Return the cheapest candidate of a model that meets all needs, or why none does."""
         tolerances = model.tolerances
-        first = tolerances.index(TRIED_FIRST) if TRIED_FIRST in tolerances else 0
+        first = tolerances.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in tolerances else 0
         refused = ""
 
         def excess(tolerance: float, step: float | None) -> float:
             nonlocal refused
             try:
-                return self._try(Candidate(model, tolerance, step)).excess
+                return self._evaluate(Candidate(model, tolerance, step)).excess
             except FmuError as error:
                 refused = str(error)
                 return inf
@@ -202,33 +200,33 @@ class _Choosing:
         index = coarsest(lambda i: excess(tolerances[i], step), len(tolerances), 10.0, first)
         if index is None:
             return None, self._why_not(model, refused)
-        return self._try(Candidate(model, tolerances[index], step)), ""
+        return self._evaluate(Candidate(model, tolerances[index], step)), ""
 
     def _why_not(self, model: Model, refused: str) -> str:
-        if all(candidate.model != model for candidate in self._tried):
+        if all(candidate.model != model for candidate in self._evaluations):
             return refused
         return "; ".join(filter(None, (self._nearest(model).why, self._law_of(model))))
 
-    def _nearest(self, model: Model | None = None) -> Tried:
-        """Return what came nearest to the needs, of all that was tried or of a model."""
-        tried = [t for t in self._tried.values() if model in (None, t.candidate.model)]
-        return min(tried, key=lambda t: t.excess)
+    def _nearest(self, model: Model | None = None) -> Evaluation:
+        """Return the evaluation nearest to the needs, of all or of one model."""
+        evaluation = [t for t in self._evaluations.values() if model in (None, t.candidate.model)]
+        return min(evaluation, key=lambda t: t.excess)
 
-    def _try(self, candidate: Candidate) -> Tried:
-        if candidate not in self._tried:
-            wrong: dict[str, Wrong] = {}
+    def _evaluate(self, candidate: Candidate) -> Evaluation:
+        if candidate not in self._evaluations:
+            estimates: Estimates = {}
             periods = 0
             if self.probe.run_needs:
-                wrong |= self.probe.run_errors(candidate)
+                estimates |= self.probe.run_errors(candidate)
             for name in self.probe.steady_needs:
                 found = self._find(name, candidate)
-                finest = Candidate(self.probe.truth_model, FINEST_TOLERANCE, None)
-                wrong[name] = steady_error(found, self._find(name, finest), self.law)
+                finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
+                estimates[name] = steady_error(found, self._find(name, finest), self.law)
                 periods += found.periods
-            allowed = {name: self.needs[name].at(wrong[name].size) for name in wrong}
-            cost = self.cost(candidate, max(periods, FEWEST_PERIODS))
-            self._tried[candidate] = Tried(candidate, wrong, allowed, cost)
-        return self._tried[candidate]
+            allowed = {name: self.needs[name].at(estimates[name].magnitude) for name in estimates}
+            cost = self.cost(candidate, max(periods, MIN_PERIODS))
+            self._evaluations[candidate] = Evaluation(candidate, estimates, allowed, cost)
+        return self._evaluations[candidate]
 
     def _find(self, name: str, candidate: Candidate) -> Found:
         key = name, replace(candidate, step=None)
@@ -237,20 +235,22 @@ class _Choosing:
             self.periods += self._steady[key].periods
         return self._steady[key]
 
-    def _choice(self, best: Tried | None, ruled_out: list[RuledOut]) -> Choice:
-        tried = best or self._nearest()
-        model = tried.candidate.model
+    def _choice(self, best: Evaluation | None, ruled_out: list[RuledOut]) -> Choice:
+        evaluation = best or self._nearest()
+        model = evaluation.candidate.model
         covers = self.probe.covers if self.probe.run_needs else "steady motion"
-        reason = "the cheapest that meets every need" if best else f"none suffices: {tried.why}"
+        reason = (
+            "the cheapest that meets every need" if best else f"none suffices: {evaluation.why}"
+        )
         return Choice(
             fidelity=model.fidelity,
             friction_law=model.friction_law,
-            step=tried.candidate.step,
-            tolerance=tried.candidate.tolerance,
+            step=evaluation.candidate.step,
+            tolerance=evaluation.candidate.tolerance,
             meets=best is not None,
-            error={name: wrong.error for name, wrong in tried.wrong.items()},
-            allowed=tried.allowed,
-            cost=tried.cost,
+            error={name: estimate.error for name, estimate in evaluation.estimates.items()},
+            allowed=evaluation.allowed,
+            cost=evaluation.cost,
             ruled_out=tuple(ruled_out),
             reason=reason,
             probe=covers,
@@ -259,7 +259,7 @@ class _Choosing:
         )
 
 
-def _dearer(tried: Tried, best: Tried) -> RuledOut:
-    model = tried.candidate.model
-    why = f"meets the needs too, at {tried.cost:.3g} s instead of {best.cost:.3g} s"
+def _more_expensive(evaluation: Evaluation, best: Evaluation) -> RuledOut:
+    model = evaluation.candidate.model
+    why = f"meets the needs too, at {evaluation.cost:.3g} s instead of {best.cost:.3g} s"
     return RuledOut(model.fidelity, model.friction_law, why)

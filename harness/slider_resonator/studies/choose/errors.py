@@ -1,4 +1,4 @@
-"""How wrong a course is in what the scene needs."""
+"""Errors of a run in what the scene needs."""
 
 from __future__ import annotations
 
@@ -11,76 +11,82 @@ import numpy as np
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.measures.frequency import dominant_frequency
 from slider_resonator.studies.choose.candidate import COULOMB
-from slider_resonator.studies.choose.course import Course
+from slider_resonator.studies.choose.stretch import Samples
 
 ROUNDING = {0: 1e-12, 1: 1e-10}
-"""What even the resolved run leaves open, by friction law, as a share of the size."""
+"""Error of the resolved run itself, by friction law, as a share of the magnitude."""
 EVENT_ROUNDING = 1e-10
 """The same for the times of events, as a share of the drive period."""
 
 
 @dataclass(frozen=True)
-class Wrong:
-    """The error of a quantity and its size, both in its unit.
+class ErrorEstimate:
+    """Error and magnitude of a quantity, both in its unit.
 
-    `error` is infinite where there is no such quantity, `reason` says why then.
+    `error` is infinite where there is no such quantity; `reason` then says why.
     """
 
     error: float
-    size: float
+    magnitude: float
     reason: str = ""
 
 
-def errors(
-    names: Iterable[str], course: Course, truth: Course, period: float, law: int = COULOMB
-) -> dict[str, Wrong]:
-    """Return what each needed quantity of a run is off, as `Quantity` of that name defines it.
+Estimates = dict[str, ErrorEstimate]
+"""Errors by need."""
 
-    Signals are compared at their looks, numbers at the end. `period` (s) is the drive's, `law` the
-    friction law of the truth.
+
+def errors(
+    names: Iterable[str], samples: Samples, reference: Samples, period: float, law: int = COULOMB
+) -> Estimates:
+    """Return the error of each needed quantity of a run, as `Quantity` of that name defines it.
+
+    Signals are compared at their checkpoints, numbers at the end. `period` (s) is the drive's,
+    `law` the friction law of the reference.
     """
     measures = {
-        "mean_velocity": lambda: _difference(course, truth, "mean_velocity", slice(-1, None)),
-        "position": lambda: _difference(course, truth, "position", slice(None)),
-        "velocity": lambda: _difference(course, truth, "velocity", slice(None)),
-        "event_times": lambda: _events(course, truth, period),
-        "beat": lambda: _beat(course, truth),
+        "mean_velocity": lambda: _difference(samples, reference, "mean_velocity", slice(-1, None)),
+        "position": lambda: _difference(samples, reference, "position", slice(None)),
+        "velocity": lambda: _difference(samples, reference, "velocity", slice(None)),
+        "event_times": lambda: _events(samples, reference, period),
+        "beat": lambda: _beat(samples, reference),
     }
     found = {name: measures[name]() for name in names}
-    floors = {name: ROUNDING[law] * wrong.size for name, wrong in found.items()}
+    floors = {name: ROUNDING[law] * estimate.magnitude for name, estimate in found.items()}
     if "event_times" in floors:
         floors["event_times"] = EVENT_ROUNDING * period
     return {
-        name: Wrong(max(wrong.error, floors[name]), wrong.size, wrong.reason)
-        for name, wrong in found.items()
+        name: ErrorEstimate(max(estimate.error, floors[name]), estimate.magnitude, estimate.reason)
+        for name, estimate in found.items()
     }
 
 
-def _difference(course: Course, truth: Course, name: str, part: slice) -> Wrong:
-    there = truth[name][part]
-    return Wrong(peak(course[name][part] - there), peak(there))
+def _difference(samples: Samples, reference: Samples, name: str, part: slice) -> ErrorEstimate:
+    there = reference[name][part]
+    return ErrorEstimate(peak(samples[name][part] - there), peak(there))
 
 
-def _events(course: Course, truth: Course, period: float) -> Wrong:
-    """Return the largest distance of an event that is shown from the nearest true one."""
-    if course["reversals"][-1] != truth["reversals"][-1]:
-        counts = f"{course['reversals'][-1]:.0f} reversals instead of {truth['reversals'][-1]:.0f}"
-        return Wrong(inf, period, counts)
-    shown, true = np.unique(course["last_event_time"]), np.unique(truth["last_event_time"])
+def _events(samples: Samples, reference: Samples, period: float) -> ErrorEstimate:
+    """Return the largest distance of an event from the nearest one of the reference."""
+    if samples["reversals"][-1] != reference["reversals"][-1]:
+        counts = (
+            f"{samples['reversals'][-1]:.0f} reversals instead of {reference['reversals'][-1]:.0f}"
+        )
+        return ErrorEstimate(inf, period, counts)
+    shown, true = np.unique(samples["last_event_time"]), np.unique(reference["last_event_time"])
     after = np.searchsorted(true, shown).clip(max=len(true) - 1)
     before = (after - 1).clip(min=0)
     nearest = np.minimum(np.abs(shown - true[after]), np.abs(shown - true[before]))
-    return Wrong(peak(nearest), period)
+    return ErrorEstimate(peak(nearest), period)
 
 
-def _beat(course: Course, truth: Course) -> Wrong:
+def _beat(samples: Samples, reference: Samples) -> ErrorEstimate:
     try:
-        true, found = _beat_frequency(truth), _beat_frequency(course)
+        true, found = _beat_frequency(reference), _beat_frequency(samples)
     except ValueError as error:
-        return Wrong(inf, 0.0, str(error))
-    return Wrong(abs(found - true), true)
+        return ErrorEstimate(inf, 0.0, str(error))
+    return ErrorEstimate(abs(found - true), true)
 
 
-def _beat_frequency(course: Course) -> float:
-    half = len(course.grid_times) // 2
-    return dominant_frequency(course.grid_times[half:], course.grid_velocity[half:])
+def _beat_frequency(samples: Samples) -> float:
+    half = len(samples.grid_times) // 2
+    return dominant_frequency(samples.grid_times[half:], samples.grid_velocity[half:])

@@ -5,31 +5,29 @@ from __future__ import annotations
 from math import floor, log2
 
 from slider_resonator.device import schedule
-from slider_resonator.studies.choose.probe import MOST_STEPS, SIGNAL_NEEDS, Probe
+from slider_resonator.studies.choose.probe import MAX_STEPS, SIGNAL_NEEDS, Probe
 
-MOST_PERIODS = 10_000
-"""Drive periods in a step: beyond, a step costs nothing against what is computed in it."""
-MOST_RELAXATIONS = 2000
+MAX_PERIODS = 10_000
+"""Maximum drive periods in a step: beyond, the overhead of a step is negligible."""
+MAX_RELAXATIONS = 2000
 """The same for averaged motion, in relaxation times: FMUs bound the work of a step."""
 STEPS_PER_BEAT = 8
 BEAT_POINTS = 128
 """Points in a run from which a beat is read, at least."""
 FINEST = 64
-"""Steps in a drive period beyond which none is considered."""
+"""Maximum steps in a drive period."""
 
 
 def step_ladder(probe: Probe) -> tuple[float, ...]:
     """Return the steps (s) to choose from, descending; one where the inputs do not vary.
 
-    They are the scene's own step times powers of two. Signals are needed wherever the scene looks,
-    so that its step is then the longest; a beat needs some steps each; a number at the end needs
-    one. Input jumps are communication points in any case.
+    They are the scene's own step times powers of two. Signals are needed at every step of the
+    scene, which is then the longest; a beat needs some steps each; a number at the end needs one.
+    Input jumps are communication points in any case.
     """
     own = probe.scene.step_size or probe.duration
     scales = probe.scales
-    longest = min(
-        probe.duration, MOST_PERIODS * scales.period, MOST_RELAXATIONS * scales.relaxation
-    )
+    longest = min(probe.duration, MAX_PERIODS * scales.period, MAX_RELAXATIONS * scales.relaxation)
     if SIGNAL_NEEDS & set(probe.run_needs):
         longest = min(longest, own)
     if "beat" in probe.run_needs:
@@ -43,6 +41,6 @@ def step_ladder(probe: Probe) -> tuple[float, ...]:
         return (first,)
     finest = max(scales.period / FINEST, probe.duration / schedule.MOST_STEPS)
     if probe.covers != "windows":
-        finest = max(finest, probe.probed_duration / MOST_STEPS)
+        finest = max(finest, probe.probed_duration / MAX_STEPS)
     count = max(1, floor(log2(first / finest)) + 1)
     return tuple(first * 2.0**-index for index in range(count))

@@ -1,4 +1,4 @@
-"""The numbers that decide how wrong a cheaper model is, from the device and the inputs alone."""
+"""The scales that determine the error of cheaper models, from device and inputs alone."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene
 
 LONG_MEMORY = 100.0
-"""Drive periods beyond which the memory of a resonator says nothing of how near resonance it is."""
+"""Drive periods beyond which memory does not indicate how near a resonator is to resonance."""
 BREAKS_LOOSE = 0.3
 """Friction over vibration below which the slider slides nearly all the time."""
 NEAR_AN_INTEGER = 0.1
@@ -31,8 +31,8 @@ class Scales:
     starting frequency ratio from an integer, `beat` (Hz) the difference frequency where that is
     small, else 0. `saturation` is the greatest load over the mean friction. `input_rate` is the
     largest change of an input in a drive period, in rad, mean frictions, or drive frequencies.
-    `lifts` tells whether the contact does. `bristle_turns` are the oscillations of the slider on
-    its bristle in a drive period, 0 where the vibration breaks the contact loose.
+    `lifts` says whether the contact lifts off. `bristle_turns` are the oscillations of the slider
+    on its bristle in a drive period, 0 where the vibration breaks the contact loose.
     """
 
     period: float

@@ -1,4 +1,4 @@
-"""The coarsest of a row of ever finer choices that is good enough, by the law of its error."""
+"""Find the coarsest step or tolerance that meets the need, given its convergence rate."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from itertools import pairwise
 from math import ceil, floor, isfinite, log
 
 STALLED = 0.7
-"""A finer choice that leaves more than this share of the error shows that another error is left."""
+"""A refinement that leaves more than this share of the error does not converge."""
 PATIENCE = 2
-"""Finer choices that must show so: the coarsest can be too coarse for any law."""
+"""Refinements that must stall: the coarsest can be outside the range of convergence."""
 
 
 def coarsest(excess: Callable[[int], float], count: int, gain: float, first: int = 0) -> int | None:
     """Return the smallest index below `count` with `excess(index)` <= 1, None where none has.
 
-    `excess` is error over allowed error, supposed to fall by `gain` from each index to the next:
-    that says where to look, and what is found there decides. Begins at `first`; gives up where
-    the error does not fall at all.
+    `excess` is error over allowed error, expected to fall by `gain` from each index to the next:
+    that predicts the next index, and the value there decides. Starts at `first`; gives up where
+    the error does not fall.
     """
     known: dict[int, float] = {}
     index = first
@@ -42,7 +42,7 @@ def _shift(excess: float, gain: float, count: int) -> int:
 
 
 def _stalled(known: dict[int, float]) -> bool:
-    """Whether the finest indices that were tried show an error that no longer falls."""
+    """Whether the error no longer falls at the finest indices evaluated."""
     last = [known[index] for index in sorted(known)[-PATIENCE - 1 :]]
     falls = [isfinite(fine) and fine > STALLED * coarse for coarse, fine in pairwise(last)]
     return len(falls) == PATIENCE and all(falls)

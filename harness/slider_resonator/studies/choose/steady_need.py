@@ -1,4 +1,4 @@
-"""Needs that hold for ever: steady velocity and blocking force, by shooting or by theory."""
+"""Needs independent of time: steady velocity and blocking force, by shooting or by theory."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from slider_resonator.fmu.drive import Instance
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
 from slider_resonator.studies.choose.candidate import Candidate
-from slider_resonator.studies.choose.errors import ROUNDING, Wrong
+from slider_resonator.studies.choose.errors import ROUNDING, ErrorEstimate
 
 EXISTS = {"steady_velocity": ("steady", "stuck"), "blocking_force": ("blocked",)}
 """Outcomes of a search that a device settles at."""
@@ -47,11 +47,11 @@ def find(instance: Instance, values: Mapping[str, float], name: str, candidate: 
     return Found(value if settles else None, f"{motion.status}: {motion.reason}", motion.periods)
 
 
-def steady_error(found: Found, truth: Found, law: int) -> Wrong:
-    """Return how far a quantity is from the resolved one; `law` is the friction law of that."""
-    if truth.value is None:
-        return Wrong(inf, 0.0, truth.reason)
+def steady_error(found: Found, reference: Found, law: int) -> ErrorEstimate:
+    """Return the error against the resolved quantity; `law` is the friction law of that."""
+    if reference.value is None:
+        return ErrorEstimate(inf, 0.0, reference.reason)
     if found.value is None:
-        return Wrong(inf, abs(truth.value), found.reason)
-    floor = max(SOLVED, ROUNDING[law]) * abs(truth.value)
-    return Wrong(max(abs(found.value - truth.value), floor), abs(truth.value))
+        return ErrorEstimate(inf, abs(reference.value), found.reason)
+    floor = max(SOLVED, ROUNDING[law]) * abs(reference.value)
+    return ErrorEstimate(max(abs(found.value - reference.value), floor), abs(reference.value))

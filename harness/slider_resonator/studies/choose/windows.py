@@ -1,16 +1,16 @@
-"""A long scene from short windows: what a candidate errs there, carried on between them.
+"""A long scene from short windows: errors of a candidate there, extrapolated between them.
 
-Averaged motion, which costs next to nothing, says where the slow motion is in the course of the
-scene. From there candidate and resolved device are followed alike for some hundred drive periods.
-They drift apart by a defect d of the slow acceleration; in between the slow velocity forgets what
-it was at a rate r that averaged motion tells as well, so that the difference u of the velocities
-obeys u' = d - r u, from the end of the resolved beginning to that of the scene.
+Averaged motion, which is cheap, gives the slow motion throughout the scene. From there candidate
+and resolved device run for some hundred drive periods under the same inputs. They drift apart by a
+defect d of the slow acceleration; between the windows the slow velocity decays at a rate r, known
+from averaged motion too, so that the difference u of the velocities obeys u' = d - r u, from the
+end of the resolved beginning to that of the scene.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, log
 
 import numpy as np
@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.fmu.drive import Instance, run
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.course import Course, Stretch, follow
-from slider_resonator.studies.choose.errors import Wrong
-from slider_resonator.studies.choose.held import as_meant, as_run
+from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates
+from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.scales import Scales
+from slider_resonator.studies.choose.stretch import Samples, Stretch, follow
 
 Array = NDArray[np.float64]
 
@@ -31,18 +31,18 @@ WINDOW_PERIODS = 240
 CHECKPOINTS = 24
 """Whole drive periods in a window at which the slow velocities are compared."""
 MEMORIES = 6.0
-"""Memories of the resonator after which its own start no longer shows."""
-MOST_SETTLING = 0.5
-"""Share of a window that the resonator may take for it."""
+"""Memories of the resonator after which its own start is forgotten."""
+MAX_SETTLING = 0.5
+"""Largest share of a window for that."""
 SLOW_STEPS = 1000
 """Steps in which averaged motion is followed through the scene, and u is integrated."""
 NUDGE = 1e-3
-"""Change of the slow velocity, in fast velocities, that shows how it is forgotten."""
+"""Perturbation of the slow velocity, in fast velocities, from which its decay is measured."""
 FORGOTTEN = 1e-6
 """Share of a nudge that counts as none."""
 SIZE_POINTS = 400
 SAFETY = 1.2
-"""By which an error that is carried, and not seen, is enlarged."""
+"""Safety factor on errors extrapolated between windows."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Windows:
 
 
 def settling(scales: Scales) -> float:
-    """Return the drive periods after which a window shows the slow motion alone."""
+    """Return the drive periods after which only the slow motion is left in a window."""
     return max(2.0, MEMORIES * scales.memory)
 
 
@@ -78,7 +78,7 @@ def lay_windows(
     first, last = ceil(head / period), int(duration / period) - WINDOW_PERIODS
     starts = np.unique(np.linspace(first, last, WINDOWS).round()) * period
     slow = {"fidelity": 0.0, "friction_law": float(scene.device.friction_law)}
-    held = as_meant(scene, duration, duration / SLOW_STEPS)
+    held = averaged_inputs(scene, duration, duration / SLOW_STEPS)
     points = np.union1d(starts, np.linspace(0.0, duration, SIZE_POINTS))
     schedule = held.stretch(0.0, duration, points, scene.device.drive_frequency)
     states = ("velocity", "resonator_displacement", "resonator_velocity")
@@ -95,12 +95,12 @@ def lay_windows(
         initial = {f"initial_{name}": float(record[name][index]) for name in states}
         initial |= {"initial_position": 0.0, "initial_bristle_deflection": 0.0}
         counts = np.arange(1, CHECKPOINTS + 1) * (WINDOW_PERIODS // CHECKPOINTS)
-        looks = start + period * counts
-        stretch = Stretch(start, float(looks[-1]), looks, initial)
+        checkpoints = start + period * counts
+        stretch = Stretch(start, float(checkpoints[-1]), checkpoints, initial)
         nudge = NUDGE * (scales.fast_velocity or 0.0)
         pushed = {**initial, "initial_velocity": initial["initial_velocity"] + nudge}
         ends = [
-            follow(instance, scene, slow, held, Stretch(start, stretch.stop, looks, values))[
+            follow(instance, scene, slow, held, Stretch(start, stretch.stop, checkpoints, values))[
                 "mean_velocity"
             ][-1]
             for values in (initial, pushed)
@@ -111,13 +111,15 @@ def lay_windows(
     return Windows(tuple(windows), sizes)
 
 
-def holding(instance: Instance, scene: Scene, duration: float, step: float) -> dict[str, float]:
+def holding_errors(
+    instance: Instance, scene: Scene, duration: float, step: float
+) -> dict[str, float]:
     """Return the errors that averaged motion makes by holding the inputs over each step (s)."""
     slow = {"fidelity": 0.0, "friction_law": float(scene.device.friction_law)}
-    looks = step * np.arange(1, int(duration / step))
-    stretch = Stretch(0.0, duration, np.append(looks[looks < duration], duration))
-    held = follow(instance, scene, slow, as_run(scene, duration, step), stretch)
-    meant = follow(instance, scene, slow, as_meant(scene, duration, step / 4.0), stretch)
+    checkpoints = step * np.arange(1, int(duration / step))
+    stretch = Stretch(0.0, duration, np.append(checkpoints[checkpoints < duration], duration))
+    held = follow(instance, scene, slow, sampled_inputs(scene, duration, step), stretch)
+    meant = follow(instance, scene, slow, averaged_inputs(scene, duration, step / 4.0), stretch)
     apart = {name: np.abs(held[name] - meant[name]) for name in ("mean_velocity", "position")}
     return {
         "mean_velocity": float(apart["mean_velocity"][-1]),
@@ -126,19 +128,17 @@ def holding(instance: Instance, scene: Scene, duration: float, step: float) -> d
     }
 
 
-def with_holding(
-    wrong: Mapping[str, Wrong], holding_errors: Mapping[str, float]
-) -> dict[str, Wrong]:
+def with_holding(estimates: Mapping[str, ErrorEstimate], added: Mapping[str, float]) -> Estimates:
     """Return errors with those of holding the inputs added."""
     return {
-        name: Wrong(w.error + holding_errors.get(name, 0.0), w.size, w.reason)
-        for name, w in wrong.items()
+        name: replace(estimate, error=estimate.error + added.get(name, 0.0))
+        for name, estimate in estimates.items()
     }
 
 
 @dataclass(frozen=True)
 class Defect:
-    """What a candidate errs in a window.
+    """The error of a candidate in a window.
 
     `acceleration` (m/s^2) of the slow velocity at `time` (s), the `rate` (1/s) of the window, the
     largest error `fast` (m/s) of the velocity and `ripple` (m) of the position beside their drift.
@@ -151,19 +151,19 @@ class Defect:
     ripple: float
 
 
-def defect(window: Window, course: Course, truth: Course, scales: Scales) -> Defect:
+def defect(window: Window, samples: Samples, reference: Samples, scales: Scales) -> Defect:
     """Compare a candidate with the resolved run of the same window."""
     stretch = window.stretch
-    since = course.times - stretch.start
-    apart = course["mean_velocity"] - truth["mean_velocity"]
+    since = samples.times - stretch.start
+    apart = samples["mean_velocity"] - reference["mean_velocity"]
     settled = since >= settling(scales) * scales.period
     kept = np.exp(-window.rate * since)
     gathered = -np.expm1(-window.rate * since) / window.rate if window.rate else since
     basis = np.column_stack([kept, gathered])[settled]
     _, push = np.linalg.lstsq(basis, apart[settled], rcond=None)[0]
-    moved = course["position"] - truth["position"]
+    moved = samples["position"] - reference["position"]
     drift = np.polyval(np.polyfit(since[settled], moved[settled], 2), since[settled])
-    fast = course["velocity"] - truth["velocity"]
+    fast = samples["velocity"] - reference["velocity"]
     return Defect(
         time=0.5 * (stretch.start + stretch.stop),
         rate=window.rate,
@@ -173,21 +173,21 @@ def defect(window: Window, course: Course, truth: Course, scales: Scales) -> Def
     )
 
 
-def carried(
+def extrapolated(
     defects: Sequence[Defect],
     sizes: Mapping[str, float],
-    head: Course,
-    truth: Course,
-    seen: Mapping[str, Wrong],
+    head: Samples,
+    reference: Samples,
+    seen: Mapping[str, ErrorEstimate],
     duration: float,
-) -> dict[str, Wrong]:
+) -> Estimates:
     """Return the errors over the whole scene; `seen` are those over its beginning.
 
-    `head` and `truth` cover the beginning. `sizes` are those of `Windows`.
+    `head` and `reference` cover the beginning. `sizes` are those of `Windows`.
     """
     begin = float(head.times[-1])
-    u = float(head["mean_velocity"][-1] - truth["mean_velocity"][-1])
-    x = float(head["position"][-1] - truth["position"][-1])
+    u = float(head["mean_velocity"][-1] - reference["mean_velocity"][-1])
+    x = float(head["position"][-1] - reference["position"][-1])
     times = np.array([d.time for d in defects])
     grid = np.linspace(begin, duration, SLOW_STEPS)
     pushes = np.interp(grid, times, [d.acceleration for d in defects])
@@ -206,9 +206,9 @@ def carried(
         "velocity": largest_u + fast,
         "position": largest_x + ripple,
     }
-    carried_over = {}
+    over_all = {}
     for name, size in sizes.items():
         if name in seen:
-            least = 0.0 if name == "mean_velocity" else seen[name].error
-            carried_over[name] = Wrong(max(SAFETY * later[name], least), size)
-    return {**seen, **carried_over}
+            floor = 0.0 if name == "mean_velocity" else seen[name].error
+            over_all[name] = ErrorEstimate(max(SAFETY * later[name], floor), size)
+    return {**seen, **over_all}

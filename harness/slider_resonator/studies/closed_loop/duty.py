@@ -8,7 +8,7 @@ from itertools import pairwise
 
 
 @dataclass(frozen=True)
-class Hold:
+class LoadInterval:
     """A stretch of constant load (N) from `start` to `end` (s)."""
 
     start: float
@@ -39,15 +39,15 @@ class Duty:
     band: float = 0.02
 
     @property
-    def holds(self) -> list[Hold]:
+    def intervals(self) -> list[LoadInterval]:
         """The stretches of constant load."""
         ends = [*self.loads, (self.end, 0.0)]
-        return [Hold(a[0], b[0], a[1]) for a, b in pairwise(ends)]
+        return [LoadInterval(a[0], b[0], a[1]) for a, b in pairwise(ends)]
 
     @property
-    def load_steps(self) -> list[Hold]:
+    def load_steps(self) -> list[LoadInterval]:
         """The stretches that begin with a step of the load: all but the start from rest."""
-        return self.holds[1:]
+        return self.intervals[1:]
 
     @property
     def times(self) -> list[float]:

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.studies.closed_loop.course import Array, Course
-from slider_resonator.studies.closed_loop.duty import Duty, Hold
+from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
+from slider_resonator.studies.closed_loop.loop import Array, LoopRecord
 
 
 @dataclass(frozen=True)
-class Held:
-    """How the velocity fared under one load (N) from `start` (s) on.
+class IntervalResult:
+    """Deviation of the velocity under one load (N) from `start` (s) on.
 
     `largest` is the largest deviation, `after_settling` that after the time allowed for settling,
     both in shares of the reference; `settled` (s) is when the velocity was within the band for
@@ -47,23 +47,23 @@ class Agreement:
     passed: bool
 
 
-def judge_holds(course: Course, duty: Duty) -> list[Held]:
-    """Judge one course, load by load."""
-    return [_held(course, duty, hold) for hold in duty.holds]
+def judge_intervals(record: LoopRecord, duty: Duty) -> list[IntervalResult]:
+    """Judge one record, load by load."""
+    return [_held(record, duty, interval) for interval in duty.intervals]
 
 
-def _held(course: Course, duty: Duty, hold: Hold) -> Held:
-    inside = _inside(course.times, duty, hold)
-    since = course.times[inside] - hold.start
-    deviation = np.abs(course.velocity[inside] / duty.reference - 1.0)
+def _held(record: LoopRecord, duty: Duty, interval: LoadInterval) -> IntervalResult:
+    inside = _inside(record.times, duty, interval)
+    since = record.times[inside] - interval.start
+    deviation = np.abs(record.velocity[inside] / duty.reference - 1.0)
     outside = np.flatnonzero(deviation > duty.band)
     first = int(outside[-1]) + 1 if outside.size else 0
     after = float(deviation[since > duty.settling - 1e-6 * duty.step].max())
-    return Held(
-        host=course.host,
-        fidelity=course.fidelity,
-        start=hold.start,
-        load=hold.load,
+    return IntervalResult(
+        host=record.host,
+        fidelity=record.fidelity,
+        start=interval.start,
+        load=interval.load,
         largest=float(deviation.max()),
         settled=float(since[first]) if first < len(since) else None,
         after_settling=after,
@@ -72,25 +72,27 @@ def _held(course: Course, duty: Duty, hold: Hold) -> Held:
 
 
 def judge_agreement(
-    design: Course, proof: Course, duty: Duty, predicted: Sequence[float | None]
+    design: LoopRecord, proof: LoopRecord, duty: Duty, predicted: Sequence[float | None]
 ) -> list[Agreement]:
-    """Compare the two courses of a host from each step of the load on, with what is predicted.
+    """Compare the two records of a host from each step of the load on, with what is predicted.
 
     `predicted` has the error (m/s) of averaged motion for each of the duty's load steps. The whole
     answer of the loop counts, not only what it settles to: that is the reference in any case.
     """
     difference = np.abs(design.velocity - proof.velocity)
     found = []
-    for hold, error in zip(duty.load_steps, predicted, strict=True):
-        inside = np.flatnonzero(_inside(design.times, duty, hold))
+    for interval, error in zip(duty.load_steps, predicted, strict=True):
+        inside = np.flatnonzero(_inside(design.times, duty, interval))
         worst = inside[np.argmax(difference[inside])]
         largest, time = float(difference[worst]), float(design.times[worst])
         passed = error is not None and largest <= error
-        found.append(Agreement(design.host, hold.start, hold.load, largest, time, error, passed))
+        found.append(
+            Agreement(design.host, interval.start, interval.load, largest, time, error, passed)
+        )
     return found
 
 
-def _inside(times: Array, duty: Duty, hold: Hold) -> NDArray[np.bool_]:
+def _inside(times: Array, duty: Duty, interval: LoadInterval) -> NDArray[np.bool_]:
     """Return which times are under a load: from the end of its first step on."""
     slack = 1e-6 * duty.step
-    return (times > hold.start + slack) & (times < hold.end + slack)
+    return (times > interval.start + slack) & (times < interval.end + slack)

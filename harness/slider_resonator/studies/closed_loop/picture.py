@@ -11,23 +11,23 @@ from matplotlib.figure import Figure
 
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import COLOURS, save, style
-from slider_resonator.studies.closed_loop.course import Course
 from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.studies.closed_loop.judge import Agreement
+from slider_resonator.studies.closed_loop.loop import LoopRecord
 
 DESIGN_COLOUR, PROOF_COLOUR = COLOURS["theory"], COLOURS["slow"]
 BAND_COLOUR = "#d8e6ee"
 
 
 def draw_loop(
-    design: Course,
-    proof: Course,
+    design: LoopRecord,
+    proof: LoopRecord,
     duty: Duty,
     agreements: Sequence[Agreement],
     path: Path,
     title: str,
 ) -> None:
-    """Draw both courses of a host, and how far they differ, with the errors that are predicted."""
+    """Draw both records of a host, and their difference with the predicted errors."""
     with style():
         figure = Figure(figsize=(8.0, 6.2), layout="constrained")
         figure.suptitle(title, fontsize=11)
@@ -43,18 +43,18 @@ def draw_loop(
 
 
 def _draw_load(axes: Axes, duty: Duty) -> None:
-    starts = [hold.start for hold in duty.holds]
-    loads = [1e3 * hold.load for hold in duty.holds]
+    starts = [interval.start for interval in duty.intervals]
+    loads = [1e3 * interval.load for interval in duty.intervals]
     axes.step([*starts, duty.end], [*loads, loads[-1]], where="post", color="0.25")
     axes.set_ylabel("load [mN]")
 
 
-def _draw_velocity(axes: Axes, design: Course, proof: Course, duty: Duty) -> None:
+def _draw_velocity(axes: Axes, design: LoopRecord, proof: LoopRecord, duty: Duty) -> None:
     reference = 1e3 * duty.reference
     low, high = (1.0 - duty.band) * reference, (1.0 + duty.band) * reference
     label = f"{duty.band:.0%}, {duty.settling:g} s after each step"
-    for hold in duty.holds:
-        since = [hold.start + duty.settling, hold.end]
+    for interval in duty.intervals:
+        since = [interval.start + duty.settling, interval.end]
         axes.fill_between(since, low, high, color=BAND_COLOUR, linewidth=0.0, label=label)
         label = ""
     axes.plot(
@@ -71,22 +71,22 @@ def _draw_velocity(axes: Axes, design: Course, proof: Course, duty: Duty) -> Non
     axes.legend(loc="lower right", ncols=3)
 
 
-def _draw_phase(axes: Axes, design: Course, proof: Course) -> None:
+def _draw_phase(axes: Axes, design: LoopRecord, proof: LoopRecord) -> None:
     axes.plot(proof.times, proof.phase, color=PROOF_COLOUR)
     axes.plot(design.times, design.phase, color=DESIGN_COLOUR, linestyle="--")
     axes.set_ylabel("phase [rad]")
 
 
 def _draw_difference(
-    axes: Axes, design: Course, proof: Course, duty: Duty, agreements: Sequence[Agreement]
+    axes: Axes, design: LoopRecord, proof: LoopRecord, duty: Duty, agreements: Sequence[Agreement]
 ) -> None:
     counts = design.times > duty.load_steps[0].start
     difference = 1e3 * np.abs(design.velocity - proof.velocity)[counts]
     axes.plot(design.times[counts], difference, color="0.25", label="between the fidelities")
     label = "predicted by choose"
-    for hold, agreement in zip(duty.load_steps, agreements, strict=True):
+    for interval, agreement in zip(duty.load_steps, agreements, strict=True):
         if agreement.predicted is not None:
-            since, error = (hold.start, hold.end), 1e3 * agreement.predicted
+            since, error = (interval.start, interval.end), 1e3 * agreement.predicted
             axes.plot(since, (error, error), color=DESIGN_COLOUR, linewidth=1.0, label=label)
             label = ""
     axes.set(ylabel="difference [mm/s]")

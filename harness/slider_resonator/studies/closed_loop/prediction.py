@@ -1,4 +1,4 @@
-"""What `choose` predicts for averaged motion in the loop, from what the loop does with it."""
+"""Errors that `choose` predicts for averaged motion in the loop."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from slider_resonator.fmu.drive import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.studies.choose.choosing import choose_with
-from slider_resonator.studies.closed_loop.course import DESIGN, FIDELITY, Course, parameters
-from slider_resonator.studies.closed_loop.duty import Duty, Hold
+from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
+from slider_resonator.studies.closed_loop.loop import DESIGN, FIDELITY, LoopRecord, parameters
 
 FIRST = 10
 """Communication steps after a step of the load, at each of whose ends the error is predicted."""
@@ -24,7 +24,7 @@ FIRST = 10
 
 def predicted_errors(
     package: Path,
-    design: Course,
+    design: LoopRecord,
     duty: Duty,
     progress: Callable[[float], None] = lambda share: None,
 ) -> list[float | None]:
@@ -38,19 +38,19 @@ def predicted_errors(
     device = _device(package)
     with _slider(package) as instance:
         largest: list[float | None] = []
-        for index, hold in enumerate(duty.load_steps):
+        for index, interval in enumerate(duty.load_steps):
             found = [
                 _error(instance, _scene(design, duty, device, stop))
-                for stop in _instants(duty, hold)
+                for stop in _instants(duty, interval)
             ]
             progress((index + 1) / len(duty.load_steps))
             largest.append(None if None in found else max(error for error in found if error))
         return largest
 
 
-def _instants(duty: Duty, hold: Hold) -> list[int]:
+def _instants(duty: Duty, interval: LoadInterval) -> list[int]:
     """Return the communication points, by number, at which the error is predicted."""
-    start, end = round(hold.start / duty.step), round(hold.end / duty.step)
+    start, end = round(interval.start / duty.step), round(interval.end / duty.step)
     settled = start + round(duty.settling / duty.step)
     return [*range(start + 1, start + FIRST + 1), settled, end]
 
@@ -68,7 +68,7 @@ def _error(instance: Instance, scene: Scene) -> float | None:
     return choice.error["mean_velocity"] if choice.meets and choice.fidelity == 0 else None
 
 
-def _scene(design: Course, duty: Duty, device: Mapping[str, float], stop: int) -> Scene:
+def _scene(design: LoopRecord, duty: Duty, device: Mapping[str, float], stop: int) -> Scene:
     """Return the scene of the first `stop` communication steps, in which nothing is fed back."""
     phases = [design.phase[0], *design.phase[:-1]]  # each holds over the step after
     inputs = {

@@ -9,16 +9,7 @@ from slider_resonator.fmu.drive import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper.figure import (
-    SHADES,
-    Array,
-    Data,
-    PaperFigure,
-    Progress,
-    panels,
-    part,
-    sweep,
-)
+from slider_resonator.studies.paper.figure import SHADES, Array, Data, PaperFigure, curve, panels
 from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
 from slider_resonator.studies.paper.measure import steady_velocity
 
@@ -33,25 +24,21 @@ def _stiffness(kappa: float, frequency: float) -> float:
     return kappa * CASE.friction_coefficient * frequency / CASE.strength
 
 
-def _measure(instance: Instance, progress: Progress) -> Data:
-    data: Data = {
-        "Coulomb": sweep(
-            COULOMB_FREQUENCIES,
-            lambda frequency: steady_velocity(
-                instance, coulomb_case(1.0, frequency, AMPLITUDE_RATIO, PHASE)
-            ),
-            part(progress, 0, 4),
-        )
+def _measure(instance: Instance) -> Data:
+    cases = {
+        "Coulomb": [coulomb_case(1.0, w, AMPLITUDE_RATIO, PHASE) for w in COULOMB_FREQUENCIES],
     }
-    for index, kappa in enumerate(KAPPAS):
-        data[f"LuGre {kappa:g}"] = sweep(
-            LUGRE_FREQUENCIES,
-            lambda frequency, kappa=kappa: steady_velocity(  # type: ignore[misc]
-                instance, lugre_case(CASE, frequency, _stiffness(kappa, frequency))
-            ),
-            part(progress, index + 1, 4),
+    for kappa in KAPPAS:
+        cases[f"LuGre {kappa:g}"] = [
+            lugre_case(CASE, w, _stiffness(kappa, w)) for w in LUGRE_FREQUENCIES
+        ]
+    return {
+        name: curve(
+            [values["drive_frequency"] for values in group],
+            [steady_velocity(instance, values) for values in group],
         )
-    return data
+        for name, group in cases.items()
+    }
 
 
 def errors(data: Data) -> dict[str, tuple[Array, Array]]:
@@ -99,13 +86,6 @@ FIGURE = PaperFigure(
     "Error of the averages over the drive frequency",
     "q = 1, alpha = 0.8, phi = 1; LuGre sigma_1 = 1, mu = 0.4 and kappa = sigma_0 q / (mu Omega) "
     "held. FMU by shooting against (5) and the uniform average.",
-    {
-        "phase": PHASE,
-        "amplitude_ratio": AMPLITUDE_RATIO,
-        "coulomb": COULOMB_FREQUENCIES,
-        "lugre": LUGRE_FREQUENCIES,
-        "kappas": KAPPAS,
-    },
     _measure,
     _draw,
 )

@@ -7,7 +7,6 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from slider_resonator.fmu.drive import Instance
-from slider_resonator.studies.paper.figure import Progress
 
 AGREES = "agrees"
 PARTLY = "agrees in part"
@@ -44,8 +43,11 @@ class ClaimGroup:
 
     name: str
     title: str
-    parameters: Mapping[str, Any]
-    measure: Callable[[Instance, Progress], list[Claim]]
+    measures: tuple[Callable[[Instance], list[Claim]], ...]
+
+    def measure(self, instance: Instance) -> list[Claim]:
+        """Return all claims as measured."""
+        return [claim for measure in self.measures for claim in measure(instance)]
 
 
 def near(found: float, expected: float, share: float) -> bool:

@@ -11,9 +11,8 @@ from slider_resonator.fmu.drive import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.studies.paper.claim import AGREES, DISAGREES, Claim, ClaimGroup, near
-from slider_resonator.studies.paper.figure import Progress
 from slider_resonator.studies.paper.mapping import coulomb_case
-from slider_resonator.studies.paper.measure import course, steady_velocity
+from slider_resonator.studies.paper.measure import record, steady_velocity
 
 FREQUENCY = 1000.0
 HIGH_FREQUENCY = 10000.0
@@ -120,38 +119,29 @@ def _blocking(instance: Instance) -> list[Claim]:
     ]
 
 
-def _ripple(instance: Instance) -> Claim:
+def _ripple(instance: Instance) -> list[Claim]:
     amplitudes = {}
     for frequency in RIPPLE_FREQUENCIES:
         period = 2.0 * pi / frequency
-        run = course(instance, coulomb_case(1.0, frequency), 40 * period, 40 * 32)
-        amplitude = ripple_amplitude(run.time, run.position, period)
+        run = record(instance, coulomb_case(1.0, frequency), 40 * period, 40 * 32)
+        amplitude = ripple_amplitude(run.times, run["position"], period)
         amplitudes[f"ripple_times_Omega_at_{frequency:g}"] = amplitude * frequency
-    return Claim(
-        "ripple_over_frequency",
-        "2.3",
-        "The fast oscillation has the amplitude q / Omega and falls with the frequency",
-        amplitudes,
-        AGREES,
-        "q = 1: the product tends to 1; at Omega = 10 the impact of friction on it shows",
-        near(amplitudes["ripple_times_Omega_at_1000"], 1.0, 5e-3)
-        and near(amplitudes["ripple_times_Omega_at_100"], 1.0, 0.03),
-    )
-
-
-def _measure(instance: Instance, progress: Progress) -> list[Claim]:
-    claims = _phase(instance)
-    progress(0.3)
-    claims += _strengths(instance)
-    progress(0.6)
-    claims += _blocking(instance)
-    progress(0.8)
-    return [*claims, _ripple(instance)]
+    return [
+        Claim(
+            "ripple_over_frequency",
+            "2.3",
+            "The fast oscillation has the amplitude q / Omega and falls with the frequency",
+            amplitudes,
+            AGREES,
+            "q = 1: the product tends to 1; at Omega = 10 the impact of friction on it shows",
+            near(amplitudes["ripple_times_Omega_at_1000"], 1.0, 5e-3)
+            and near(amplitudes["ripple_times_Omega_at_100"], 1.0, 0.03),
+        )
+    ]
 
 
 GROUP = ClaimGroup(
     "claims_coulomb",
     "Coulomb friction",
-    {"frequency": [FREQUENCY, HIGH_FREQUENCY], "phases": PHASES, "ripples": RIPPLE_FREQUENCIES},
-    _measure,
+    (_phase, _strengths, _blocking, _ripple),
 )

@@ -10,7 +10,6 @@ from slider_resonator.fmu.drive import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.studies.paper.claim import AGREES, DISAGREES, PARTLY, Claim, ClaimGroup, near
-from slider_resonator.studies.paper.figure import Progress
 from slider_resonator.studies.paper.mapping import lugre_case
 from slider_resonator.studies.paper.measure import blocking_force, steady_velocity
 
@@ -180,22 +179,8 @@ def _blocking_claims(instance: Instance) -> list[Claim]:
     ]
 
 
-def _measure(instance: Instance, progress: Progress) -> list[Claim]:
-    claims = _shapes(instance)
-    progress(0.7)
-    claims += _manifold(instance)
-    progress(0.8)
-    return claims + _blocking_claims(instance)
-
-
 GROUP = ClaimGroup(
     "claims_lugre",
     "LuGre friction",
-    {
-        "frequency": FREQUENCY,
-        "stiffness": [SOFT, OWN, STIFF],
-        "kappas": KAPPAS,
-        "case": lugre_case(LugreCase(), 1.0, 1.0),
-    },
-    _measure,
+    (_shapes, _manifold, _blocking_claims),
 )

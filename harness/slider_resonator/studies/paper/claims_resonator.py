@@ -12,10 +12,9 @@ from slider_resonator.references.averaged import averaged_coulomb
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.studies.paper.claim import AGREES, DISAGREES, PARTLY, Claim, ClaimGroup, near
-from slider_resonator.studies.paper.figure import Progress
-from slider_resonator.studies.paper.figure_7 import CASE, PERIOD, STOP_PERIODS, averaged_course
+from slider_resonator.studies.paper.figure_7 import CASE, PERIOD, STOP_PERIODS, averaged_trajectory
 from slider_resonator.studies.paper.figure_8 import DEVICE, velocity_at
-from slider_resonator.studies.paper.measure import course, steady_velocity
+from slider_resonator.studies.paper.measure import record, steady_velocity
 
 DETUNINGS = (1.0, 2.0, 4.0, 8.0)
 BEATS = 6
@@ -26,14 +25,14 @@ NON_INTEGERS = (0.25, 0.5, 1.5, 2.5, 1.2)
 
 def _models(instance: Instance) -> list[Claim]:
     both = {
-        f: course(instance, {**CASE, "fidelity": f}, STOP_PERIODS * PERIOD, STOP_PERIODS)
+        f: record(instance, {**CASE, "fidelity": f}, STOP_PERIODS * PERIOD, STOP_PERIODS)
         for f in (1, 2)
     }
     speeds = {f: steady_velocity(instance, {**CASE, "fidelity": f}) for f in (1, 2)}
-    difference = both[1].position - both[2].position
+    difference = both[1]["position"] - both[2]["position"]
     late = difference[STOP_PERIODS // 2 :]
-    times = both[1].time
-    theory = averaged_course(1, times)[0] - averaged_course(2, times)[0]
+    times = both[1].times
+    theory = averaged_trajectory(1, times)[0] - averaged_trajectory(2, times)[0]
     third = {
         f: steady_velocity(instance, {"fidelity": f, "phase": 0.4, "frequency_ratio": 3.0})
         for f in (1, 2)
@@ -124,9 +123,9 @@ def _beat(instance: Instance, ratio: float, detuning: float) -> tuple[float, flo
     settled = ceil(SETTLING / step)
     points = settled + BEATS * 100
     values = {"frequency_ratio": ratio + detuning / DEVICE.drive_frequency}
-    run = course(instance, values, points * step, points)
-    position = run.position[settled:] / equivalent_force(DEVICE).length_scale
-    frequency = 2.0 * pi * dominant_frequency(run.time[settled:], position)
+    run = record(instance, values, points * step, points)
+    position = run["position"][settled:] / equivalent_force(DEVICE).length_scale
+    frequency = 2.0 * pi * dominant_frequency(run.times[settled:], position)
     return frequency, float(np.ptp(position[-101:])) / 2.0
 
 
@@ -168,23 +167,8 @@ def _beats(instance: Instance) -> list[Claim]:
     ]
 
 
-def _measure(instance: Instance, progress: Progress) -> list[Claim]:
-    claims = _models(instance)
-    progress(0.2)
-    claims += _ratios(instance)
-    progress(0.7)
-    return claims + _beats(instance)
-
-
 GROUP = ClaimGroup(
     "claims_resonator",
     "The device with its resonator, and frequencies that differ",
-    {
-        "case": CASE,
-        "detunings": DETUNINGS,
-        "beats": BEATS,
-        "settling": SETTLING,
-        "others": NON_INTEGERS,
-    },
-    _measure,
+    (_models, _ratios, _beats),
 )

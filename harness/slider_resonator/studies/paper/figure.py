@@ -16,8 +16,6 @@ from slider_resonator.fmu.drive import Instance
 Array = NDArray[np.float64]
 Data = dict[str, Any]
 """What was measured, as JSON holds it."""
-Progress = Callable[[float], None]
-"""Is told which share of a measurement is done."""
 
 SHADES = ("#c8553d", "#1f5f8b", "#6a994e", "#8a6fae", "#b8860b")
 """Colours of cases within a panel; a line and the markers of a case share one."""
@@ -25,13 +23,12 @@ SHADES = ("#c8553d", "#1f5f8b", "#6a994e", "#8a6fae", "#b8860b")
 
 @dataclass(frozen=True)
 class PaperFigure:
-    """A figure: what is measured on the FMU with which parameters, and how it is drawn."""
+    """A figure: what is measured on the FMU, and how it is drawn."""
 
     name: str
     title: str
     caption: str
-    parameters: Mapping[str, Any]
-    measure: Callable[[Instance, Progress], Data]
+    measure: Callable[[Instance], Data]
     draw: Callable[[Data], Drawing]
 
 
@@ -70,17 +67,44 @@ def markers(
     )
 
 
-def sweep(
-    points: Sequence[float], measure: Callable[[float], float], progress: Progress
-) -> dict[str, list[float]]:
-    """Measure at each point; returns lists x and v."""
-    values = []
-    for index, point in enumerate(points):
-        values.append(measure(point))
-        progress((index + 1) / len(points))
-    return {"x": [float(point) for point in points], "v": values}
+def curve(x: Sequence[float], y: Sequence[float | None]) -> dict[str, list[float | None]]:
+    """Return the points of a curve as they are stored."""
+    return {"x": list(x), "v": list(y)}
 
 
-def part(progress: Progress, index: int, count: int) -> Progress:
-    """Return the progress of one of ``count`` equal parts."""
-    return lambda share: progress((index + share) / count)
+@dataclass(frozen=True)
+class Line:
+    """A theory over the parameters of a panel, and how it is drawn."""
+
+    label: str
+    dash: str
+    shade: str
+    velocity: Callable[[dict[str, float]], float]
+
+
+@dataclass(frozen=True)
+class SweptPanel:
+    """A panel over one parameter, named `swept`; the others keep the values of `fixed`."""
+
+    swept: str
+    label: str
+    points: tuple[float, ...]
+    fixed: Mapping[str, float]
+
+    def case(self, value: float) -> dict[str, float]:
+        """Return the parameters at a value of the swept one."""
+        return {**self.fixed, self.swept: value}
+
+    def measure(self, velocity: Callable[[dict[str, float]], float]) -> Data:
+        """Return the velocities at all points."""
+        return curve(self.points, [velocity(self.case(value)) for value in self.points])
+
+    def draw(self, axes: Axes, data: Data, lines: Sequence[Line], count: int) -> None:
+        """Draw ``lines``, each over ``count`` points, and what the FMU gave."""
+        fine = np.linspace(self.points[0], self.points[-1], count).tolist()
+        for line in lines:
+            velocities = [line.velocity(self.case(x)) for x in fine]
+            axes.plot(fine, velocities, line.dash, color=line.shade, label=line.label)
+        markers(axes, data["x"], data["v"], SHADES[1], "FMU")
+        axes.set(xlabel=self.label, ylabel="steady velocity $V$")
+        axes.legend(fontsize=8)

@@ -17,13 +17,11 @@ from slider_resonator.studies.paper.figure import (
     Array,
     Data,
     PaperFigure,
-    Progress,
     markers,
     panels,
-    part,
 )
 from slider_resonator.studies.paper.mapping import Values, coulomb_case, lugre_case
-from slider_resonator.studies.paper.measure import course
+from slider_resonator.studies.paper.measure import plain, record
 
 STOP = 8.0
 STRENGTH = 1.0
@@ -39,17 +37,17 @@ def _values(law: str, frequency: float) -> Values:
     return lugre_case(LugreCase(strength=STRENGTH), frequency, STIFFNESS)
 
 
-def _measure(instance: Instance, progress: Progress) -> Data:
-    data: Data = {}
-    cases = [(law, frequency) for law in LAWS for frequency in FREQUENCIES]
-    for index, (law, frequency) in enumerate(cases):
-        run = course(instance, _values(law, frequency), STOP, POINTS[frequency])
-        data[f"{law} {frequency:g}"] = run.plain()
-        part(progress, index, len(cases))(1.0)
-    return data
+def _measure(instance: Instance) -> Data:
+    return {
+        f"{law} {frequency:g}": plain(
+            record(instance, _values(law, frequency), STOP, POINTS[frequency])
+        )
+        for law in LAWS
+        for frequency in FREQUENCIES
+    }
 
 
-def averaged_course(law: str, frequency: float, times: Array) -> Array:
+def averaged_position(law: str, frequency: float, times: Array) -> Array:
     """Return the averaged position with its fast part at times, shape (n,).
 
     From rest the slow velocity starts at q, for the fast one starts at -q.
@@ -80,10 +78,10 @@ def _panel(axis: Axes, law: str, data: Data) -> None:
         run = data[f"{law} {frequency:g}"]
         if frequency == 1000.0:
             label = "average, no fast part drawn"
-            shown = averaged_course(law, frequency, times[::16])
+            shown = averaged_position(law, frequency, times[::16])
             axis.plot(times[::16], shown, dash, color=shade, label=f"$\\Omega$ = 1000, {label}")
         else:
-            shown = averaged_course(law, frequency, times)
+            shown = averaged_position(law, frequency, times)
             axis.plot(times, shown, dash, color=shade, label="$\\Omega$ = 10, average + fast part")
         every = 5 if frequency == 10.0 else 2
         markers(
@@ -103,11 +101,6 @@ FIGURE = PaperFigure(
     "alpha = 1, phi = pi/2, q = 1: F_T = Omega = 10 and F_T = Omega = 1000; (b) sigma_0 = 100, "
     "sigma_1 = 1, mu = 0.4. Markers: FMU. Lines: averaged motion from slow velocity q, (4) in (a), "
     "the uniform average in (b), with the fast part -(q/Omega) sin(Omega tau).",
-    {
-        "stop": STOP,
-        "points": {f"{frequency:g}": points for frequency, points in POINTS.items()},
-        "cases": {f"{law} {f:g}": _values(law, f) for law in LAWS for f in FREQUENCIES},
-    },
     _measure,
     _draw,
 )

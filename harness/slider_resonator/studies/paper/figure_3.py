@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
@@ -13,12 +12,10 @@ from slider_resonator.references import closed_forms
 from slider_resonator.studies.paper.figure import (
     SHADES,
     Data,
+    Line,
     PaperFigure,
-    Progress,
-    markers,
+    SweptPanel,
     panels,
-    part,
-    sweep,
 )
 from slider_resonator.studies.paper.mapping import coulomb_case
 from slider_resonator.studies.paper.measure import steady_velocity
@@ -26,33 +23,20 @@ from slider_resonator.studies.paper.measure import steady_velocity
 FREQUENCY = 1000.0
 
 
-@dataclass(frozen=True)
-class _Panel:
-    """One swept parameter; the others keep their values."""
-
-    swept: str
-    label: str
-    points: tuple[float, ...]
-    base: dict[str, float]
-
-    def case(self, value: float) -> dict[str, float]:
-        return {**self.base, self.swept: value}
-
-
 PANELS = (
-    _Panel(
+    SweptPanel(
         "phase",
         "phase $\\phi$ [rad]",
         tuple(np.linspace(0.0, pi, 13).tolist()),
         {"strength": 1.0, "amplitude_ratio": 1.0},
     ),
-    _Panel(
+    SweptPanel(
         "amplitude_ratio",
         "amplitude ratio $\\alpha$",
         tuple(np.linspace(0.0, 1.0, 11).tolist()),
         {"strength": 1.0, "phase": 0.5},
     ),
-    _Panel(
+    SweptPanel(
         "strength",
         "strength $q$",
         tuple(np.linspace(0.2, 3.0, 11).tolist()),
@@ -61,31 +45,23 @@ PANELS = (
 )
 
 
-def _measure(instance: Instance, progress: Progress) -> Data:
-    def velocity(panel: _Panel, value: float) -> float:
-        return steady_velocity(instance, coulomb_case(frequency=FREQUENCY, **panel.case(value)))
+LINES = (
+    Line("(5)", "-", SHADES[0], lambda case: closed_forms.steady_velocity(**case)),
+    Line("(7), small velocities", ":", "0.5", lambda case: closed_forms.linear_velocity(**case)),
+)
 
-    return {
-        panel.swept: sweep(
-            panel.points,
-            lambda value, panel=panel: velocity(panel, value),  # type: ignore[misc]
-            part(progress, index, len(PANELS)),
-        )
-        for index, panel in enumerate(PANELS)
-    }
+
+def _measure(instance: Instance) -> Data:
+    def velocity(case: dict[str, float]) -> float:
+        return steady_velocity(instance, coulomb_case(frequency=FREQUENCY, **case))
+
+    return {panel.swept: panel.measure(velocity) for panel in PANELS}
 
 
 def _draw(data: Data) -> Drawing:
     drawing, axes = panels(3)
     for axis, panel in zip(axes, PANELS, strict=True):
-        fine = np.linspace(panel.points[0], panel.points[-1], 201).tolist()
-        exact = [closed_forms.steady_velocity(**panel.case(x)) for x in fine]
-        linear = [closed_forms.linear_velocity(**panel.case(x)) for x in fine]
-        axis.plot(fine, exact, color=SHADES[0], label="(5)")
-        axis.plot(fine, linear, ":", color="0.5", label="(7), small velocities")
-        markers(axis, data[panel.swept]["x"], data[panel.swept]["v"], SHADES[1], "FMU")
-        axis.set(xlabel=panel.label, ylabel="steady velocity $V$")
-        axis.legend(fontsize=8)
+        panel.draw(axis, data[panel.swept], LINES, 201)
     return drawing
 
 
@@ -94,7 +70,6 @@ FIGURE = PaperFigure(
     "Steady velocity with Coulomb friction",
     "(a) alpha = 1, q = 1; (b) phi = 0.5, q = 1; (c) phi = 1.57, alpha = 1. Markers: FMU by "
     "shooting, Omega = 1000. Lines: (5), dotted (7).",
-    {"frequency": FREQUENCY, "panels": [[p.swept, p.points, p.base] for p in PANELS]},
     _measure,
     _draw,
 )

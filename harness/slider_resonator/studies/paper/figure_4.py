@@ -11,16 +11,7 @@ from slider_resonator.fmu.drive import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper.figure import (
-    SHADES,
-    Data,
-    PaperFigure,
-    Progress,
-    markers,
-    panels,
-    part,
-    sweep,
-)
+from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, curve, markers, panels
 from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
 from slider_resonator.studies.paper.measure import steady_velocity
 
@@ -31,30 +22,25 @@ SHARES = tuple(np.linspace(0.0, 0.98, 8).tolist())
 """Loads as shares of the blocking load of the theory that is drawn."""
 
 
-def _coulomb(instance: Instance, strength: float, load: float) -> float:
-    return steady_velocity(instance, {**coulomb_case(strength, FREQUENCY), "load": load})
-
-
-def _lugre(instance: Instance, strength: float, load: float) -> float:
-    values = lugre_case(LugreCase(strength=strength), FREQUENCY, STIFFNESS)
-    return steady_velocity(instance, {**values, "load": load})
-
-
-def _measure(instance: Instance, progress: Progress) -> Data:
+def _measure(instance: Instance) -> Data:
     data: Data = {}
-    for index, strength in enumerate(STRENGTHS):
-        loads = [closed_forms.blocking_load(1.0, pi / 2.0) * share for share in SHARES]
-        data[f"Coulomb {strength:g}"] = sweep(
-            loads,
-            lambda load, q=strength: _coulomb(instance, q, load),  # type: ignore[misc]
-            part(progress, 2 * index, 4),
-        )
-        blocking = uniform_average.blocking_load(LugreCase(strength=strength), STIFFNESS, FREQUENCY)
-        data[f"LuGre {strength:g}"] = sweep(
-            [blocking * share for share in SHARES],
-            lambda load, q=strength: _lugre(instance, q, load),  # type: ignore[misc]
-            part(progress, 2 * index + 1, 4),
-        )
+    for strength in STRENGTHS:
+        lugre = LugreCase(strength=strength)
+        for law, values, blocking in (
+            (
+                "Coulomb",
+                coulomb_case(strength, FREQUENCY),
+                closed_forms.blocking_load(1.0, pi / 2.0),
+            ),
+            (
+                "LuGre",
+                lugre_case(lugre, FREQUENCY, STIFFNESS),
+                uniform_average.blocking_load(lugre, STIFFNESS, FREQUENCY),
+            ),
+        ):
+            loads = [blocking * share for share in SHARES]
+            velocities = [steady_velocity(instance, {**values, "load": load}) for load in loads]
+            data[f"{law} {strength:g}"] = curve(loads, velocities)
     return data
 
 
@@ -102,13 +88,6 @@ FIGURE = PaperFigure(
     "alpha = 1, phi = pi/2, q = 1 and 2; (b) sigma_1 = 1, mu = 0.4, sigma_0 = 100. Markers: FMU, "
     "Omega = 1000, by shooting. Lines: (20) and (23); dotted the uniform average. The "
     "blocking load of (b) lies above mu, the friction of full sliding.",
-    {
-        "frequency": FREQUENCY,
-        "stiffness": STIFFNESS,
-        "strengths": STRENGTHS,
-        "shares": SHARES,
-        "cases": [coulomb_case(1.0, FREQUENCY), lugre_case(LugreCase(), FREQUENCY, STIFFNESS)],
-    },
     _measure,
     _draw,
 )

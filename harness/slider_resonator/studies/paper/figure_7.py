@@ -17,13 +17,11 @@ from slider_resonator.studies.paper.figure import (
     Array,
     Data,
     PaperFigure,
-    Progress,
     markers,
     panels,
-    part,
 )
 from slider_resonator.studies.paper.mapping import resonator_case
-from slider_resonator.studies.paper.measure import course
+from slider_resonator.studies.paper.measure import plain, record
 
 PHASE = 0.85
 CASE = resonator_case(0.1, 100.0, 100.0, 0.01, amplitude_ratio=1.0, phase=PHASE, damping_ratio=0.05)
@@ -34,17 +32,15 @@ POINTS_PER_PERIOD = 40
 ZOOM_PERIODS = 3
 
 
-def _measure(instance: Instance, progress: Progress) -> Data:
-    data: Data = {}
-    for index, fidelity in enumerate(FIDELITIES):
-        values = {**CASE, "fidelity": fidelity}
-        points = STOP_PERIODS * POINTS_PER_PERIOD
-        data[str(fidelity)] = course(instance, values, STOP_PERIODS * PERIOD, points).plain()
-        part(progress, index, len(FIDELITIES))(1.0)
-    return data
+def _measure(instance: Instance) -> Data:
+    stop, points = STOP_PERIODS * PERIOD, STOP_PERIODS * POINTS_PER_PERIOD
+    return {
+        str(fidelity): plain(record(instance, {**CASE, "fidelity": fidelity}, stop, points))
+        for fidelity in FIDELITIES
+    }
 
 
-def averaged_course(fidelity: int, times: Array) -> tuple[Array, Array]:
+def averaged_trajectory(fidelity: int, times: Array) -> tuple[Array, Array]:
     """Return the averaged position and velocity (4) from rest at times, each shape (n,).
 
     The models differ in their slow start: (34) takes the resonator to swing already.
@@ -67,7 +63,7 @@ def _draw(data: Data) -> Drawing:
     drawing, axes = panels(3)
     times = np.linspace(0.0, STOP_PERIODS * PERIOD, 401)
     for fidelity in FIDELITIES:
-        position, velocity = averaged_course(fidelity, times)
+        position, velocity = averaged_trajectory(fidelity, times)
         label = "(4)" if fidelity == 2 else ""
         axes[0].plot(times, position, ":", color="0.3", label=label)
         axes[1].plot(times, velocity, ":", color="0.3", label=label)
@@ -101,7 +97,6 @@ FIGURE = PaperFigure(
     "(a) displacement at whole periods, (b) velocity averaged over a period, (c) velocity in full "
     "over the last periods. FMU with fidelity 2 and 1; dotted (4) from "
     "the slow velocity that each model has at the start.",
-    {"case": CASE, "periods": STOP_PERIODS, "points": POINTS_PER_PERIOD},
     _measure,
     _draw,
 )

@@ -22,12 +22,10 @@ from slider_resonator.studies.paper.figure import (
     SHADES,
     Data,
     PaperFigure,
-    Progress,
     markers,
     panels,
-    part,
 )
-from slider_resonator.studies.paper.measure import course
+from slider_resonator.studies.paper.measure import plain, record
 
 DEVICE = Device()
 PERIOD = 2.0 * pi / DEVICE.drive_frequency
@@ -46,24 +44,19 @@ def velocity_at(instance: Instance, phase: float, ratio: float) -> float | None:
     return None if velocity is None else velocity / equivalent_force(DEVICE).length_scale
 
 
-def _measure(instance: Instance, progress: Progress) -> Data:
-    data: Data = {"ratio": [], "phase": {}, "detuned": {}, "history": {}}
-    for index, ratio in enumerate(RATIOS):
-        data["ratio"].append(velocity_at(instance, 0.0, ratio))
-        part(progress, 0, 4)((index + 1) / len(RATIOS))
-    for index, ratio in enumerate(SHOWN_RATIOS):
-        values = [velocity_at(instance, phase, ratio) for phase in PHASES]
-        data["phase"][f"{ratio:g}"] = values
-        part(progress, 1, 4)((index + 1) / len(SHOWN_RATIOS))
-    for name, group, share in (
-        ("detuned", [(d, 1.0 + d / DEVICE.drive_frequency) for d in DETUNINGS], 2),
-        ("history", [(r, r) for r in HISTORY_RATIOS], 3),
-    ):
-        for index, (key, ratio) in enumerate(group):
-            run = course(instance, {"frequency_ratio": ratio}, STOP, POINTS)
-            data[name][f"{key:g}"] = run.plain()
-            part(progress, share, 4)((index + 1) / len(group))
-    return data
+def _measure(instance: Instance) -> Data:
+    def history(ratio: float) -> Data:
+        return plain(record(instance, {"frequency_ratio": ratio}, STOP, POINTS))
+
+    return {
+        "ratio": [velocity_at(instance, 0.0, ratio) for ratio in RATIOS],
+        "phase": {
+            f"{ratio:g}": [velocity_at(instance, phase, ratio) for phase in PHASES]
+            for ratio in SHOWN_RATIOS
+        },
+        "detuned": {f"{d:g}": history(1.0 + d / DEVICE.drive_frequency) for d in DETUNINGS},
+        "history": {f"{ratio:g}": history(ratio) for ratio in HISTORY_RATIOS},
+    }
 
 
 def _draw(data: Data) -> Drawing:
@@ -140,15 +133,6 @@ FIGURE = PaperFigure(
     "small detuning, lambda = 1 + DeltaOmega / Omega; (d) from rest. Markers: FMU, by shooting "
     "in (a) and (b). Lines: the average at integer ratios in (a) and (b), (A.2) in (c), the "
     "FMU in (d).",
-    {
-        "ratios": RATIOS,
-        "phases": PHASES,
-        "shown": SHOWN_RATIOS,
-        "detunings": DETUNINGS,
-        "histories": HISTORY_RATIOS,
-        "stop": STOP,
-        "points": POINTS,
-    },
     _measure,
     _draw,
 )

@@ -48,6 +48,5 @@ TABLE = PaperTable(
         "paper_deviation": "(24) / FMU - 1",
     },
     {"uniform_deviation": 2e-3},
-    {"kappas": KAPPAS, "case": lugre_case(CASE, FREQUENCY, 1.0)},
     rows_over(KAPPAS, _row),
 )

@@ -59,6 +59,5 @@ TABLE = PaperTable(
         "force_deviation": "(uniform - FMU) / largest friction",
     },
     {"velocity_deviation": 2e-3, "force_deviation": 2e-3},
-    {"kappas": KAPPAS},
     rows_over(KAPPAS, _row),
 )

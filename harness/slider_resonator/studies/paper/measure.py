@@ -1,70 +1,46 @@
-"""What the report needs to know of an FMU: velocities and forces without long runs, and courses."""
+"""What the report asks of an FMU: records of short runs, and velocities and forces by shooting."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-
-import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.schedule import constant, schedule
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.fmu.drive import Instance, Record, run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
 
-Array = NDArray[np.float64]
+INPUTS = {"phase", "load", "frequency_ratio"}
+SIGNALS = ("position", "velocity")
 
 
-@dataclass(frozen=True)
-class Course:
-    """Position and velocity of a run at times, each shape (n,)."""
-
-    time: Array
-    position: Array
-    velocity: Array
-
-    def plain(self) -> dict[str, list[float]]:
-        """Return the course as lists."""
-        return {
-            "time": self.time.tolist(),
-            "position": self.position.tolist(),
-            "velocity": self.velocity.tolist(),
-        }
+def record(instance: Instance, values: Mapping[str, float], stop: float, points: int) -> Record:
+    """Run from 0 to ``stop`` (s) in ``points`` equal steps; return position and velocity."""
+    signals = {name: constant(value) for name, value in values.items() if name in INPUTS}
+    parameters = {name: value for name, value in values.items() if name not in INPUTS}
+    return run(instance, parameters, schedule(stop, stop / points, **signals), outputs=SIGNALS)
 
 
-def course(instance: Instance, values: Mapping[str, float], stop: float, points: int) -> Course:
-    """Return a run from 0 to ``stop`` (s) at ``points`` equal steps."""
-    inputs = {"phase", "load", "frequency_ratio"}
-    signals = {name: constant(value) for name, value in values.items() if name in inputs}
-    parameters = {name: value for name, value in values.items() if name not in inputs}
-    record = run(
-        instance,
-        parameters,
-        schedule(stop, stop / points, **signals),
-        outputs=("position", "velocity"),
-    )
-    return Course(record.times, record["position"], record["velocity"])
+def plain(found: Record) -> dict[str, list[float]]:
+    """Return time, position and velocity as lists."""
+    return {"time": found.times.tolist(), **{name: found[name].tolist() for name in SIGNALS}}
 
 
 def steady_velocity(instance: Instance, values: Mapping[str, float]) -> float:
-    """Return the steady velocity in m/s by shooting.
-
-    Raises FmuError, with the reason, where there is none.
-    """
-    motion = find_steady(instance, values)
-    if motion.steady_velocity is None:
-        raise FmuError(f"{instance.fmu.path.name}: {dict(values)}: {motion.reason}")
-    return motion.steady_velocity
+    """Return the steady velocity in m/s by shooting; FmuError, with the reason, without one."""
+    steady = find_steady(instance, values)
+    return _found(steady.steady_velocity, steady.reason, instance, values)
 
 
 def blocking_force(instance: Instance, values: Mapping[str, float]) -> float:
-    """Return the load in N that stops the device, by shooting.
-
-    Raises FmuError, with the reason, where there is none.
-    """
+    """Return the load in N that stops the device; FmuError, with the reason, without one."""
     blocking = find_blocking(instance, values)
-    if blocking.blocking_force is None:
-        raise FmuError(f"{instance.fmu.path.name}: {dict(values)}: {blocking.reason}")
-    return blocking.blocking_force
+    return _found(blocking.blocking_force, blocking.reason, instance, values)
+
+
+def _found(
+    value: float | None, reason: str, instance: Instance, values: Mapping[str, float]
+) -> float:
+    if value is None:
+        raise FmuError(f"{instance.fmu.path.name}: {dict(values)}: {reason}")
+    return value

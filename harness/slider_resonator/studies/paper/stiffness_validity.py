@@ -11,17 +11,8 @@ from slider_resonator.fmu.drive import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper.figure import (
-    SHADES,
-    Data,
-    PaperFigure,
-    Progress,
-    markers,
-    panels,
-    part,
-    sweep,
-)
-from slider_resonator.studies.paper.mapping import Values, lugre_case
+from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, curve, markers, panels
+from slider_resonator.studies.paper.mapping import lugre_case
 from slider_resonator.studies.paper.measure import blocking_force, steady_velocity
 
 FREQUENCY = 1000.0
@@ -34,18 +25,11 @@ def stiffness_of(kappa: float) -> float:
     return kappa * CASE.friction_coefficient * FREQUENCY / CASE.strength
 
 
-def _values(kappa: float) -> Values:
-    return lugre_case(CASE, FREQUENCY, stiffness_of(kappa))
-
-
-def _measure(instance: Instance, progress: Progress) -> Data:
+def _measure(instance: Instance) -> Data:
+    cases = [lugre_case(CASE, FREQUENCY, stiffness_of(kappa)) for kappa in KAPPAS]
     return {
-        "velocity": sweep(
-            KAPPAS, lambda kappa: steady_velocity(instance, _values(kappa)), part(progress, 0, 2)
-        ),
-        "blocking": sweep(
-            KAPPAS, lambda kappa: blocking_force(instance, _values(kappa)), part(progress, 1, 2)
-        ),
+        "velocity": curve(KAPPAS, [steady_velocity(instance, values) for values in cases]),
+        "blocking": curve(KAPPAS, [blocking_force(instance, values) for values in cases]),
     }
 
 
@@ -95,7 +79,6 @@ FIGURE = PaperFigure(
     "q = alpha = 1, phi = pi/2, sigma_1 = 1, mu = 0.4, Omega = 1000, sigma_0 = kappa mu Omega / q. "
     "(a) steady velocity, (b) its errors against the FMU, (c) blocking load. Markers: FMU, by "
     "shooting. (17) and (24) assume kappa << 1, Coulomb friction is the limit of large kappa.",
-    {"kappas": KAPPAS, "case": lugre_case(CASE, FREQUENCY, 1.0)},
     _measure,
     _draw,
 )

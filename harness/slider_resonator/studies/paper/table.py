@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from slider_resonator.fmu.drive import Instance
-from slider_resonator.studies.paper.figure import Data, Progress
+from slider_resonator.studies.paper.figure import Data
 
 
 @dataclass(frozen=True)
@@ -23,8 +22,7 @@ class PaperTable:
     caption: str
     columns: Mapping[str, str]
     bounds: Mapping[str, float]
-    parameters: Mapping[str, Any]
-    measure: Callable[[Instance, Progress], Data]
+    measure: Callable[[Instance], Data]
 
     def largest(self, data: Data) -> dict[str, float]:
         """Return the largest size of each deviation that has a bound."""
@@ -37,14 +35,6 @@ class PaperTable:
 
 def rows_over(
     values: Sequence[float], row: Callable[[Instance, float], Mapping[str, float]]
-) -> Callable[[Instance, Progress], Data]:
+) -> Callable[[Instance], Data]:
     """Return the measurement of a table with one row for each value."""
-
-    def measure(instance: Instance, progress: Progress) -> Data:
-        rows = []
-        for index, value in enumerate(values):
-            rows.append(row(instance, value))
-            progress((index + 1) / len(values))
-        return {"rows": rows}
-
-    return measure
+    return lambda instance: {"rows": [row(instance, value) for value in values]}

@@ -10,18 +10,15 @@ from matplotlib.figure import Figure as Drawing
 from slider_resonator.fmu.drive import Instance
 from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.studies.paper.figure import Data, PaperFigure, Progress, panels
+from slider_resonator.studies.paper.figure import Data, PaperFigure, panels
 from slider_resonator.studies.paper.figure_8 import DEVICE, velocity_at
 
 RATIOS = tuple((np.arange(2, 21) / 4.0).tolist())
 PHASES = tuple(np.linspace(-pi, pi, 25)[:-1].tolist())
 
 
-def _measure(instance: Instance, progress: Progress) -> Data:
-    rows = []
-    for index, ratio in enumerate(RATIOS):
-        rows.append([velocity_at(instance, phase, ratio) for phase in PHASES])
-        progress((index + 1) / len(RATIOS))
+def _measure(instance: Instance) -> Data:
+    rows = [[velocity_at(instance, phase, ratio) for phase in PHASES] for ratio in RATIOS]
     return {"velocity": rows}
 
 
@@ -49,7 +46,6 @@ FIGURE = PaperFigure(
     "The device of table 1. (a) FMU by shooting at ratios of quarters, grey where it finds no "
     "steady motion; (b) the average: integer ratios drive the slider, at others only the mean load "
     "counts.",
-    {"ratios": RATIOS, "phases": PHASES},
     _measure,
     _draw,
 )

@@ -14,7 +14,7 @@ Points = tuple[tuple[str, ...], tuple[tuple[float, ...], ...]]
 """Names that are varied, and their values point by point."""
 
 SPACINGS = ("linear", "log")
-MOST_POINTS = 10_000_000
+MAX_POINTS = 10_000_000
 """More would not fit beside each other in the memory of the process that writes the table."""
 
 
@@ -50,8 +50,8 @@ def random_points(table: Mapping[str, Any]) -> Points:
     if not table:
         return (), ()
     numbers = {
-        key: _whole(f"random.{key}", table.get(key), least)
-        for key, least in (("count", 1), ("seed", 0))
+        key: whole_number(f"random.{key}", table.get(key), minimum)
+        for key, minimum in (("count", 1), ("seed", 0))
     }
     check_count(numbers["count"])
     ranges = {name: value for name, value in table.items() if name not in numbers}
@@ -70,15 +70,15 @@ def random_points(table: Mapping[str, Any]) -> Points:
 
 def check_count(count: int) -> None:
     """Raise AxisError for more points than a sweep may have."""
-    if count > MOST_POINTS:
-        raise AxisError(f"{count} points; must be at most {MOST_POINTS}")
+    if count > MAX_POINTS:
+        raise AxisError(f"{count} points; must be at most {MAX_POINTS}")
 
 
 def _axis(key: str, value: object) -> Sequence[float]:
     if not isinstance(value, dict):
         return _values(key, value)
     first, last, spacing = _bounds(key, value, ("count",))
-    count = _whole(f"{key}.count", value.get("count"), 2)
+    count = whole_number(f"{key}.count", value.get("count"), 2)
     check_count(count)
     return [_between(first, last, spacing, index / (count - 1)) for index in range(count)]
 
@@ -87,7 +87,7 @@ def _values(key: str, value: object) -> Sequence[float]:
     if not isinstance(value, list) or not value:
         raise AxisError(f"{key} = {value!r}: must be a list of one number or more")
     for entry in value:
-        _number(key, entry)
+        finite_number(key, entry)
     return [float(entry) for entry in value]
 
 
@@ -99,7 +99,7 @@ def _bounds(key: str, value: object, more: Sequence[str]) -> tuple[float, float,
     for name in value:
         if name not in allowed:
             raise AxisError(f"{key}: {unknown_name('key', name, allowed)}")
-    first, last = (_number(f"{key}.{name}", value.get(name)) for name in ("from", "to"))
+    first, last = (finite_number(f"{key}.{name}", value.get(name)) for name in ("from", "to"))
     spacing = value.get("spacing", "linear")
     if spacing not in SPACINGS:
         raise AxisError(f"{key}.spacing = {spacing!r}: must be one of {', '.join(SPACINGS)}")
@@ -117,13 +117,15 @@ def _between(first: float, last: float, spacing: str, share: float) -> float:
     return first + (last - first) * share
 
 
-def _whole(key: str, value: object, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise AxisError(f"{_given(key, value)}: must be a whole number from {least} on")
+def whole_number(key: str, value: object, minimum: int) -> int:
+    """Return a whole number of at least `minimum`; AxisError for anything else."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < minimum:
+        raise AxisError(f"{_given(key, value)}: must be a whole number from {minimum} on")
     return value
 
 
-def _number(key: str, value: object) -> float:
+def finite_number(key: str, value: object) -> float:
+    """Return a finite number; AxisError for anything else."""
     if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
         raise AxisError(f"{_given(key, value)}: must be a finite number")
     return float(value)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +15,11 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.studies.sweep.axes import (
     AxisError,
     check_count,
+    finite_number,
     grid_points,
     list_points,
     random_points,
+    whole_number,
 )
 from slider_resonator.studies.sweep.measures import Run, Task, check_measure
 
@@ -32,7 +33,7 @@ class Sweep:
     """A sweep that has been read and found sound.
 
     `points` are the values of `task.names`, one tuple each, in the order of the rows of the table.
-    `is_grid` tells that they are a full product of axes and nothing else.
+    `is_grid` says that they are a full product of axes and nothing else.
     """
 
     title: str
@@ -88,7 +89,9 @@ def _sweep(content: Mapping[str, Any]) -> Sweep:
         names=tuple(names),
         fixed=tuple((name, float(value)) for name, value in fixed.items()),
         measures=_measures(content),
-        max_denominator=_count(content, "max_denominator", MAX_DENOMINATOR, 1),
+        max_denominator=whole_number(
+            "max_denominator", content.get("max_denominator", MAX_DENOMINATOR), 1
+        ),
         run=_run(_table(content, "run")),
     )
     is_grid = not content.get("list") and not content.get("random")
@@ -109,9 +112,9 @@ def _measures(content: Mapping[str, Any]) -> tuple[str, ...]:
 
 def _run(table: Mapping[str, Any]) -> Run:
     _known("key of [run]", table, RUN_KEYS)
-    least = {"skip_periods": 0}
     periods, steps, skipped = (
-        _count(table, key, RUN_DEFAULTS[key], least.get(key, 1)) for key in RUN_KEYS
+        whole_number(key, table.get(key, RUN_DEFAULTS[key]), minimum)
+        for key, minimum in zip(RUN_KEYS, (1, 1, 0), strict=True)
     )
     if skipped >= periods:
         raise AxisError(
@@ -120,19 +123,10 @@ def _run(table: Mapping[str, Any]) -> Run:
     return Run(periods, steps, skipped)
 
 
-def _count(table: Mapping[str, Any], key: str, default: int, least: int) -> int:
-    value = table.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise AxisError(f"{key} = {value!r}: must be a whole number not below {least}")
-    return value
-
-
 def _check(name: str, values: Iterable[object]) -> None:
     for value in values:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-            raise AxisError(f"{name} = {value!r}: must be a finite number")
         try:
-            check_value(name, value)
+            check_value(name, finite_number(name, value))
         except ValueError as error:
             raise AxisError(str(error)) from error
 

@@ -113,10 +113,10 @@ def measure(instance: Instance, task: Task, point: tuple[float, ...]) -> list[Ce
 
 def _statistics(instance: Instance, task: Task, values: Mapping[str, float]) -> Mapping[str, float]:
     """Return the statistics among the measures, all from one run."""
-    wanted = [name for name in task.measures if name not in SHOOTING]
-    if not wanted:
+    chosen = [name for name in task.measures if name not in SHOOTING]
+    if not chosen:
         return {}
-    outputs = list(dict.fromkeys(name.partition(".")[0] for name in wanted))
+    outputs = list(dict.fromkeys(name.partition(".")[0] for name in chosen))
     parameters = {name: value for name, value in values.items() if name not in INPUTS}
     inputs = {name: constant(values.get(name, start)) for name, start in INPUT_STARTS.items()}
     instance.start(values)
@@ -125,7 +125,7 @@ def _statistics(instance: Instance, task: Task, values: Mapping[str, float]) -> 
     record = run(instance, parameters, plan, outputs=outputs)
     first = task.run.skip_periods * task.run.steps_per_period
     results = {}
-    for name in wanted:
+    for name in chosen:
         output, _, statistic = name.partition(".")
         results[name] = STATISTICS[statistic](record[output][first:])
     return results

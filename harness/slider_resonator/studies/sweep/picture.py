@@ -20,7 +20,7 @@ from slider_resonator.studies.sweep.table import Columns
 
 Array = NDArray[np.float64]
 
-MOST_LINES = 6
+MAX_LINES = 6
 """Values of a variable that are drawn as a line each; more of them make a map."""
 
 
@@ -67,7 +67,7 @@ def _over_grid(
     """Draw lines where one of the two axes has few values, a map where both have many."""
     one, other = sweep.task.names
     few = min((one, other), key=lambda name: len(np.unique(values[name])))
-    if len(np.unique(values[few])) <= MOST_LINES:
+    if len(np.unique(values[few])) <= MAX_LINES:
         abscissa = other if few == one else one
         for value in np.unique(values[few]):
             chosen = values[few] == value

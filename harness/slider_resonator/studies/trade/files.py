@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from slider_resonator.output.atomic import replacing
-from slider_resonator.studies.trade.motion import QUANTITIES
 from slider_resonator.studies.trade.result import Row, Trade
+from slider_resonator.studies.trade.solution import QUANTITIES
 
 COLUMNS = (
     *("scene", "answer", "kind", "family", "method", "fidelity", "friction_law"),
@@ -18,7 +18,7 @@ COLUMNS = (
     *(f"error_{quantity}" for quantity in QUANTITIES),
 )
 """Columns of the data; CPU times are per simulated second where `answer` is `run`, else per answer;
-what a method does not have or does not tell is empty."""
+what a method does not have or does not report is empty."""
 
 
 def write_rows(path: Path, trades: Sequence[Trade]) -> None:
@@ -27,7 +27,7 @@ def write_rows(path: Path, trades: Sequence[Trade]) -> None:
 
 
 def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
-    """Write who or what is missing, and why; HarnessError when that is impossible."""
+    """Write what is missing, and why; HarnessError when that is impossible."""
     lines = [
         (omission.scene, omission.method, omission.quantity, omission.reason)
         for trade in trades

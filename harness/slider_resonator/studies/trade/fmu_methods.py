@@ -11,37 +11,37 @@ from slider_resonator.fmu.drive import Instance, run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.trade.method import Answer, Found, Label, Method
-from slider_resonator.studies.trade.motion import Motion
+from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import AVERAGED, RESOLVED
-from slider_resonator.studies.trade.task import Task
+from slider_resonator.studies.trade.solution import Solution
 
 STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 """Communication steps in drive periods."""
 USUAL_STEP = 10.0
-"""The step at which tolerances and the other friction law are tried."""
+"""The step for other tolerances and for the other friction law."""
 TOLERANCES = (1e-4, 1e-6, 1e-10, 1e-12)
 """Of LuGre friction, besides the one that the FMU starts with."""
 USUAL_TOLERANCE = 1e-8
 LAWS = ("Coulomb", "LuGre")
 OUTPUTS = ("position", "velocity", "mean_velocity")
 SHORTEST = 2e-3
-"""CPU time (s) that is long enough to be timed; shorter runs are repeated up to MOST_RUNS times."""
-MOST_RUNS = 20
+"""Shortest CPU time (s) of a measurement; shorter runs are repeated up to MAX_RUNS times."""
+MAX_RUNS = 20
 
 _UNRESOLVED = {"event_times": "averaged motion has no events"}
 
 
 class FmuMethods:
-    """The methods of an FMU on a task; `build` is what it is called, such as `native`."""
+    """The methods of an FMU on a problem; `build` is its name, such as `native`."""
 
-    def __init__(self, task: Task, build: str, instance: Instance) -> None:
-        self.task = task
+    def __init__(self, problem: Problem, build: str, instance: Instance) -> None:
+        self.problem = problem
         self.build = build
         self.instance = instance
 
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
-        own = self.task.device.friction_law
+        own = self.problem.device.friction_law
         for fidelity in (2, 1, 0):
             for step in STEPS:
                 yield self._method(fidelity, own, step, USUAL_TOLERANCE)
@@ -51,7 +51,7 @@ class FmuMethods:
 
     def answers(self) -> Iterator[Answer]:
         """Yield the searches for steady motion and blocking force, and the outputs of theory."""
-        own = self.task.device.friction_law
+        own = self.problem.device.friction_law
         for quantity in ("steady_velocity", "blocking_force"):
             for fidelity in (2, 1, 0):
                 yield self._search(quantity, fidelity, own)
@@ -59,10 +59,10 @@ class FmuMethods:
 
     def _values(self, fidelity: int, law: int, tolerance: float) -> dict[str, float]:
         own = {"fidelity": fidelity, "friction_law": law}
-        return {**self.task.parameters, **own, "tolerance": tolerance}
+        return {**self.problem.parameters, **own, "tolerance": tolerance}
 
     def _label(self, fidelity: int, law: int, tolerance: float, step: float | None) -> Label:
-        own = self.task.device.friction_law
+        own = self.problem.device.friction_law
         family = f"{self.build} FMU, fidelity {fidelity}"
         if law != own:
             family += f", {LAWS[law]} instead"
@@ -77,15 +77,15 @@ class FmuMethods:
 
     def _method(self, fidelity: int, law: int, step: float, tolerance: float) -> Method:
         values = self._values(fidelity, law, tolerance)
-        size = step * self.task.period
+        size = step * self.problem.period
 
-        def follow(periods: int) -> Motion:
+        def follow(periods: int) -> Solution:
             return self._follow(values, periods, size, resolved=fidelity > 0)
 
         def seconds(periods: int) -> float:
-            schedule = self.task.schedule(periods, size)
+            schedule = self.problem.schedule(periods, size)
             taken: list[float] = []
-            while not taken or (sum(taken) < SHORTEST and len(taken) < MOST_RUNS):
+            while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
                 taken.append(run(self.instance, values, schedule, outputs=OUTPUTS).step_cpu)
             return sum(taken) / len(taken)
 
@@ -93,33 +93,33 @@ class FmuMethods:
             self._label(fidelity, law, tolerance, step),
             follow,
             seconds,
-            least_periods=ceil(step),
+            min_periods=ceil(step),
             missing={} if fidelity else _UNRESOLVED,
         )
 
     def _follow(
         self, values: Mapping[str, float], periods: int, size: float, *, resolved: bool
-    ) -> Motion:
-        own = self.task.schedule(periods, size)
-        readings = self.task.readings(periods)
-        closest = 1e-9 * min(size, self.task.period)
+    ) -> Solution:
+        own = self.problem.schedule(periods, size)
+        readings = self.problem.readings(periods)
+        closest = 1e-9 * min(size, self.problem.period)
         outputs = (*OUTPUTS, "last_event_time", "reversals")
         record = run(self.instance, values, own.read_at(readings, closest), outputs=outputs)
         at = np.searchsorted(record.times, own.times)
-        return Motion(
+        return Solution(
             times=record.times,
             position=record["position"],
             velocity=record["velocity"],
             mean_velocity=record["mean_velocity"],
             last_event=record["last_event_time"] if resolved else None,
-            course=(own.times, record["mean_velocity"][at]),
+            history=(own.times, record["mean_velocity"][at]),
             steps=len(own.times) - 1,
             events=round(record.final("reversals")) if resolved else None,
             start_cpu=record.start_cpu,
         )
 
     def _search(self, quantity: str, fidelity: int, law: int) -> Answer:
-        values = {**self._values(fidelity, law, USUAL_TOLERANCE), **self.task.inputs}
+        values = {**self._values(fidelity, law, USUAL_TOLERANCE), **self.problem.inputs}
 
         def find(_: float) -> Found:
             if quantity == "steady_velocity":
@@ -132,9 +132,9 @@ class FmuMethods:
         return Answer(self._label(fidelity, law, USUAL_TOLERANCE, None), quantity, find)
 
     def _prediction(self, quantity: str) -> Answer:
-        """Return the reading of an output that holds averaged theory, at the start of a run."""
-        law = self.task.device.friction_law
-        values = {**self._values(2, law, USUAL_TOLERANCE), **self.task.inputs}
+        """Return the value of an output that holds averaged theory, at the start of a run."""
+        law = self.problem.device.friction_law
+        values = {**self._values(2, law, USUAL_TOLERANCE), **self.problem.inputs}
         family = f"{self.build} FMU, output {quantity}"
 
         def find(_: float) -> Found:

@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from time import process_time
 
-from slider_resonator.studies.trade.motion import Motion
+from slider_resonator.studies.trade.solution import Solution
 
 
 @dataclass(frozen=True)
 class Label:
-    """Who a method is, as `Row` has it."""
+    """Identity of a method, with the fields of `Row`."""
 
     kind: str
     family: str
@@ -26,23 +26,23 @@ class Label:
 class Method:
     """A way to follow a motion.
 
-    `run` follows it over so many drive periods; `seconds` does the same without what only the
-    comparison needs and returns the CPU time (s) of that, without getting started. A run has at
-    least `least_periods`; one that `sticks_not` covers no sticking. `missing` says of quantities
-    why there is none.
+    `run` follows it over a number of drive periods; `seconds` does so without the readings and
+    returns the CPU time (s), without initialisation. A run has at least `min_periods`; a method
+    that `cannot_stick` does not cover sticking. `missing` gives the reason for each quantity that
+    the method does not compute.
     """
 
     label: Label
-    run: Callable[[int], Motion]
+    run: Callable[[int], Solution]
     seconds: Callable[[int], float]
-    least_periods: int = 1
-    sticks_not: bool = False
+    min_periods: int = 1
+    cannot_stick: bool = False
     missing: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Found:
-    """An answer, None where none was found for a `reason`, and the drive periods it took."""
+    """An answer, None with a `reason` where there is none, and the drive periods simulated."""
 
     value: float | None
     reason: str
@@ -53,7 +53,7 @@ class Found:
 class Answer:
     """A way to a steady velocity (m/s) or a blocking force (N), named by `quantity`.
 
-    `find` gives up, with a RuntimeError, when it has taken so much CPU time (s).
+    `find` takes its budget of CPU time (s) and raises RuntimeError where that is exceeded.
     """
 
     label: Label

@@ -38,7 +38,7 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class Choice:
-    """The cheapest way of ours to a need; what nobody reaches is None.
+    """The cheapest rows that meet a need, None where no method does.
 
     `python` is the same model in the Python FMU.
     """

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.studies.trade.motion import QUANTITIES
 from slider_resonator.studies.trade.needs import title
 from slider_resonator.studies.trade.plots import work_precision_png
 from slider_resonator.studies.trade.result import Omission, Row, Trade
+from slider_resonator.studies.trade.solution import QUANTITIES
 from slider_resonator.studies.trade.summary import comparisons, duration
 
 _COLUMNS = (
@@ -38,13 +38,13 @@ def _ratios(trade: Trade) -> list[str]:
 
 def _explanation() -> str:
     return (
-        "<p>Errors are largest deviations from the referee, Taylor integration with located "
+        "<p>Errors are largest deviations from the reference, Taylor integration with located "
         "events, over all points of windows of a drive period that end with the run, half of it, a "
         "quarter and so on; those of steady velocity and blocking force are from shooting by the "
-        "referee. Times are CPU times, medians of repeats taken in turn, of following the motion: "
-        "not of the start of an FMU, nor of the first drive period that heyoka in one call is led "
-        "through by located Taylor steps, since it cannot begin at rest. A method that would "
-        "exceed its budget is followed over fewer drive periods, which the column says. Peers hold "
+        "reference. Times are CPU times, medians of repeats taken in turn, of following the "
+        "motion: not of the start of an FMU, nor of the first drive period, which located Taylor "
+        "steps take for heyoka in one call, since it cannot start at rest. A method that would "
+        "exceed its budget is followed over fewer drive periods, as listed. Peers hold "
         "inputs that vary over the scene's own communication step (FMUs over theirs), and cost "
         "what they cost a user of Python: heyoka compiles its equations, scipy and CVODE call them "
         "in Python, and Moreau-Jean is a loop in Python. Steps are an FMU's communication steps "
@@ -57,7 +57,7 @@ def _scene(trade: Trade) -> list[str]:
     run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
     if trade.uncertainty:
         run += (
-            f" The referee holds inputs that vary in fine steps, which leaves an uncertainty of "
+            f" The reference holds inputs that vary in fine steps, which leaves an uncertainty of "
             f"{trade.uncertainty:.0e} of the position: errors below it mean nothing."
         )
     parts.append(f"<p>{escaped(run)}</p>")

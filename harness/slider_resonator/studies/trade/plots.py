@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import png_data_uri, save, style
-from slider_resonator.studies.trade.motion import QUANTITIES
 from slider_resonator.studies.trade.result import AVERAGED, PEER, Row, Trade, families, front
+from slider_resonator.studies.trade.solution import QUANTITIES
 
 FLOOR = 1e-16
 """Errors below this are drawn here: double precision resolves no less."""
@@ -65,7 +65,7 @@ def draw_picture(trade: Trade, path: Path) -> None:
 def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look]) -> None:
     drawn = [row for row in rows if row.errors[quantity] < float("inf")]
     if not drawn:
-        axes.text(0.5, 0.5, "nobody has any", ha="center", transform=axes.transAxes)
+        axes.text(0.5, 0.5, "no method has any", ha="center", transform=axes.transAxes)
         return
     best = front(drawn, quantity)
     axes.step(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from statistics import median
 
 AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
-"""Kinds of method: our averaged motion, our resolved one, and everybody else."""
+"""Kinds of method: our averaged motion, our resolved one, and all others."""
 
 
 @dataclass(frozen=True)
@@ -19,8 +19,8 @@ class Row:
     simulated second of a run and per answer otherwise, and `start_cpu` (s) what initialisation took
     besides. `step` is the communication step in drive periods. Of a run `steps` counts the
     communication steps of an FMU or an integrator's own, `evaluations` those of the equations,
-    `events` the located ones, or the reversals where a method tells no others. What a method does
-    not have or does not tell is None.
+    `events` the located ones, or the reversals where a method reports no others. What a method does
+    not have or does not report is None.
     """
 
     scene: str
@@ -58,7 +58,7 @@ class Omission:
 
 @dataclass(frozen=True)
 class Trade:
-    """Everything measured on one scene; `uncertainty` is the referee's own error of a position."""
+    """All measurements on one scene; `uncertainty` is the reference's own error of the position."""
 
     scene: str
     title: str
@@ -74,12 +74,12 @@ class Trade:
         return [row for row in self.rows if quantity in row.errors]
 
     def candidates(self, quantity: str) -> list[Row]:
-        """Return those under the friction law of the scene: another one is near by luck only."""
+        """Return the rows under the friction law of the scene, of those with this error."""
         return [row for row in self.having(quantity) if row.friction_law == self.friction_law]
 
 
 ROUNDING = 1e-12
-"""Errors below this are luck: rounding over a thousand drive periods."""
+"""Errors below this are rounding over a thousand drive periods and compare as equal."""
 
 
 def front(rows: Iterable[Row], quantity: str) -> list[Row]:
@@ -99,7 +99,7 @@ def front(rows: Iterable[Row], quantity: str) -> list[Row]:
 
 
 def cheapest(rows: Iterable[Row], quantity: str, error: float) -> Row | None:
-    """Return the cheapest row whose error of a quantity is at most so much, None without any."""
+    """Return the cheapest row with an error of a quantity of at most `error`, None without any."""
     good = [row for row in rows if row.errors.get(quantity, float("inf")) <= error]
     return min(good, key=lambda row: row.cost, default=None)
 

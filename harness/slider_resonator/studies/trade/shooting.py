@@ -17,12 +17,14 @@ from slider_resonator.steady.reference_steady import (
     reference_steady_velocity,
 )
 from slider_resonator.studies.trade.method import Found
-from slider_resonator.studies.trade.task import Task
+from slider_resonator.studies.trade.problem import Problem
 
 Array = NDArray[np.float64]
 
 
-def shoot(task: Task, quantity: str, simulate: Simulate, tolerance: float, budget: float) -> Found:
+def shoot(
+    problem: Problem, quantity: str, simulate: Simulate, tolerance: float, budget: float
+) -> Found:
     """Return a steady velocity or blocking force by shooting with any integrator.
 
     Raises RuntimeError when that takes more CPU time (s) than its budget.
@@ -35,16 +37,16 @@ def shoot(task: Task, quantity: str, simulate: Simulate, tolerance: float, budge
             raise RuntimeError(
                 f"the search by shooting takes more than its budget of {budget:g} s of CPU time"
             )
-        turns.append((held[-1].stop - held[0].start) / task.period)
+        turns.append((held[-1].stop - held[0].start) / problem.period)
         return simulate(device, held, times)
 
-    phase, load, ratio = (task.inputs[name] for name in ("phase", "load", "frequency_ratio"))
+    phase, load, ratio = (problem.inputs[name] for name in ("phase", "load", "frequency_ratio"))
     if quantity == "steady_velocity":
         value = reference_steady_velocity(
-            task.device, phase, load, ratio, simulate=counted, tolerance=tolerance
+            problem.device, phase, load, ratio, simulate=counted, tolerance=tolerance
         )
     else:
         value = reference_blocking_force(
-            task.device, phase, ratio, simulate=counted, tolerance=tolerance
+            problem.device, phase, ratio, simulate=counted, tolerance=tolerance
         )
     return Found(value, "the search by shooting has found none", round(sum(turns)))

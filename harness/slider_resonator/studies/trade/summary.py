@@ -77,7 +77,7 @@ def comparisons(trade: Trade) -> list[tuple[str, list[str]]]:
 
 
 def heading(quantity: str, error: float) -> str:
-    """Return what is compared, in words."""
+    """Return the target in words."""
     size = f"{100.0 * error:g} %" if error >= 1e-3 else f"{error:.0e}"
     return f"at an error of {size} in {quantity.replace('_', ' ')}"
 

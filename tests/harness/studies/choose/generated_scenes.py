@@ -16,7 +16,7 @@ COUNT = 200
 STEADY_SHARE = 0.2
 LONGEST = {0: 50_000.0, 1: 8000.0}
 """Drive periods of the longest run, by friction law."""
-MAX_LOOKS = 3000
+MAX_CHECKPOINTS = 3000
 """Communication points of a scene in its own step."""
 
 
@@ -55,7 +55,7 @@ def generated_scene(seed: int) -> Scene:
         "inputs": inputs,
     }
     if not steady:
-        per_period = min(draw.one_of(1.0, 4.0, 16.0), MAX_LOOKS / periods)
+        per_period = min(draw.one_of(1.0, 4.0, 16.0), MAX_CHECKPOINTS / periods)
         content["run"] = {"stop_time": duration, "steps_per_period": per_period}
     beats = _beats(inputs)
     ramps = any(isinstance(given, dict) and "ramp" in given for given in inputs.values())

@@ -25,11 +25,11 @@ from slider_resonator.studies.choose.cost import search_cost
 from slider_resonator.studies.choose.scales import scales_of
 
 WITHIN = 1.5
-"""How much dearer than the cheapest a choice may be."""
+"""Largest allowed cost of a choice, relative to the cheapest candidate."""
 STEPS_TRIED = 2
 SHOWN = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 FINE_STEPS = 8
-MOST_POINTS = 25_000
+MAX_POINTS = 25_000
 
 
 @dataclass(frozen=True)
@@ -54,15 +54,15 @@ class Verdict:
 
 
 class Judge:
-    """What is true of a scene, from the resolved device in fine steps."""
+    """The reference of a scene: the resolved device in fine steps."""
 
     def __init__(self, instance: Instance, scene: Scene) -> None:
         assert scene.need is not None
         self.instance = instance
         self.scene = scene
         self.needs = scene.need.needs
-        self.truth = {"fidelity": 2.0, "friction_law": float(scene.device.friction_law)}
-        self.truth |= {"tolerance": 1e-13}
+        self.reference = {"fidelity": 2.0, "friction_law": float(scene.device.friction_law)}
+        self.reference |= {"tolerance": 1e-13}
         self._found: dict[tuple[object, ...], float | None] = {}
         self._periods: dict[tuple[object, ...], int] = {}
         self._records: dict[Candidate, Record] = {}
@@ -77,7 +77,7 @@ class Judge:
 
     def _excess(self, name: str, candidate: Candidate) -> float:
         if name in STEADY_NEEDS:
-            true, found = (self._steady(name, p) for p in (self.truth, candidate.parameters))
+            true, found = (self._steady(name, p) for p in (self.reference, candidate.parameters))
             if true is None or found is None:
                 return inf
             return _over(abs(found - true), self.needs[name].at(true))
@@ -97,9 +97,9 @@ class Judge:
                 return inf, 0.0
             found, there = (_beat(r, step) for r in (record, true))
             return abs(found - there), there
-        looks = self.scene.schedule().times
-        at, there = (np.searchsorted(r.times, looks) for r in (record, true))
-        assert np.array_equal(record.times[at], true.times[there]), "both are seen at the looks"
+        checkpoints = self.scene.schedule().times
+        at, there = (np.searchsorted(r.times, checkpoints) for r in (record, true))
+        assert np.array_equal(record.times[at], true.times[there]), "at the checkpoints"
         if name == "event_times":
             if record.final("reversals") != true.final("reversals"):
                 return inf, period
@@ -121,12 +121,12 @@ class Judge:
         """Return the resolved run with inputs nearly as they vary, at the points of a run too."""
         if step not in self._true_records:
             own = self.scene.with_step(step).schedule()
-            looks = self.scene.schedule().times
+            checkpoints = self.scene.schedule().times
             signals = self.scene.signals
-            times = np.union1d(own.times, looks)
+            times = np.union1d(own.times, checkpoints)
             if not all(signal.hold for signal in signals.values()):
                 stop, fine = float(own.times[-1]), step / FINE_STEPS
-                fine = max(fine, stop / MOST_POINTS)
+                fine = max(fine, stop / MAX_POINTS)
                 fine = step / max(2, round(step / fine))
                 grid = schedule(stop, fine, **signals).times
                 corners = [t for s in signals.values() for t in s.times if 0.0 < t < stop]
@@ -136,9 +136,9 @@ class Judge:
                     name: s if s.hold else Signal(tuple(times), tuple(map(s.at, middles)))
                     for name, s in signals.items()
                 }
-            values = {**self.scene.parameters, **self.truth}
-            course = Schedule(times, **signals)
-            self._true_records[step] = run(self.instance, values, course, outputs=SHOWN)
+            values = {**self.scene.parameters, **self.reference}
+            samples = Schedule(times, **signals)
+            self._true_records[step] = run(self.instance, values, samples, outputs=SHOWN)
         return self._true_records[step]
 
     def search_cost(self, candidate: Candidate) -> float:
@@ -180,18 +180,18 @@ def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
     candidates below two thirds of its cost, or of all where it says that none suffices, the finest
     of each model are run: a coarser one of the same model is not better.
     """
-    referee = Judge(instance, scene)
-    excess = referee.excess(Candidate(choice.model, choice.tolerance, choice.step))
+    reference = Judge(instance, scene)
+    excess = reference.excess(Candidate(choice.model, choice.tolerance, choice.step))
     bound = choice.cost / WITHIN if choice.meets else inf
     finest: dict[Model, dict[float | None, tuple[Candidate, float]]] = {}
     for candidate, cost in candidates(instance, scene):
-        cost += referee.search_cost(candidate)
+        cost += reference.search_cost(candidate)
         if cost < bound:
             finest.setdefault(candidate.model, {})[candidate.step] = candidate, cost
     for steps in finest.values():
         for step in sorted(steps, key=lambda step: step or 0.0)[:STEPS_TRIED]:
             candidate, cost = steps[step]
-            if max(referee.excess(candidate).values()) <= 1.0:
+            if max(reference.excess(candidate).values()) <= 1.0:
                 return Verdict(choice, excess, candidate, cost)
     return Verdict(choice, excess, None, inf)
 

@@ -48,9 +48,9 @@ def described(verdict: Verdict, seed: int) -> str:
 def judged(instance: Instance, seeds: range) -> None:
     found = verdicts(instance, seeds)
     told = [described(verdict, seed) for verdict, seed in zip(found, seeds, strict=True)]
-    wrong = [text for verdict, text in zip(found, told, strict=True) if not verdict.met]
+    estimate = [text for verdict, text in zip(found, told, strict=True) if not verdict.met]
     dear = [text for verdict, text in zip(found, told, strict=True) if not verdict.cheap]
-    assert not wrong, "\n".join(["chosen, but does not meet the needs:", *wrong])
+    assert not estimate, "\n".join(["chosen, but does not meet the needs:", *estimate])
     assert len(dear) <= 0.1 * len(found), "\n".join(["more than 1.5 of the cheapest:", *dear])
 
 

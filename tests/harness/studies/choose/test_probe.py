@@ -41,7 +41,7 @@ def test_a_scene_is_resolved_in_windows_where_averaged_motion_can_tell_what_lies
         assert probe.probed_duration <= HEAD_PERIODS * probe.scales.period * (1.0 + 1e-12)
 
 
-def test_of_a_scene_that_only_its_beginning_tells_nothing_but_the_device_is_confirmed(
+def test_partial_probe_confirms_only_the_resolved_model(
     instance: Instance,
 ) -> None:
     text = f"[inputs]\nfrequency_ratio = 1.01\n{RUN.format(1e6, 'position')}"
@@ -52,7 +52,7 @@ def test_of_a_scene_that_only_its_beginning_tells_nothing_but_the_device_is_conf
     assert averaged.error == inf
     assert "too long" in averaged.reason
     grown = CAUTION * 1e6 / HEAD_PERIODS
-    assert resolved.error == pytest.approx(grown * 1e-12 * resolved.size)
+    assert resolved.error == pytest.approx(grown * 1e-12 * resolved.magnitude)
 
 
 def test_the_resolved_periods_are_counted(instance: Instance) -> None:

@@ -12,16 +12,16 @@ from slider_resonator.studies.choose.search import coarsest
 def test_where_the_law_holds_the_coarsest_is_found_in_a_few_trials(
     count: int, scale: float, gain: float, data: st.DataObject
 ) -> None:
-    tried: list[int] = []
+    evaluation: list[int] = []
 
     def excess(index: int) -> float:
-        tried.append(index)
+        evaluation.append(index)
         return scale * gain**-index
 
     found = coarsest(excess, count, gain, first=data.draw(st.integers(0, count - 1)))
     good = [index for index in range(count) if scale * gain**-index <= 1.0]
     assert found == (good[0] if good else None)
-    assert len(tried) <= 5
+    assert len(evaluation) <= 5
 
 
 @given(st.lists(st.floats(0.0, 100.0), min_size=1, max_size=20), st.integers(0, 19))
@@ -35,14 +35,14 @@ def test_whatever_the_errors_what_is_found_is_good_and_the_next_coarser_is_not(
 
 
 def test_an_error_that_does_not_fall_is_given_up_at_once() -> None:
-    tried: list[int] = []
+    evaluation: list[int] = []
 
     def excess(index: int) -> float:
-        tried.append(index)
+        evaluation.append(index)
         return 50.0
 
     assert coarsest(excess, 100, 2.0) is None
-    assert len(tried) == 3
+    assert len(evaluation) == 3
 
 
 def test_what_cannot_be_run_coarsely_is_tried_finer() -> None:

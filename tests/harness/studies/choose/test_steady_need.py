@@ -32,8 +32,8 @@ def test_what_does_not_settle_has_no_value_and_a_reason(instance: Instance) -> N
 
 
 def test_the_error_of_a_value_is_at_least_that_of_the_search() -> None:
-    truth, near, none = Found(2.0, "", 9), Found(2.5, "", 0), Found(None, "stuck: why", 0)
-    assert steady_error(near, truth, 0).error == 0.5
-    assert steady_error(truth, truth, 0).error == pytest.approx(2e-10)
-    assert steady_error(none, truth, 0).error == inf
+    reference, near, none = Found(2.0, "", 9), Found(2.5, "", 0), Found(None, "stuck: why", 0)
+    assert steady_error(near, reference, 0).error == 0.5
+    assert steady_error(reference, reference, 0).error == pytest.approx(2e-10)
+    assert steady_error(none, reference, 0).error == inf
     assert steady_error(near, none, 0).reason == "stuck: why"

@@ -8,10 +8,10 @@ import pytest
 from slider_resonator.fmu.drive import Instance
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Candidate, Model
-from slider_resonator.studies.choose.course import Stretch, follow
-from slider_resonator.studies.choose.held import as_meant, as_run
+from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.probe import Probe
-from slider_resonator.studies.choose.windows import SAFETY, holding
+from slider_resonator.studies.choose.stretch import Stretch, follow
+from slider_resonator.studies.choose.windows import SAFETY, holding_errors
 from tests.harness.scene_text import scene_of
 
 LONG = (
@@ -24,7 +24,7 @@ LONG = (
 def errors_of_the_whole(instance: Instance, scene: Scene, model: Model) -> dict[str, float]:
     """Return what averaged motion errs in the whole scene, which is resolved for once."""
     duration = scene.stop_time or 0.0
-    held = as_meant(scene, duration, 0.01)
+    held = averaged_inputs(scene, duration, 0.01)
     stretch = Stretch(0.0, duration, scene.schedule().times[1:])
     law = {"friction_law": float(model.friction_law), "tolerance": 1e-12}
     found, true = (
@@ -60,8 +60,8 @@ def test_holding_an_input_errs_in_proportion_to_the_step(instance: Instance) -> 
     """A load that ramps at 0.02 N/s and is held for h pulls 0.01 h N too little on 1.1 kg."""
     text = LONG.format(device="", load="ramp = [[0, 0], [2.0, 0.04], [7.0, 0.04]]")
     scene = scene_of(text)
-    coarse, fine = (holding(instance, scene, 7.0, step)["position"] for step in (0.02, 0.01))
+    coarse, fine = (holding_errors(instance, scene, 7.0, step)["position"] for step in (0.02, 0.01))
     assert coarse / fine == pytest.approx(2.0, rel=0.02)
-    held, meant = (grid(scene, 7.0, 0.02) for grid in (as_run, as_meant))
+    held, meant = (grid(scene, 7.0, 0.02) for grid in (sampled_inputs, averaged_inputs))
     impulses = [np.diff(g.times, append=7.0) @ g.values[:, 1] for g in (held, meant)]
     assert impulses[1] - impulses[0] == pytest.approx(0.04 * 0.01, rel=1e-2)

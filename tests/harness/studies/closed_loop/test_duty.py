@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from slider_resonator.studies.closed_loop.duty import Duty, Hold
+from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
 
 
 def test_a_load_counts_from_its_own_time_on_despite_rounding() -> None:
@@ -15,5 +15,5 @@ def test_a_load_counts_from_its_own_time_on_despite_rounding() -> None:
 
 def test_holds_follow_one_another_to_the_end() -> None:
     duty = Duty(loads=((0.0, 0.0), (0.3, 0.05)), end=1.0)
-    assert duty.holds == [Hold(0.0, 0.3, 0.0), Hold(0.3, 1.0, 0.05)]
+    assert duty.intervals == [LoadInterval(0.0, 0.3, 0.0), LoadInterval(0.3, 1.0, 0.05)]
     assert len(duty.times) == 100

@@ -7,8 +7,8 @@ import pytest
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.studies.closed_loop import prediction
-from slider_resonator.studies.closed_loop.course import HOSTS, run_loop
 from slider_resonator.studies.closed_loop.duty import Duty
+from slider_resonator.studies.closed_loop.loop import HOSTS, run_loop
 from slider_resonator.studies.closed_loop.prediction import predicted_errors
 
 DUTY = Duty(loads=((0.0, 0.0), (0.8, 0.03)), end=1.6, settling=0.5)

@@ -48,7 +48,7 @@ def test_near_is_relative() -> None:
 
 def test_tables_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
     columns = {"kappa": "kappa", "error": "theory / FMU - 1"}
-    table = PaperTable("forces", "Forces", "In N.", columns, {"error": 0.1}, {}, lambda i, p: {})
+    table = PaperTable("forces", "Forces", "In N.", columns, {"error": 0.1}, lambda i: {})
     right = {"rows": [{"kappa": 1.0, "error": -0.05}, {"kappa": 10.0, "error": 0.02}]}
     write_tables(tmp_path, [(table, right)], "a.fmu", "guid")
     text = (tmp_path / "TABLES.md").read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ from slider_resonator.studies.paper import lugre_blocking, lugre_device
 
 
 def test_the_blocking_force_goes_from_24_to_coulomb(instance: Instance) -> None:
-    data = lugre_blocking.TABLE.measure(instance, lambda share: None)
+    data = lugre_blocking.TABLE.measure(instance)
     rows = data["rows"]
     assert (rows[0]["kappa"], rows[-1]["kappa"]) == pytest.approx((0.01, 1000.0))
     assert lugre_blocking.TABLE.confirmed(data), "uniform average within 2e-3 of the force"
@@ -20,7 +20,7 @@ def test_the_blocking_force_goes_from_24_to_coulomb(instance: Instance) -> None:
 
 
 def test_the_device_of_table_1_follows_the_average(instance: Instance) -> None:
-    data = lugre_device.TABLE.measure(instance, lambda share: None)
+    data = lugre_device.TABLE.measure(instance)
     rows = data["rows"]
     assert lugre_device.TABLE.confirmed(data)
     assert min(row["velocity"] for row in rows) < 0.0, "bristles in between turn it around"

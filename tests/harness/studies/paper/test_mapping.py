@@ -9,7 +9,7 @@ from slider_resonator.fmu.drive import Instance
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.studies.paper import mapping
-from slider_resonator.studies.paper.measure import course
+from slider_resonator.studies.paper.measure import record
 
 
 def _device(values: mapping.Values) -> Device:
@@ -58,7 +58,7 @@ def test_a_first_swing_of_the_fmu_is_that_of_the_dimensionless_equation(instance
     """From rest (2) sets off with F_T sin(Omega tau) - 1: X' is in closed form while X' > 0."""
     frequency, strength = 10.0, 3.0
     values = mapping.coulomb_case(strength, frequency, amplitude_ratio=0.0)
-    run = course(instance, values, pi / frequency, 64)
+    run = record(instance, values, pi / frequency, 64)
     start = asin(1.0 / (strength * frequency)) / frequency
     expected = strength * (cos(frequency * start) + 1.0) - (pi / frequency - start)
-    assert run.velocity[-1] == pytest.approx(expected, rel=1e-12)
+    assert run["velocity"][-1] == pytest.approx(expected, rel=1e-12)

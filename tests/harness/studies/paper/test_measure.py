@@ -8,14 +8,14 @@ from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
-from slider_resonator.studies.paper.measure import blocking_force, course, steady_velocity
+from slider_resonator.studies.paper.measure import blocking_force, plain, record, steady_velocity
 
 
-def test_course_covers_the_span(instance: Instance) -> None:
-    run = course(instance, coulomb_case(1.0, 10.0), 2.0, 8)
-    assert run.time.tolist() == [0.25 * k for k in range(9)]
-    assert run.position[0] == 0.0
-    assert set(run.plain()) == {"time", "position", "velocity"}
+def test_a_record_covers_the_span(instance: Instance) -> None:
+    run = record(instance, coulomb_case(1.0, 10.0), 2.0, 8)
+    assert run.times.tolist() == [0.25 * k for k in range(9)]
+    assert run["position"][0] == 0.0
+    assert set(plain(run)) == {"time", "position", "velocity"}
 
 
 def test_no_steady_motion_is_an_error_with_its_reason(instance: Instance) -> None:

@@ -3,7 +3,7 @@ from __future__ import annotations
 from slider_resonator.studies.paper.table import PaperTable
 
 COLUMNS = {"kappa": "kappa", "error": "e", "other": "o"}
-TABLE = PaperTable("t", "T", "", COLUMNS, {"error": 0.1, "other": 1.0}, {}, lambda i, p: {})
+TABLE = PaperTable("t", "T", "", COLUMNS, {"error": 0.1, "other": 1.0}, lambda i: {})
 
 
 def test_deviations_of_either_sign_are_judged_by_their_size() -> None:

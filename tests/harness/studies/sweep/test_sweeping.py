@@ -134,8 +134,8 @@ def test_a_sweep_killed_20_times_at_random_is_resumed_to_the_same_file(
     kept = 0
     for seed in range(KILLS):
         process = _start(long_grid, native_fmu, out)
-        wanted = kept + random.Random(seed).randrange(150)
-        _wait_for_points(process, out, wanted)
+        chosen = kept + random.Random(seed).randrange(150)
+        _wait_for_points(process, out, chosen)
         assert process.poll() is None, f"seed {seed}: the sweep has come to its end before the kill"
         _kill(process)
         before, kept = kept, journal_path(out).read_bytes().count(b"\n") - 1

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.fmu.opening import Fmu
 from slider_resonator.studies.sweep import worker
 from slider_resonator.studies.sweep.measures import Run, Task
 
@@ -18,12 +19,16 @@ def closed() -> Iterator[None]:
     worker.close()
 
 
-def test_an_instance_is_reused_from_chunk_to_chunk(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    made = []
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[Fmu]:
+    """The FMUs of the instances that were made."""
+    found: list[Fmu] = []
     original = worker.instantiate
-    monkeypatch.setattr(worker, "instantiate", lambda fmu: made.append(fmu) or original(fmu))
+    monkeypatch.setattr(worker, "instantiate", lambda fmu: found.append(fmu) or original(fmu))
+    return found
+
+
+def test_an_instance_is_reused_from_chunk_to_chunk(native_fmu: Path, made: list[Fmu]) -> None:
     worker.register("digest", native_fmu)
     rows, seconds = worker.run_chunk(TASK, "digest", [(0, (0.1,)), (1, (0.2,))])
     rows += worker.run_chunk(TASK, "digest", [(2, (0.1,))])[0]
@@ -36,12 +41,9 @@ def test_an_instance_is_reused_from_chunk_to_chunk(
 
 
 def test_a_thread_whose_instance_another_has_freed_makes_a_new_one(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+    native_fmu: Path, made: list[Fmu]
 ) -> None:
-    """As on a cluster, where the end of a sweep is told in another thread than the points."""
-    made = []
-    original = worker.instantiate
-    monkeypatch.setattr(worker, "instantiate", lambda fmu: made.append(fmu) or original(fmu))
+    """As on a cluster, where a sweep ends in another thread than that of the points."""
     worker.register("digest", native_fmu)
     with ThreadPoolExecutor(1) as thread:
         before = thread.submit(worker.run_chunk, TASK, "digest", [(0, (0.1,))]).result()

@@ -14,11 +14,11 @@ from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.references.resolved import taylor
 from slider_resonator.studies.trade.fmu_methods import STEPS, FmuMethods
 from slider_resonator.studies.trade.method import Method
-from slider_resonator.studies.trade.motion import errors, windows
-from slider_resonator.studies.trade.peers.peer import motion_of
+from slider_resonator.studies.trade.peers.peer import solution_of
+from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import AVERAGED
-from slider_resonator.studies.trade.task import Task
-from tests.harness.studies.trade.scenes import LUGRE, RAMP, TABLE_1, task
+from slider_resonator.studies.trade.solution import errors, windows
+from tests.harness.studies.trade.problems import LUGRE, RAMP, TABLE_1, problem
 
 
 @pytest.fixture(scope="module")
@@ -27,15 +27,17 @@ def instance(native_fmu: Path) -> Iterator[Instance]:
         yield made
 
 
-def followed(task: Task, method: Method) -> dict[str, float]:
-    run = taylor.simulate(task.device, task.truth(task.periods), task.readings(task.periods))
-    truth = windows(task, motion_of(run, located=True), task.periods)
-    motion = method.run(task.periods)
-    return errors(task, motion, truth, task.periods)
+def followed(problem: Problem, method: Method) -> dict[str, float]:
+    run = taylor.simulate(
+        problem.device, problem.reference_inputs(problem.periods), problem.readings(problem.periods)
+    )
+    reference = windows(problem, solution_of(run, located=True), problem.periods)
+    solution = method.run(problem.periods)
+    return errors(problem, solution, reference, problem.periods)
 
 
-def pick(task: Task, instance: Instance, fidelity: int, step: float) -> Method:
-    methods = FmuMethods(task, "native", instance).methods()
+def pick(problem: Problem, instance: Instance, fidelity: int, step: float) -> Method:
+    methods = FmuMethods(problem, "native", instance).methods()
     return next(
         method
         for method in methods
@@ -45,7 +47,7 @@ def pick(task: Task, instance: Instance, fidelity: int, step: float) -> Method:
 
 
 def test_a_held_ramp_costs_the_first_power_of_the_step(tmp_path: Path, instance: Instance) -> None:
-    ramp = task(tmp_path, RAMP)
+    ramp = problem(tmp_path, RAMP)
     steps = np.array([0.01, 0.1, 1.0])
     wrong = [followed(ramp, pick(ramp, instance, 2, step))["slow_displacement"] for step in steps]
     order = np.polyfit(np.log(steps), np.log(wrong), 1)[0]
@@ -53,7 +55,7 @@ def test_a_held_ramp_costs_the_first_power_of_the_step(tmp_path: Path, instance:
 
 
 def test_under_constant_inputs_the_step_costs_nothing(tmp_path: Path, instance: Instance) -> None:
-    table_1 = task(tmp_path, TABLE_1, most_periods=20)
+    table_1 = problem(tmp_path, TABLE_1, max_periods=20)
     for step in (0.1, 1.0, 10.0):
         found = followed(table_1, pick(table_1, instance, 2, step))
         assert max(found.values()) < 1e-10, f"steps of {step:g} periods: {found}"
@@ -62,7 +64,7 @@ def test_under_constant_inputs_the_step_costs_nothing(tmp_path: Path, instance: 
 def test_averaged_motion_has_a_mean_velocity_and_no_events(
     tmp_path: Path, instance: Instance
 ) -> None:
-    table_1 = task(tmp_path, TABLE_1, most_periods=200)
+    table_1 = problem(tmp_path, TABLE_1, max_periods=200)
     method = pick(table_1, instance, 0, 100.0)
     found = followed(table_1, method)
     assert 1e-5 < found["mean_velocity"] < 2e-2, "averaging costs a share of the order of 1/3500"
@@ -73,7 +75,9 @@ def test_averaged_motion_has_a_mean_velocity_and_no_events(
 
 def test_every_fidelity_step_and_law_is_there(tmp_path: Path, instance: Instance) -> None:
     for text, tolerances in ((TABLE_1, 1), (LUGRE, 5)):
-        labels = [m.label for m in FmuMethods(task(tmp_path, text), "native", instance).methods()]
+        labels = [
+            m.label for m in FmuMethods(problem(tmp_path, text), "native", instance).methods()
+        ]
         assert len({label.name for label in labels}) == len(labels)
         for fidelity in (0, 1, 2):
             own = [label for label in labels if label.fidelity == fidelity]
@@ -84,7 +88,7 @@ def test_every_fidelity_step_and_law_is_there(tmp_path: Path, instance: Instance
 
 
 def test_answers_are_those_of_the_commands(tmp_path: Path, instance: Instance) -> None:
-    answers = list(FmuMethods(task(tmp_path, TABLE_1), "native", instance).answers())
+    answers = list(FmuMethods(problem(tmp_path, TABLE_1), "native", instance).answers())
     found = {(a.label.name, a.quantity): a.find(inf).value for a in answers}
     assert found["native FMU, fidelity 2", "steady_velocity"] == pytest.approx(0.126667, rel=1e-6)
     assert found["native FMU, fidelity 2", "blocking_force"] == pytest.approx(0.0851861, rel=1e-6)
@@ -93,8 +97,8 @@ def test_answers_are_those_of_the_commands(tmp_path: Path, instance: Instance) -
 
 
 def test_a_run_is_timed_without_its_readings(tmp_path: Path, instance: Instance) -> None:
-    table_1 = task(tmp_path, TABLE_1, most_periods=10)
+    table_1 = problem(tmp_path, TABLE_1, max_periods=10)
     assert pick(table_1, instance, 0, 10.0).seconds(10) > 0.0
-    motion = pick(table_1, instance, 2, 10.0).run(10)
-    assert motion.steps == 1, "readings are no steps"
-    assert motion.start_cpu is not None
+    solution = pick(table_1, instance, 2, 10.0).run(10)
+    assert solution.steps == 1, "readings are no steps"
+    assert solution.start_cpu is not None

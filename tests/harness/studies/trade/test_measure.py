@@ -10,17 +10,17 @@ import pytest
 from slider_resonator.studies.trade import measure
 from slider_resonator.studies.trade.measure import measure_trade
 from slider_resonator.studies.trade.method import Label, Method
-from slider_resonator.studies.trade.motion import Motion
+from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import PEER
-from slider_resonator.studies.trade.task import Task
-from tests.harness.studies.trade.scenes import STICKING, TABLE_1, task
+from slider_resonator.studies.trade.solution import Solution
+from tests.harness.studies.trade.problems import STICKING, TABLE_1, problem
 
 
 def quiet(name: str, share: float) -> None:
     assert 0.0 <= share <= 1.0
 
 
-def made_up(name: str, run: Callable[[int], Motion], **fields: bool) -> Method:
+def made_up(name: str, run: Callable[[int], Solution], **fields: bool) -> Method:
     def seconds(periods: int) -> float:
         run(periods)
         return 1e-3 * periods
@@ -29,22 +29,24 @@ def made_up(name: str, run: Callable[[int], Motion], **fields: bool) -> Method:
 
 
 def only(monkeypatch: pytest.MonkeyPatch, *methods: Method) -> None:
-    monkeypatch.setattr(measure, "peer_methods", lambda task: list(methods))
-    monkeypatch.setattr(measure, "peer_answers", lambda task: [])
+    monkeypatch.setattr(measure, "peer_methods", lambda problem: list(methods))
+    monkeypatch.setattr(measure, "peer_answers", lambda problem: [])
 
 
-def still(task: Task) -> Callable[[int], Motion]:
-    def run(periods: int) -> Motion:
-        times = task.readings(periods)
-        return Motion(times, 0.0 * times, 0.0 * times)
+def still(problem: Problem) -> Callable[[int], Solution]:
+    def run(periods: int) -> Solution:
+        times = problem.readings(periods)
+        return Solution(times, 0.0 * times, 0.0 * times)
 
     return run
 
 
-def test_who_fails_is_told_with_the_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    short = task(tmp_path, TABLE_1, most_periods=4)
+def test_a_failing_method_is_omitted_with_the_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    short = problem(tmp_path, TABLE_1, max_periods=4)
 
-    def fails(periods: int) -> Motion:
+    def fails(periods: int) -> Solution:
         raise RuntimeError("the solver gives up")
 
     only(monkeypatch, made_up("failing", fails), made_up("standing", still(short)))
@@ -53,20 +55,20 @@ def test_who_fails_is_told_with_the_reason(tmp_path: Path, monkeypatch: pytest.M
     assert row.method == "standing"
     assert row.cpu == pytest.approx((1e-3 / short.period,) * 3), "per simulated second"
     assert row.errors["position"] == pytest.approx(1.0), "it misses the whole motion"
-    told = {(o.method, o.quantity): o.reason for o in trade.omissions}
-    assert told["failing", "all"] == "the solver gives up"
-    assert ("standing", "event_times") in told
+    reported = {(o.method, o.quantity): o.reason for o in trade.omissions}
+    assert reported["failing", "all"] == "the solver gives up"
+    assert ("standing", "event_times") in reported
 
 
 def test_a_method_stops_where_its_budget_ends(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    longer = task(tmp_path, TABLE_1, most_periods=64)
+    longer = problem(tmp_path, TABLE_1, max_periods=64)
     used = [0.0]
     monkeypatch.setattr(measure, "process_time", lambda: used[0])
 
-    def works(cost: float) -> Callable[[int], Motion]:
-        def run(periods: int) -> Motion:
+    def works(cost: float) -> Callable[[int], Solution]:
+        def run(periods: int) -> Solution:
             used[0] += cost * periods
             return still(longer)(periods)
 
@@ -77,16 +79,16 @@ def test_a_method_stops_where_its_budget_ends(
     (row,) = trade.rows
     assert row.periods == 8, "8 periods take 0.8 s, 16 would take 1.6 s of the 1 s"
     assert len(row.cpu) == 1, "nor are there repeats beyond the budget"
-    told = {(o.method, o.quantity): o.reason for o in trade.omissions}
-    assert "followed over 8 of 64 drive periods" in told["slow", "length"]
-    assert "more than its budget of 1 s" in told["far too slow", "all"]
+    reported = {(o.method, o.quantity): o.reason for o in trade.omissions}
+    assert "followed over 8 of 64 drive periods" in reported["slow", "length"]
+    assert "more than its budget of 1 s" in reported["far too slow", "all"]
 
 
-def test_who_covers_no_sticking_is_left_out_where_it_sticks(
+def test_a_method_that_cannot_stick_is_omitted_where_the_slider_sticks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sticking = task(tmp_path, STICKING, most_periods=4)
-    only(monkeypatch, made_up("sliding", still(sticking), sticks_not=True))
+    sticking = problem(tmp_path, STICKING, max_periods=4)
+    only(monkeypatch, made_up("sliding", still(sticking), cannot_stick=True))
     trade = measure_trade(sticking, {}, quiet, repeats=1)
     assert [(o.method, o.quantity) for o in trade.omissions] == [("sliding", "all")]
     assert "sticks" in trade.omissions[0].reason

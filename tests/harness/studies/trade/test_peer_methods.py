@@ -8,22 +8,22 @@ import numpy as np
 import pytest
 
 from slider_resonator.studies.trade.peer_methods import peer_answers, peer_methods
-from tests.harness.studies.trade.scenes import LUGRE, RAMP, TABLE_1, task
+from tests.harness.studies.trade.problems import LUGRE, RAMP, TABLE_1, problem
 
 
 def test_every_setting_has_a_name_of_its_own(tmp_path: Path) -> None:
     for text in (TABLE_1, LUGRE):
-        names = [method.label.name for method in peer_methods(task(tmp_path, text))]
+        names = [method.label.name for method in peer_methods(problem(tmp_path, text))]
         assert len(set(names)) == len(names)
 
 
 def test_peers_hold_inputs_over_the_step_of_the_scene(tmp_path: Path) -> None:
-    ramp = task(tmp_path, RAMP)
+    ramp = problem(tmp_path, RAMP)
     lengths = np.diff([inputs.start for inputs in ramp.held(16)])
     assert lengths == pytest.approx(ramp.period / 8)
 
 
 def test_who_starts_anywhere_is_shot_with(tmp_path: Path) -> None:
-    answers = {answer.label.family for answer in peer_answers(task(tmp_path, TABLE_1))}
+    answers = {answer.label.family for answer in peer_answers(problem(tmp_path, TABLE_1))}
     assert "Moreau-Jean" in answers
     assert not any("at its fastest" in family for family in answers)

@@ -88,14 +88,16 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
         row(6e-3, 1e-8, PEER),
     )
     found = standings(Trade("s", "S", 0, 10, 1.0, 0.0, rows, ()))
-    told = {(s.quantity, s.kind): s for s in found}
-    assert told["mean_velocity", AVERAGED].ratio == pytest.approx((1 / 30,) * 3)
-    assert told["mean_velocity", PEER].ratio == pytest.approx((20.0,) * 3)
-    assert sentence(told["position", AVERAGED]) == "averaged: not reached"
-    assert sentence(told["position", PEER]) == "peers: not reached"
-    assert sentence(told["position", RESOLVED]).startswith("resolved: 300 us a simulated second")
-    assert "20 times the cost of resolved" in sentence(told["mean_velocity", PEER])
-    assert "30 times cheaper than resolved" in sentence(told["mean_velocity", AVERAGED])
+    reported = {(s.quantity, s.kind): s for s in found}
+    assert reported["mean_velocity", AVERAGED].ratio == pytest.approx((1 / 30,) * 3)
+    assert reported["mean_velocity", PEER].ratio == pytest.approx((20.0,) * 3)
+    assert sentence(reported["position", AVERAGED]) == "averaged: not reached"
+    assert sentence(reported["position", PEER]) == "peers: not reached"
+    assert sentence(reported["position", RESOLVED]).startswith(
+        "resolved: 300 us a simulated second"
+    )
+    assert "20 times the cost of resolved" in sentence(reported["mean_velocity", PEER])
+    assert "30 times cheaper than resolved" in sentence(reported["mean_velocity", AVERAGED])
     assert heading("mean_velocity", 1e-2) == "at an error of 1 % in mean velocity"
     assert heading("position", 1e-9) == "at an error of 1e-09 in position"
 

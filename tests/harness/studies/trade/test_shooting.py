@@ -9,11 +9,11 @@ import pytest
 
 from slider_resonator.references.resolved import taylor
 from slider_resonator.studies.trade.shooting import shoot
-from tests.harness.studies.trade.scenes import TABLE_1, task
+from tests.harness.studies.trade.problems import TABLE_1, problem
 
 
 def test_any_integrator_can_be_shot_with(tmp_path: Path) -> None:
-    table_1 = task(tmp_path, TABLE_1)
+    table_1 = problem(tmp_path, TABLE_1)
     found = shoot(table_1, "steady_velocity", taylor.simulate, 1e-9, inf)
     assert found.value == pytest.approx(0.12666700, rel=1e-7)
     assert 30 <= found.periods <= 100, "a long run needs thousands"

@@ -1,6 +1,10 @@
-"""Integration straight over the reversals of a slider, without events, on sgn or on a smooth one.
+"""Integration straight over the reversals of a slider, without events.
 
-What the paper's own method and regularised friction have in common.
+On sgn, as the paper does, the solver loses its order at every reversal and shrinks its steps until
+the jump fits the tolerance; in a stick it chatters about zero velocity. On tanh(velocity / width),
+the common way to have no events at all, the equations are smooth and stiff: the narrower the width,
+the smaller the error and the stiffer the equations; where friction should hold the slider, it
+creeps.
 """
 
 from __future__ import annotations
@@ -10,25 +14,61 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import OdeSolver
+from scipy.integrate import DOP853, OdeSolver
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.equations import equations_of, initial_state
+from slider_resonator.references.resolved.scipy_methods import scipy_method
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 
-MOST_EVALUATIONS = 20_000_000
+MAX_EVALUATIONS = 20_000_000
 
 
-class EventFreeRun:
-    """A device followed by a solver of scipy's; ``width`` (m/s) is that of tanh, 0 for sgn.
+def simulate_sgn(
+    device: Device,
+    held: Sequence[HeldInputs],
+    times: Array,
+    *,
+    rtol: float = 1e-6,
+    atol: float = 1e-10,
+    max_evaluations: int = MAX_EVALUATIONS,
+) -> Trajectory:
+    """Return the trajectory by the paper's own method, DOP853 on sgn, at ``times`` (shape (n,), s).
 
-    ``rtol`` and ``atol`` are those of the solver, the latter in fractions of a characteristic
-    velocity and displacement. Samples are taken at ``times`` (shape (n,), s).
+    ``atol`` is in fractions of a characteristic velocity and displacement; the cost of stepping
+    over a jump depends on it. A chatter may take ``max_evaluations`` of the right hand side.
+    Counts, modes and errors raised are those of ``_Run.run``.
     """
+    return _Run(device, times, DOP853, rtol, atol, max_evaluations=max_evaluations).run(held)
+
+
+def simulate_tanh(
+    device: Device,
+    held: Sequence[HeldInputs],
+    times: Array,
+    *,
+    width: float,
+    method: str = "LSODA",
+    rtol: float = 1e-9,
+    atol: float = 1e-11,
+) -> Trajectory:
+    """Return the trajectory with tanh(velocity / ``width``) at ``times`` (shape (n,), s).
+
+    ``width`` is in m/s, ``method`` DOP853, LSODA or Radau, ``atol`` in fractions of a
+    characteristic velocity and displacement. Counts and modes are those of ``_Run.run``, and so are
+    errors raised, besides ValueError for a width that is not above 0 and for another method.
+    """
+    if not 0.0 < width < np.inf:
+        raise ValueError(f"width = {width!r} m/s: must be a finite number above 0")
+    return _Run(device, times, scipy_method(method), rtol, atol, width).run(held)
+
+
+class _Run:
+    """A device followed by a solver of scipy's; ``width`` (m/s) is that of tanh, 0 for sgn."""
 
     def __init__(
         self,
@@ -38,13 +78,13 @@ class EventFreeRun:
         rtol: float,
         atol: float,
         width: float = 0.0,
-        most_evaluations: int = MOST_EVALUATIONS,
+        max_evaluations: int = MAX_EVALUATIONS,
     ) -> None:
         self._method = method
         self._rtol = rtol
         self._atol = atol
         self._width = width
-        self._most_evaluations = most_evaluations
+        self._max_evaluations = max_evaluations
         self._signals = np.empty((len(times), 7))
         self._reversals = 0
         self._steps = 0
@@ -124,10 +164,10 @@ class EventFreeRun:
                 f"{self._method.__name__} failed at t = {time!r} s: {message}; use a greater atol"
             )
         evaluations = self._evaluations + solver.nfev
-        if evaluations > self._most_evaluations:
+        if evaluations > self._max_evaluations:
             raise RuntimeError(
                 f"{self._method.__name__} has used {evaluations} evaluations up to t = {time!r} s, "
-                f"most_evaluations = {self._most_evaluations}: it chatters in a stick; use a "
+                f"max_evaluations = {self._max_evaluations}: it chatters in a stick; use a "
                 "greater atol, or located_events"
             )
 

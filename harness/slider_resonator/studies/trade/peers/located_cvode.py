@@ -2,12 +2,11 @@
 
 Within a mode the equations are smooth and not stiff, so Adams' method is the one to take. CVODE
 looks for sign changes between the ends of its steps, so two roots within one are lost: a peer for
-measurements of cost, not a referee.
+measurements of cost, not a reference.
 """
 
 from __future__ import annotations
 
-import importlib
 import math
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -22,10 +21,10 @@ from slider_resonator.references.resolved.equations import Equations, equations_
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.passage import Passage, Stretch
 from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.studies.trade.peers.sundials import MAX_STEPS, cvode
 
 Array = NDArray[np.float64]
 
-MOST_STEPS = 5_000_000
 _FOUND_A_ROOT = 2
 
 
@@ -35,20 +34,14 @@ def simulate(
     """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
 
     Takes the inputs that ``located_events.simulate`` takes; ``tolerance`` is relative and, in
-    fractions of a characteristic motion, absolute. ``steps`` is 0, for CVODE does not tell.
+    fractions of a characteristic motion, absolute. ``steps`` is 0: CVODE does not report them.
     Raises ValueError as the other does; RuntimeError when the solver gives up;
     ModuleNotFoundError without scikit-sundae.
     """
-    try:
-        cvode = importlib.import_module("sksundae.cvode").CVODE
-    except ModuleNotFoundError as error:
-        raise ModuleNotFoundError(
-            "the CVODE reference needs scikit-sundae: pip install 'slider-resonator[peers]'"
-        ) from error
-    equations = equations_of(device)
+    solver, equations = cvode(), equations_of(device)
 
     def follow(stretch: Stretch) -> Passage:
-        return _follow(cvode, equations, stretch, tolerance)
+        return _follow(solver, equations, stretch, tolerance)
 
     return ModeSequence(equations, follow, initial_state(device), times).run(held)
 
@@ -72,11 +65,11 @@ def _follow(cvode: Any, equations: Equations, stretch: Stretch, tolerance: float
         rtol=tolerance,
         atol=tolerance * equations.state_scales(stretch.load),
         max_step=2.0 * math.pi / equations.fastest_rate(stretch.frequency_ratio) / 4.0,
-        max_num_steps=MOST_STEPS,
+        max_num_steps=MAX_STEPS,
         **options,
     )
-    wanted = np.union1d(stretch.samples, [0.0, stretch.span])
-    solution = solver.solve(wanted, np.array([0.0, *stretch.state[1:]]))
+    instants = np.union1d(stretch.samples, [0.0, stretch.span])
+    solution = solver.solve(instants, np.array([0.0, *stretch.state[1:]]))
     if not solution.success:
         raise RuntimeError(f"CVODE gave up: {solution.message}; use a greater tolerance")
     event = 0

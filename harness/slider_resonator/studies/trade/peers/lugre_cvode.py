@@ -1,12 +1,11 @@
 """LuGre friction (8) by CVODE's BDF with the bristle as a state: what a stiff solver makes of it.
 
 No event is located; the solver steps over the kinks at the reversals. A peer for measurements of
-cost, not a referee.
+cost, not a reference.
 """
 
 from __future__ import annotations
 
-import importlib
 from math import sin
 from typing import Any
 
@@ -15,31 +14,24 @@ from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.studies.trade.peers.switching_taylor import SlidingEnd
+from slider_resonator.studies.trade.peers.sundials import MAX_STEPS, cvode
+from slider_resonator.studies.trade.peers.switching_taylor import SlidingRun
 
 Array = NDArray[np.float64]
 
-MOST_STEPS = 5_000_000
-
 
 def simulate_lugre_cvode(
-    device: Device, inputs: HeldInputs, *, tolerance: float, times: Array | None = None
-) -> SlidingEnd:
+    device: Device, inputs: HeldInputs, times: Array, *, tolerance: float
+) -> SlidingRun:
     """Follow a device from the start of `inputs` to their stop (s), theta = psi = 0 at the start.
 
-    `tolerance` is relative and, in fractions of a typical motion, absolute. States are returned at
-    `times` (s, shape (n,), ascending); reversals and steps are not counted. Raises ValueError for
-    Coulomb friction and other fidelities than 2; RuntimeError when the solver gives up;
-    ModuleNotFoundError without scikit-sundae.
+    `times` (s, shape (n,)) ascend. `tolerance` is relative and, in fractions of a typical motion,
+    absolute. Reversals and steps are not counted. Raises ValueError for Coulomb friction and other
+    fidelities than 2; RuntimeError when the solver gives up; ModuleNotFoundError without
+    scikit-sundae.
     """
     if device.friction_law != 1 or device.fidelity != 2 or device.resonator_mass == 0.0:
         raise ValueError("covered is LuGre friction (friction_law 1) on the full device")
-    try:
-        cvode = importlib.import_module("sksundae.cvode")
-    except ModuleNotFoundError as error:
-        raise ModuleNotFoundError(
-            "the CVODE reference needs scikit-sundae: pip install 'slider-resonator[peers]'"
-        ) from error
     w, mass, slider = device.drive_frequency, device.resonator_mass, device.slider_mass
     wn, mu = device.resonator_frequency, device.friction_coefficient
     spring, damper = mass * wn * wn, 2.0 * device.damping_ratio * mass * wn
@@ -60,20 +52,19 @@ def simulate_lugre_cvode(
         change[:] = (velocity, acceleration, rate, swing, bend * mu * relative)
 
     speed = base * mass / (w * (slider + mass)) + abs(device.initial_velocity)
-    solver: Any = cvode.CVODE(
+    solver: Any = cvode()(
         slopes,
         method="BDF",
         rtol=tolerance,
         atol=tolerance * np.array([speed / w, speed, speed / w, speed, mu]),
-        max_num_steps=MOST_STEPS,
+        max_num_steps=MAX_STEPS,
     )
     start = [device.initial_position, device.initial_velocity]
     start += [device.initial_resonator_displacement, device.initial_resonator_velocity]
     start.append(device.bristle_stiffness * device.initial_bristle_deflection)
-    wanted = np.empty(0) if times is None else times - inputs.start
-    solution = solver.solve(np.union1d(wanted, [0.0, inputs.stop - inputs.start]), np.array(start))
+    local = times - inputs.start
+    solution = solver.solve(np.union1d(local, [0.0, inputs.stop - inputs.start]), np.array(start))
     if not solution.success:
         raise RuntimeError(f"CVODE gave up: {solution.message}")
-    states = np.array(solution.y)[:, :4]
-    samples = states[np.searchsorted(solution.t, wanted)]
-    return SlidingEnd(states[-1], 0, 0, samples, int(solution.nfev))
+    samples = np.array(solution.y)[np.searchsorted(solution.t, local), :4]
+    return SlidingRun(samples, evaluations=int(solution.nfev))

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.studies.trade.motion import Motion
 from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
-from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, motion_of
-from slider_resonator.studies.trade.peers.switching_taylor import SlidingEnd, simulate_sliding
+from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
+from slider_resonator.studies.trade.peers.switching_taylor import SlidingRun, simulate_sliding
+from slider_resonator.studies.trade.solution import Solution
 
 Array = NDArray[np.float64]
 
@@ -25,12 +25,12 @@ Array = NDArray[np.float64]
 def heyoka_in_one_call(
     family: str, bristle: Literal["path", "state"], first: Simulate, tolerance: float
 ) -> Peer:
-    """Return heyoka in one call; it starts from where `first` is after one drive period.
+    """Return heyoka in one call; it starts where `first` is after one drive period.
 
-    `bristle` is how LuGre friction has it, from the path or as a state; Coulomb friction has none.
+    `bristle` says whether that of LuGre friction follows from the path or is a state.
     """
 
-    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Motion:
+    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
         inputs = _single(held)
         begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
         early = times[times <= begin]
@@ -39,7 +39,7 @@ def heyoka_in_one_call(
         started = process_time() - began
         if begin == inputs.stop:
             return replace(
-                motion_of(start, located=False),
+                solution_of(start, located=False),
                 times=early,
                 position=start.position[:-1],
                 velocity=start.velocity[:-1],
@@ -55,10 +55,12 @@ def heyoka_in_one_call(
             initial_bristle_deflection=float(getattr(start, "bristle_deflection", [0.0])[-1]),
         )
         later = times[times > begin]
-        end = simulate_sliding(
-            moving, inputs, tolerance=tolerance, bristle=bristle, begin=begin, times=later
+        rest = _motion(
+            simulate_sliding(
+                moving, inputs, later, tolerance=tolerance, bristle=bristle, start=begin
+            ),
+            later,
         )
-        rest = _sliding_motion(end, later)
         return replace(
             rest,
             times=times,
@@ -67,9 +69,9 @@ def heyoka_in_one_call(
             start_cpu=started,
         )
 
-    missing = {"event_times": "it does not tell when it reverses", **NOT_SHOT}
+    missing = {"event_times": "the times of reversals are not reported", **NOT_SHOT}
     setting = f"tol {tolerance:.0e}"
-    return Peer(family, setting, tolerance, follow, sticks_not=True, missing=missing)
+    return Peer(family, setting, tolerance, follow, cannot_stick=True, missing=missing)
 
 
 def cvode_in_one_call(tolerance: float) -> Peer:
@@ -83,11 +85,11 @@ def cvode_in_one_call(tolerance: float) -> Peer:
     )
 
 
-def _cvode(device: Device, held: Sequence[HeldInputs], times: Array, *, tolerance: float) -> Motion:
-    inputs = _single(held)
-    return _sliding_motion(
-        simulate_lugre_cvode(device, inputs, tolerance=tolerance, times=times), times
-    )
+def _cvode(
+    device: Device, held: Sequence[HeldInputs], times: Array, *, tolerance: float
+) -> Solution:
+    run = simulate_lugre_cvode(device, _single(held), times, tolerance=tolerance)
+    return _motion(run, times)
 
 
 def _single(held: Sequence[HeldInputs]) -> HeldInputs:
@@ -96,12 +98,12 @@ def _single(held: Sequence[HeldInputs]) -> HeldInputs:
     return held[0]
 
 
-def _sliding_motion(end: SlidingEnd, times: Array) -> Motion:
-    return Motion(
+def _motion(run: SlidingRun, times: Array) -> Solution:
+    return Solution(
         times,
-        end.samples[:, 0],
-        end.samples[:, 1],
-        steps=end.steps or None,
-        evaluations=end.evaluations or None,
-        events=end.reversals or None,
+        run.samples[:, 0],
+        run.samples[:, 1],
+        steps=run.steps or None,
+        evaluations=run.evaluations or None,
+        events=run.reversals or None,
     )

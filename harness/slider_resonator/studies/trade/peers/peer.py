@@ -12,10 +12,10 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.studies.trade.motion import Motion, last_events
+from slider_resonator.studies.trade.solution import Solution, last_events
 
 Array = NDArray[np.float64]
-Follow = Callable[[Device, Sequence[HeldInputs], Array], Motion]
+Follow = Callable[[Device, Sequence[HeldInputs], Array], Solution]
 
 NO_EVENTS = {"event_times": "no event is located"}
 NOT_SHOT = dict.fromkeys(
@@ -27,8 +27,8 @@ NOT_SHOT = dict.fromkeys(
 class Peer:
     """A method by the setting that its error depends on.
 
-    `simulate`, where there is one, can start anywhere and so be shot with to an accuracy of
-    `shooting` in units of the state.
+    `simulate`, where there is one, can start in any state, as shooting requires; `shooting` is the
+    accuracy in units of the state.
     """
 
     family: str
@@ -37,13 +37,13 @@ class Peer:
     follow: Follow
     simulate: Simulate | None = None
     shooting: float = 1e-9
-    sticks_not: bool = False
+    cannot_stick: bool = False
     missing: Mapping[str, str] = field(default_factory=dict)
 
 
-def motion_of(run: Trajectory, *, located: bool) -> Motion:
-    """Return a trajectory as the trade takes it; events count if they were located."""
-    return Motion(
+def solution_of(run: Trajectory, *, located: bool) -> Solution:
+    """Return a trajectory as a solution; reversals stand for events that are not located."""
+    return Solution(
         times=run.time,
         position=run.position,
         velocity=run.velocity,

@@ -1,4 +1,4 @@
-"""Who the peers are: what a user might take instead of the FMU, setting by setting."""
+"""The peers: methods that a user might take instead of the FMU, setting by setting."""
 
 from __future__ import annotations
 
@@ -16,26 +16,21 @@ from slider_resonator.references.resolved import located_events, lugre_scipy, ta
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.studies.trade.motion import Motion
-from slider_resonator.studies.trade.peers import (
-    located_cvode,
-    moreau_jean,
-    paper_method,
-    regularised,
-)
+from slider_resonator.studies.trade.peers import event_free, located_cvode, moreau_jean
 from slider_resonator.studies.trade.peers.one_call import cvode_in_one_call, heyoka_in_one_call
-from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, motion_of
-from slider_resonator.studies.trade.task import Task
+from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
+from slider_resonator.studies.trade.problem import Problem
+from slider_resonator.studies.trade.solution import Solution
 
 Array = NDArray[np.float64]
 
-MOST_EVALUATIONS = 1_000_000
-"""Evaluations that a method on sgn may take: one that chatters is given up early."""
+MAX_EVALUATIONS = 1_000_000
+"""Maximum evaluations of a method on sgn: one that chatters is stopped early."""
 
 
-def peers(task: Task) -> list[Peer]:
-    """Return the peers for the friction law of a task."""
-    return [*(_lugre() if task.device.friction_law == 1 else _coulomb()), _averaged()]
+def peers(problem: Problem) -> list[Peer]:
+    """Return the peers for the friction law of a problem."""
+    return [*(_lugre() if problem.device.friction_law == 1 else _coulomb()), _averaged()]
 
 
 def _coulomb() -> Iterator[Peer]:
@@ -62,7 +57,7 @@ def _coulomb() -> Iterator[Peer]:
         simulate = partial(located_cvode.simulate, tolerance=tolerance)
         yield _at("CVODE with root finding", tolerance, simulate)
     for atol in (1e-4, 1e-6, 1e-8, 1e-10):
-        simulate = partial(paper_method.simulate, atol=atol, most_evaluations=MOST_EVALUATIONS)
+        simulate = partial(event_free.simulate_sgn, atol=atol, max_evaluations=MAX_EVALUATIONS)
         yield _trajectory(
             "DOP853 on sgn (the paper)",
             f"rtol 1e-06, atol {atol:.0e}",
@@ -106,10 +101,10 @@ def _regularised(
 ) -> Trajectory:
     """Return the motion with a width of tanh that is a share of the fast velocity.
 
-    Raises ValueError where there is no steady vibration, besides what `regularised` raises.
+    Raises ValueError where there is no steady vibration, besides what `simulate_tanh` raises.
     """
     width = share * equivalent_force(device).velocity_amplitude
-    return regularised.simulate(device, held, times, width=width, rtol=1e-7, atol=1e-9)
+    return event_free.simulate_tanh(device, held, times, width=width, rtol=1e-7, atol=1e-9)
 
 
 def _at(family: str, tolerance: float, simulate: Simulate, *, located: bool = True) -> Peer:
@@ -120,9 +115,9 @@ def _at(family: str, tolerance: float, simulate: Simulate, *, located: bool = Tr
 
 
 def _averaged() -> Peer:
-    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Motion:
+    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
         run = simulate_averaged(device, held, times)
-        return Motion(times, run.position, run.velocity, run.mean_velocity)
+        return Solution(times, run.position, run.velocity, run.mean_velocity)
 
     missing = {"event_times": "averaged motion has no events", **NOT_SHOT}
     return Peer("averaged equation, scipy", "", None, follow, missing=missing)
@@ -137,8 +132,8 @@ def _trajectory(
     shooting: float = 1e-9,
     located: bool = True,
 ) -> Peer:
-    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Motion:
-        return motion_of(simulate(device, held, times), located=located)
+    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
+        return solution_of(simulate(device, held, times), located=located)
 
     missing = {} if located else NO_EVENTS
     return Peer(family, setting, tolerance, follow, simulate, shooting, missing=missing)

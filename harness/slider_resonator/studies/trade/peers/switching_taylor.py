@@ -1,7 +1,7 @@
 """heyoka at its fastest on a slider that never sticks: the peer for measurements of cost.
 
 One compiled system per friction law; the direction of sliding is a runtime parameter that an event
-callback turns round where the velocity is zero, so that a whole run is one call. It knows neither
+callback reverses where the velocity is zero, so that a whole run is one call. It covers neither
 sticking nor flight: `simulate_sliding` refuses devices that lift, and a start at rest.
 """
 
@@ -41,38 +41,35 @@ _LAST: dict[Form, str] = {"coulomb": "direction", "path": "stretch", "state": "d
 
 
 @dataclass(frozen=True)
-class SlidingEnd:
-    """Where a run ends: `state` is position, velocity, resonator displacement and velocity (4,).
+class SlidingRun:
+    """States `samples` (n, 4): position, velocity, resonator displacement and velocity.
 
-    `reversals` and `steps` count over the run, 0 where a method does not tell, as `evaluations` of
-    the right hand side. `samples` (n, 4) are the states at the times that were asked for.
+    `reversals`, `steps` and `evaluations` of the right hand side count over the run, 0 where a
+    method does not report them.
     """
 
-    state: Array
-    reversals: int
-    steps: int
     samples: Array
+    reversals: int = 0
+    steps: int = 0
     evaluations: int = 0
 
 
 def simulate_sliding(
     device: Device,
     inputs: HeldInputs,
+    times: Array,
     *,
     tolerance: float,
     bristle: Literal["path", "state"] = "path",
-    most_steps: int = 0,
-    begin: float | None = None,
-    times: Array | None = None,
-) -> SlidingEnd:
-    """Follow a slider that moves from the start of `inputs` to their stop (s), theta = psi = 0.
+    start: float | None = None,
+) -> SlidingRun:
+    """Follow a moving slider to the stop of `inputs` (s), theta = psi = 0 at their start.
 
-    The initial state is that at `begin` (s) where the run begins later than the inputs, by when
-    both angles have turned. `times` (s, shape (n,)) ascend from there on to the stop. `tolerance`
-    is that of a Taylor step, relative. With LuGre friction `bristle` says whether its deflection is
-    taken from the path or integrated. The first call with a `tolerance` compiles. Raises ValueError
-    for what is not covered; RuntimeError when `most_steps` (0: no bound) did not suffice;
-    ModuleNotFoundError without heyoka.
+    The initial state is that at `start` (s), by default the start of the inputs. `times` (s, shape
+    (n,)) ascend from there. `tolerance` is the relative one of a Taylor step. With LuGre friction
+    `bristle` says whether its deflection is taken from the path or integrated. The first call with
+    a `tolerance` compiles. Raises ValueError for what is not covered; RuntimeError when heyoka
+    fails; ModuleNotFoundError without heyoka.
     """
     if device.normal_amplitude > device.normal_preload:
         raise ValueError("normal_amplitude above normal_preload: the contact lifts")
@@ -83,7 +80,7 @@ def simulate_sliding(
     integrator, counter = run.integrator, run.counter
     _set(integrator, device, inputs)
     counter.reversals = 0
-    integrator.time = 0.0 if begin is None else begin - inputs.start
+    integrator.time = 0.0 if start is None else start - inputs.start
     integrator.reset_cooldowns()
     state = [0.0, device.initial_velocity]
     state += [device.initial_resonator_displacement, device.initial_resonator_velocity]
@@ -92,24 +89,13 @@ def simulate_sliding(
     if form == "path":
         integrator.pars[_PLACE["stretch"]] = stretch
     integrator.state[:] = [*state, stretch] if form == "state" else state
-    wanted = [] if times is None else (times - inputs.start).tolist()
-    grid = [integrator.time, *(t for t in wanted if t > integrator.time)]
-    samples = np.empty((0, 4))
-    steps = 0
-    if wanted:
-        outcome, *_, steps, _, found = integrator.propagate_grid(grid, max_steps=most_steps)
-        samples = np.array(found)[len(grid) - len(wanted) :, :4]
-        samples[:, 0] += device.initial_position
-    if not wanted or "time_limit" in str(outcome):
-        outcome, *_, more, _, _ = integrator.propagate_until(
-            inputs.stop - inputs.start, max_steps=most_steps
-        )
-        steps += more
+    grid = np.union1d(times - inputs.start, [integrator.time, inputs.stop - inputs.start])
+    outcome, *_, steps, _, states = integrator.propagate_grid(grid.tolist())
     if "time_limit" not in str(outcome):
         raise RuntimeError(f"heyoka ended after {steps} steps with {outcome}")
-    end = np.array(integrator.state[:4])
-    end[0] += device.initial_position
-    return SlidingEnd(end, counter.reversals, steps, samples)
+    samples = np.array(states)[np.searchsorted(grid, times - inputs.start), :4]
+    samples[:, 0] += device.initial_position
+    return SlidingRun(samples, counter.reversals, steps)
 
 
 class _Counter:

@@ -23,11 +23,14 @@ def test_the_error_falls_with_the_first_power_of_the_step() -> None:
     device = Device(friction_coefficient=20.0)
     held = [HeldInputs(0.0, 6 * PERIOD)]
     times = np.linspace(0.0, held[0].stop, 7)
-    referee = taylor.simulate(device, held, times)
-    assert referee.reversals > 10
+    reference = taylor.simulate(device, held, times)
+    assert reference.reversals > 10
     counts = np.array([61, 251, 1021])
     sizes = np.array(
-        [np.mean([deviation(device, held, referee, n + odd) for odd in (-4, 0, 4)]) for n in counts]
+        [
+            np.mean([deviation(device, held, reference, n + odd) for odd in (-4, 0, 4)])
+            for n in counts
+        ]
     )
     order = -np.polyfit(np.log(counts), np.log(sizes), 1)[0]
     assert order == pytest.approx(1.0, abs=0.1), (
@@ -36,10 +39,10 @@ def test_the_error_falls_with_the_first_power_of_the_step() -> None:
 
 
 def deviation(
-    device: Device, held: list[HeldInputs], referee: Trajectory, steps_per_period: int
+    device: Device, held: list[HeldInputs], reference: Trajectory, steps_per_period: int
 ) -> float:
-    run = simulate(device, held, referee.time, steps_per_period=steps_per_period)
-    return float(np.abs(run.position - referee.position).max())
+    run = simulate(device, held, reference.time, steps_per_period=steps_per_period)
+    return float(np.abs(run.position - reference.position).max())
 
 
 def test_without_friction_it_is_of_second_order() -> None:
@@ -78,9 +81,9 @@ def test_a_contact_that_lifts_has_no_friction() -> None:
     held = [HeldInputs(0.0, 3 * PERIOD)]
     times = np.linspace(0.0, held[0].stop, 97)
     run = simulate(device, held, times, steps_per_period=512)
-    referee = taylor.simulate(device, held, times)
-    assert np.abs(run.velocity - referee.velocity).max() < 1e-3 * np.abs(referee.velocity).max()
-    assert ((run.contact_mode == 2) == (referee.contact_mode == 2))[1:].mean() > 0.95
+    reference = taylor.simulate(device, held, times)
+    assert np.abs(run.velocity - reference.velocity).max() < 1e-3 * np.abs(reference.velocity).max()
+    assert ((run.contact_mode == 2) == (reference.contact_mode == 2))[1:].mean() > 0.95
 
 
 def test_fewer_steps_than_one_are_refused() -> None:

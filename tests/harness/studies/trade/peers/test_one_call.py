@@ -8,18 +8,18 @@ import pytest
 
 from slider_resonator.studies.trade.peer_methods import peer_methods
 from slider_resonator.studies.trade.peers.registry import peers
-from tests.harness.studies.trade.scenes import RAMP, TABLE_1, task
+from tests.harness.studies.trade.problems import RAMP, TABLE_1, problem
 
 
 def test_one_call_of_heyoka_covers_no_inputs_that_vary(tmp_path: Path) -> None:
-    ramp = task(tmp_path, RAMP)
+    ramp = problem(tmp_path, RAMP)
     peer = next(peer for peer in peers(ramp) if peer.family == "heyoka at its fastest")
     with pytest.raises(ValueError, match="inputs vary"):
         peer.follow(ramp.device, ramp.held(4), ramp.readings(4))
 
 
 def test_being_led_into_motion_is_not_charged(tmp_path: Path) -> None:
-    short = task(tmp_path, TABLE_1, most_periods=4)
+    short = problem(tmp_path, TABLE_1, max_periods=4)
     by_family = {method.label.family: method for method in peer_methods(short)}
     led = by_family["heyoka at its fastest"].run(4)
     assert led.start_cpu is not None

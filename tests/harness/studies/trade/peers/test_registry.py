@@ -8,11 +8,11 @@ import pytest
 
 from slider_resonator.references.resolved import taylor
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.studies.trade.motion import errors, windows
-from slider_resonator.studies.trade.peers.peer import Peer, motion_of
+from slider_resonator.studies.trade.peers.peer import Peer, solution_of
 from slider_resonator.studies.trade.peers.registry import peers
-from slider_resonator.studies.trade.task import Task
-from tests.harness.studies.trade.scenes import LUGRE, TABLE_1, task
+from slider_resonator.studies.trade.problem import Problem
+from slider_resonator.studies.trade.solution import errors, windows
+from tests.harness.studies.trade.problems import LUGRE, TABLE_1, problem
 
 PERIODS = 4
 UNDAMPED_RESONANCE = """
@@ -25,22 +25,22 @@ EXACT = {"heyoka", "DOP853 with", "LSODA with", "CVODE with", "LSODA, bristle", 
 """Families whose error is what their tolerance asks for."""
 
 
-def most_exact(task: Task) -> list[Peer]:
-    by_family = {peer.family: peer for peer in peers(task)}
+def most_exact(problem: Problem) -> list[Peer]:
+    by_family = {peer.family: peer for peer in peers(problem)}
     return [peer for peer in by_family.values() if not peer.family.startswith("DOP853 on sgn")]
 
 
 @pytest.mark.parametrize("text", [TABLE_1, LUGRE])
 def test_the_last_setting_of_each_family_is_near_the_referee(tmp_path: Path, text: str) -> None:
-    short = task(tmp_path, text, most_periods=PERIODS)
+    short = problem(tmp_path, text, max_periods=PERIODS)
     simulate = simulate_lugre if short.device.friction_law else taylor.simulate
-    run = simulate(short.device, short.truth(PERIODS), short.readings(PERIODS))
-    truth = windows(short, motion_of(run, located=True), PERIODS)
+    run = simulate(short.device, short.reference_inputs(PERIODS), short.readings(PERIODS))
+    reference = windows(short, solution_of(run, located=True), PERIODS)
     for peer in most_exact(short):
         if peer.family.startswith("Radau"):
             continue
-        motion = peer.follow(short.device, short.held(PERIODS), short.readings(PERIODS))
-        found = errors(short, motion, truth, PERIODS)
+        solution = peer.follow(short.device, short.held(PERIODS), short.readings(PERIODS))
+        found = errors(short, solution, reference, PERIODS)
         exact = any(peer.family.startswith(family) for family in EXACT)
         allowed = 1e-6 if exact else 5e-2
         compared = "slow_displacement" if peer.family.startswith("averaged") else "velocity"
@@ -49,7 +49,7 @@ def test_the_last_setting_of_each_family_is_near_the_referee(tmp_path: Path, tex
 
 
 def test_a_width_in_fast_velocities_needs_a_steady_vibration(tmp_path: Path) -> None:
-    resonant = task(tmp_path, UNDAMPED_RESONANCE, most_periods=PERIODS)
+    resonant = problem(tmp_path, UNDAMPED_RESONANCE, max_periods=PERIODS)
     by_family = {peer.family: peer for peer in peers(resonant)}
     assert "Moreau-Jean" in by_family, "the others follow resonance as it grows"
     with pytest.raises(ValueError, match="there is no steady state"):

@@ -1,19 +1,19 @@
-"""Tasks that the tests of the trade share, short ones."""
+"""Short problems that the tests of the trade share."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from slider_resonator.scenes.scene import read_scene
-from slider_resonator.studies.trade.task import Task, task_of
+from slider_resonator.studies.trade.problem import Problem, problem_of
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 
 
-def task(folder: Path, text: str, most_periods: int | None = None) -> Task:
+def problem(folder: Path, text: str, max_periods: int | None = None) -> Problem:
     path = folder / "mine.toml"
     path.write_text(HEAD + text)
-    return task_of(read_scene(path), {}, most_periods)
+    return problem_of(read_scene(path), {}, max_periods)
 
 
 TABLE_1 = ""

@@ -1,7 +1,11 @@
-"""The picture of the README: one device from rest, its fast motion, and its load-speed curve."""
+"""Draw docs/picture.png of the README: slow and fast motion of table 1, and its load-speed curve.
+
+python docs/draw_picture.py [FMU [PICTURE]]
+"""
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
@@ -23,6 +27,7 @@ from slider_resonator.steady.steady_velocity import find_steady
 
 Array = NDArray[np.float64]
 
+ROOT = Path(__file__).resolve().parents[1]
 DEVICE = Device()
 PERIOD = 2.0 * pi / DEVICE.drive_frequency
 APPROACH_PERIODS = 5000
@@ -136,3 +141,9 @@ def _draw_load_speed(axes: Axes, velocities: dict[float, list[float]]) -> None:
     )
     axes.set(title="Load-speed curve", xlabel="load [mN]", ylabel="steady velocity [mm/s]")
     axes.legend(loc="lower left")
+
+
+if __name__ == "__main__":
+    given = [Path(argument) for argument in sys.argv[1:]]
+    defaults = [ROOT / "dist" / "SliderResonator.fmu", ROOT / "docs" / "picture.png"]
+    draw_picture(*given, *defaults[len(given) :])

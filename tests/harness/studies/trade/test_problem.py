@@ -1,4 +1,4 @@
-"""What every method follows."""
+"""The problem that every method solves."""
 
 from __future__ import annotations
 
@@ -9,29 +9,29 @@ import numpy as np
 import pytest
 
 from slider_resonator.references.resolved.located_events import simulate
-from slider_resonator.studies.trade.task import LEAST_PERIODS
-from tests.harness.studies.trade.scenes import BEAT, JUMPS, LUGRE, RAMP, TABLE_1, task
+from slider_resonator.studies.trade.problem import MIN_PERIODS
+from tests.harness.studies.trade.problems import BEAT, JUMPS, LUGRE, RAMP, TABLE_1, problem
 
 PERIOD = 2.0 * pi / 3500.0
 
 
 def test_a_scene_without_a_run_is_as_long_as_the_longest_step(tmp_path: Path) -> None:
-    found = task(tmp_path, TABLE_1)
-    assert found.periods == LEAST_PERIODS == 1000
+    found = problem(tmp_path, TABLE_1)
+    assert found.periods == MIN_PERIODS == 1000
     assert found.horizons == (31, 62, 125, 250, 500, 1000)
     assert found.constant
     assert found.steady
     assert found.beat is None
 
 
-def test_the_full_device_is_the_truth_whatever_the_scene_asks_for(tmp_path: Path) -> None:
-    found = task(tmp_path, "[device]\nfidelity = 0\nfriction_law = 1\ntolerance = 1e-3\n")
+def test_the_full_device_is_the_reference_whatever_the_scene_asks_for(tmp_path: Path) -> None:
+    found = problem(tmp_path, "[device]\nfidelity = 0\nfriction_law = 1\ntolerance = 1e-3\n")
     assert (found.device.fidelity, found.device.friction_law) == (2, 1)
     assert found.parameters == {}, "fidelity, law and tolerance are for the methods to set"
 
 
 def test_readings_are_windows_of_a_drive_period(tmp_path: Path) -> None:
-    found = task(tmp_path, LUGRE, most_periods=8)
+    found = problem(tmp_path, LUGRE, max_periods=8)
     assert found.horizons == (1, 2, 4, 8)
     times = found.readings(4)
     assert times[-1] == pytest.approx(4 * PERIOD)
@@ -40,13 +40,13 @@ def test_readings_are_windows_of_a_drive_period(tmp_path: Path) -> None:
 
 
 def test_a_beat_is_at_the_difference_of_the_frequencies(tmp_path: Path) -> None:
-    found = task(tmp_path, BEAT)
+    found = problem(tmp_path, BEAT)
     assert found.beat == pytest.approx(0.05 * 3500.0 / (2.0 * pi))
     assert found.steady, "21/20 repeats after twenty periods"
 
 
 def test_inputs_that_vary_allow_no_steady_motion(tmp_path: Path) -> None:
-    found = task(tmp_path, RAMP)
+    found = problem(tmp_path, RAMP)
     assert not found.constant
     assert not found.steady
     assert found.periods == 16, "the scene says how long its inputs are meant for"
@@ -59,24 +59,24 @@ def test_inputs_that_vary_allow_no_steady_motion(tmp_path: Path) -> None:
 def test_nothing_draws_a_slider_without_friction_into_a_steady_motion(
     tmp_path: Path, device: str
 ) -> None:
-    assert not task(tmp_path, f"[device]\n{device}\n").steady
+    assert not problem(tmp_path, f"[device]\n{device}\n").steady
 
 
 def test_jumps_are_exact_for_everybody(tmp_path: Path) -> None:
-    found = task(tmp_path, JUMPS)
-    assert [inputs.start for inputs in found.truth(16)] == [0.0, 0.0101]
-    assert found.held(16) == found.truth(16)
+    found = problem(tmp_path, JUMPS)
+    assert [inputs.start for inputs in found.reference_inputs(16)] == [0.0, 0.0101]
+    assert found.held(16) == found.reference_inputs(16)
 
 
-def test_the_referee_takes_ramps_by_their_middle(tmp_path: Path) -> None:
-    found = task(tmp_path, RAMP)
-    held = found.truth(16, steps=4)
+def test_the_reference_takes_ramps_by_their_middle(tmp_path: Path) -> None:
+    found = problem(tmp_path, RAMP)
+    held = found.reference_inputs(16, steps=4)
     middles = np.array([0.5 * (inputs.start + inputs.stop) for inputs in held])
     assert [inputs.load for inputs in held[:-1]] == pytest.approx(5.0 * middles[:-1])
     assert (held[-1].start, held[-1].load) == (0.02, 0.1), "from where the ramp ends it is constant"
     times = np.array([16 * PERIOD])
     *ends, fine = (
-        simulate(found.device, found.truth(16, n), times).position[0] for n in (2, 8, 32)
+        simulate(found.device, found.reference_inputs(16, n), times).position[0] for n in (2, 8, 32)
     )
     order = np.log(abs(ends[0] - fine) / abs(ends[1] - fine)) / np.log(4.0)
     assert order > 1.7, f"middle values hold a ramp to second order, not {order}"

@@ -1,4 +1,4 @@
-"""What every method follows: the full device of a scene under its inputs, and where it is read."""
+"""The problem that every method solves: the full device of a scene under its inputs."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from slider_resonator.scenes.scene import Scene
 
 Array = NDArray[np.float64]
 
-LEAST_PERIODS = 1000
-"""Drive periods that a scene under constant inputs is followed for at least: the longest step."""
+MIN_PERIODS = 1000
+"""Minimum drive periods of a run under constant inputs: the longest communication step."""
 HALVINGS = 5
 """The motion is read in a window that ends with the run, with half of it, and so on."""
 POINTS = 16
 """Readings in a window, which is a drive period long."""
-TRUTH_STEPS = 16
-"""Steps a drive period in which the referee holds inputs that vary, at their middle value."""
+REFERENCE_STEPS = 16
+"""Steps per drive period in which the reference holds varying inputs, at their middle value."""
 
 
 @dataclass(frozen=True)
-class Task:
-    """A scene as the trade takes it.
+class Problem:
+    """A scene as a problem for every method.
 
     `device` is the full device under the scene's friction law, whatever fidelity the scene asks
     for; `step` (s) the scene's own communication step, `periods` the whole drive periods of a run.
@@ -90,11 +90,11 @@ class Task:
 
     @property
     def lengths(self) -> tuple[int, ...]:
-        """The drive periods after which a method may stop; one that misses inputs is none."""
+        """The drive periods after which a method may stop, all of them where inputs vary."""
         return self.horizons if self.constant else (self.periods,)
 
     def windows(self, periods: int) -> tuple[int, ...]:
-        """Return those within a run of so many drive periods."""
+        """Return the horizons within a run of `periods` drive periods."""
         return tuple(end for end in self.horizons if end <= periods)
 
     def window(self, end: int) -> Array:
@@ -115,11 +115,11 @@ class Task:
         return schedule(periods * self.period, step, **self.signals)
 
     def held(self, periods: int) -> list[HeldInputs]:
-        """Return the inputs that peers get: held over the scene's own communication step."""
+        """Return the inputs of peers, held over the scene's own communication step."""
         return self.schedule(periods, self.step).held()
 
-    def truth(self, periods: int, steps: int = TRUTH_STEPS) -> list[HeldInputs]:
-        """Return the inputs that the referee gets, `steps` a drive period where they vary."""
+    def reference_inputs(self, periods: int, steps: int = REFERENCE_STEPS) -> list[HeldInputs]:
+        """Return the inputs of the reference, with `steps` per drive period where they vary."""
         fine = self.schedule(periods, self.period / steps)
         corners = [t for signal in self.signals.values() for t in signal.times]
         stop = float(fine.times[-1])
@@ -141,27 +141,29 @@ class Task:
         return held
 
 
-def task_of(scene: Scene, varied: Mapping[str, float], most_periods: int | None = None) -> Task:
-    """Return the task of a scene, `varied` being what its sweep has set.
+def problem_of(
+    scene: Scene, varied: Mapping[str, float], max_periods: int | None = None
+) -> Problem:
+    """Return the problem of a scene; `varied` are the values of its sweep.
 
-    `most_periods` cuts the run short. Raises SceneError for a scene without a run whose inputs
+    `max_periods` cuts the run short. Raises SceneError for a scene without a run whose inputs
     vary.
     """
     full = replace(scene.device, fidelity=2)
     period = 2.0 * pi / full.drive_frequency
     varying = any(len(set(signal.values)) > 1 for signal in scene.signals.values())
-    periods, step = LEAST_PERIODS, period
+    periods, step = MIN_PERIODS, period
     if varying or scene.stop_time is not None:
         plan = scene.schedule()
         periods = int(float(plan.times[-1]) / period * (1.0 + 1e-9))
         step = scene.step_size or period
         if not varying:
-            periods = max(periods, LEAST_PERIODS)
-    if most_periods is not None:
-        periods = min(periods, most_periods)
+            periods = max(periods, MIN_PERIODS)
+    if max_periods is not None:
+        periods = min(periods, max_periods)
     own = {"fidelity", "friction_law", "tolerance"}
     at = "".join(f", {name} {value:g}" for name, value in varied.items())
-    return Task(
+    return Problem(
         name=scene.name + at,
         title=scene.title,
         device=full,

@@ -32,7 +32,7 @@ INPUT_DELAY = {"fmpy": 1, "libcosimpy": 0}
 
 
 @dataclass(frozen=True)
-class Course:
+class LoopRecord:
     """Mean velocity (m/s) and phase (rad) at the ends of the communication steps, shapes (n,).
 
     The phase is the one that the controller puts out: the slider has it in the step after. `load`
@@ -47,14 +47,14 @@ class Course:
     load: Array
 
 
-def run_loop(package: Path, host: Host, duty: Duty) -> tuple[Course, Course]:
+def run_loop(package: Path, host: Host, duty: Duty) -> tuple[LoopRecord, LoopRecord]:
     """Run the loop at the fidelity of the design and at that of the proof.
 
     The host is a process of its own. Raises HarnessError where it is missing or cannot run.
     """
     host.version()
     jobs = [_job(package, name, duty) for name in (DESIGN, PROOF)]
-    courses = []
+    records = []
     for job, answer in zip(jobs, ask(host, jobs), strict=True):
         if answer.error is not None:
             raise HarnessError(f"{package} does not run in {host.name}: {answer.error}")
@@ -68,8 +68,8 @@ def run_loop(package: Path, host: Host, duty: Duty) -> tuple[Course, Course]:
         fidelity = int(job.start[FIDELITY])
         late = INPUT_DELAY[host.name] * duty.step
         load = np.array([duty.load(time - late) for time in duty.times])
-        courses.append(Course(host.name, fidelity, times, rows[:, 0], rows[:, 1], load))
-    return courses[0], courses[1]
+        records.append(LoopRecord(host.name, fidelity, times, rows[:, 0], rows[:, 1], load))
+    return records[0], records[1]
 
 
 def _job(package: Path, name: str, duty: Duty) -> Job:

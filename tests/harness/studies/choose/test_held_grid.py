@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.held import as_meant, as_run, vary
+from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs, vary
 from tests.harness.scene_text import scene_of
 
 RAMP = (
@@ -21,14 +21,14 @@ def scene() -> Scene:
 
 
 def test_a_run_holds_what_the_schedule_of_the_scene_samples(scene: Scene) -> None:
-    held, schedule = as_run(scene, 0.1, 0.007), scene.schedule()
+    held, schedule = sampled_inputs(scene, 0.1, 0.007), scene.schedule()
     assert np.array_equal(held.times, schedule.times)
     assert np.array_equal(held.values, schedule.sampled())
 
 
 @pytest.mark.parametrize("step", [0.011, 0.002])
 def test_inputs_as_meant_give_their_impulse_exactly(scene: Scene, step: float) -> None:
-    held = as_meant(scene, 0.1, step)
+    held = averaged_inputs(scene, 0.1, step)
     lengths = np.diff(held.times)
     load, _, ratio = (lengths @ held.values[:-1, column] for column in (1, 0, 2))
     assert load == pytest.approx(0.5 * 0.3 * 0.1, rel=1e-12)
@@ -36,7 +36,7 @@ def test_inputs_as_meant_give_their_impulse_exactly(scene: Scene, step: float) -
 
 
 def test_a_stretch_carries_the_turns_before_it_in_its_phase(scene: Scene) -> None:
-    held = as_meant(scene, 0.08, 0.001, 0.06)
+    held = averaged_inputs(scene, 0.08, 0.001, 0.06)
     stretch = held.stretch(0.06, 0.08, np.array([0.0651]), 100.0)
     assert stretch.times[0] == 0.0
     assert stretch.times[-1] == pytest.approx(0.02)

@@ -1,4 +1,4 @@
-"""What a method says about a motion at the readings of a task, and how wrong that is."""
+"""Solutions of a problem, sampled at its readings, and their errors against the reference."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from slider_resonator.checks.measures.deviation import peak, share_of
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.slow import slow_displacement
-from slider_resonator.studies.trade.task import Task
+from slider_resonator.studies.trade.problem import Problem
 
 Array = NDArray[np.float64]
 
@@ -29,13 +29,13 @@ QUANTITIES: Mapping[str, str] = {
 
 
 @dataclass(frozen=True)
-class Motion:
-    """Signals at `times` (s) and counts over the run, None where the method does not tell.
+class Solution:
+    """Signals at `times` (s) and counts over the run, None where the method does not report them.
 
     `position` (m) and `velocity` (m/s) have the shape (n,) of the times, `mean_velocity` (m/s) too
-    where the method has one of its own, `last_event` (s) where it locates events. `course` are the
-    times and mean velocities of its own steps, for the beat. `start_cpu` is the CPU time (s) of
-    getting started, which is no part of following the motion.
+    where the method has one of its own, `last_event` (s) where it locates events. `history` holds
+    the times and mean velocities of its own steps, for the beat. `start_cpu` is the CPU time (s) of
+    initialisation.
     """
 
     times: Array
@@ -43,7 +43,7 @@ class Motion:
     velocity: Array
     mean_velocity: Array | None = None
     last_event: Array | None = None
-    course: tuple[Array, Array] | None = None
+    history: tuple[Array, Array] | None = None
     steps: int | None = None
     evaluations: int | None = None
     events: int | None = None
@@ -52,7 +52,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Windows:
-    """What is compared, from the windows of a task: a row each.
+    """What is compared, one row for each window of a problem.
 
     `position` and `velocity` have the shape (w, POINTS + 1), the others (w,).
     """
@@ -64,21 +64,21 @@ class Windows:
     last_event: Array | None
 
 
-def windows(task: Task, motion: Motion, periods: int) -> Windows:
-    """Return the readings of a motion of so many drive periods, window by window."""
-    places = [_places(motion.times, task.window(end)) for end in task.windows(periods)]
-    position = np.array([motion.position[at] for at in places])
+def windows(problem: Problem, solution: Solution, periods: int) -> Windows:
+    """Return the readings of a solution over `periods` drive periods, window by window."""
+    places = [_places(solution.times, problem.window(end)) for end in problem.windows(periods)]
+    position = np.array([solution.position[at] for at in places])
     last = [at[-1] for at in places]
-    mean = (position[:, -1] - position[:, 0]) / task.period
-    if motion.mean_velocity is not None:
-        mean = motion.mean_velocity[last]
-    slow = [slow_displacement(task.window(1), row, task.period)[-1] for row in position]
+    mean = (position[:, -1] - position[:, 0]) / problem.period
+    if solution.mean_velocity is not None:
+        mean = solution.mean_velocity[last]
+    slow = [slow_displacement(problem.window(1), row, problem.period)[-1] for row in position]
     return Windows(
         position=position,
-        velocity=np.array([motion.velocity[at] for at in places]),
+        velocity=np.array([solution.velocity[at] for at in places]),
         mean_velocity=mean,
         slow_displacement=np.array(slow),
-        last_event=None if motion.last_event is None else motion.last_event[last],
+        last_event=None if solution.last_event is None else solution.last_event[last],
     )
 
 
@@ -88,22 +88,24 @@ def last_events(event_times: Array, times: Array) -> Array:
     return np.asarray(known[np.searchsorted(event_times, times, side="right")])
 
 
-def errors(task: Task, motion: Motion, referee: Windows, periods: int) -> dict[str, float]:
-    """Return the error of each quantity that the motion tells, infinite where it is not finite."""
-    found = windows(task, motion, periods)
+def errors(
+    problem: Problem, solution: Solution, reference: Windows, periods: int
+) -> dict[str, float]:
+    """Return the error of each quantity of a solution, infinite where it is not finite."""
+    found = windows(problem, solution, periods)
     count = len(found.mean_velocity)
-    told = {}
+    reported = {}
     for name in ("mean_velocity", "slow_displacement", "position", "velocity"):
-        expected = getattr(referee, name)[:count]
-        told[name] = share_of(peak(getattr(found, name) - expected), peak(expected))
-    if found.last_event is not None and referee.last_event is not None:
-        late = np.abs(found.last_event - referee.last_event[:count]).max()
-        told["event_times"] = float(late) / task.period
-    if task.beat is not None and motion.course is not None:
-        beat = _beat(*motion.course, task.beat)
+        expected = getattr(reference, name)[:count]
+        reported[name] = share_of(peak(getattr(found, name) - expected), peak(expected))
+    if found.last_event is not None and reference.last_event is not None:
+        late = np.abs(found.last_event - reference.last_event[:count]).max()
+        reported["event_times"] = float(late) / problem.period
+    if problem.beat is not None and solution.history is not None:
+        beat = _beat(*solution.history, problem.beat)
         if beat is not None:
-            told["beat_frequency"] = abs(beat - task.beat) / task.beat
-    return {name: error if np.isfinite(error) else np.inf for name, error in told.items()}
+            reported["beat_frequency"] = abs(beat - problem.beat) / problem.beat
+    return {name: error if np.isfinite(error) else np.inf for name, error in reported.items()}
 
 
 def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
@@ -125,9 +127,9 @@ def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
         return np.inf
 
 
-def _places(times: Array, wanted: Array) -> NDArray[np.intp]:
-    """Return where the wanted times are among the times, to rounding."""
-    after = np.searchsorted(times, wanted).clip(max=len(times) - 1)
+def _places(times: Array, targets: Array) -> NDArray[np.intp]:
+    """Return the index of the time nearest to each target."""
+    after = np.searchsorted(times, targets).clip(max=len(times) - 1)
     before = (after - 1).clip(min=0)
-    nearer = np.abs(times[before] - wanted) < np.abs(times[after] - wanted)
+    nearer = np.abs(times[before] - targets) < np.abs(times[after] - targets)
     return np.where(nearer, before, after)

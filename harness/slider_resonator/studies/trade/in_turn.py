@@ -10,7 +10,7 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True)
 class Timed:
-    """Something to be timed: `seconds` does it once and returns what it took, `repeats` times."""
+    """Work to be timed `repeats` times: `seconds` does it once and returns the time taken."""
 
     name: str
     seconds: Callable[[], float]
@@ -20,9 +20,9 @@ class Timed:
 def in_turn(
     everything: Sequence[Timed], progress: Progress = lambda name, share: None
 ) -> list[list[float]]:
-    """Return the seconds of each; round after round, each once as long as it has repeats left.
+    """Return the seconds of each; in every round, each with repeats left is timed once.
 
-    `progress` is told who is at work and the share of the repeats that is done.
+    `progress` receives the name of the work and the share of the repeats that is done.
     """
     seconds: list[list[float]] = [[] for _ in everything]
     total = sum(timed.repeats for timed in everything)

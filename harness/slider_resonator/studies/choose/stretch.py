@@ -11,20 +11,20 @@ from numpy.typing import NDArray
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.drive import Instance, run
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.held import HeldGrid
+from slider_resonator.studies.choose.held_grid import HeldGrid
 
 Array = NDArray[np.float64]
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
-MOST_LOOKS = 2000
-"""Points at which signals are compared; more would tell the same."""
+MAX_CHECKPOINTS = 2000
+"""Maximum number of points at which signals are compared."""
 GOLDEN = 0.6180339887498949
 NO_POINTS = np.empty(0)
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """From `start` to `stop` (s), with the `looks` (n,) (s) at which signals are compared.
+    """From `start` to `stop` (s), with the `checkpoints` (n,) (s) at which signals are compared.
 
     `start` is a whole number of drive periods. `initial` holds the initial values of a stretch that
     begins later than the scene.
@@ -32,16 +32,16 @@ class Stretch:
 
     start: float
     stop: float
-    looks: Array
+    checkpoints: Array
     initial: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
-class Course:
-    """Outputs by name (n,) at the looks of a stretch, `times` in s from the scene's start.
+class Samples:
+    """Outputs by name (n,) at the checkpoints of a stretch, `times` in s from the scene's start.
 
-    `grid_velocity` (m,) is the mean velocity at `grid_times` (m,) (s), points of a record that is
-    to have a spectrum.
+    `grid_velocity` (m,) is the mean velocity at `grid_times` (m,) (s), equidistant
+    points for a spectrum.
     """
 
     times: Array
@@ -50,19 +50,19 @@ class Course:
     grid_velocity: Array
 
     def __getitem__(self, name: str) -> Array:
-        """Return an output at the looks."""
+        """Return an output at the checkpoints."""
         return self.signals[name]
 
 
-def looks_between(points: Array, start: float, stop: float) -> Array:
-    """Return some of the points (s) in (start, stop], and stop, at no regular distance.
+def checkpoints_between(points: Array, start: float, stop: float) -> Array:
+    """Return some of the points (s) in (start, stop], and stop, at irregular distances.
 
-    Equal distances could show one phase of the vibration only.
+    Equal distances could sample a single phase of the vibration.
     """
     inside = points[(points > start) & (points < stop)]
-    if inside.size > MOST_LOOKS:
-        index = np.arange(MOST_LOOKS)
-        places = (index + (GOLDEN * index) % 1.0) * (inside.size / MOST_LOOKS)
+    if inside.size > MAX_CHECKPOINTS:
+        index = np.arange(MAX_CHECKPOINTS)
+        places = (index + (GOLDEN * index) % 1.0) * (inside.size / MAX_CHECKPOINTS)
         inside = inside[np.unique(places.astype(np.int64))]
     return np.append(inside, stop)
 
@@ -74,21 +74,21 @@ def follow(
     held: HeldGrid,
     stretch: Stretch,
     grid: Array = NO_POINTS,
-) -> Course:
+) -> Samples:
     """Run a stretch; FmuError or Refusal where the FMU cannot, or gives what is not finite.
 
-    `grid` (m,) (s) are points of the stretch for `Course.grid_times`.
+    `grid` (m,) (s) are points of the stretch for `Samples.grid_times`.
     """
-    points = np.union1d(stretch.looks, grid)
+    points = np.union1d(stretch.checkpoints, grid)
     frequency = scene.device.drive_frequency
     schedule = held.stretch(stretch.start, stretch.stop, points, frequency)
     values = {**scene.parameters, **stretch.initial, **parameters}
     record = run(instance, values, schedule, outputs=SIGNALS)
-    at = np.searchsorted(schedule.times, stretch.looks - stretch.start)
+    at = np.searchsorted(schedule.times, stretch.checkpoints - stretch.start)
     signals = {name: record[name][at] for name in SIGNALS}
     signals["last_event_time"] = signals["last_event_time"] + stretch.start
     for name, values_there in signals.items():
         if not np.isfinite(values_there).all():
             raise FmuError(f"{instance.fmu.path.name}: output {name} is not finite")
     on_grid = np.searchsorted(schedule.times, grid - stretch.start)
-    return Course(stretch.looks, signals, grid, record["mean_velocity"][on_grid])
+    return Samples(stretch.checkpoints, signals, grid, record["mean_velocity"][on_grid])

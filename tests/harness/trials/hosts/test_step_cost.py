@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.studies.benchmark.c_host import STEPS, measure_steps
+from slider_resonator.trials.hosts.step_cost import STEPS, measure_steps
 
 
 @pytest.mark.slow

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from slider_resonator.studies.benchmark.in_turn import Timed, in_turn
+from slider_resonator.studies.trade.in_turn import Timed, in_turn
 
 
 def test_everybody_has_a_turn_in_each_round() -> None:
@@ -15,9 +15,9 @@ def test_everybody_has_a_turn_in_each_round() -> None:
 
         return Timed(name, seconds, repeats)
 
-    told: list[float] = []
-    found = in_turn([timed("a", 3), timed("b", 1), timed("c", 2)], lambda _, s: told.append(s))
+    reported: list[float] = []
+    found = in_turn([timed("a", 3), timed("b", 1), timed("c", 2)], lambda _, s: reported.append(s))
     assert order == ["a", "b", "c", "a", "c", "a"], "round after round, while repeats are left"
     assert found == [[1.0, 4.0, 6.0], [2.0], [3.0, 5.0]]
-    assert told == sorted(told)
+    assert reported == sorted(reported)
     assert in_turn([]) == []

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from slider_resonator.studies.benchmark.in_turn import Progress
 from slider_resonator.trials.hosts.driver_host import BINARY, converse, native_driver
 from slider_resonator.trials.hosts.job import describe
 
@@ -50,7 +49,9 @@ class StepCost:
     slowest: float
 
 
-def measure_steps(fmu: Path, repeats: int, progress: Progress) -> tuple[StepCost, ...]:
+def measure_steps(
+    fmu: Path, repeats: int, progress: Callable[[str, float], None]
+) -> tuple[StepCost, ...]:
     """Time every kind of step in the C driver, in turn; RuntimeError with what it complains of.
 
     The input that is set is the load, to a new value each time.

@@ -40,19 +40,19 @@ class HeldGrid:
         return Schedule(shifted, *signals)
 
 
-def as_run(scene: Scene, stop: float, step: float) -> HeldGrid:
-    """Return the inputs as a run in this step (s) samples and holds them up to `stop` (s)."""
+def sampled_inputs(scene: Scene, stop: float, step: float) -> HeldGrid:
+    """Return the inputs as a run with this step (s) samples and holds them up to `stop` (s)."""
     signals = [scene.signals[name] for name in INPUTS]
     jumps = [time for signal in signals for time in signal.jumps]
     times = communication_points(stop, step, jumps)
     return HeldGrid(times, np.column_stack([signal.over(times) for signal in signals]))
 
 
-def as_meant(scene: Scene, stop: float, step: float, start: float = 0.0) -> HeldGrid:
-    """Return the inputs nearly as they vary, held at their mean over each small step (s).
+def averaged_inputs(scene: Scene, stop: float, step: float, start: float = 0.0) -> HeldGrid:
+    """Return the inputs held at their mean over each small step (s).
 
-    The impulse of the load and what psi turns are then exact at the points: the error left is of
-    second order in the step, that of `as_run` is of first.
+    The impulse of the load and the angle psi are then exact at the points: the error is of second
+    order in the step, that of `sampled_inputs` of first.
     """
     signals = [scene.signals[name] for name in INPUTS]
     corners = [time - start for signal in signals for time in signal.times]

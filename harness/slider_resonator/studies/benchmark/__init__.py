@@ -1,1 +1,0 @@
-"""What accuracy costs: FMUs and their peers side by side in one run."""
