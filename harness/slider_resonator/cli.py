@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import signal
 import sys
 import traceback
 from collections.abc import Sequence
@@ -70,6 +71,9 @@ class HarnessGroup(click.Group):
     ) -> NoReturn:
         """Run a command and leave with its exit code; with --json an error is JSON too."""
         arguments = list(sys.argv[1:] if args is None else args)
+        if args is None:
+            # As for Ctrl-C: the processes of FMUs must be ended and temporary files removed.
+            signal.signal(signal.SIGTERM, signal.default_int_handler)
         try:
             code = super().main(arguments, prog_name, complete_var, standalone_mode=False, **extra)
         except SystemExit as end:  # click and rich leave with 1 when nobody reads their output

@@ -17,10 +17,11 @@ from slider_resonator.commands.options import (
     fmu_argument,
     json_option,
     set_option,
+    time_limit_option,
 )
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.drive import Record, instantiate, run
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.drive import Record, run
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.record_csv import write_csv
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
@@ -70,6 +71,7 @@ class RunSummary:
     "the command choose finds them.",
 )
 @set_option
+@time_limit_option(TIME_LIMIT, "For each of the choice, the run and the run for the picture.")
 @json_option
 @click.pass_context
 def run_command(
@@ -80,13 +82,14 @@ def run_command(
     plot: Path | None,
     auto: bool,
     settings: dict[str, float],
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Run one scene, built in or from a file, and say what it cost.
 
     Of a scene with a sweep the unvaried device is run; --set varies it. Nothing is judged: leaves
-    with 0, or with 2 when it could not be run; with --auto also with 1, and without a run, when no
-    model meets the scene's needs.
+    with 0, or with 2 when the FMU could not be run, crashed or exceeded the time limit; with --auto
+    also with 1, and without a run, when no model meets the scene's needs.
 
     \b
     Examples:
@@ -100,22 +103,23 @@ def run_command(
     if auto:
         check_left_to_choose(settings)
     choice = None
-    with progress_bar() as progress, open_fmu(fmu) as opened, instantiate(opened) as instance:
+    with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
             from slider_resonator.studies.choose.choosing import (
                 choose_with,  # here, for it loads scipy
             )
 
             read.schedule()
-            choice = choose_with(instance, read)
+            choice = isolated.run(partial(choose_with, scene=read))
             if not choice.meets:
                 click.echo(to_json(choice) if as_json else "\n".join(choice.sentences()))
                 context.exit(1)
             read = choice.applied_to(read)
 
         def run_in(schedule: Schedule) -> Record:
-            told = partial(progress, read.name)
-            return run(instance, read.parameters, schedule, progress=told)
+            task = partial(run, parameters=read.parameters, schedule=schedule)
+            record: Record = isolated.run(task, partial(progress, read.name))
+            return record
 
         record = run_in(read.schedule())
         if out is not None:

@@ -12,7 +12,9 @@ from slider_resonator.commands.options import (
     json_option,
     max_denominator_option,
     set_option,
+    time_limit_option,
 )
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import readable
 from slider_resonator.steady.outcome import Outcome
@@ -20,7 +22,8 @@ from slider_resonator.steady.outcome import Outcome
 
 def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
     """Give a command the FMU and the options of a search."""
-    for parameter in (json_option, max_denominator_option, set_option, fmu_argument):
+    time_limit = time_limit_option(TIME_LIMIT, "For the whole search.")
+    for parameter in (json_option, time_limit, max_denominator_option, set_option, fmu_argument):
         command = parameter(command)
     return command
 
