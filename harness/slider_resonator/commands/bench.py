@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from slider_resonator.commands.options import default_fmus, json_option
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import output, progress_bar
 from slider_resonator.output.json_output import to_json

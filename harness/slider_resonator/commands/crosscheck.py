@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import default_fmu, json_option
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.json_output import to_json
 from slider_resonator.trials.crosscheck.export import FOLDER_NAME, export

@@ -20,9 +20,10 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.drive import Record, run
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
+from slider_resonator.fmu.run import run
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import readable

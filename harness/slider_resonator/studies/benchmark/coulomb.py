@@ -16,7 +16,7 @@ import numpy as np
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.resolved import located_events, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.studies.benchmark.cost import (

@@ -9,7 +9,8 @@ import numpy as np
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
 from slider_resonator.studies.benchmark.cost import Outcome
 
 

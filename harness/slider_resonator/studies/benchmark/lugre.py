@@ -12,7 +12,7 @@ import numpy as np
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.studies.benchmark import coulomb
 from slider_resonator.studies.benchmark.cost import (

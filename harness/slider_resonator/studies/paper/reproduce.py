@@ -10,7 +10,7 @@ from types import FunctionType
 from typing import Any, cast
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.names import unknown_name
 from slider_resonator.output.atomic import replacing

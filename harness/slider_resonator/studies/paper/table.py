@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.paper.figure import Data, Progress
 
 

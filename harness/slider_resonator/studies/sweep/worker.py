@@ -14,7 +14,7 @@ from multiprocessing import parent_process
 from pathlib import Path
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.studies.sweep.measures import Cell, Task, measure
 

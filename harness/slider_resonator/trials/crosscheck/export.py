@@ -14,8 +14,10 @@ import fmpy
 
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.fmu.drive import Instance, Record, run
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.opening import Fmu
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run
 from slider_resonator.output.targets import make_folder
 from slider_resonator.trials.crosscheck.cases import CASES, OUTPUTS, STEP_SIZE, STOP_TIME, Case
 

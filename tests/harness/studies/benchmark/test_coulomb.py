@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.studies.benchmark.coulomb import COMPARED, fmu_name, measure_coulomb
 

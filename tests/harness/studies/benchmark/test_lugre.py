@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.studies.benchmark.lugre import EQUAL_ERROR, Case, measure_lugre
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.course import Stretch, follow

@@ -14,7 +14,7 @@ import pytest
 from pyarrow import parquet
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.sweep.grid import read_grid

@@ -13,7 +13,7 @@ from fmpy.util import read_csv
 
 from slider_resonator.device.device import Device
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.references.resolved import located_events
 from slider_resonator.trials.crosscheck.cases import CASES, OUTPUTS, STEP_SIZE, Case

@@ -9,8 +9,9 @@ import pytest
 
 from slider_resonator.device.schedule import constant, schedule, steps
 from slider_resonator.errors import FmuError, Refusal
-from slider_resonator.fmu.drive import Instance, instantiate, run
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import Fmu
+from slider_resonator.fmu.run import run
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus

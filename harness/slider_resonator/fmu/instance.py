@@ -1,8 +1,7 @@
-"""Driving an FMU through fmpy: instances, steps, and whole runs."""
+"""Driving an instance of an FMU through fmpy."""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, suppress
 from ctypes import c_double
@@ -18,8 +17,7 @@ from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
-from slider_resonator.device.interface import INPUTS, OUTPUTS
-from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu import fmu_log
@@ -30,31 +28,6 @@ EQUAL = 1e-6
 """Relative difference up to which two communication steps are of one size."""
 
 _numbers = count(1)
-
-
-@dataclass(frozen=True)
-class Record:
-    """What an FMU did at the communication points `times` (s), shape (n,).
-
-    `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as held
-    from each point on. `wall_time` (s) covers initialisation and stepping, `start_cpu` and
-    `step_cpu` (s) are the CPU times of each.
-    """
-
-    times: NDArray[np.float64]
-    inputs: NDArray[np.float64]
-    outputs: Mapping[str, NDArray[np.float64]]
-    wall_time: float
-    start_cpu: float
-    step_cpu: float
-
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        """Return one output over the run, shape (n,)."""
-        return self.outputs[name]
-
-    def final(self, name: str) -> float:
-        """Return the last value of an output."""
-        return float(self.outputs[name][-1])
 
 
 def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
@@ -270,43 +243,3 @@ def instantiate(fmu: Fmu) -> Iterator[Instance]:
             instance.end()
     finally:
         fmu_log.forget(name)
-
-
-def run(
-    instance: Instance,
-    parameters: Mapping[str, float],
-    schedule: Schedule,
-    *,
-    outputs: Sequence[str] = tuple(OUTPUTS),
-    progress: Callable[[float], None] = lambda share: None,
-) -> Record:
-    """Run the schedule from the given parameters and return the outputs at all its points.
-
-    `progress` is told now and then which share of the points is done. Raises FmuError and Refusal
-    as `Instance.start` and `Instance.check_steps` do.
-    """
-    times = schedule.times
-    inputs = schedule.sampled()
-    held = inputs.tolist()
-    values = np.empty((len(times), len(outputs)))
-    began, began_cpu = time.perf_counter(), time.process_time()
-    first = dict(zip(INPUTS, held[0], strict=True))
-    instance.start({**parameters, **first}, stop_time=float(times[-1]))
-    start_cpu = time.process_time() - began_cpu
-    instance.check_steps(times[1:])
-    block = instance.block(outputs)
-    stepping_cpu = time.process_time()
-    report_every = max(1, len(times) // 100)
-    with instance.explained():
-        values[0] = block.read()
-        for index, target in enumerate(times[1:].tolist(), start=1):
-            if index > 1 and held[index - 1] != held[index - 2]:
-                instance.set_inputs(held[index - 1])
-            instance.step_to(target)
-            values[index] = block.read()
-            if index % report_every == 0:
-                progress(index / (len(times) - 1))
-    step_cpu = time.process_time() - stepping_cpu
-    wall_time = time.perf_counter() - began
-    columns = {name: values[:, i].copy() for i, name in enumerate(outputs)}
-    return Record(times, inputs, columns, wall_time, start_cpu, step_cpu)
