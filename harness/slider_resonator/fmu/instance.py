@@ -31,9 +31,9 @@ _numbers = count(1)
 
 
 def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
-    """Call a function of an instance; FMICallException as fmpy, whose own way costs more than it.
+    """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
 
-    Arguments are converted by the types that fmpy has given the functions of the library.
+    Arguments are converted to the types that fmpy has declared for the function.
     """
     status = getattr(slave.dll, name)(slave.component, *arguments)
     if status > fmi2Warning:
@@ -41,7 +41,7 @@ def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
 
 
 class Block:
-    """A fixed set of Real variables that is read or written many times without allocation."""
+    """A fixed set of Real variables, read and written many times without allocation."""
 
     def __init__(self, slave: FMU2Slave, references: Sequence[int]) -> None:
         size = len(references)
@@ -51,7 +51,7 @@ class Block:
         self._set = partial(call, slave, "fmi2SetReal", *arguments)
 
     def read(self) -> list[float]:
-        """Return the present values."""
+        """Return the current values."""
         self._get()
         return self.values[:]
 
@@ -62,7 +62,7 @@ class Block:
 
 
 class _Explained:
-    """A block in which a failed FMI call becomes a Refusal that says what the FMU logged."""
+    """A context in which a failed FMI call becomes a Refusal with the log of the FMU."""
 
     def __init__(self, instance: Instance) -> None:
         self.instance = instance
@@ -79,9 +79,9 @@ class _Explained:
         if isinstance(error, FMICallException):
             instance = self.instance
             logged = "; ".join(dict.fromkeys(instance.messages))
-            said = logged or f"{error} The FMU logged no reason."
+            reason = logged or f"{error} The FMU logged no reason."
             where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
-            raise Refusal(f"{where}: {said}") from error
+            raise Refusal(f"{where}: {reason}") from error
 
 
 @dataclass(frozen=True)
@@ -96,18 +96,45 @@ class _Plan:
 class Instance:
     """One instance of an FMU, reused through fmi2Reset by every `start`.
 
-    `start` raises Refusal with the FMU's own words when a call fails; the other methods, which are
-    called a million times over, do so inside an `explained` block.
+    Raises FmuError when the FMU cannot be instantiated. `start` raises Refusal with the message of
+    the FMU when a call fails; the other methods, which are called millions of times, do so inside
+    an `explained` block. Must be freed with `end`.
     """
 
-    def __init__(self, fmu: Fmu, slave: FMU2Slave, messages: list[str]) -> None:
+    slave: FMU2Slave
+    messages: list[str]
+
+    def __init__(self, fmu: Fmu) -> None:
         self.fmu = fmu
-        self.slave = slave
-        self.messages = messages
+        self._explained = _Explained(self)
+        self._create()
+
+    def recreate(self) -> None:
+        """Free the instance and make a new one, as after a failure that may have left traces.
+
+        Blocks of the old one must not be used again. Raises FmuError as at first.
+        """
+        self.end()
+        self._create()
+
+    def _create(self) -> None:
+        self._name = f"harness{next(_numbers)}"
+        self.messages, callbacks = fmu_log.collect(self._name)
+        try:
+            self.slave = FMU2Slave(
+                instanceName=self._name,
+                guid=self.fmu.description.guid,
+                modelIdentifier=self.fmu.identifier,
+                unzipDirectory=str(self.fmu.folder),
+            )
+            self.slave.instantiate(callbacks=callbacks, loggingOn=True)
+        except Exception as error:  # fmpy raises bare Exception for all that goes wrong here
+            reason = "; ".join([str(error), *self.messages])
+            fmu_log.forget(self._name)
+            raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
         self.time = 0.0
         self._used = False
         self._initialised = False
-        self._explained = _Explained(self)
         self._settable: dict[tuple[str, ...], _Plan] = {}
         self._readable: dict[tuple[str, ...], _Plan] = {}
         self._inputs = self.block(list(INPUTS))
@@ -141,7 +168,7 @@ class Instance:
             self._initialised = True
 
     def check_steps(self, times: NDArray[np.float64]) -> None:
-        """Raise FmuError where the FMU takes equal steps only and those to `times` (s) differ."""
+        """Raise FmuError for an FMU that takes equal steps only, if those to `times` (s) differ."""
         steps = np.diff(times, prepend=self.time)
         if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * steps.max():
             raise FmuError(
@@ -164,11 +191,11 @@ class Instance:
         self.time += size
 
     def value(self, name: str) -> float:
-        """Return the present value of any variable; FmuError for an unknown name."""
+        """Return the current value of any variable; FmuError for an unknown name."""
         return self.read([name])[name]
 
     def read(self, names: Sequence[str]) -> dict[str, float]:
-        """Return the present values of variables; FmuError for an unknown name."""
+        """Return the current values of variables; FmuError for an unknown name."""
         plan = self._plan(self._readable, names, self._variable)
         found = dict(zip(plan.reals, plan.block.read(), strict=True))
         for name, reference in plan.integers.items():
@@ -181,6 +208,7 @@ class Instance:
             with suppress(FMICallException):  # nothing is lost: the instance is freed at once
                 self.slave.terminate()
         self.slave.freeInstance()
+        fmu_log.forget(self._name)
 
     def _variable(self, name: str) -> ModelVariable:
         if name not in self.fmu.variables:
@@ -215,31 +243,15 @@ class Instance:
         return plan
 
     def explained(self) -> AbstractContextManager[None]:
-        """Turn a failed FMI call into a Refusal that carries what the FMU logged meanwhile."""
+        """Return a context that turns a failed FMI call into a Refusal with the log of the FMU."""
         return self._explained
 
 
 @contextmanager
 def instantiate(fmu: Fmu) -> Iterator[Instance]:
     """Instantiate an FMU for the length of the block; FmuError when it cannot be."""
-    name = f"harness{next(_numbers)}"
-    messages, callbacks = fmu_log.collect(name)
+    instance = Instance(fmu)
     try:
-        try:
-            slave = FMU2Slave(
-                instanceName=name,
-                guid=fmu.description.guid,
-                modelIdentifier=fmu.identifier,
-                unzipDirectory=str(fmu.folder),
-            )
-            slave.instantiate(callbacks=callbacks, loggingOn=True)
-        except Exception as error:  # fmpy raises bare Exception for all that goes wrong here
-            said = "; ".join([str(error), *messages])
-            raise FmuError(f"{fmu.path}: cannot be instantiated: {said}") from error
-        instance = Instance(fmu, slave, messages)
-        try:
-            yield instance
-        finally:
-            instance.end()
+        yield instance
     finally:
-        fmu_log.forget(name)
+        instance.end()

@@ -23,8 +23,8 @@ def run(
 ) -> Record:
     """Run the schedule from the given parameters and return the outputs at all its points.
 
-    `progress` is told now and then which share of the points is done. Raises FmuError and Refusal
-    as `Instance.start` and `Instance.check_steps` do.
+    `progress` is called about a hundred times with the share of the points that is done. Raises
+    FmuError and Refusal as `Instance.start` and `Instance.check_steps` do.
     """
     times = schedule.times
     inputs = schedule.sampled()
