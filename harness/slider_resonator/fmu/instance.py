@@ -229,11 +229,11 @@ class Instance:
     def _plan(
         self,
         plans: dict[tuple[str, ...], _Plan],
-        wanted: Iterable[str],
+        variables: Iterable[str],
         find: Callable[[str], ModelVariable],
     ) -> _Plan:
-        """Return how variables are read or written, made at the first use of these names."""
-        names = tuple(wanted)
+        """Return how variables are read or written; made once for each set of names."""
+        names = tuple(variables)
         plan = plans.get(names)
         if plan is None:
             found = {name: find(name) for name in names}

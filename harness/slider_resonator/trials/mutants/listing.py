@@ -10,10 +10,10 @@ from rich.table import Table
 from rich.text import Text
 
 from slider_resonator.trials.mutants.mutant import KINDS, Mutant
-from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutationRun, Verdict
+from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutantVerdict, MutationRun
 
-MOST_REJECTIONS = 12
-"""Rows of the table of what rejects: the rest is in the JSON document."""
+MAX_REJECTIONS = 12
+"""Rows of the table of rejecting checks; all are in the JSON document."""
 
 
 def print_run(console: Console, run: MutationRun) -> None:
@@ -49,7 +49,7 @@ def print_mutants(console: Console, mutants: list[Mutant]) -> None:
 
 
 def run_as_plain(run: MutationRun) -> dict[str, Any]:
-    """Return everything about a run; passing is for whoever set the rate to judge."""
+    """Return everything about a run but a verdict, which depends on the rate that is required."""
     return {
         "fmu": run.fmu,
         "made": run.made,
@@ -78,7 +78,7 @@ def mutant_as_plain(mutant: Mutant) -> dict[str, Any]:
     }
 
 
-def _plain(verdict: Verdict) -> dict[str, Any]:
+def _plain(verdict: MutantVerdict) -> dict[str, Any]:
     outcome = {
         "status": verdict.status,
         "scene": verdict.scene,
@@ -96,8 +96,8 @@ def _table(key: str, run: MutationRun) -> Table:
     if key == "kind":
         table.add_column("what is changed")
     for name, counts in run.tally(key):
-        told = [KINDS[name]] if key == "kind" else []
-        table.add_row(name, *(str(counts[status]) for status in STATUSES), *told)
+        explanation = [KINDS[name]] if key == "kind" else []
+        table.add_row(name, *(str(counts[status]) for status in STATUSES), *explanation)
     return table
 
 
@@ -106,9 +106,9 @@ def _rejections(run: MutationRun) -> Table:
     table.add_column("rejected first by")
     table.add_column("mutants", justify="right")
     found = run.rejections()
-    for what, count in found[:MOST_REJECTIONS]:
+    for what, count in found[:MAX_REJECTIONS]:
         table.add_row(what, str(count))
-    rest = sum(count for _, count in found[MOST_REJECTIONS:])
+    rest = sum(count for _, count in found[MAX_REJECTIONS:])
     if rest:
-        table.add_row(f"{len(found) - MOST_REJECTIONS} others", str(rest))
+        table.add_row(f"{len(found) - MAX_REJECTIONS} others", str(rest))
     return table

@@ -13,8 +13,8 @@ from slider_resonator.trials.mutants.verdict import (
     NOT_REACHED,
     STATUSES,
     SURVIVED,
+    MutantVerdict,
     MutationRun,
-    Verdict,
 )
 
 
@@ -66,11 +66,11 @@ def _cell(text: str) -> str:
     return f"<td{number}>{escape(text)}</td>"
 
 
-def _group(heading: str, verdicts: Sequence[Verdict]) -> list[str]:
+def _group(heading: str, verdicts: Sequence[MutantVerdict]) -> list[str]:
     return [f"<h2>{heading}</h2>", *(_mutant(verdict) for verdict in verdicts)]
 
 
-def _mutant(verdict: Verdict, *, opened: bool = False) -> str:
+def _mutant(verdict: MutantVerdict, *, opened: bool = False) -> str:
     lines = "\n".join(map(_line, verdict.mutant.diff.splitlines()[2:]))
     return (
         f"<details{' open' * opened}><summary>{escape(verdict.mutant.name)}</summary>"

@@ -1,4 +1,4 @@
-"""Random scenes that tell whether a mutant changes any result at all.
+"""Random scenes that show whether a mutant changes any result at all.
 
 A probe is a scene file like any other, but what it expects is what the original FMU gives: devices,
 inputs and communication steps of all kinds, drawn so that sliding, sticking, flight and every model
@@ -39,7 +39,7 @@ _SPECIAL: tuple[Mapping[str, float], ...] = (
     {"normal_preload": 0.0},
     {"resonator_mass": 0.0},
 )
-"""Devices that lack something."""
+"""Devices without a drive, a preload or a resonator mass."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Running one FMU over scenes until the first check that rejects it."""
+"""Running an FMU over scenes up to the first check that rejects it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import ExpectTable
 
-COURSES: Mapping[str, float | None] = {
+TRAJECTORY_OUTPUTS: Mapping[str, float | None] = {
     "mean_velocity": None,
     "stick_fraction": 1e-9,
     "reversals": 0.0,
@@ -28,30 +28,30 @@ COURSES: Mapping[str, float | None] = {
     "steady_velocity": None,
     "blocking_force": None,
 }
-"""Outputs that scenes expect something of at one time only, and by how much they may change, in
-their unit; None stands for a share of the peak."""
+"""Outputs that scenes check at one time only, with the allowed change in their unit; None stands
+for a share of the peak."""
 
-Course = Mapping[str, NDArray[np.float64]]
+Outputs = Mapping[str, NDArray[np.float64]]
 """Output to its values at the communication points, shape (n,)."""
 
 _ANY = "located_events"
-"""A reference that all of these have: it is not asked for what the original has said."""
+"""A reference that all of these have; it is not run: the original gives the expected values."""
 _ROUNDING = 1e-12
-"""m/s or N: what differs by less is rounding."""
+"""Differences that are rounding, m/s or N."""
 
 
 @dataclass(frozen=True)
 class Point:
-    """A scene, or a point of its sweep, with what is wanted of it, one for each expectation.
+    """A scene, or a point of its sweep, with an expected value for each expectation.
 
-    A `course` is wanted as well where there is one: at each communication point, up to
+    `outputs` are expected as well where there are some: at each communication point, up to
     `share` of an output's peak.
     """
 
     at: Mapping[str, float]
     scene: Scene
-    wanted: tuple[Any, ...]
-    course: Course = field(default_factory=dict)
+    expected: tuple[Any, ...]
+    outputs: Outputs = field(default_factory=dict)
     share: float = 0.0
 
     @property
@@ -61,11 +61,11 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Seen:
-    """What an FMU gives at a point: a measurement for each expectation, and courses if asked."""
+class Observed:
+    """What an FMU gives at a point: a measurement for each expectation, and outputs if asked."""
 
     measured: tuple[Measurement, ...]
-    course: Course
+    outputs: Outputs
 
 
 @dataclass(frozen=True)
@@ -93,8 +93,8 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
     Where the FMU crashes, hangs or refuses, that is a rejection as well.
     """
     nearest: Check | None = None
-    wants_course = any(point.course for point in points)
-    measure = see if wants_course else _see_expected
+    reads_outputs = any(point.outputs for point in points)
+    measure = observe if reads_outputs else _observe_expected
     tasks = [(point, task_in_scene(point.scene, measure)) for point in points]
     with closing(run_tasks(fmu, tasks, time_limit, name=lambda point: point.name)) as finished:
         for one in finished:
@@ -108,29 +108,29 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
     return Passed(nearest)
 
 
-def see(fmu: FmuSide) -> Seen:
-    """Measure what the scene expects, and read the course of the other outputs."""
-    return Seen(measure_all(fmu), {name: fmu.record[name] for name in COURSES})
+def observe(fmu: FmuSide) -> Observed:
+    """Measure what the scene expects, and record the other outputs."""
+    return Observed(measure_all(fmu), {name: fmu.record[name] for name in TRAJECTORY_OUTPUTS})
 
 
-def _see_expected(fmu: FmuSide) -> Seen:
-    return Seen(measure_all(fmu), {})
+def _observe_expected(fmu: FmuSide) -> Observed:
+    return Observed(measure_all(fmu), {})
 
 
-def _checks(point: Point, seen: Seen) -> Iterator[Check]:
+def _checks(point: Point, seen: Observed) -> Iterator[Check]:
     """Yield the verdicts on what exists in the FMU, or should."""
-    for expect, measurement, wanted in zip(
-        point.scene.expect, seen.measured, point.wanted, strict=True
+    for expect, measurement, expected in zip(
+        point.scene.expect, seen.measured, point.expected, strict=True
     ):
-        if measurement.value is not None or wanted is not None:
+        if measurement.value is not None or expected is not None:
             smallest = smallest_reference(expect.quantity, point.scene.device)
-            yield check(expect, measurement, wanted, point.scene.name, point.at, smallest)
-    for name, wanted in point.course.items():
-        allowed = COURSES[name]
+            yield check(expect, measurement, expected, point.scene.name, point.at, smallest)
+    for name, expected in point.outputs.items():
+        allowed = TRAJECTORY_OUTPUTS[name]
         if allowed is None:
-            allowed = point.share * peak(wanted) + _ROUNDING
-        difference = np.abs(seen.course[name] - wanted)
+            allowed = point.share * peak(expected) + _ROUNDING
+        difference = np.abs(seen.outputs[name] - expected)
         worst = int(np.argmax(np.where(np.isnan(difference), np.inf, difference)))
         expect = ExpectTable(quantity=name, reference=_ANY, absolute=allowed, why="as before")
-        measurement = Measurement(float(seen.course[name][worst]))
-        yield check(expect, measurement, float(wanted[worst]), point.scene.name, point.at)
+        measurement = Measurement(float(seen.outputs[name][worst]))
+        yield check(expect, measurement, float(expected[worst]), point.scene.name, point.at)
