@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import schedule
-from slider_resonator.fmu.drive import Instance, Record, instantiate, run
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import COLOURS, IN_FRONT, save, shade_directions, style
 from slider_resonator.references.closed_forms import device_blocking_force, device_steady_velocity

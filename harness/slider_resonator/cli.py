@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import signal
 import sys
 import traceback
 from collections.abc import Sequence
@@ -71,6 +72,9 @@ class HarnessGroup(click.Group):
     ) -> NoReturn:
         """Run a command and exit with its code; with --json report an error as JSON too."""
         arguments = list(sys.argv[1:] if args is None else args)
+        if args is None:
+            # As for Ctrl-C: the processes of FMUs must be ended and temporary files removed.
+            signal.signal(signal.SIGTERM, signal.default_int_handler)
         try:
             code = super().main(arguments, prog_name, complete_var, standalone_mode=False, **extra)
         except SystemExit as end:  # click and rich exit with 1 when nobody reads their output

@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.device.schedule import Schedule, schedule, steps
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.drive import Instance, Record, instantiate, run
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import built_in_scenes, read_scene
 
 COUNTS = ("reversals", "contact_mode")

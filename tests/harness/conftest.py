@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import Fmu, open_fmu
 
 

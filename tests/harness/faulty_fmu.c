@@ -1,7 +1,6 @@
 /* An FMU that does nothing, and goes wrong in one place that is chosen when it is compiled. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #ifndef IN_INSTANTIATE
 #define IN_INSTANTIATE
@@ -11,6 +10,9 @@
 #endif
 #ifndef IN_FREE
 #define IN_FREE
+#endif
+#ifndef VALUE
+#define VALUE 0.0
 #endif
 #define CRASH abort();
 #define LOOP for (volatile int turn = 1; turn;) { }
@@ -40,12 +42,14 @@ EXPORT I fmi2Terminate(C c) { return 0; }
 EXPORT I fmi2Reset(C c) { return 0; }
 EXPORT I fmi2GetReal(C c, const R *r, size_t n, double *values)
 {
-    memset(values, 0, n * sizeof *values);
+    for (size_t i = 0; i < n; i++)
+        values[i] = VALUE;
     return 0;
 }
 EXPORT I fmi2GetInteger(C c, const R *r, size_t n, I *values)
 {
-    memset(values, 0, n * sizeof *values);
+    for (size_t i = 0; i < n; i++)
+        values[i] = (I)VALUE;
     return 0;
 }
 EXPORT I fmi2SetReal(C c, const R *r, size_t n, const double *values) { return 0; }

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.trials.hosts.hosts import hosts
-from slider_resonator.trials.hosts.runs import CASES, ask, by_case, table_1_jobs
+from slider_resonator.trials.hosts.runs import CASES, by_case, run_jobs, table_1_jobs
 
 pytestmark = pytest.mark.interop
 
@@ -33,7 +33,7 @@ def test_fmutool_makes_a_binary_that_gives_the_same_numbers(
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert compiled.is_file(), done.stdout + done.stderr
     fmpy = hosts()[0]
-    ours = [answer.rows for answer in ask(fmpy, table_1_jobs(native_fmu))]
-    compared = by_case(ours, ask(fmpy, table_1_jobs(compiled)))
+    ours = [answer.rows for answer in run_jobs(fmpy, table_1_jobs(native_fmu))]
+    compared = by_case(ours, run_jobs(fmpy, table_1_jobs(compiled)))
     failed = {case.title: compared[case] for case in CASES if not compared[case].passed}
     assert failed == {}, "another compiler must not make another motion"

@@ -6,7 +6,9 @@ from collections.abc import Callable
 from functools import cached_property, partial
 from typing import Any
 
-from slider_resonator.fmu.drive import Instance, Record, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady

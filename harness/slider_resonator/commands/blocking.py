@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import click
 
 from slider_resonator.commands.options import SettingsCommand
 from slider_resonator.commands.searching import print_outcome, search_arguments
-from slider_resonator.fmu.drive import instantiate
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.steady.blocking_force import find_blocking
 
 
@@ -21,13 +21,14 @@ def blocking_command(
     fmu: Path,
     settings: dict[str, float],
     max_denominator: int,
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Find the load that stops an FMU, by shooting, without a long run.
 
     The load is one more unknown of the shooting, zero displacement over the common period one more
     equation. --set load=... is the initial guess. Exit code: 0 when it is found, 1 when there is
-    none (the status says why), 2 when the FMU could not run.
+    none (the status says why), 2 when the FMU could not run, crashed or exceeded the time limit.
 
     \b
     Examples:
@@ -35,6 +36,7 @@ def blocking_command(
       python -m harness blocking my.fmu --set phase=0.4 friction_faces=1 --json
       python -m harness blocking my.fmu --set friction_law=1 bristle_stiffness=1e4
     """
-    with open_fmu(fmu) as opened, instantiate(opened) as instance:
-        blocking = find_blocking(instance, settings, max_denominator=max_denominator)
+    search = partial(find_blocking, values=settings, max_denominator=max_denominator)
+    with IsolatedFmu(fmu, time_limit) as isolated:
+        blocking = isolated.run(search)
     context.exit(print_outcome(blocking, "blocking force", blocking.blocking_force, "N", as_json))

@@ -17,12 +17,14 @@ from slider_resonator.commands.options import (
     fmu_argument,
     json_option,
     set_option,
+    time_limit_option,
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.drive import Record, instantiate, run
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
+from slider_resonator.fmu.run import run
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.readable import readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
@@ -73,6 +75,7 @@ class RunSummary:
     "command choose finds them.",
 )
 @set_option
+@time_limit_option(TIME_LIMIT, "For each of the choice, the run and the run for the picture.")
 @json_option
 @click.pass_context
 def run_command(
@@ -83,13 +86,14 @@ def run_command(
     plot: Path | None,
     auto: bool,
     settings: dict[str, float],
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Run one scene, built in or from a file, and report the cost.
 
     A scene with a sweep runs with the unvaried device; --set varies it. Nothing is judged. Exit
-    code: 0, or 2 when it could not run; with --auto 1, without a run, when no model meets the
-    scene's needs.
+    code: 0, or 2 when the FMU could not run, crashed or exceeded the time limit; with --auto 1,
+    without a run, when no model meets the scene's needs.
 
     \b
     Examples:
@@ -103,22 +107,23 @@ def run_command(
     if auto:
         check_left_to_choose(settings)
     choice = None
-    with progress_bar() as progress, open_fmu(fmu) as opened, instantiate(opened) as instance:
+    with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
             from slider_resonator.studies.choose.choosing import (
                 choose_with,  # here, for it loads scipy
             )
 
             read.schedule()
-            choice = choose_with(instance, read)
+            choice = isolated.run(partial(choose_with, scene=read))
             if not choice.meets:
                 print_result(choice, "\n".join(choice.sentences()), as_json=as_json)
                 context.exit(1)
             read = choice.applied_to(read)
 
         def run_in(schedule: Schedule) -> Record:
-            report = partial(progress, read.name)
-            return run(instance, read.parameters, schedule, progress=report)
+            task = partial(run, parameters=read.parameters, schedule=schedule)
+            record: Record = isolated.run(task, partial(progress, read.name))
+            return record
 
         record = run_in(read.schedule())
         if out is not None:

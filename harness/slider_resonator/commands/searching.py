@@ -10,15 +10,18 @@ from slider_resonator.commands.options import (
     json_option,
     max_denominator_option,
     set_option,
+    time_limit_option,
 )
 from slider_resonator.commands.results import print_result
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.readable import readable
 from slider_resonator.steady.outcome import Outcome
 
 
 def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the FMU and the options of a search to a command."""
-    for parameter in (json_option, max_denominator_option, set_option, fmu_argument):
+    time_limit = time_limit_option(TIME_LIMIT, "For the whole search.")
+    for parameter in (json_option, time_limit, max_denominator_option, set_option, fmu_argument):
         command = parameter(command)
     return command
 

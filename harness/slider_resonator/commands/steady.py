@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import click
 
 from slider_resonator.commands.options import SettingsCommand
 from slider_resonator.commands.searching import print_outcome, search_arguments
-from slider_resonator.fmu.drive import instantiate
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.steady.steady_velocity import find_steady
 
 
@@ -21,6 +21,7 @@ def steady_command(
     fmu: Path,
     settings: dict[str, float],
     max_denominator: int,
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Find the steady velocity of an FMU by shooting, without a long run.
@@ -28,7 +29,8 @@ def steady_command(
     The steady motion is a fixed point of the map over one common period.
     --set initial_velocity=... is the initial guess. With LuGre friction the bristle is part of the
     state, and the FMU's tolerance, 1e-8 unless set, bounds the accuracy. Exit code: 0 when there is
-    a steady motion, 1 when there is none (the status says why), 2 when the FMU could not run.
+    a steady motion, 1 when there is none (the status says why), 2 when the FMU could not run,
+    crashed or exceeded the time limit.
 
     \b
     Examples:
@@ -37,6 +39,7 @@ def steady_command(
       python -m harness steady my.fmu --set friction_law=1 bristle_stiffness=1e6 tolerance=1e-12
       python -m harness steady my.fmu --set frequency_ratio=1.37 --max-denominator 100
     """
-    with open_fmu(fmu) as opened, instantiate(opened) as instance:
-        motion = find_steady(instance, settings, max_denominator=max_denominator)
+    search = partial(find_steady, values=settings, max_denominator=max_denominator)
+    with IsolatedFmu(fmu, time_limit) as isolated:
+        motion = isolated.run(search)
     context.exit(print_outcome(motion, "steady velocity", motion.steady_velocity, "m/s", as_json))

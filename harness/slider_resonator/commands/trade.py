@@ -14,7 +14,7 @@ from slider_resonator.commands.options import (
     json_option,
     out_folder_option,
 )
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json

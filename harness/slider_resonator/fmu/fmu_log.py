@@ -1,4 +1,4 @@
-"""Collects what FMUs write to their log, so that a refusal can be reported in their own words.
+"""Collecting the log messages of FMUs, which explain their refusals.
 
 fmpy formats the variadic log calls of an FMU with one native proxy per process that passes them
 to the function that was registered last. So there is one function here, registered again before

@@ -1,4 +1,4 @@
-"""Whether the model description of an FMU has the interface that the harness asks for."""
+"""Checking that a model description has the interface that the harness needs."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from slider_resonator.fmu.units import unit_problems
 
 
 def interface_problems(description: ModelDescription) -> list[str]:
-    """Return every departure from names, causalities, types and units, each in a few words.
+    """Return every deviation from names, causalities, types and units.
 
     Order, value references and other variables are free. A unit of the interface must be what its
     name says where the description defines it.
     """
     variables = {variable.name: variable for variable in description.modelVariables}
     problems: list[str] = []
-    for causality, wanted in (("input", INPUTS), ("parameter", PARAMETERS), ("output", OUTPUTS)):
-        for name, unit in wanted.items():
+    for causality, expected in (("input", INPUTS), ("parameter", PARAMETERS), ("output", OUTPUTS)):
+        for name, unit in expected.items():
             if name not in variables:
                 problems.append(f"{causality} {name} is missing")
             else:

@@ -40,7 +40,7 @@ class Fmu:
 
     @property
     def takes_equal_steps_only(self) -> bool:
-        """Whether all communication steps of a run must have one size, as the FMU says."""
+        """Whether all communication steps of a run must have one size, by the FMU's description."""
         return not self.description.coSimulation.canHandleVariableCommunicationStepSize
 
     def settable(self, name: str) -> ModelVariable:

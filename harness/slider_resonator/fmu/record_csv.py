@@ -6,7 +6,7 @@ import csv
 from pathlib import Path
 
 from slider_resonator.device.interface import INPUTS
-from slider_resonator.fmu.drive import Record
+from slider_resonator.fmu.record import Record
 from slider_resonator.output.atomic import replacing
 
 

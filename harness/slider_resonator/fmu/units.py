@@ -1,4 +1,4 @@
-"""What an FMU says about its units, against what the names of those units mean."""
+"""Checking the unit definitions of an FMU against the names of the units."""
 
 from __future__ import annotations
 
@@ -55,10 +55,10 @@ def unit_problems(unit: str, definitions: Sequence[Unit]) -> list[str]:
 def _base_problems(unit: str, base: BaseUnit | None) -> Iterator[str]:
     if base is None:
         return
-    wanted = DIMENSIONS[unit]
+    expected = DIMENSIONS[unit]
     found = {name: getattr(base, name) for name in _EXPONENTS if getattr(base, name)}
-    if found != dict(wanted):
-        yield f"unit {unit} is defined as {_dimension(found)}, must be {_dimension(wanted)}"
+    if found != dict(expected):
+        yield f"unit {unit} is defined as {_dimension(found)}, must be {_dimension(expected)}"
     if base.factor != 1.0:
         yield f"unit {unit} is defined with factor {base.factor!r}, must be 1"
     if base.offset != 0.0:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.drive import Record
+from slider_resonator.fmu.record import Record
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
 from slider_resonator.scenes.scene import Scene

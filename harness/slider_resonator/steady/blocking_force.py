@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.outcome import Outcome, cost, why_not
 from slider_resonator.steady.periodic import FmuPeriodMap, Obstacle, read_facts, repeating_periods
 from slider_resonator.steady.search import blocked_point

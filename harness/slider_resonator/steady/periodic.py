@@ -10,7 +10,7 @@ import numpy as np
 
 from slider_resonator.device.common_period import common_period
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.bristle_reading import Array, bristle_reading
 from slider_resonator.steady.newton import Vector
 from slider_resonator.steady.search import WARM_UP, WarmedUp

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from math import isfinite
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.outcome import Outcome, cost, why_not, with_undamped_hint
 from slider_resonator.steady.periodic import (
     Facts,

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import find_scene, read_scene
 
 

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from slider_resonator.cli import main
 from slider_resonator.commands import trade as command
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.studies.trade.fmu_methods import FmuMethods
 from slider_resonator.studies.trade.peer_methods import peer_methods

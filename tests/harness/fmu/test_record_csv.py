@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.fmu.drive import Record
+from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
 
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
 from slider_resonator.scenes.run_plot import SMOOTH_POINTS, ZOOM_PERIODS, plot_run, schedule_to_plot
 from slider_resonator.scenes.scene import Scene, find_scene, read_scene
 

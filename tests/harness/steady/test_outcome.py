@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.outcome import cost, why_not, with_undamped_hint
 from slider_resonator.steady.periodic import FmuPeriodMap, read_facts
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.periodic import (
     Facts,
     FmuPeriodMap,

@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 from slider_resonator.device.device import Device
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.steady.blocking_force import find_blocking

@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.steady_velocity import find_steady
 
 

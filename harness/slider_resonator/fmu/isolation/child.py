@@ -18,7 +18,7 @@ from functools import partial
 from typing import BinaryIO
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.isolation.messages import Failure, Message, Progress, Request, Result
 from slider_resonator.fmu.opening import open_fmu
 

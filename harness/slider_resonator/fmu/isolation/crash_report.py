@@ -19,9 +19,9 @@ _CALLS: Mapping[str, str] = {
     "instantiate": "fmi2Instantiate",
     "end": "fmi2Terminate or fmi2FreeInstance",
 }
-"""Function of the harness's drive module to what it asks of the FMU."""
+"""Function of `slider_resonator.fmu.instance` to the FMI functions that it calls."""
 
-_FRAME = re.compile(r'File ".*[\\/]drive\.py", line \d+ in (\w+)')
+_FRAME = re.compile(r'File ".*[\\/]fmu[\\/]instance\.py", line \d+ in (\w+)')
 _TRACEBACK = re.compile(r"^(Fatal Python error: |Timeout \(|Windows fatal exception: )", re.M)
 
 

@@ -7,7 +7,7 @@ from math import ceil, inf
 from pathlib import Path
 
 from slider_resonator.errors import FmuError, SceneError
-from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import (

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.device.interface import INPUTS
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.studies.choose.candidate import Candidate, Model

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.held_grid import HeldGrid
 

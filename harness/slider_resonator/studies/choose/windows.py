@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.checks.measures.deviation import peak
-from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates
 from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs

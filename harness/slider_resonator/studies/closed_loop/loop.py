@@ -13,7 +13,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.trials.hosts.hosts import Host, package_version
 from slider_resonator.trials.hosts.job import Job
-from slider_resonator.trials.hosts.runs import ask
+from slider_resonator.trials.hosts.runs import run_jobs
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ def run_loop(package: Path, host: Host, duty: Duty) -> tuple[LoopRecord, LoopRec
     host.version()
     jobs = [_job(package, name, duty) for name in (DESIGN, PROOF)]
     records = []
-    for job, answer in zip(jobs, ask(host, jobs), strict=True):
+    for job, answer in zip(jobs, run_jobs(host, jobs), strict=True):
         if answer.error is not None:
             raise HarnessError(f"{package} does not run in {host.name}: {answer.error}")
         rows = np.array(answer.rows, dtype=np.float64)

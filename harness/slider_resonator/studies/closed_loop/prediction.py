@@ -11,7 +11,7 @@ from pathlib import Path
 from fmpy.ssp.ssd import read_ssd
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.studies.choose.choosing import choose_with

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 
 AGREES = "agrees"
 PARTLY = "agrees in part"

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 
 from slider_resonator.checks.measures.ripple import ripple_amplitude
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.studies.paper.claim import AGREES, DISAGREES, Claim, ClaimGroup, near

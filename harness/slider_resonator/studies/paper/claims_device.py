@@ -9,7 +9,8 @@ from slider_resonator.checks.measures.ripple import ripple_amplitude
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import schedule
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
 from slider_resonator.references.closed_forms import device_blocking_force, equivalent_force
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady

@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.studies.paper.claim import AGREES, DISAGREES, PARTLY, Claim, ClaimGroup, near

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from numpy.typing import NDArray
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 
 Array = NDArray[np.float64]
 Data = dict[str, Any]

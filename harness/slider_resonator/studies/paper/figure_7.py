@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.device.device import Device
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb
 from slider_resonator.references.averaged.slow_course import slow_course
 from slider_resonator.references.closed_forms import equivalent_force

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.studies.paper.mapping import lugre_case

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from slider_resonator.device.device import Device
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.studies.paper.measure import blocking_force, steady_velocity

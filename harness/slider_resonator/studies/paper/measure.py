@@ -6,7 +6,9 @@ from collections.abc import Mapping
 
 from slider_resonator.device.schedule import constant, schedule
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.drive import Instance, Record, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
 

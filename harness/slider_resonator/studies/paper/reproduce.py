@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import Any
 
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.json_output import to_json

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 from matplotlib.figure import Figure as Drawing
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.studies.paper.figure import Data, PaperFigure, panels

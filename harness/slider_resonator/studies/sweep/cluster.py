@@ -13,12 +13,14 @@ from typing import Any
 from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlugin
 
 from slider_resonator import __version__
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.studies.sweep.measures import Task
-from slider_resonator.studies.sweep.running import Rows
-from slider_resonator.studies.sweep.worker import Point, close, register, run_chunk
+from slider_resonator.studies.sweep.worker import ChunkRunner, Point, Rows, failed_row
 
 CONNECT_SECONDS = 30
+
+_runners: dict[str, ChunkRunner] = {}
+"""Digest of an FMU to what runs it, on a worker."""
 
 
 class FmuPlugin(WorkerPlugin):
@@ -44,17 +46,31 @@ class FmuPlugin(WorkerPlugin):
         folder = tempfile.mkdtemp(prefix="fmu-", dir=worker.local_directory)
         fmu = Path(folder) / self.file_name
         fmu.write_bytes(self.content)
-        register(self.digest, fmu)
+        _runners[self.digest] = ChunkRunner(fmu)
 
     def teardown(self, worker: Worker) -> None:
-        """Free the worker's instances."""
-        close()
+        """End the FMU's processes on the worker."""
+        if self.digest in _runners:
+            _runners[self.digest].end()
+
+
+def run_chunk(task: Task, digest: str, points: Sequence[Point]) -> Rows:
+    """Return the rows of the points, on a worker; raises as `ChunkRunner.run` does."""
+    if digest not in _runners:
+        missing = "this worker has not been given the FMU"
+        return [failed_row(task, number, missing) for number, _ in points], 0.0
+    return _runners[digest].run(task, points)
 
 
 class DaskWorkers:
     """The workers of a cluster; it computes the chunks of a dead one again by itself."""
 
-    losses: tuple[type[BaseException], ...] = (KilledWorker, CancelledError, FutureCancelled)
+    losses: tuple[type[BaseException], ...] = (
+        KilledWorker,
+        CancelledError,
+        FutureCancelled,
+        FmuError,
+    )
     attempts = 1  # the cluster has tried several by then
 
     def __init__(self, client: Client, address: str, task: Task, digest: str) -> None:

@@ -1,19 +1,16 @@
-"""A pool of processes on this machine."""
+"""Workers on this machine: threads, each with a process for the FMU."""
 
 from __future__ import annotations
 
-import multiprocessing
 import os
-import tempfile
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
+from slider_resonator.errors import FmuError
 from slider_resonator.studies.sweep.measures import Task
-from slider_resonator.studies.sweep.running import Rows
-from slider_resonator.studies.sweep.worker import Point, enter, run_chunk
+from slider_resonator.studies.sweep.worker import ChunkRunner, Point, Rows
 
 
 def available_cores() -> int:
@@ -24,45 +21,37 @@ def available_cores() -> int:
 
 
 class LocalWorkers:
-    """Worker processes that are replaced when one of them dies."""
+    """`count` processes; one that dies is replaced for the next chunk of its thread."""
 
-    losses: tuple[type[BaseException], ...] = (BrokenProcessPool,)
+    losses: tuple[type[BaseException], ...] = (FmuError,)
     attempts = 3
 
-    def __init__(self, task: Task, digest: str, fmu: Path, count: int, folder: str) -> None:
+    def __init__(self, task: Task, fmu: Path, count: int) -> None:
         self.task = task
-        self.digest = digest
-        self.arguments = (digest, str(fmu.resolve()), folder)
         self.count = count
-        self._pool = self._new_pool()
+        self._runner = ChunkRunner(fmu.resolve())
+        self._threads = ThreadPoolExecutor(count)
 
     def submit(self, points: Sequence[Point]) -> Future[Rows]:
         """Begin to compute a chunk."""
-        return self._pool.submit(run_chunk, self.task, self.digest, points)
+        return self._threads.submit(self._runner.run, self.task, points)
 
     def replace_lost(self) -> None:
-        """Start new processes."""
-        self.end()
-        self._pool = self._new_pool()
+        """Do nothing: a process is replaced when it is needed."""
 
     def end(self) -> None:
-        """End the processes after what they are at."""
-        self._pool.shutdown(cancel_futures=True)
-
-    def _new_pool(self) -> ProcessPoolExecutor:
-        # Not forked: a process that has threads, as those of a pool and of numpy, must not be.
-        context = multiprocessing.get_context("spawn")
-        return ProcessPoolExecutor(self.count, context, enter, self.arguments)
+        """End the processes, also in the middle of a chunk."""
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        self._runner.end()
+        self._threads.shutdown()
+        self._runner.end()  # what a thread had just started
 
 
 @contextmanager
-def local_workers(task: Task, digest: str, fmu: Path, count: int) -> Iterator[LocalWorkers]:
+def local_workers(task: Task, fmu: Path, count: int) -> Iterator[LocalWorkers]:
     """Yield `count` processes for the length of the block."""
-    with tempfile.TemporaryDirectory(
-        prefix="slider-resonator-sweep-", ignore_cleanup_errors=True
-    ) as folder:
-        workers = LocalWorkers(task, digest, fmu, count, folder)
-        try:
-            yield workers
-        finally:
-            workers.end()
+    workers = LocalWorkers(task, fmu, count)
+    try:
+        yield workers
+    finally:
+        workers.end()

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, INTEGERS, OUTPUTS
 from slider_resonator.device.schedule import constant, schedule
 from slider_resonator.errors import unknown_name
-from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.sweep.axes import AxisError

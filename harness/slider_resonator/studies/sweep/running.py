@@ -8,10 +8,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Protocol
 
 from slider_resonator.studies.sweep.measures import Task
-from slider_resonator.studies.sweep.worker import Point, Row, failed_row
-
-Rows = tuple[list[Row], float]
-"""Rows of a chunk and the seconds that they took."""
+from slider_resonator.studies.sweep.worker import Point, Row, Rows, failed_row
 
 CHUNK_SECONDS = 0.2
 """Work in a chunk: much more than passing it costs, and all that a kill can lose of a worker's."""

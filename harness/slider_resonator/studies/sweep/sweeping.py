@@ -77,7 +77,7 @@ def _workers(
     sweep: Sweep, digest: str, fmu: Path, count: int, dask: str | None
 ) -> AbstractContextManager[Workers]:
     if dask is None:
-        return local_workers(sweep.task, digest, fmu, count)
+        return local_workers(sweep.task, fmu, count)
     if find_spec("distributed") is None:
         raise HarnessError("--dask needs dask.distributed: pip install 'slider-resonator[cluster]'")
     from slider_resonator.studies.sweep.cluster import dask_workers

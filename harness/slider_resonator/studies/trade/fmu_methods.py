@@ -7,7 +7,8 @@ from math import ceil
 
 import numpy as np
 
-from slider_resonator.fmu.drive import Instance, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.trade.method import Answer, Found, Label, Method

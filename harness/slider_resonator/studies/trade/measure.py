@@ -9,7 +9,7 @@ from math import inf
 from time import process_time
 
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.trade.fmu_methods import FmuMethods
 from slider_resonator.studies.trade.in_turn import Progress, Timed, in_turn
 from slider_resonator.studies.trade.method import Answer, Label, Method, cpu_seconds

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.trials.extremes.cell import Cell, Hold
 
 Array = NDArray[np.float64]

@@ -43,12 +43,12 @@ def zig_compiler() -> list[str]:
 def compiler_version(compiler: Sequence[str]) -> str:
     """Return name and version of a compiler."""
     if "ziglang" in compiler:
-        said = subprocess.run(
+        answer = subprocess.run(
             [*compiler[:-1], "version"], capture_output=True, text=True, check=True
         )
-        return f"zig {said.stdout.strip()}"
-    said = subprocess.run([*compiler, "-dumpfullversion"], capture_output=True, text=True)
-    return f"{Path(compiler[0]).name} {said.stdout.strip()}"
+        return f"zig {answer.stdout.strip()}"
+    answer = subprocess.run([*compiler, "-dumpfullversion"], capture_output=True, text=True)
+    return f"{Path(compiler[0]).name} {answer.stdout.strip()}"
 
 
 def compile_program(
@@ -56,7 +56,7 @@ def compile_program(
 ) -> Path:
     """Compile a C program against the headers of FMI 2.0 and return `program`.
 
-    Raises HarnessError with what the compiler said.
+    Raises HarnessError with the message of the compiler.
     """
     command = [*compiler, *FLAGS, *flags, *(f"-I{folder}" for folder in (fmi_headers(), SOURCES))]
     libraries = () if "-target" in compiler or sys.platform == "win32" else LIBRARIES

@@ -34,21 +34,21 @@ def drive(
     suffix: str,
     path_for_driver: Callable[[Path], str],
 ) -> Rows:
-    """Run `command`, a driver, on the FMU's binary in binaries/`folder`: see `converse`."""
-    return converse(Path(job.fmu), commands(job), command, folder, suffix, path_for_driver)
+    """Run `command`, a driver, on the FMU's binary in binaries/`folder`: see `run_driver`."""
+    return run_driver(Path(job.fmu), commands(job), command, folder, suffix, path_for_driver)
 
 
-def converse(
+def run_driver(
     fmu: Path,
-    said_to_driver: str,
+    script: str,
     command: Sequence[str],
     folder: str,
     suffix: str,
     path_for_driver: Callable[[Path], str],
 ) -> Rows:
-    """Tell `command`, a driver, what to do with the FMU's binary; return the numbers it prints.
+    """Run a script in `command`, a driver, on the FMU's binary; return the numbers it prints.
 
-    `path_for_driver` tells how the driver names a file. Raises RuntimeError with the driver's
+    `path_for_driver` returns the driver's name of a file. Raises RuntimeError with the driver's
     messages.
     """
     description = describe(str(fmu))
@@ -58,25 +58,27 @@ def converse(
             archive.extractall(unpacked)
         library = unpacked / "binaries" / folder / f"{description.identifier}{suffix}"
         arguments = [path_for_driver(library), description.guid, (unpacked / "resources").as_uri()]
-        said, complained = unpacked / "stdout.txt", unpacked / "stderr.txt"
+        printed, errors = unpacked / "stdout.txt", unpacked / "stderr.txt"
         # Files, not pipes: Wine's server keeps what it inherits open long after the driver's end.
-        with said.open("w") as stdout, complained.open("w") as stderr:
+        with printed.open("w") as stdout, errors.open("w") as stderr:
             done = subprocess.run(
                 [*command, *arguments],
-                input=said_to_driver,
+                input=script,
                 stdout=stdout,
                 stderr=stderr,
                 text=True,
                 check=False,
             )
         if done.returncode != 0:
-            problem = complained.read_text(errors="replace").strip()
+            problem = errors.read_text(errors="replace").strip()
             raise RuntimeError(f"the driver ended with {done.returncode}: {problem}")
-        return [[float(value) for value in line.split()] for line in said.read_text().splitlines()]
+        return [
+            [float(value) for value in line.split()] for line in printed.read_text().splitlines()
+        ]
 
 
 def commands(job: Job) -> str:
-    """Return the job in the language of the driver."""
+    """Return the job as a script for the driver."""
     references = describe(job.fmu).references
     lines = [
         f"{'integer' if isinstance(value, int) else 'real'} {references[name]} {value!r}"
@@ -94,11 +96,11 @@ def commands(job: Job) -> str:
 @cache
 def native_driver() -> Path:
     """Compile the driver, once per process, and return it."""
-    return compile_program(native_compiler(), SOURCES / "driver.c", fleeting_folder() / "driver")
+    return compile_program(native_compiler(), SOURCES / "driver.c", temporary_folder() / "driver")
 
 
-def fleeting_folder() -> Path:
-    """Return a new folder that goes when this process ends."""
+def temporary_folder() -> Path:
+    """Return a new folder that is removed when this process ends."""
     folder = Path(tempfile.mkdtemp(prefix="slider-resonator-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder

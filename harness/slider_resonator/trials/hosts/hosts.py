@@ -22,7 +22,7 @@ INSTALL = "`make hosts` installs it"
 class Host:
     """A simulator, run as `python -m slider_resonator.trials.hosts.MODULE`.
 
-    `version` raises HarnessError where the host is missing. `loads_python` tells whether it can
+    `version` raises HarnessError where the host is missing. `loads_python` is whether it can
     load an FMU that needs Python in the process, `couples` whether it runs the native FMU behind
     the Python one.
     """
@@ -43,18 +43,18 @@ def package_version(package: str, python: Path = Path(sys.executable)) -> str:
     if not python.is_file():
         raise HarnessError(f"{package}: there is no {python}; {INSTALL}")
     question = f"from importlib.metadata import version; print(version({package!r}))"
-    told = subprocess.run([python, "-c", question], capture_output=True, text=True, check=False)
-    if told.returncode != 0:
+    answer = subprocess.run([python, "-c", question], capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
         raise HarnessError(f"{package}: not installed beside {python}; {INSTALL}")
-    return told.stdout.strip()
+    return answer.stdout.strip()
 
 
 def wine_version() -> str:
     """Return the versions of ziglang and Wine; HarnessError where either is missing."""
     if shutil.which("wine") is None:
         raise HarnessError(f"wine: not found; {INSTALL} where it may call apt-get")
-    told = subprocess.run(["wine", "--version"], capture_output=True, text=True, check=False)
-    wine = told.stdout.split()[0].removeprefix("wine-") if told.stdout else "of unknown version"
+    answer = subprocess.run(["wine", "--version"], capture_output=True, text=True, check=False)
+    wine = answer.stdout.split()[0].removeprefix("wine-") if answer.stdout else "of unknown version"
     return f"{compiler_version(zig_compiler())}, Wine {wine}"
 
 

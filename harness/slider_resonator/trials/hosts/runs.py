@@ -20,11 +20,14 @@ from slider_resonator.trials.hosts.job import Answer, Job, Rows, read_answers, w
 STEP, STEPS = 1e-3, 40
 
 TIME_LIMIT = 600.0
-"""For all cases in a host [s]: the first cross-compilation on a machine builds a C library."""
+"""Time limit of all cases in a host, s: the first cross-compilation builds a C library."""
+
+MAX_PRINTED = 1000
+"""Characters of a crashed host's output that are repeated."""
 
 ALLOWED = 1e-11
-"""Largest deviation from fmpy, in shares of each signal's peak: communication points and, on
-another platform, sine and exponential are rounded differently."""
+"""Largest allowed deviation from fmpy, relative to each signal's peak: hosts round communication
+points differently, other platforms also sine and exponential."""
 
 
 @dataclass(frozen=True)
@@ -91,38 +94,38 @@ def table_1_jobs(fmu: Path) -> list[Job]:
     ]
 
 
-def ask(host: Host, jobs: Sequence[Job]) -> list[Answer]:
+def run_jobs(host: Host, jobs: Sequence[Job]) -> list[Answer]:
     """Run jobs in a host, in a process of its own, and return one answer for each.
 
-    Where the host died, or did not end within `TIME_LIMIT` (s), the answers it did not give say so.
+    Where the host crashed or exceeded `TIME_LIMIT` (s), the missing answers are errors that say so.
     """
     with tempfile.TemporaryDirectory(
         prefix="slider-resonator-", ignore_cleanup_errors=True
     ) as name:
-        asked, answered, said = (Path(name, f) for f in ("jobs.json", "answers.jsonl", "said.txt"))
-        write_jobs(asked, jobs)
+        todo, done, log = (Path(name, f) for f in ("jobs.json", "answers.jsonl", "printed.txt"))
+        write_jobs(todo, jobs)
         command = [str(host.python), "-P", "-m", f"slider_resonator.trials.hosts.{host.module}"]
-        code = _run([*command, str(asked), str(answered)], said)
-        answers = read_answers(answered)
+        code = _run([*command, str(todo), str(done)], log)
+        answers = read_answers(done)
         end = f"ended after {TIME_LIMIT:g} s" if code is None else f"ended with {code}"
-        last_words = said.read_text(errors="replace").strip()[-1000:]
+        printed = log.read_text(errors="replace").strip()[-MAX_PRINTED:]
     missing = len(jobs) - len(answers)
-    return answers + [Answer([], f"the host {end}: {last_words}")] * missing
+    return answers + [Answer([], f"the host {end}: {printed}")] * missing
 
 
-def _run(command: Sequence[str], said: Path) -> int | None:
-    """Run a host to its end, or end it and what it started; return its exit code or None.
+def _run(command: Sequence[str], log: Path) -> int | None:
+    """Run a host and return its exit code, None at the time limit; end what it started.
 
-    What it says goes to the file `said`: pipes would stay open as long as any process it started.
+    What it prints goes to the file `log`: a pipe would stay open as long as any process it started.
     """
-    with said.open("wb") as log:
+    with log.open("wb") as file:
         process = subprocess.Popen(
             command,
             # Hosts leave what they have unpacked where it is when an FMU fails.
-            env=child_environment(str(said.parent)),
+            env=child_environment(str(log.parent)),
             stdin=subprocess.DEVNULL,
-            stdout=log,
-            stderr=log,
+            stdout=file,
+            stderr=file,
             start_new_session=True,
         )
         try:
@@ -162,15 +165,15 @@ def run_host(host: Host, reference: Host, native: Path, python: Path) -> list[Ho
     version = host.version()
     if host.couples:
         jobs = table_1_jobs(native)
-        leaders = _ask_reference(reference, table_1_jobs(python))
-        ours = _ask_reference(reference, coupled(jobs, leaders))
-        theirs = ask(host, [replace(job, partner=str(python.resolve())) for job in jobs])
+        leaders = _run_in_reference(reference, table_1_jobs(python))
+        ours = _run_in_reference(reference, coupled(jobs, leaders))
+        theirs = run_jobs(host, [replace(job, partner=str(python.resolve())) for job in jobs])
         return [HostResult(host.name, version, "native behind Python", by_case(ours, theirs))]
     results = []
     for name, fmu in (("native", native), ("Python", python)):
         if name == "native" or host.loads_python:
             jobs = table_1_jobs(fmu)
-            compared = by_case(_ask_reference(reference, jobs), ask(host, jobs))
+            compared = by_case(_run_in_reference(reference, jobs), run_jobs(host, jobs))
             results.append(HostResult(host.name, version, name, compared))
     return results
 
@@ -181,8 +184,8 @@ def by_case(ours: Sequence[Rows], theirs: Sequence[Answer]) -> dict[Case, Compar
     return dict(zip(CASES, (compare(*pair) for pair in pairs), strict=True))
 
 
-def _ask_reference(reference: Host, jobs: Sequence[Job]) -> list[Rows]:
-    answers = ask(reference, jobs)
+def _run_in_reference(reference: Host, jobs: Sequence[Job]) -> list[Rows]:
+    answers = run_jobs(reference, jobs)
     for job, answer in zip(jobs, answers, strict=True):
         if answer.error is not None:
             raise HarnessError(f"{job.fmu}: does not run in {reference.name}: {answer.error}")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from slider_resonator.trials.hosts.driver_host import BINARY, converse, native_driver
+from slider_resonator.trials.hosts.driver_host import BINARY, native_driver, run_driver
 from slider_resonator.trials.hosts.job import describe
 
 
@@ -61,8 +61,9 @@ def measure_steps(
         for index, step in enumerate(STEPS):
             progress(f"C host: {step.name}", (repeat + index / len(STEPS)) / repeats)
             folder, suffix = BINARY[platform.system()]
-            said = converse(fmu, _commands(fmu, step), [str(native_driver())], folder, suffix, str)
-            times[step.name].append(said[-1][0])
+            script = _commands(fmu, step)
+            rows = run_driver(fmu, script, [str(native_driver())], folder, suffix, str)
+            times[step.name].append(rows[-1][0])
     progress("", 1.0)
     return tuple(
         StepCost(s.name, len(s.outputs), median(t), min(t), max(t))

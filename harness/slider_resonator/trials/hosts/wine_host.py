@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path, PureWindowsPath
 
 from slider_resonator.trials.hosts.compiler import SOURCES, WINDOWS, compile_program, zig_compiler
-from slider_resonator.trials.hosts.driver_host import BINARY, drive, fleeting_folder
+from slider_resonator.trials.hosts.driver_host import BINARY, drive, temporary_folder
 from slider_resonator.trials.hosts.job import Job, Rows, serve
 
 LIKE_THE_FMU = ("-g0", "-s")
@@ -28,7 +28,7 @@ def seen_from_windows(path: Path) -> str:
 def windows_driver() -> Path:
     """Cross-compile the driver, once per process, and return it."""
     compiler = [*zig_compiler(), *WINDOWS]
-    program = fleeting_folder() / "driver.exe"
+    program = temporary_folder() / "driver.exe"
     return compile_program(compiler, SOURCES / "driver.c", program, LIKE_THE_FMU)
 
 

@@ -11,10 +11,10 @@ from rich.text import Text
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import STYLES, escaped, rendered
 from slider_resonator.trials.mutants.mutant import KINDS, Mutant
-from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutationRun, Verdict
+from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutantVerdict, MutationRun
 
-MOST_REJECTIONS = 12
-"""Rows of the table of what rejects: the rest is in the JSON document."""
+MAX_REJECTIONS = 12
+"""Rows of the table of rejecting checks; all are in the JSON document."""
 
 
 def print_run(console: Console, run: MutationRun) -> None:
@@ -53,7 +53,7 @@ def print_mutants(console: Console, mutants: list[Mutant]) -> None:
 
 
 def run_as_plain(run: MutationRun) -> dict[str, Any]:
-    """Return everything about a run; passing is for whoever set the rate to judge."""
+    """Return everything about a run but a verdict, which depends on the rate that is required."""
     return {
         "fmu": run.fmu,
         "made": run.made,
@@ -82,7 +82,7 @@ def mutant_as_plain(mutant: Mutant) -> dict[str, Any]:
     }
 
 
-def _plain(verdict: Verdict) -> dict[str, Any]:
+def _plain(verdict: MutantVerdict) -> dict[str, Any]:
     outcome = {
         "status": verdict.status,
         "scene": verdict.scene,
@@ -109,8 +109,8 @@ def _counts(name: str, counts: Mapping[str, int]) -> Row:
 
 def _rejections(run: MutationRun) -> Table:
     found = run.rejections()
-    rows = [(what, str(count)) for what, count in found[:MOST_REJECTIONS]]
-    rest = sum(count for _, count in found[MOST_REJECTIONS:])
+    rows = [(what, str(count)) for what, count in found[:MAX_REJECTIONS]]
+    rest = sum(count for _, count in found[MAX_REJECTIONS:])
     if rest:
-        rows.append((f"{len(found) - MOST_REJECTIONS} others", str(rest)))
+        rows.append((f"{len(found) - MAX_REJECTIONS} others", str(rest)))
     return Table([*texts("rejected first by"), *numbers("mutants")], rows)

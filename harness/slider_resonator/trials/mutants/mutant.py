@@ -25,8 +25,8 @@ class Mutant:
     """One change to one file of an FMU.
 
     `path` is that of the file in the archive, `old` and `new` are its texts. `line` and `column`
-    (from 1) are those of the change, `change` says what it is. Only where the statement that
-    begins in line `statement` is executed can the change have an effect; None stands for always.
+    (from 1) are those of the change, `change` describes it. The change has an effect only where the
+    statement that begins in line `statement` is executed; None stands for always.
     """
 
     file: str

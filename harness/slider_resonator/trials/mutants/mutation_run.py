@@ -1,4 +1,4 @@
-"""Trying mutants: which scenes can see them, whether they are rejected, and if not, why."""
+"""Trying mutants: which scenes execute them, whether they are rejected, and if not, why."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from slider_resonator.trials.mutants.verdict import (
     NOT_REACHED,
     REJECTED,
     SURVIVED,
+    MutantVerdict,
     MutationRun,
-    Verdict,
 )
 
 TIME_LIMIT = 30.0
@@ -34,14 +34,14 @@ Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
-class Course:
-    """Points, the cheapest first, with the statements that each executes."""
+class OrderedPoints:
+    """Points, the cheapest first, and what each executes."""
 
     points: tuple[Point, ...]
     reach: tuple[Reach, ...]
 
     @classmethod
-    def of(cls, points: Sequence[Point], reach: Sequence[Reach]) -> Course:
+    def of(cls, points: Sequence[Point], reach: Sequence[Reach]) -> OrderedPoints:
         """Sort points by their cost."""
         pairs = sorted(zip(points, reach, strict=True), key=lambda pair: pair[1].cost)
         return cls(tuple(p for p, _ in pairs), tuple(r for _, r in pairs))
@@ -57,11 +57,11 @@ class Course:
 
 @dataclass(frozen=True)
 class _Bench:
-    """All that a mutant is tried with."""
+    """What every mutant is tried with."""
 
     fmu: PythonFmu
-    scenes: Course
-    probes: Course
+    scenes: OrderedPoints
+    probes: OrderedPoints
     time_limit: float
     folder: Path
 
@@ -93,8 +93,8 @@ def run_mutants(
         reach = reaches(fmu, [*points, *probing], time_limit, jobs)
         bench = _Bench(
             fmu,
-            Course.of(points, reach[: len(points)]),
-            Course.of(probing, reach[len(points) :]),
+            OrderedPoints.of(points, reach[: len(points)]),
+            OrderedPoints.of(probing, reach[len(points) :]),
             time_limit,
             folder,
         )
@@ -103,11 +103,11 @@ def run_mutants(
 
 
 def _check_original(path: Path, points: Sequence[Point], time_limit: float) -> None:
-    """Raise FmuError unless the unchanged FMU passes: else a rejection would say nothing."""
+    """Raise FmuError unless the unchanged FMU passes: else a rejection would prove nothing."""
     outcome = trial(path, points, time_limit)
     if isinstance(outcome, Rejection):
-        where = f"scene {outcome.scene}: " * bool(outcome.scene)
-        what = f"{outcome.quantity}: " * bool(outcome.quantity)
+        where = f"scene {outcome.scene}: " if outcome.scene else ""
+        what = f"{outcome.quantity}: " if outcome.quantity else ""
         raise FmuError(
             f"{path} is rejected before anything is changed: {where}{what}{outcome.reason}"
         )
@@ -115,10 +115,10 @@ def _check_original(path: Path, points: Sequence[Point], time_limit: float) -> N
 
 def _all(
     bench: _Bench, mutants: Sequence[Mutant], jobs: int, progress: Progress
-) -> tuple[Verdict, ...]:
-    verdicts: dict[int, Verdict] = {}
+) -> tuple[MutantVerdict, ...]:
+    verdicts: dict[int, MutantVerdict] = {}
     with ThreadPoolExecutor(jobs) as pool:
-        futures: dict[Future[Verdict], int] = {
+        futures: dict[Future[MutantVerdict], int] = {
             pool.submit(_verdict, bench, mutant, index): index
             for index, mutant in enumerate(mutants)
         }
@@ -132,28 +132,28 @@ def _all(
     return tuple(verdicts[index] for index in range(len(mutants)))
 
 
-def _verdict(bench: _Bench, mutant: Mutant, number: int) -> Verdict:
+def _verdict(bench: _Bench, mutant: Mutant, number: int) -> MutantVerdict:
     scenes, probes = bench.scenes.through(mutant), bench.probes.through(mutant)
     if not scenes and not probes:
-        return Verdict(mutant, NOT_REACHED, "no scene and no probe executes the statement")
+        return MutantVerdict(mutant, NOT_REACHED, "no scene and no probe executes the statement")
     faulty = bench.folder / f"mutant_{number}.fmu"
     bench.fmu.write(faulty, {mutant.path: mutant.new})
     try:
         seen = trial(faulty, scenes, bench.time_limit)
         if isinstance(seen, Rejection):
-            return Verdict(mutant, REJECTED, seen.reason, seen.scene, seen.quantity)
+            return MutantVerdict(mutant, REJECTED, seen.reason, seen.scene, seen.quantity)
         if mutant.kind == "unit":
-            return Verdict(mutant, SURVIVED, "the interface is accepted with that unit")
+            return MutantVerdict(mutant, SURVIVED, "the interface is accepted with that unit")
         probed = trial(faulty, probes, bench.time_limit)
     finally:
         faulty.unlink()
     if isinstance(probed, Rejection):
-        return Verdict(mutant, SURVIVED, _survival(scenes, seen, probed))
-    return Verdict(mutant, EQUIVALENT, _equivalence(len(scenes), len(probes), seen, probed))
+        return MutantVerdict(mutant, SURVIVED, _survival(scenes, seen, probed))
+    return MutantVerdict(mutant, EQUIVALENT, _equivalence(len(scenes), len(probes), seen, probed))
 
 
 def _survival(scenes: Sequence[Point], seen: Passed, probed: Rejection) -> str:
-    """Say which probe differs, and what the scenes saw of it."""
+    """Describe which probe differs, and what the scenes measured of it."""
     what = f"{probed.quantity}: " if probed.quantity else "cannot be run: "
     if not scenes:
         return f"no scene executes the statement, but {probed.scene} does: {what}{probed.reason}"

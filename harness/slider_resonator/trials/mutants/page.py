@@ -13,8 +13,8 @@ from slider_resonator.trials.mutants.verdict import (
     NOT_REACHED,
     STATUSES,
     SURVIVED,
+    MutantVerdict,
     MutationRun,
-    Verdict,
 )
 
 
@@ -47,11 +47,11 @@ def _rejections(run: MutationRun) -> Table:
     return Table([*texts("rejected first by"), *numbers("mutants")], rows)
 
 
-def _group(heading: str, verdicts: Sequence[Verdict]) -> list[str]:
+def _group(heading: str, verdicts: Sequence[MutantVerdict]) -> list[str]:
     return [f"<h2>{heading}</h2>", *(_mutant(verdict) for verdict in verdicts)]
 
 
-def _mutant(verdict: Verdict, *, opened: bool = False) -> str:
+def _mutant(verdict: MutantVerdict, *, opened: bool = False) -> str:
     lines = "\n".join(map(_line, verdict.mutant.diff.splitlines()[2:]))
     return (
         f"<details{' open' if opened else ''}><summary>{escaped(verdict.mutant.name)}</summary>"

@@ -12,11 +12,11 @@ from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
 from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
-from slider_resonator.trials.mutants.trial import Point, see
+from slider_resonator.trials.mutants.trial import Point
 
 
 def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) -> list[Point]:
-    """Return every scene and point of a sweep, with what its references say.
+    """Return every scene and point of a sweep, with what its references give.
 
     Raises SceneError for a scene that cannot be read, referred to or expects nothing.
     """
@@ -34,7 +34,7 @@ def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) 
 def probe_points(fmu: Path, probes: Sequence[Scene], time_limit: float) -> list[Point]:
     """Return the probes with what the original FMU gives.
 
-    Those that it refuses are left out: no mutant can be told from it there.
+    Those that it refuses are left out: no mutant can differ from it there.
     """
     points = [Point(probe) for probe in probes]
     return [
@@ -44,6 +44,6 @@ def probe_points(fmu: Path, probes: Sequence[Scene], time_limit: float) -> list[
             outputs=one.result.outputs,
             share=allowed_share(one.item.scene.device),
         )
-        for one in measure_points(fmu, points, see, time_limit)
+        for one in measure_points(fmu, points, observe, time_limit)
         if one.item is not None and one.error is None
     ]

@@ -38,7 +38,7 @@ _SPECIAL: tuple[Mapping[str, float], ...] = (
     {"normal_preload": 0.0},
     {"resonator_mass": 0.0},
 )
-"""Devices that lack something."""
+"""Devices without a drive, a preload or a resonator mass."""
 
 
 def probe_scenes(count: int, seed: int) -> list[Scene]:

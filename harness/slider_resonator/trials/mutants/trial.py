@@ -1,4 +1,4 @@
-"""Running one FMU over scenes until the first check that rejects it."""
+"""Running an FMU over scenes up to the first check that rejects it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from slider_resonator.checks.tolerance import Tolerance
 from slider_resonator.checks.verdict import place, sentence
 from slider_resonator.scenes.scene import ScenePoint
 
-OUTPUTS: Mapping[str, float | None] = {
+TRAJECTORY_OUTPUTS: Mapping[str, float | None] = {
     "mean_velocity": None,
     "stick_fraction": 1e-9,
     "reversals": 0.0,
@@ -28,14 +28,14 @@ OUTPUTS: Mapping[str, float | None] = {
     "steady_velocity": None,
     "blocking_force": None,
 }
-"""Outputs that scenes expect something of at one time only, and by how much they may change, in
-their unit; None stands for a share of the peak."""
+"""Outputs that scenes check at one time only, with the allowed change in their unit; None stands
+for a share of the peak."""
 
 Outputs = Mapping[str, NDArray[np.float64]]
 """Output to its values at the communication points, shape (n,)."""
 
 _ROUNDING = 1e-12
-"""m/s or N: what differs by less is rounding."""
+"""Differences that are rounding, m/s or N."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ class Point(ScenePoint):
 
 
 @dataclass(frozen=True)
-class Seen:
+class Observed:
     """What an FMU gives at a point: a measurement for each expectation, and outputs if asked."""
 
     measured: tuple[Measurement, ...]
@@ -89,8 +89,8 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
     Where the FMU crashes, hangs or refuses, that is a rejection as well.
     """
     nearest: Check | None = None
-    with_outputs = any(point.outputs for point in points)
-    measure = see if with_outputs else _see_expected
+    reads_outputs = any(point.outputs for point in points)
+    measure = observe if reads_outputs else _observe_expected
     with closing(measure_points(fmu, points, measure, time_limit)) as finished:
         for one in finished:
             point = one.item
@@ -104,16 +104,16 @@ def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | 
     return Passed(nearest)
 
 
-def see(fmu: FmuSide) -> Seen:
-    """Measure what the scene expects, and read the other outputs."""
-    return Seen(measure_all(fmu), {name: fmu.record[name] for name in OUTPUTS})
+def observe(fmu: FmuSide) -> Observed:
+    """Measure what the scene expects, and record the other outputs."""
+    return Observed(measure_all(fmu), {name: fmu.record[name] for name in TRAJECTORY_OUTPUTS})
 
 
-def _see_expected(fmu: FmuSide) -> Seen:
-    return Seen(measure_all(fmu), {})
+def _observe_expected(fmu: FmuSide) -> Observed:
+    return Observed(measure_all(fmu), {})
 
 
-def _checks(point: Point, seen: Seen) -> Iterator[Check]:
+def _checks(point: Point, seen: Observed) -> Iterator[Check]:
     """Yield the verdicts on what exists in the FMU, or should."""
     for expect, measured, expected in zip(
         point.scene.expect, seen.measured, point.expected, strict=True
@@ -121,7 +121,7 @@ def _checks(point: Point, seen: Seen) -> Iterator[Check]:
         if measured.value is not None or expected is not None:
             yield compare(Comparison.of(expect), measured, expected, point)
     for name, values in point.outputs.items():
-        allowed = OUTPUTS[name]
+        allowed = TRAJECTORY_OUTPUTS[name]
         if allowed is None:
             allowed = point.share * peak(values) + _ROUNDING
         difference = np.abs(seen.outputs[name] - values)

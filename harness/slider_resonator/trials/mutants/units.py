@@ -1,4 +1,4 @@
-"""Mutants of the model description: units that are not what the values are in."""
+"""Mutants of the model description: units that differ from those of the values."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _EXPONENT = re.compile(r'(\w+)="(-?\d+)"')
 _DISPLAY = re.compile(r'<DisplayUnit name="([^"]+)" factor="([^"]+)"')
 
 _Change = tuple[int, int, str, str]
-"""Begin and end of what is replaced, by what, and that in words."""
+"""Begin and end of the replaced text, the new text, and a description."""
 
 
 def unit_mutants(text: str) -> list[Mutant]:

@@ -1,4 +1,4 @@
-"""What became of a mutant, and of all of them."""
+"""The result of trying a mutant, and of trying all of them."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ STATUSES: Mapping[str, str] = {
     EQUIVALENT: "no result changes by more than the allowed deviation, in any scene or probe",
     NOT_REACHED: "no scene and no probe executes the changed statement",
 }
-"""How a mutant may end, and what that means."""
+"""Status of a mutant to its meaning."""
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """How a mutant ended and why, and for a rejected one by which scene and quantity.
+class MutantVerdict:
+    """The status of a mutant and its reason; for a rejected one the scene and quantity.
 
     A rejected one without a quantity could not be run.
     """
@@ -45,10 +45,10 @@ class MutationRun:
     fmu: str
     made: int
     probes: int
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[MutantVerdict, ...]
     wall_time: float
 
-    def having(self, status: str) -> list[Verdict]:
+    def having(self, status: str) -> list[MutantVerdict]:
         """Return the verdicts with this status."""
         return [verdict for verdict in self.verdicts if verdict.status == status]
 
@@ -59,7 +59,7 @@ class MutationRun:
 
     @property
     def rate(self) -> float | None:
-        """Rejected ones as a share of all that change a result; None where none does."""
+        """Rejected mutants as a share of those that change a result; None without any."""
         rejected, survived = self.counts[REJECTED], self.counts[SURVIVED]
         return rejected / (rejected + survived) if rejected + survived else None
 
@@ -72,7 +72,7 @@ class MutationRun:
         ]
 
     def rejections(self) -> list[tuple[str, int]]:
-        """Return what rejected mutants, scene and quantity, with how many, most first."""
+        """Return scenes and quantities that rejected mutants with counts, largest first."""
         found: dict[str, int] = {}
         for verdict in self.having(REJECTED):
             what = f"{verdict.scene.partition(' at ')[0]}: {verdict.quantity or 'cannot be run'}"
@@ -81,5 +81,5 @@ class MutationRun:
         return sorted(found.items(), key=lambda item: (-item[1], item[0]))
 
 
-def _counts(verdicts: Sequence[Verdict]) -> dict[str, int]:
+def _counts(verdicts: Sequence[MutantVerdict]) -> dict[str, int]:
     return {status: sum(v.status == status for v in verdicts) for status in STATUSES}

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 
 
 def position_after(instance: Instance, time: float) -> float:

@@ -5,8 +5,8 @@ from slider_resonator.fmu.isolation.crash_report import crash_report
 STACK = (
     "stepping\nFatal Python error: Aborted\n\nCurrent thread 0x1 (most recent call first):\n"
     '  File "/a/fmpy/fmi2.py", line 12 in doStep\n'
-    '  File "/a/harness/drive.py", line 107 in step_to\n'
-    '  File "/a/harness/drive.py", line 219 in run\n'
+    '  File "/a/fmu/instance.py", line 107 in step_to\n'
+    '  File "/a/fmu/run.py", line 219 in run\n'
 )
 
 

@@ -14,7 +14,9 @@ import numpy as np
 from slider_resonator.checks.measures.frequency import dominant_frequency
 from slider_resonator.device.schedule import Schedule, Signal, schedule
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.drive import Instance, Record, run
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import STEADY_NEEDS
 from slider_resonator.steady.blocking_force import find_blocking

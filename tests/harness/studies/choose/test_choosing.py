@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import Refusal, SceneError
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.choose import choose
 from slider_resonator.studies.choose.choosing import candidates, choose_with
 from tests.harness.scene_text import scene_of, table_1

@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.resolved import located_events
 from slider_resonator.studies.choose.choosing import choose_with
 from tests.harness.studies.choose.generated_scenes import COUNT, generated_scene

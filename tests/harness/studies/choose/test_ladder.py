@@ -5,7 +5,7 @@ from math import log2, pi
 
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.choose.ladder import BEAT_POINTS, FINEST, STEPS_PER_BEAT, step_ladder
 from slider_resonator.studies.choose.probe import Probe
 from tests.harness.scene_text import scene_of

@@ -6,7 +6,7 @@ from math import inf
 
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.probe import CAUTION, HEAD_PERIODS, SHORT, Probe
 from tests.harness.scene_text import scene_of

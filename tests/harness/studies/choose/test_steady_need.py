@@ -4,7 +4,7 @@ from math import inf
 
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.steady_need import Found, find, steady_error
 

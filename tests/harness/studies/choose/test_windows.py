@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.paper import lugre_blocking, lugre_device
 
 

@@ -5,7 +5,7 @@ from math import asin, cos, pi
 import pytest
 
 from slider_resonator.device.device import Device
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.studies.paper import mapping

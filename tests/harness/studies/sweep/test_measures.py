@@ -5,7 +5,7 @@ from math import pi, tau
 import numpy as np
 import pytest
 
-from slider_resonator.fmu.drive import Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.sweep.measures import STATISTICS, Run, Task, measure, unit
 

@@ -14,7 +14,7 @@ import pytest
 from pyarrow import parquet
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.sweep.grid import read_grid
@@ -96,12 +96,11 @@ def _wait_for_points(process: subprocess.Popen[bytes], out: Path, points: int) -
 
 
 def _children(process: subprocess.Popen[bytes]) -> list[int]:
-    """Return the processes of the pool, without the one that multiprocessing tracks folders by."""
-    children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+    """Return the processes of the FMU, which the threads of the sweep started."""
     return [
         int(child)
-        for child in children
-        if b"spawn_main" in Path(f"/proc/{child}/cmdline").read_bytes()
+        for thread in Path(f"/proc/{process.pid}/task").iterdir()
+        for child in (thread / "children").read_text().split()
     ]
 
 

@@ -6,69 +6,85 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.fmu.opening import Fmu
-from slider_resonator.studies.sweep import worker
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
+from slider_resonator.studies.sweep import cluster, worker
 from slider_resonator.studies.sweep.measures import Run, Task
+from slider_resonator.studies.sweep.worker import ChunkRunner, measure_points
+from tests.harness.faulty_fmus import compiled
 
 TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run(1, 1, 0))
-
-
-@pytest.fixture(autouse=True)
-def closed() -> Iterator[None]:
-    yield
-    worker.close()
+SOUND = [(0, (0.1,))]
 
 
 @pytest.fixture
-def made(monkeypatch: pytest.MonkeyPatch) -> list[Fmu]:
-    """The FMUs of the instances that were made."""
-    found: list[Fmu] = []
-    original = worker.instantiate
-    monkeypatch.setattr(worker, "instantiate", lambda fmu: found.append(fmu) or original(fmu))
-    return found
+def made(monkeypatch: pytest.MonkeyPatch) -> list[IsolatedFmu]:
+    """All processes that are started."""
+    started: list[IsolatedFmu] = []
+
+    def start(fmu: Path, time_limit: float) -> IsolatedFmu:
+        started.append(IsolatedFmu(fmu, time_limit))
+        return started[-1]
+
+    monkeypatch.setattr(worker, "IsolatedFmu", start)
+    return started
 
 
-def test_an_instance_is_reused_from_chunk_to_chunk(native_fmu: Path, made: list[Fmu]) -> None:
-    worker.register("digest", native_fmu)
-    rows, seconds = worker.run_chunk(TASK, "digest", [(0, (0.1,)), (1, (0.2,))])
-    rows += worker.run_chunk(TASK, "digest", [(2, (0.1,))])[0]
+@pytest.fixture
+def runner(native_fmu: Path, made: list[IsolatedFmu]) -> Iterator[ChunkRunner]:
+    created = ChunkRunner(native_fmu)
+    yield created
+    created.end()
+
+
+def test_a_process_is_reused_from_chunk_to_chunk(
+    runner: ChunkRunner, made: list[IsolatedFmu]
+) -> None:
+    rows, seconds = runner.run(TASK, [(0, (0.1,)), (1, (0.2,))])
+    rows += runner.run(TASK, [(2, (0.1,))])[0]
     assert len(made) == 1
     assert seconds > 0.0
     assert rows[0][1] == rows[2][1] != rows[1][1]
-    folder = made[0].folder
-    worker.close()
-    assert not folder.exists(), "what was unpacked is removed"
 
 
-def test_a_thread_whose_instance_another_has_freed_makes_a_new_one(
-    native_fmu: Path, made: list[Fmu]
+def test_a_thread_whose_process_another_has_ended_starts_a_new_one(
+    runner: ChunkRunner, made: list[IsolatedFmu]
 ) -> None:
-    """As on a cluster, where a sweep ends in another thread than that of the points."""
-    worker.register("digest", native_fmu)
+    """As on a cluster, where the end of a sweep comes in another thread than the points."""
     with ThreadPoolExecutor(1) as thread:
-        before = thread.submit(worker.run_chunk, TASK, "digest", [(0, (0.1,))]).result()
-        worker.close()
-        after = thread.submit(worker.run_chunk, TASK, "digest", [(0, (0.1,))]).result()
-    assert len(made) == 2, "an instance that has been freed is not called again"
+        before = thread.submit(runner.run, TASK, SOUND).result()
+        runner.end()
+        after = thread.submit(runner.run, TASK, SOUND).result()
+    assert len(made) == 2
     assert before[0] == after[0]
 
 
-def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(native_fmu: Path) -> None:
-    worker.register("digest", native_fmu)
-    points = [(0, (-1.0,)), (1, (0.1,))]
-    (failed, sound), _ = worker.run_chunk(TASK, "digest", points)
+def test_a_crash_is_raised_and_the_next_chunk_gets_a_new_process(
+    native_fmu: Path, tmp_path: Path, made: list[IsolatedFmu]
+) -> None:
+    runner = ChunkRunner(compiled(native_fmu, tmp_path / "f.fmu", "IN_STEP=CRASH", "VALUE=1.0"))
+    for _ in range(2):
+        with pytest.raises(FmuDied, match="crashed in fmi2DoStep"):
+            runner.run(TASK, SOUND)
+    assert len(made) == 2
+    runner.end()
+
+
+def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(
+    instance: Instance,
+) -> None:
+    (failed, sound), _ = measure_points(instance, TASK, [(0, (-1.0,)), (1, (0.1,))])
     assert failed[:2] == (0, [None, None])
     assert "friction_coefficient = -1" in str(failed[2])
     assert sound[1][1] == "steady"
 
 
 def test_the_error_of_a_missing_file_does_not_show_where_this_worker_has_it(tmp_path: Path) -> None:
-    worker.register("elsewhere", tmp_path / "my.fmu")
-    ((_, cells, error),), _ = worker.run_chunk(TASK, "elsewhere", [(0, (0.1,))])
+    ((_, cells, error),), _ = ChunkRunner(tmp_path / "my.fmu").run(TASK, SOUND)
     assert cells == [None, None]
     assert error == "my.fmu: no such file"
 
 
 def test_a_worker_without_the_fmu_says_so() -> None:
-    ((_, _, error),), _ = worker.run_chunk(TASK, "unheard of", [(0, (0.1,))])
+    ((_, _, error),), _ = cluster.run_chunk(TASK, "unheard of", SOUND)
     assert error == "this worker has not been given the FMU"

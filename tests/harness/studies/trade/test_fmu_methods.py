@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.references.resolved import taylor
 from slider_resonator.studies.trade.fmu_methods import STEPS, FmuMethods

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.trials.extremes.averaged_reference import REFERENCE_ERROR, covers
 from slider_resonator.trials.extremes.cell import Cell, Hold, Model

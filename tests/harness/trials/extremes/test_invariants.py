@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from slider_resonator.fmu.drive import instantiate
+from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.trials.extremes.cell import Cell, Hold, Model
 from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, judge

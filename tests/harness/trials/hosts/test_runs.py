@@ -13,10 +13,10 @@ from slider_resonator.trials.hosts.job import Answer
 from slider_resonator.trials.hosts.runs import (
     ALLOWED,
     CASES,
-    ask,
     by_case,
     compare,
     coupled,
+    run_jobs,
     table_1_jobs,
 )
 
@@ -46,7 +46,7 @@ def test_every_case_is_run_and_every_input_changes() -> None:
 def test_a_host_that_dies_leaves_the_answers_before(tmp_path: Path) -> None:
     answer = '{"rows": [[1.0]], "error": null}'
     broken = host(tmp_path, f"echo '{answer}' > \"$5\"; echo 'cannot go on' >&2; exit 3")
-    first, second, *_ = answers = ask(broken, table_1_jobs(FMU))
+    first, second, *_ = answers = run_jobs(broken, table_1_jobs(FMU))
     assert len(answers) == len(CASES)
     assert first == Answer([[1.0]])
     assert second.error == "the host ended with 3: cannot go on"
@@ -57,7 +57,7 @@ def test_a_host_that_hangs_is_ended_with_all_it_started(
 ) -> None:
     monkeypatch.setattr(runs, "TIME_LIMIT", 0.5)
     began = time.monotonic()
-    (answer,) = ask(host(tmp_path, "sleep 60"), table_1_jobs(FMU)[:1])
+    (answer,) = run_jobs(host(tmp_path, "sleep 60"), table_1_jobs(FMU)[:1])
     assert answer.error is not None
     assert answer.error.startswith("the host ended after 0.5 s")
     assert time.monotonic() - began < 20.0

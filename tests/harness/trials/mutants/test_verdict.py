@@ -13,8 +13,8 @@ from slider_resonator.trials.mutants.verdict import (
     NOT_REACHED,
     REJECTED,
     SURVIVED,
+    MutantVerdict,
     MutationRun,
-    Verdict,
 )
 
 MUTANTS = source_mutants("a.py", "p/a.py", "def f(a, b):\n    return a < b * 2.0 + 1\n")
@@ -25,7 +25,7 @@ STATUSES = (REJECTED, REJECTED, REJECTED, SURVIVED, EQUIVALENT, NOT_REACHED)
 def run() -> MutationRun:
     pairs = zip(MUTANTS, STATUSES, strict=False)
     verdicts = [
-        Verdict(m, s, "because", *(("stuck", "velocity") if s == REJECTED else ()))
+        MutantVerdict(m, s, "because", *(("stuck", "velocity") if s == REJECTED else ()))
         for m, s in pairs
     ]
     return MutationRun("my.fmu", 100, 39, tuple(verdicts), 2.0)

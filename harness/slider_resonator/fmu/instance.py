@@ -1,8 +1,7 @@
-"""Driving an FMU through fmpy: instances, steps, and whole runs."""
+"""Driving an instance of an FMU through fmpy."""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, suppress
 from ctypes import c_double
@@ -18,8 +17,7 @@ from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
-from slider_resonator.device.interface import INPUTS, OUTPUTS
-from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
 from slider_resonator.errors import FmuError, Refusal, unknown_name
 from slider_resonator.fmu import fmu_log
@@ -31,35 +29,10 @@ EQUAL = 1e-6
 _numbers = count(1)
 
 
-@dataclass(frozen=True)
-class Record:
-    """What an FMU did at the communication points `times` (s), shape (n,).
-
-    `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as held
-    from each point on. `wall_time` (s) covers initialisation and stepping, `start_cpu` and
-    `step_cpu` (s) are the CPU times of each.
-    """
-
-    times: NDArray[np.float64]
-    inputs: NDArray[np.float64]
-    outputs: Mapping[str, NDArray[np.float64]]
-    wall_time: float
-    start_cpu: float
-    step_cpu: float
-
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        """Return one output over the run, shape (n,)."""
-        return self.outputs[name]
-
-    def final(self, name: str) -> float:
-        """Return the last value of an output."""
-        return float(self.outputs[name][-1])
-
-
 def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
-    """Call a function of an instance; FMICallException as fmpy, whose own way costs more than it.
+    """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
 
-    Arguments are converted by the types that fmpy has given the functions of the library.
+    Arguments are converted to the types that fmpy has declared for the function.
     """
     status = getattr(slave.dll, name)(slave.component, *arguments)
     if status > fmi2Warning:
@@ -67,7 +40,7 @@ def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
 
 
 class Block:
-    """A fixed set of Real variables that is read or written many times without allocation."""
+    """A fixed set of Real variables, read and written many times without allocation."""
 
     def __init__(self, slave: FMU2Slave, references: Sequence[int]) -> None:
         size = len(references)
@@ -77,7 +50,7 @@ class Block:
         self._set = partial(call, slave, "fmi2SetReal", *arguments)
 
     def read(self) -> list[float]:
-        """Return the present values."""
+        """Return the current values."""
         self._get()
         return self.values[:]
 
@@ -88,7 +61,7 @@ class Block:
 
 
 class _Explained:
-    """A block in which a failed FMI call becomes a Refusal that says what the FMU logged."""
+    """A context in which a failed FMI call becomes a Refusal with the log of the FMU."""
 
     def __init__(self, instance: Instance) -> None:
         self.instance = instance
@@ -105,9 +78,9 @@ class _Explained:
         if isinstance(error, FMICallException):
             instance = self.instance
             logged = "; ".join(dict.fromkeys(instance.messages))
-            said = logged or f"{error} The FMU logged no reason."
+            reason = logged or f"{error} The FMU logged no reason."
             where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
-            raise Refusal(f"{where}: {said}") from error
+            raise Refusal(f"{where}: {reason}") from error
 
 
 @dataclass(frozen=True)
@@ -122,18 +95,45 @@ class _Plan:
 class Instance:
     """One instance of an FMU, reused through fmi2Reset by every `start`.
 
-    `start` raises Refusal with the FMU's own words when a call fails; the other methods, which are
-    called a million times over, do so inside an `explained` block.
+    Raises FmuError when the FMU cannot be instantiated. `start` raises Refusal with the message of
+    the FMU when a call fails; the other methods, which are called millions of times, do so inside
+    an `explained` block. Must be freed with `end`.
     """
 
-    def __init__(self, fmu: Fmu, slave: FMU2Slave, messages: list[str]) -> None:
+    slave: FMU2Slave
+    messages: list[str]
+
+    def __init__(self, fmu: Fmu) -> None:
         self.fmu = fmu
-        self.slave = slave
-        self.messages = messages
+        self._explained = _Explained(self)
+        self._create()
+
+    def recreate(self) -> None:
+        """Free the instance and make a new one, as after a failure that may have left traces.
+
+        Blocks of the old one must not be used again. Raises FmuError as at first.
+        """
+        self.end()
+        self._create()
+
+    def _create(self) -> None:
+        self._name = f"harness{next(_numbers)}"
+        self.messages, callbacks = fmu_log.collect(self._name)
+        try:
+            self.slave = FMU2Slave(
+                instanceName=self._name,
+                guid=self.fmu.description.guid,
+                modelIdentifier=self.fmu.identifier,
+                unzipDirectory=str(self.fmu.folder),
+            )
+            self.slave.instantiate(callbacks=callbacks, loggingOn=True)
+        except Exception as error:  # fmpy raises bare Exception for all that goes wrong here
+            reason = "; ".join([str(error), *self.messages])
+            fmu_log.forget(self._name)
+            raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
         self.time = 0.0
         self._used = False
         self._initialised = False
-        self._explained = _Explained(self)
         self._settable: dict[tuple[str, ...], _Plan] = {}
         self._readable: dict[tuple[str, ...], _Plan] = {}
         self._inputs = self.block(list(INPUTS))
@@ -167,7 +167,7 @@ class Instance:
             self._initialised = True
 
     def check_steps(self, times: NDArray[np.float64]) -> None:
-        """Raise FmuError where the FMU takes equal steps only and those to `times` (s) differ."""
+        """Raise FmuError for an FMU that takes equal steps only, if those to `times` (s) differ."""
         steps = np.diff(times, prepend=self.time)
         if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * steps.max():
             raise FmuError(
@@ -190,11 +190,11 @@ class Instance:
         self.time += size
 
     def value(self, name: str) -> float:
-        """Return the present value of any variable; FmuError for an unknown name."""
+        """Return the current value of any variable; FmuError for an unknown name."""
         return self.read([name])[name]
 
     def read(self, names: Sequence[str]) -> dict[str, float]:
-        """Return the present values of variables; FmuError for an unknown name."""
+        """Return the current values of variables; FmuError for an unknown name."""
         plan = self._plan(self._readable, names, self._variable)
         found = dict(zip(plan.reals, plan.block.read(), strict=True))
         for name, reference in plan.integers.items():
@@ -207,6 +207,7 @@ class Instance:
             with suppress(FMICallException):  # nothing is lost: the instance is freed at once
                 self.slave.terminate()
         self.slave.freeInstance()
+        fmu_log.forget(self._name)
 
     def _variable(self, name: str) -> ModelVariable:
         if name not in self.fmu.variables:
@@ -227,11 +228,11 @@ class Instance:
     def _plan(
         self,
         plans: dict[tuple[str, ...], _Plan],
-        wanted: Iterable[str],
+        variables: Iterable[str],
         find: Callable[[str], ModelVariable],
     ) -> _Plan:
-        """Return how variables are read or written, made at the first use of these names."""
-        names = tuple(wanted)
+        """Return how variables are read or written; made once for each set of names."""
+        names = tuple(variables)
         plan = plans.get(names)
         if plan is None:
             found = {name: find(name) for name in names}
@@ -241,71 +242,15 @@ class Instance:
         return plan
 
     def explained(self) -> AbstractContextManager[None]:
-        """Turn a failed FMI call into a Refusal that carries what the FMU logged meanwhile."""
+        """Return a context that turns a failed FMI call into a Refusal with the log of the FMU."""
         return self._explained
 
 
 @contextmanager
 def instantiate(fmu: Fmu) -> Iterator[Instance]:
     """Instantiate an FMU for the length of the block; FmuError when it cannot be."""
-    name = f"harness{next(_numbers)}"
-    messages, callbacks = fmu_log.collect(name)
+    instance = Instance(fmu)
     try:
-        try:
-            slave = FMU2Slave(
-                instanceName=name,
-                guid=fmu.description.guid,
-                modelIdentifier=fmu.identifier,
-                unzipDirectory=str(fmu.folder),
-            )
-            slave.instantiate(callbacks=callbacks, loggingOn=True)
-        except Exception as error:  # fmpy raises bare Exception for all that goes wrong here
-            said = "; ".join([str(error), *messages])
-            raise FmuError(f"{fmu.path}: cannot be instantiated: {said}") from error
-        instance = Instance(fmu, slave, messages)
-        try:
-            yield instance
-        finally:
-            instance.end()
+        yield instance
     finally:
-        fmu_log.forget(name)
-
-
-def run(
-    instance: Instance,
-    parameters: Mapping[str, float],
-    schedule: Schedule,
-    *,
-    outputs: Sequence[str] = tuple(OUTPUTS),
-    progress: Callable[[float], None] = lambda share: None,
-) -> Record:
-    """Run the schedule from the given parameters and return the outputs at all its points.
-
-    `progress` is told now and then which share of the points is done. Raises FmuError and Refusal
-    as `Instance.start` and `Instance.check_steps` do.
-    """
-    times = schedule.times
-    inputs = schedule.sampled()
-    held = inputs.tolist()
-    values = np.empty((len(times), len(outputs)))
-    began, began_cpu = time.perf_counter(), time.process_time()
-    first = dict(zip(INPUTS, held[0], strict=True))
-    instance.start({**parameters, **first}, stop_time=float(times[-1]))
-    start_cpu = time.process_time() - began_cpu
-    instance.check_steps(times[1:])
-    block = instance.block(outputs)
-    stepping_cpu = time.process_time()
-    report_every = max(1, len(times) // 100)
-    with instance.explained():
-        values[0] = block.read()
-        for index, target in enumerate(times[1:].tolist(), start=1):
-            if index > 1 and held[index - 1] != held[index - 2]:
-                instance.set_inputs(held[index - 1])
-            instance.step_to(target)
-            values[index] = block.read()
-            if index % report_every == 0:
-                progress(index / (len(times) - 1))
-    step_cpu = time.process_time() - stepping_cpu
-    wall_time = time.perf_counter() - began
-    columns = {name: values[:, i].copy() for i, name in enumerate(outputs)}
-    return Record(times, inputs, columns, wall_time, start_cpu, step_cpu)
+        instance.end()

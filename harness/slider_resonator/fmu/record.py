@@ -1,0 +1,34 @@
+"""What an FMU did in a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Record:
+    """What an FMU did at the communication points `times` (s), shape (n,).
+
+    `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as held
+    from each point on. `wall_time` (s) covers initialisation and stepping, `start_cpu` and
+    `step_cpu` (s) are the CPU times of each.
+    """
+
+    times: NDArray[np.float64]
+    inputs: NDArray[np.float64]
+    outputs: Mapping[str, NDArray[np.float64]]
+    wall_time: float
+    start_cpu: float
+    step_cpu: float
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        """Return one output over the run, shape (n,)."""
+        return self.outputs[name]
+
+    def final(self, name: str) -> float:
+        """Return the last value of an output."""
+        return float(self.outputs[name][-1])

@@ -1,0 +1,77 @@
+"""A command that runs an FMU outlives it, whatever the FMU does in a call."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from slider_resonator.cli import main
+from tests.harness import faulty_fmus
+
+COMMANDS: Mapping[str, Sequence[str]] = {"steady": [], "blocking": [], "run": ["table_1"]}
+"""Command to the arguments after the FMU."""
+
+
+@pytest.mark.parametrize(
+    ("define", "cause"),
+    [
+        ("IN_STEP=CRASH", "the FMU crashed in fmi2DoStep"),
+        ("IN_STEP=LEAVE", "the FMU crashed: its process ended with exit code 0"),
+        ("IN_STEP=LOOP", "no answer within the time limit of 2 s in fmi2DoStep"),
+        ("IN_INSTANTIATE=CRASH", "the FMU crashed in fmi2Instantiate"),
+    ],
+)
+def test_a_crash_a_hang_and_an_exit_end_with_2(
+    native_fmu: Path, tmp_path: Path, define: str, cause: str
+) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", define, "VALUE=1.0")
+    for command, arguments in COMMANDS.items():
+        result = invoke(command, str(fmu), *arguments, "--time-limit", "2")
+        assert result.exit_code == 2, command
+        assert cause in result.stderr, command
+
+
+def test_a_crash_after_the_run_ends_with_2(native_fmu: Path, tmp_path: Path) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", "IN_FREE=CRASH")
+    result = invoke("run", str(fmu), "table_1")
+    assert result.exit_code == 2
+    assert "crashed in fmi2Terminate or fmi2FreeInstance" in result.stderr
+
+
+def invoke(*arguments: str) -> Result:
+    return CliRunner().invoke(main, arguments)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals to end a process with")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_an_ended_command_ends_the_fmu_and_leaves_nothing(
+    native_fmu: Path, tmp_path: Path, number: signal.Signals
+) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "loop.fmu", "IN_STEP=LOOP")
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    command = subprocess.Popen(
+        [sys.executable, "-m", "slider_resonator", "run", str(fmu), "table_1"],
+        env={**os.environ, "TMPDIR": str(temporary)},
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    while not list(temporary.glob("*/*/binaries")):
+        assert command.poll() is None
+        time.sleep(0.1)
+    time.sleep(0.5)  # until it is in the loop
+    command.send_signal(number)
+    _, message = command.communicate(timeout=60.0)
+    assert command.returncode == 2
+    assert message.strip() == "interrupted"
+    assert not list(temporary.iterdir())
+    running = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True)
+    assert str(fmu) not in running.stdout
