@@ -38,7 +38,7 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
     period = 2.0 * pi / scene.device.drive_frequency
     varying = [i for i in range(len(INPUTS)) if np.ptp(record.inputs[:, i]) > 0.0]
     gaps = np.diff(record.times[_last_periods(record, period)])
-    resolved = gaps.size > 0 and bool(gaps.max() * RESOLVING <= period)
+    resolved = gaps.size > 0 and bool(np.max(gaps) * RESOLVING <= period)
     with style():
         height = 4.3 + 2.1 * resolved + 1.3 * bool(varying)
         figure = Figure(figsize=(8.0, height), layout="constrained")
