@@ -8,13 +8,11 @@ and each is searched on a finer grid with slopes, so that no pair of close roots
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import OdeSolver
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
@@ -23,11 +21,15 @@ from slider_resonator.references.resolved.equations import Equations, equations_
 from slider_resonator.references.resolved.first_crossing import first_crossing
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.passage import Follow, Passage, Stretch
-from slider_resonator.references.resolved.scipy_methods import scipy_method
+from slider_resonator.references.resolved.scipy_methods import (
+    Dense,
+    Method,
+    scipy_method,
+    take_step,
+)
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 Array = NDArray[np.float64]
-Dense = Callable[[float | Array], Array]
 
 STEPS_PER_FASTEST_PERIOD = 16
 _SEARCHED_PER_STEP = 8
@@ -60,7 +62,7 @@ def simulate(
 
 
 def _follow_with(
-    equations: Equations, method: type[OdeSolver], rtol: float, atol: float, steps_per_period: int
+    equations: Equations, method: Method, rtol: float, atol: float, steps_per_period: int
 ) -> Follow:
     def follow(stretch: Stretch) -> Passage:
         return _Motion(equations, stretch).follow(method, rtol, atol, steps_per_period)
@@ -80,13 +82,11 @@ class _Motion:
         self._rate = equations.drive_frequency
         self._angle_rate = stretch.frequency_ratio * equations.drive_frequency
 
-    def follow(
-        self, method: type[OdeSolver], rtol: float, atol: float, steps_per_period: int
-    ) -> Passage:
+    def follow(self, method: Method, rtol: float, atol: float, steps_per_period: int) -> Passage:
         stretch = self._stretch
         fastest = self._equations.fastest_rate(stretch.frequency_ratio)
         longest_step = 2.0 * math.pi / fastest / steps_per_period
-        solver: Any = method(
+        solver = method(
             self._equations.slopes(
                 stretch.mode, stretch.load, stretch.theta, stretch.angle, stretch.frequency_ratio
             ),
@@ -98,30 +98,25 @@ class _Motion:
             rtol=rtol,
             atol=atol * self._equations.state_scales(stretch.load),
         )
-        steps = 0
         samples: list[Array] = []
-        event = 0
+        steps = sampled = event = 0
         time, state = 0.0, solver.y
         while solver.status == "running" and not event:
-            message = solver.step()
-            if solver.status == "failed":
-                raise RuntimeError(
-                    f"{method.__name__} failed at {solver.t!r} s into a stretch of mode "
-                    f"{stretch.mode}: {message}; use a greater rtol"
-                )
+            start = time
+            take_step(solver, stretch.start, "use a greater rtol")
             steps += 1
             dense = solver.dense_output()
             time, state = solver.t, solver.y
-            crossing = self._first_event(dense, solver.t_old, solver.t)
+            crossing = self._first_event(dense, start, time)
             if crossing is not None:
                 time, event = crossing
                 state = dense(time)
-            after = np.searchsorted(stretch.samples, [solver.t_old, time], side="right")
-            first = 0 if steps == 1 else int(after[0])
-            if after[1] > first:
-                samples.append(dense(stretch.samples[first : after[1]]).T)
-        sampled = np.concatenate([np.empty((0, 4)), *samples])
-        sampled[:, 0] += stretch.state[0]
+            end = int(np.searchsorted(stretch.samples, time, side="right"))
+            if end > sampled:
+                samples.append(dense(stretch.samples[sampled:end]).T)
+                sampled = end
+        states = np.concatenate([np.empty((0, 4)), *samples])
+        states[:, 0] += stretch.state[0]
         return Passage(
             duration=float(time),
             state=(
@@ -131,7 +126,7 @@ class _Motion:
                 float(state[3]),
             ),
             event=event,
-            samples=sampled,
+            samples=states,
             steps=steps,
             evaluations=solver.nfev,
         )

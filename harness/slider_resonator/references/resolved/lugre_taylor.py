@@ -23,7 +23,6 @@ from slider_resonator.references.resolved.contact import (
     time_to_lift_off,
     time_to_touchdown,
 )
-from slider_resonator.references.resolved.contact_record import ContactRecord
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
 from slider_resonator.references.resolved.lugre_system import (
@@ -37,6 +36,7 @@ from slider_resonator.references.resolved.lugre_system import (
 )
 from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.polynomial_roots import first_fall
+from slider_resonator.references.resolved.recorder import Recorder
 
 Array = NDArray[np.float64]
 
@@ -45,7 +45,7 @@ ROUNDING = 1e-18
 
 _ROUNDING_OF_A_SUM = 1e-15
 _FORGOTTEN = 1e-25
-_MOST_EVENTS_AT_ONE_INSTANT = 20
+_MAX_EVENTS_AT_ONE_INSTANT = 20
 
 
 def simulate_lugre(
@@ -72,24 +72,7 @@ def simulate_lugre(
     run = _Run(device, lugre_equations_of(device), times, bristle, tolerance)
     for inputs in held:
         run.follow(inputs)
-    signals = np.concatenate([np.empty((0, 8)), *run.signals])
-    return LugreTrajectory(
-        time=times,
-        position=signals[:, 0],
-        velocity=signals[:, 1],
-        resonator_displacement=signals[:, 2],
-        resonator_velocity=signals[:, 3],
-        normal_force=signals[:, 4],
-        friction_force=signals[:, 5],
-        contact_mode=signals[:, 6].astype(np.int64),
-        bristle_deflection=signals[:, 7],
-        reversals=run.reversals,
-        sticks=0,
-        stick_time=0.0,
-        event_times=np.array(run.record.event_times),
-        steps=run.steps,
-        evaluations=run.evaluations,
-    )
+    return run.recorder.lugre_trajectory()
 
 
 class _Run:
@@ -107,15 +90,9 @@ class _Run:
         bristle: Bristle,
         tolerance: float,
     ) -> None:
-        self.record = ContactRecord()
-        self.signals: list[Array] = []
-        self.reversals = 0
-        self.steps = 0
-        self.evaluations = 0
+        self.recorder = Recorder(times)
         self._lugre = lugre
         self._equations = lugre.equations
-        self._times = times
-        self._kept = 0
         self._from_path = bristle == "path"
         self._integrator = lugre_integrator(bristle, tolerance)
         self._position, velocity, *resonator = initial_state(device)
@@ -123,7 +100,6 @@ class _Run:
         self._stretch = device.initial_bristle_deflection / lugre.greatest_deflection
         self._direction = -1 if velocity < 0.0 else 1
         self._shortfall = self._direction - self._stretch
-        self._moved = 0
         self._theta = 0.0
         self._psi = 0.0
 
@@ -136,7 +112,6 @@ class _Run:
         friction = equations.friction_mean + equations.friction_amplitude
         self._driving_share = 1.0 - friction / force
         span = (inputs.stop - inputs.start) * rate
-        end = int(np.searchsorted(self._times, inputs.stop, side="right"))
         load_of = equations.normal_preload, equations.normal_amplitude
         lifted = is_lifted(*load_of, self._psi + inputs.phase, ratio)
         elapsed = Elapsed()
@@ -146,16 +121,17 @@ class _Run:
             self._integrator.pars[HELD] = lugre_parameters(
                 self._lugre, inputs.load, ratio, force, lifted
             )
-            self._follow_contact(inputs, lifted, elapsed, min(change, remaining), end)
+            self._follow_contact(inputs, lifted, elapsed, min(change, remaining))
             lifted = lifted != (change < remaining)
         # A last step that ends short of the stop by rounding has not covered samples there.
         still = np.append(self._motion / self._scales, self._stretch)[:, np.newaxis]
-        self._keep(inputs, LIFTED if lifted else self._moved, np.zeros(end - self._kept), still)
+        missed = np.zeros(len(self.recorder.pending(inputs.stop)))
+        self._keep(inputs, LIFTED if lifted else self.recorder.contact.direction, missed, still)
 
     def _follow_contact(
-        self, inputs: HeldInputs, lifted: bool, elapsed: Elapsed, span: float, end: int
+        self, inputs: HeldInputs, lifted: bool, elapsed: Elapsed, span: float
     ) -> None:
-        """Follow an open or a closed contact for a scaled span; samples up to index ``end``."""
+        """Follow an open or a closed contact for a scaled span."""
         rate = self._equations.drive_frequency
         within = Elapsed()
         events = 0
@@ -163,18 +139,17 @@ class _Run:
             step, fell, coefficients = self._expand(remaining, inputs.phase)
             events = events + 1 if fell and step <= math.ulp(1.0) else 0
             start = elapsed.seconds + elapsed.carry
-            if events > _MOST_EVENTS_AT_ONE_INSTANT:
+            if events > _MAX_EVENTS_AT_ONE_INSTANT:
                 raise RuntimeError(
                     f"the velocity at t = {inputs.start + start / rate!r} s changes sign more than "
-                    f"{_MOST_EVENTS_AT_ONE_INSTANT} times at one instant: the motion there is "
+                    f"{_MAX_EVENTS_AT_ONE_INSTANT} times at one instant: the motion there is "
                     "below rounding; perturb the initial state or an input"
                 )
             if step > 0.0:
                 mode = LIFTED if lifted else self._direction
-                self.record.enter(mode, inputs.start + start / rate)
-                self.reversals += self._moved == -self._direction
-                self._moved = self._direction
-                local = ((self._times[self._kept : end] - inputs.start) * rate) - start
+                self.recorder.contact.slide(self._direction)
+                self.recorder.contact.enter(mode, inputs.start + start / rate)
+                local = (self.recorder.pending(inputs.stop) - inputs.start) * rate - start
                 stop = (inputs.stop - inputs.start) * rate - start
                 covered = len(local)
                 if step < stop:
@@ -202,8 +177,8 @@ class _Run:
         integrator.time = 0.0
         _, step = integrator.step(max_delta_t=longest, write_tc=True)
         coefficients: Array = np.array(integrator.tc)
-        self.steps += 1
-        self.evaluations += 1
+        self.recorder.steps += 1
+        self.recorder.evaluations += 1
         if not (step > 0.0 and np.isfinite(coefficients).all()):
             raise RuntimeError(
                 f"the Taylor step from velocity {self._motion[1]!r} m/s is {step!r}: "
@@ -246,8 +221,6 @@ class _Run:
         )
 
     def _keep(self, inputs: HeldInputs, mode: int, local: Array, coefficients: Array) -> None:
-        if not len(local):
-            return
         lugre, equations = self._lugre, self._equations
         scaled = _values(local, coefficients[:4])
         stretch, _ = self._stretched(scaled[:, 0], local, coefficients)
@@ -255,21 +228,11 @@ class _Run:
         states[:, 0] += self._position
         angle = self._psi + inputs.phase + inputs.frequency_ratio * local
         resonator = equations.resonator_motion(self._theta + local, states)
-        normal, _ = equations.contact_forces(mode, inputs.load, self._theta + local, angle, states)
-        if mode == LIFTED:
-            friction = np.zeros(len(local))
-        else:
-            friction = lugre.friction_force(states[:, 1], stretch, angle)
-        self.signals.append(
-            np.column_stack(
-                [
-                    *(states[:, 0], states[:, 1], *resonator, normal, friction),
-                    np.full(len(local), float(mode)),
-                    lugre.greatest_deflection * stretch,
-                ]
-            )
-        )
-        self._kept += len(local)
+        forces = equations.contact_forces(mode, inputs.load, self._theta + local, angle, states)
+        if mode != LIFTED:
+            forces = forces[0], lugre.friction_force(states[:, 1], stretch, angle)
+        deflection = lugre.greatest_deflection * stretch
+        self.recorder.keep(states, resonator, forces, mode, deflection)
 
     def _advance(self, step: float, ratio: float, coefficients: Array) -> None:
         local = np.array([step])

@@ -15,11 +15,13 @@ from slider_resonator.references.resolved.equations import State
 class Stretch:
     """A contact mode with constant inputs, to be followed for at most ``span`` s.
 
-    ``theta`` is the drive angle and ``angle`` that of the normal load at the start, rad.
-    ``samples`` (shape (n,), ascending, within (0, span], s from the start) are the times wanted.
+    It begins ``start`` s into the run, at the drive angle ``theta`` and the angle ``angle`` of the
+    normal load, rad. The motion is sampled at ``samples`` (shape (n,), ascending, within (0, span],
+    s from its start).
     """
 
     mode: int
+    start: float
     state: State
     theta: float
     angle: float
@@ -35,7 +37,7 @@ class Passage:
 
     ``event`` is 0 if the span ended without one. In a slip it is the sign of the acceleration at
     which the velocity vanished; in a stick the direction in which the slider breaks loose.
-    ``samples`` has shape (k, 4), the states at those times wanted that lie within ``duration`` s.
+    ``samples`` has shape (k, 4), the states at the sample times that lie within ``duration`` s.
     """
 
     duration: float
