@@ -87,7 +87,7 @@ def test_samples_do_not_depend_on_the_communication_step(
     controller: Callable[[], Instance], parts: int
 ) -> None:
     instance = controller().initialize(velocity_reference=0.001)
-    efforts = []
+    efforts: list[float] = []
     for _ in range(20):
         for _ in range(parts):
             instance.step(SAMPLE / parts)

@@ -6,6 +6,7 @@ import ctypes
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import pytest
 from fmpy import calloc, free
@@ -104,11 +105,11 @@ def give_back(instance: Instance, component: int | None) -> None:
     ids=["guid", "type", "empty name", "no name"],
 )
 def test_a_refused_instantiation_says_why(
-    instance: Instance, unpacked: Unpacked, wrong: dict[str, object], text: str
+    instance: Instance, unpacked: Unpacked, wrong: dict[str, Any], text: str
 ) -> None:
     host = Host()
     wish = {"guid": unpacked.description.guid} | wrong
-    assert instantiate_as(instance, host=host, **wish) is None  # type: ignore[arg-type]
+    assert instantiate_as(instance, host=host, **wish) is None
     ((_, status, category, said),) = host.log
     assert (status, category) == (ERROR, b"logStatusError"), "also when no logging is asked for"
     assert text in said.decode()

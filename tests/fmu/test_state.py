@@ -37,7 +37,7 @@ def bring_into(instance: Instance, mode: float) -> None:
     raise AssertionError(f"the device never came into contact mode {mode:g}")
 
 
-@pytest.fixture(params=SITUATIONS.values(), ids=SITUATIONS)
+@pytest.fixture(params=SITUATIONS.values(), ids=list(SITUATIONS))
 def on_its_way(request: pytest.FixtureRequest, instantiate: Callable[[], Instance]) -> Instance:
     values, mode = request.param
     instance = instantiate().initialize(**values)

@@ -125,7 +125,7 @@ def test_steps_of_two_microseconds(instantiate: Instantiate, unpacked: Unpacked,
     """A tenth of them with the Python FMU, whose steps take longer and round as the native ones."""
     problem = PROBLEMS[name]
     share = 1 if unpacked.description.modelName == "SliderResonator" else 10
-    times = np.arange(1, 100_000 // share + 1) * 2e-6
+    times = 2e-6 * np.arange(1.0, 100_000 // share + 1)
     instance = instantiate().initialize(**problem.parameters)
     rows = []
     for i, time in enumerate(times):

@@ -3,6 +3,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -18,8 +19,8 @@ INPUTS = {v.name for v in VARIABLES if v.causality == "input"}
 OUTPUTS = [v.name for v in VARIABLES if v.causality == "output"]
 
 
-def describe(**changes: object) -> bytes:
-    arguments: dict[str, object] = {
+def describe(**changes: Any) -> bytes:
+    arguments: dict[str, Any] = {
         "model": "SliderResonatorPy",
         "guid": "a-guid",
         "generation_tool": "a tool",
@@ -178,7 +179,7 @@ def test_log_categories_are_those_that_the_binary_uses(root: ET.Element) -> None
     assert names == list(LOG_CATEGORIES) == list(Fmi2Slave.log_categories)
 
 
-def _with_load(**changes: object) -> list[Variable]:
+def _with_load(**changes: Any) -> list[Variable]:
     return [replace(v, **changes) if v.name == "load" else v for v in VARIABLES]
 
 

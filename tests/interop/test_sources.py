@@ -29,7 +29,8 @@ def test_fmutool_makes_a_binary_that_gives_the_same_numbers(
     stripped = without_binaries(native_fmu, tmp_path / "stripped.fmu")
     compiled = tmp_path / "compiled.fmu"
     fmutool = Path(sys.executable).with_name("fmutool")
-    command = [fmutool, "-input", stripped, "-compile-sources", "-output", compiled]
+    command: list[str | Path] = [fmutool, "-input", stripped, "-compile-sources"]
+    command += ["-output", compiled]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert compiled.is_file(), done.stdout + done.stderr
     fmpy = hosts()[0]

@@ -59,7 +59,7 @@ def test_a_number_may_deviate_by_the_relative_tolerance(velocity: float, passed:
 
 
 def test_with_a_tolerance_of_0_only_equality_passes() -> None:
-    expect = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
     assert judge(steady(0.0), **expect).passed
     assert not judge(steady(1e-300), **expect).passed
 
@@ -78,7 +78,11 @@ def test_a_missing_result_carries_its_reason() -> None:
 
 def test_a_reference_without_a_result_fails() -> None:
     side = reference(steady_velocity=None)
-    expect = {"quantity": "steady_velocity", "reference": "located_events", "relative": 1.0}
+    expect: dict[str, Any] = {
+        "quantity": "steady_velocity",
+        "reference": "located_events",
+        "relative": 1.0,
+    }
     assert not judge(steady(0.1), side, **expect).passed
 
 
@@ -190,7 +194,7 @@ def test_a_scene_that_does_not_allow_a_measure_could_not_run() -> None:
 def test_a_reference_next_to_zero_counts_as_its_smallest_size(
     velocity: float, passed: bool
 ) -> None:
-    expect = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}
     verdict = judge(steady(velocity), smallest=1e-3, **expect)
     assert verdict.passed is passed
     assert verdict.allowed == pytest.approx(1e-9)
@@ -201,7 +205,7 @@ def test_a_reference_next_to_zero_counts_as_its_smallest_size(
 
 
 def test_the_smallest_size_loosens_nothing_else() -> None:
-    expect = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 0.1, "relative": 1e-6}
     assert judge(steady(0.1), smallest=1e-3, **expect).allowed == pytest.approx(1e-7)
 
 

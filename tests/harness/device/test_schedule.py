@@ -83,7 +83,7 @@ def test_communication_points_contain_every_jump_inside(
     assert points[0] == 0.0
     assert points[-1] == stop
     assert np.all(np.diff(points) > 0.0)
-    assert np.diff(points).max() <= step * (1.0 + 1e-6)
+    assert np.max(np.diff(points)) <= step * (1.0 + 1e-6)
     assert {t for t in jumps if 0.0 < t < stop} <= set(points.tolist())
 
 

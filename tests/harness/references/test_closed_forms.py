@@ -115,7 +115,7 @@ def test_equivalent_force_is_that_of_the_frictionless_device(device: Device) -> 
     force = closed_forms.equivalent_force(device)
     frequency, mass = device.drive_frequency, device.resonator_mass
 
-    def slopes(time: float, state: list[float]) -> list[float]:
+    def slopes(time: float, state: np.ndarray) -> list[float]:
         _, displacement, velocity = state
         spring = device.damping * velocity + device.stiffness * displacement
         push = device.tangential_force * math.sin(frequency * time)
@@ -132,7 +132,14 @@ def test_equivalent_force_is_that_of_the_frictionless_device(device: Device) -> 
     ]
     times = np.linspace(0.0, 3.0 * period, 50)
     run = solve_ivp(
-        slopes, (0.0, times[-1]), start, "DOP853", times, rtol=1e-11, atol=1e-16, max_step=1e-4
+        slopes,
+        (0.0, float(times[-1])),
+        start,
+        "DOP853",
+        times,
+        rtol=1e-11,
+        atol=1e-16,
+        max_step=1e-4,
     )
     velocity = -force.velocity_amplitude * np.cos(frequency * times - force.angle)
     np.testing.assert_allclose(

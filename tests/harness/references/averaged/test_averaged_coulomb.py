@@ -177,11 +177,9 @@ def test_what_has_no_answer_is_refused_by_name() -> None:
         coulomb.mean_friction(0.0, 0.0, 1.0, 0.0)
     with pytest.raises(ValueError, match="detuning = 0"):
         coulomb.linear_beat_displacement(1.0, 1.0, 0.0)
-    for linear in (
-        lambda: coulomb.linear_slow_acceleration(0.0, 1.0, 1.5, 0.0),
-        lambda: coulomb.linear_beat_velocity(1.0, 1.5, 0.1),
-    ):
-        with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
-            linear()
+    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
+        coulomb.linear_slow_acceleration(0.0, 1.0, 1.5, 0.0)
+    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
+        coulomb.linear_beat_velocity(1.0, 1.5, 0.1)
     with pytest.raises(ValueError, match=r"load = 1\.6"):
         coulomb.steady_velocity_at_ratio(1.0, 3.0, 0.0, 1.0, 1.6)

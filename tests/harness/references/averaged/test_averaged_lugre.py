@@ -166,9 +166,7 @@ def test_a_load_above_friction_is_refused() -> None:
 
 
 def test_the_linear_forms_refuse_a_contact_that_lifts() -> None:
-    for linear in (
-        lambda: lugre.linear_velocity(LIFTING),
-        lambda: lugre.linear_slow_acceleration(0.0, LIFTING),
-    ):
-        with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
-            linear()
+    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
+        lugre.linear_velocity(LIFTING)
+    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
+        lugre.linear_slow_acceleration(0.0, LIFTING)

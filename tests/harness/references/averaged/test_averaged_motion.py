@@ -19,8 +19,8 @@ from slider_resonator.references.resolved.trajectory import Trajectory
 PERIOD = 2.0 * np.pi / 3500.0
 COULOMB = Device(fidelity=0)
 BRISTLES = Device(fidelity=0, friction_law=1)
-STRONG = {"friction_coefficient": 0.5}
-"""Friction that moves the slow velocity by a fair share of v_q within 100 drive periods."""
+STRONG_FRICTION = 0.5
+"""It moves the slow velocity by a fair share of v_q within 100 drive periods."""
 
 
 def at_factor(device: Device, factor: float) -> Device:
@@ -72,7 +72,7 @@ QUICK = ("Coulomb", "Coulomb, lifting", "Coulomb, overload", "soft", "medium, li
 )
 def test_error_falls_with_the_drive_frequency(name: str) -> None:
     device, inputs = CASES[name]
-    device = replace(device, **STRONG)
+    device = replace(device, friction_coefficient=STRONG_FRICTION)
     errors = []
     for factor in (1.0, 4.0):
         held = [HeldInputs(0.0, 100.0 * PERIOD, **inputs)]
@@ -87,7 +87,7 @@ def test_error_falls_with_the_drive_frequency(name: str) -> None:
 def test_inputs_that_change_act_when_they_change(device: Device) -> None:
     device = replace(
         device,
-        **STRONG,
+        friction_coefficient=STRONG_FRICTION,
         initial_position=0.01,
         initial_velocity=0.05,
         initial_resonator_displacement=1e-3,

@@ -126,7 +126,7 @@ def test_the_contact_is_open_exactly_while_the_normal_load_would_pull() -> None:
     half = math.acos(1.0 / 1.5)
     expected = [(2 * n + 1.5) * math.pi + s * half for n in range(10) for s in (-1, 1)]
     for switch in expected:
-        nearest = abs(run.event_times - switch / 3500.0).min()
+        nearest = np.abs(run.event_times - switch / 3500.0).min()
         assert nearest < 1e-15, f"no event at the change of contact at angle {switch}"
 
 

@@ -2,10 +2,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import pytest
 
+from slider_resonator.fmu.drive import Instance, instantiate
+from slider_resonator.fmu.opening import Fmu
 from slider_resonator.studies.sweep import worker
 from slider_resonator.studies.sweep.measures import Run, Task
 
@@ -18,12 +21,22 @@ def closed() -> Iterator[None]:
     worker.close()
 
 
+def opened(monkeypatch: pytest.MonkeyPatch) -> list[Fmu]:
+    """A list that grows by every FMU of which the worker makes an instance."""
+    made: list[Fmu] = []
+
+    def instantiated(fmu: Fmu) -> AbstractContextManager[Instance]:
+        made.append(fmu)
+        return instantiate(fmu)
+
+    monkeypatch.setattr(worker, "instantiate", instantiated)
+    return made
+
+
 def test_an_instance_is_reused_from_chunk_to_chunk(
     native_fmu: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    made = []
-    original = worker.instantiate
-    monkeypatch.setattr(worker, "instantiate", lambda fmu: made.append(fmu) or original(fmu))
+    made = opened(monkeypatch)
     worker.register("digest", native_fmu)
     rows, seconds = worker.run_chunk(TASK, "digest", [(0, (0.1,)), (1, (0.2,))])
     rows += worker.run_chunk(TASK, "digest", [(2, (0.1,))])[0]
@@ -39,9 +52,7 @@ def test_a_thread_whose_instance_another_has_freed_makes_a_new_one(
     native_fmu: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As on a cluster, where the end of a sweep is told in another thread than the points."""
-    made = []
-    original = worker.instantiate
-    monkeypatch.setattr(worker, "instantiate", lambda fmu: made.append(fmu) or original(fmu))
+    made = opened(monkeypatch)
     worker.register("digest", native_fmu)
     with ThreadPoolExecutor(1) as thread:
         before = thread.submit(worker.run_chunk, TASK, "digest", [(0, (0.1,))]).result()

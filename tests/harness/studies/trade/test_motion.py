@@ -40,12 +40,13 @@ def test_equal_motions_have_no_error(short: Task) -> None:
 
 def test_each_error_is_a_share_of_the_peak(short: Task) -> None:
     motion = drifting(short)
+    assert motion.last_event is not None
     truth = windows(short, motion, 4)
     late = replace(
         motion,
         position=1.01 * motion.position,
         velocity=motion.velocity + 0.025,
-        last_event=motion.last_event + 1e-3 * short.period,  # type: ignore[operator]
+        last_event=motion.last_event + 1e-3 * short.period,
     )
     found = errors(short, late, truth, 4)
     for name in ("position", "mean_velocity", "slow_displacement"):
@@ -95,7 +96,7 @@ def test_a_beat_is_told_by_who_samples_it(tmp_path: Path, step: int, told: bool)
     motion = Motion(times, times, np.ones_like(times), course=course)
     found = errors(beating, motion, windows(beating, motion, 1600), 1600)
     assert ("beat_frequency" in found) == told, "twenty periods are a beat"
-    early = replace(motion, course=tuple(part[:1] for part in course))
+    early = replace(motion, course=(course[0][:1], course[1][:1]))
     assert "beat_frequency" not in errors(beating, early, windows(beating, motion, 1600), 1600)
     if told:
         assert found["beat_frequency"] == pytest.approx(1e-3, rel=1e-3)

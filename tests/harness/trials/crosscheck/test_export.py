@@ -32,7 +32,8 @@ def tree(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def case_folder(tree: Path, name: str) -> Path:
-    (folder,) = (tree / "fmus" / "2.0" / "cs" / fmpy.platform / TOOL).glob(f"*/{name}")
+    platform: str = fmpy.platform
+    (folder,) = (tree / "fmus" / "2.0" / "cs" / platform / TOOL).glob(f"*/{name}")
     return folder
 
 
@@ -67,13 +68,14 @@ def test_fmpy_repeats_every_run_and_passes_it(
     monkeypatch.setattr("fmpy.cross_check.cross_check.plot_result", lambda *args, **options: None)
 
     def simulate(options: dict[str, object]) -> np.ndarray:
-        return fmpy.simulate_fmu(
+        result: np.ndarray = fmpy.simulate_fmu(
             options["fmu_filename"],
             step_size=options["step_size"],
             stop_time=options["stop_time"],
             input=read_csv(options["input_filename"]),
             output=options["output_variable_names"],
         )
+        return result
 
     results = tmp_path / "results"
     arguments = (str(tree / "fmus"), str(tmp_path / "report.html"), str(results), simulate)
