@@ -1,15 +1,15 @@
-"""The LuGre referee: heyoka's Taylor method, bristles from the path, reversals located.
+"""The LuGre reference: heyoka's Taylor method, bristles from the path, reversals located.
 
 Between two reversals the bristle is an explicit function of the path, so that stiff bristles do not
 make the equations stiff. For comparison the bristle can be integrated as a state instead, which
-costs steps in proportion to its stiffness. Each formulation is one compiled system for every
-device; all numbers are runtime parameters.
+costs steps in proportion to its stiffness.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,25 +25,28 @@ from slider_resonator.references.resolved.contact import (
 )
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
-from slider_resonator.references.resolved.lugre_system import (
-    DIRECTION,
-    DRIVE_AND_NORMAL_ANGLE,
-    HELD,
-    STRETCH_AND_SHORTFALL,
-    Bristle,
-    lugre_integrator,
-    lugre_parameters,
-)
 from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.polynomial_roots import first_fall
 from slider_resonator.references.resolved.recorder import Recorder
+from slider_resonator.references.resolved.taylor_system import (
+    BRISTLE,
+    DIRECTION,
+    DRIVE_AND_NORMAL_ANGLE,
+    HELD,
+    ROUNDING,
+    ROUNDING_OF_A_SUM,
+    STRETCH_AND_SHORTFALL,
+    held_parameters,
+    scales_of,
+    series_values,
+    taylor_integrator,
+)
 
 Array = NDArray[np.float64]
 
-ROUNDING = 1e-18
-"""Tolerance of a Taylor step in the scaled variables, below what double precision resolves."""
+Bristle = Literal["path", "state"]
+"""Whether the bristle follows from the path since the start of a step, or is a state."""
 
-_ROUNDING_OF_A_SUM = 1e-15
 _FORGOTTEN = 1e-25
 _MAX_EVENTS_AT_ONE_INSTANT = 20
 
@@ -94,7 +97,7 @@ class _Run:
         self._lugre = lugre
         self._equations = lugre.equations
         self._from_path = bristle == "path"
-        self._integrator = lugre_integrator(bristle, tolerance)
+        self._integrator = taylor_integrator(bristle, tolerance)
         self._position, velocity, *resonator = initial_state(device)
         self._motion = np.array([0.0, velocity, *resonator])
         self._stretch = device.initial_bristle_deflection / lugre.greatest_deflection
@@ -106,9 +109,11 @@ class _Run:
     def follow(self, inputs: HeldInputs) -> None:
         equations = self._equations
         rate, ratio = equations.drive_frequency, inputs.frequency_ratio
-        force = equations.force_scale(inputs.load) or 1.0
-        speed = force / (equations.inertia * rate)
-        self._scales = np.array([speed / rate, speed] * 2)
+        force, self._scales = scales_of(equations, inputs.load)
+        self._integrator.pars[BRISTLE] = (
+            self._lugre.path_rate * self._scales[0],
+            self._lugre.path_damping * self._scales[1],
+        )
         friction = equations.friction_mean + equations.friction_amplitude
         self._driving_share = 1.0 - friction / force
         span = (inputs.stop - inputs.start) * rate
@@ -118,8 +123,8 @@ class _Run:
         while (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
             time_to = time_to_touchdown if lifted else time_to_lift_off
             change = time_to(*load_of, self._psi + inputs.phase, ratio)
-            self._integrator.pars[HELD] = lugre_parameters(
-                self._lugre, inputs.load, ratio, force, lifted
+            self._integrator.pars[HELD] = held_parameters(
+                equations, inputs.load, ratio, force, LIFTED if lifted else None
             )
             self._follow_contact(inputs, lifted, elapsed, min(change, remaining))
             lifted = lifted != (change < remaining)
@@ -207,12 +212,12 @@ class _Run:
             + (1.0 - self._driving_share) * grip
             + coupling / (equations.inertia * rate) * float(terms[2:].max())
         )
-        return _ROUNDING_OF_A_SUM * (speed_share + min(step, 1.0) * force)
+        return ROUNDING_OF_A_SUM * (speed_share + min(step, 1.0) * force)
 
     def _stretched(self, path: Array, local: Array, coefficients: Array) -> tuple[Array, Array]:
         """Return stretch and shortfall where the scaled path and time have the given values."""
         if not self._from_path:
-            stretch = _values(local, coefficients[4:])[:, 0]
+            stretch = series_values(local, coefficients[4:])[:, 0]
             return stretch, self._direction - stretch
         exponent = -self._lugre.path_rate * self._scales[0] * self._direction * path
         return (
@@ -222,7 +227,7 @@ class _Run:
 
     def _keep(self, inputs: HeldInputs, mode: int, local: Array, coefficients: Array) -> None:
         lugre, equations = self._lugre, self._equations
-        scaled = _values(local, coefficients[:4])
+        scaled = series_values(local, coefficients[:4])
         stretch, _ = self._stretched(scaled[:, 0], local, coefficients)
         states = scaled * self._scales
         states[:, 0] += self._position
@@ -236,7 +241,7 @@ class _Run:
 
     def _advance(self, step: float, ratio: float, coefficients: Array) -> None:
         local = np.array([step])
-        end = _values(local, coefficients[:4])[0]
+        end = series_values(local, coefficients[:4])[0]
         stretch, shortfall = self._stretched(end[:1], local, coefficients)
         self._stretch = float(stretch[0])
         self._shortfall = float(shortfall[0]) if abs(shortfall[0]) > _FORGOTTEN else 0.0
@@ -245,8 +250,3 @@ class _Run:
         self._motion[0] = 0.0
         self._theta = advanced(self._theta, step)
         self._psi = advanced(self._psi, ratio * step)
-
-
-def _values(local: Array, coefficients: Array) -> Array:
-    """Return the values, shape (n, k), of k Taylor series at n times."""
-    return np.asarray(np.polynomial.polynomial.polyval(local, coefficients.T), dtype=np.float64).T

@@ -1,15 +1,12 @@
-"""The referee: the full equations by heyoka's Taylor method, events located to rounding.
+"""The Coulomb reference: heyoka's Taylor method, events located to rounding.
 
 heyoka supplies the Taylor polynomials of the motion within one contact mode; the events are the
-first roots of those polynomials. There is one compiled system for every device and mode, all
-numbers are runtime parameters.
+first roots of those polynomials.
 """
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -23,14 +20,20 @@ from slider_resonator.references.resolved.equations import Equations, equations_
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.passage import Passage, Stretch
 from slider_resonator.references.resolved.polynomial_roots import first_fall
+from slider_resonator.references.resolved.taylor_system import (
+    DIRECTION,
+    DRIVE_AND_NORMAL_ANGLE,
+    HELD,
+    ROUNDING,
+    ROUNDING_OF_A_SUM,
+    held_parameters,
+    scales_of,
+    series_values,
+    taylor_integrator,
+)
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 Array = NDArray[np.float64]
-
-ROUNDING = 1e-18
-"""Tolerance of a Taylor step in the scaled variables, below what double precision resolves."""
-
-_ROUNDING_OF_A_SUM = 1e-15
 
 
 def simulate(
@@ -50,68 +53,12 @@ def simulate(
     when heyoka is not installed.
     """
     equations = equations_of(device)
-    integrator = _integrator(tolerance)
+    integrator = taylor_integrator("coulomb", tolerance)
 
     def follow(stretch: Stretch) -> Passage:
         return _ScaledMotion(equations, stretch, integrator).follow()
 
     return ModeSequence(equations, follow, initial_state(device), times).run(held)
-
-
-def _heyoka() -> Any:
-    try:
-        return importlib.import_module("heyoka")
-    except ModuleNotFoundError as error:
-        raise ModuleNotFoundError(
-            "the Taylor reference needs heyoka: pip install 'slider-resonator[referee]'"
-        ) from error
-
-
-@cache
-def _integrator(tolerance: float) -> Any:
-    """Compile the scaled equations once; see ``_ScaledMotion`` for the order of parameters."""
-    heyoka = _heyoka()
-    position, velocity, displacement, resonator_velocity = heyoka.make_vars("x", "v", "y", "u")
-    (
-        damping,
-        stiffness,
-        sine,
-        cosine,
-        constant,
-        normal,
-        base,
-        damping_rate,
-        stiffness_rate,
-        theta,
-        angle,
-        ratio,
-    ) = (heyoka.par[index] for index in range(12))
-    drive_angle = theta + heyoka.time
-    acceleration = (
-        damping * resonator_velocity
-        + stiffness * displacement
-        + sine * heyoka.sin(drive_angle)
-        + cosine * heyoka.cos(drive_angle)
-        + constant
-        + normal * heyoka.sin(angle + ratio * heyoka.time)
-    )
-    resonator_acceleration = (
-        base * heyoka.sin(drive_angle)
-        - damping_rate * resonator_velocity
-        - stiffness_rate * displacement
-        - acceleration
-    )
-    return heyoka.taylor_adaptive(
-        [
-            (position, velocity),
-            (velocity, acceleration),
-            (displacement, resonator_velocity),
-            (resonator_velocity, resonator_acceleration),
-        ],
-        [0.0] * 4,
-        pars=[0.0] * 12,
-        tol=tolerance,
-    )
 
 
 class _ScaledMotion:
@@ -121,18 +68,18 @@ class _ScaledMotion:
         self._equations = equations
         self._stretch = stretch
         self._integrator = integrator
-        rate = equations.drive_frequency
-        self._force = equations.force_scale(stretch.load) or 1.0
-        velocity = self._force / (equations.inertia * rate)
-        self._scales = np.array([velocity / rate, velocity] * 2)
+        self._force, self._scales = scales_of(equations, stretch.load)
 
     def follow(self) -> Passage:
         stretch, integrator = self._stretch, self._integrator
         rate = self._equations.drive_frequency
-        integrator.pars[:] = self._parameters()
+        integrator.pars[HELD] = held_parameters(
+            self._equations, stretch.load, stretch.frequency_ratio, self._force, stretch.mode
+        )
+        integrator.pars[DIRECTION] = stretch.mode
         # The displacement starts from zero, so that a long way travelled costs it no digits.
         state = np.array([0.0, *stretch.state[1:]]) / self._scales
-        wanted = stretch.samples * rate
+        times = stretch.samples * rate
         span = stretch.span * rate
         longest = self._longest_step()
         elapsed = Elapsed()
@@ -140,7 +87,7 @@ class _ScaledMotion:
         samples: list[Array] = []
         steps, event = 0, 0
         while not event and (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
-            integrator.pars[9:11] = theta, angle
+            integrator.pars[DRIVE_AND_NORMAL_ANGLE] = theta, angle
             integrator.state[:] = state
             integrator.time = 0.0
             _, step = integrator.step(max_delta_t=min(remaining, longest), write_tc=True)
@@ -151,10 +98,10 @@ class _ScaledMotion:
                 state = np.array(integrator.state)
             else:
                 step, event = crossing
-                state = np.polynomial.polynomial.polyval(step, coefficients.T)
-            local = (wanted[len(samples) :] - elapsed.seconds) - elapsed.carry
+                state = series_values(np.array([step]), coefficients)[0]
+            local = (times[len(samples) :] - elapsed.seconds) - elapsed.carry
             covered = local[: np.searchsorted(local, step, side="right")]
-            samples.extend(np.polynomial.polynomial.polyval(covered, coefficients.T).T)
+            samples.extend(series_values(covered, coefficients))
             elapsed.add(step)
             theta = advanced(theta, step)
             angle = advanced(angle, stretch.frequency_ratio * step)
@@ -169,28 +116,6 @@ class _ScaledMotion:
             steps=steps,
             evaluations=steps,
         )
-
-    def _parameters(self) -> list[float]:
-        equations, stretch = self._equations, self._stretch
-        rate = equations.drive_frequency
-        slides = float(stretch.mode != STICK)
-        friction = 0.0 if stretch.mode == LIFTED else float(stretch.mode)
-        coupling = slides / (equations.inertia * rate)
-        per_force = slides / self._force
-        return [
-            coupling * equations.coupling_damping,
-            coupling * equations.coupling_stiffness / rate,
-            per_force * equations.force_sine,
-            per_force * equations.force_cosine,
-            -per_force * (stretch.load + friction * equations.friction_mean),
-            -per_force * friction * equations.friction_amplitude,
-            equations.base_acceleration * equations.inertia / self._force,
-            equations.damping_rate / rate,
-            equations.stiffness_rate / rate**2,
-            stretch.theta,
-            stretch.angle,
-            stretch.frequency_ratio,
-        ]
 
     def _first_event(
         self, coefficients: Array, theta: float, angle: float, step: float
@@ -226,7 +151,7 @@ class _ScaledMotion:
         rate = equations.drive_frequency
         coupling = equations.coupling_damping + equations.coupling_stiffness / rate
         reach = np.abs(coefficients[2:] * step ** np.arange(coefficients.shape[1])).max()
-        return _ROUNDING_OF_A_SUM * float(1.0 + coupling / (equations.inertia * rate) * reach)
+        return ROUNDING_OF_A_SUM * float(1.0 + coupling / (equations.inertia * rate) * reach)
 
     def _stick_forces(self, coefficients: Array, theta: float, angle: float) -> tuple[Array, Array]:
         """Return the Taylor coefficients of friction limit and needed force, over force scale."""

@@ -11,7 +11,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved import lugre_system, taylor
+from slider_resonator.references.resolved import taylor, taylor_system
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from tests.harness.references.lugre_problems import (
     DURATION,
@@ -181,7 +181,7 @@ def test_friction_coefficient_of_zero_is_refused() -> None:
 
 def test_missing_heyoka_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "heyoka", None)
-    lugre_system.lugre_integrator.cache_clear()
+    taylor_system.taylor_integrator.cache_clear()
     with pytest.raises(ModuleNotFoundError, match="slider-resonator\\[referee\\]"):
         simulate_lugre(Device(), constant(), TIMES)
     monkeypatch.undo()

@@ -16,6 +16,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_coulomb import slow_start
 from slider_resonator.references.resolved import located_events, taylor
+from slider_resonator.references.resolved.taylor_system import ROUNDING
 from slider_resonator.references.resolved.trajectory import Trajectory
 from tests.problems import DURATION, PROBLEMS, SIGNALS
 
@@ -29,7 +30,7 @@ ALL = pytest.mark.parametrize(
 
 
 @cache
-def run(name: str, tolerance: float = taylor.ROUNDING) -> Trajectory:
+def run(name: str, tolerance: float = ROUNDING) -> Trajectory:
     problem = PROBLEMS[name]
     return taylor.simulate(problem.device, problem.held, TIMES, tolerance=tolerance)
 
