@@ -229,7 +229,7 @@ def test_a_status_that_is_not_known_is_discarded(
         assert place.raw == b"\x07" * 8, "nothing was written"
 
 
-def test_a_time_that_leaves_the_range_of_numbers_is_refused(
+def test_time_overflow_is_refused(
     instantiate: Callable[[], Instance],
 ) -> None:
     instance = instantiate().initialize(start_time=1.7e308, fidelity=0, friction_coefficient=0.0)

@@ -135,7 +135,7 @@ def test_output_dependencies_are_those_of_the_table(root: ET.Element) -> None:
         assert dependencies(unknown) == set(variable.depends_on), name
 
 
-def test_initial_unknowns_depend_on_known_start_values_only(root: ET.Element) -> None:
+def test_initial_unknowns_depend_on_start_values_only(root: ET.Element) -> None:
     known = INPUTS | {v.name for v in VARIABLES if v.causality == "parameter"}
     for name, unknown in unknowns(root, "InitialUnknowns").items():
         assert dependencies(unknown) <= known, name

@@ -39,7 +39,7 @@ def connectors(element: ET.Element) -> dict[str, tuple[str, str]]:
     }
 
 
-def test_connectors_of_the_system_have_the_units_of_what_they_stand_for() -> None:
+def test_system_connectors_have_the_units_of_their_variables() -> None:
     system = found(ET.fromstring(structure(SYSTEM)), f"{SSD}System")
     assert connectors(system) == {"push": ("input", "N"), "speed": ("output", "m/s")}
     component = found(system, f"{SSD}Elements/{SSD}Component")
@@ -48,7 +48,7 @@ def test_connectors_of_the_system_have_the_units_of_what_they_stand_for() -> Non
     )
 
 
-def test_without_connectors_of_the_system_its_connections_go_too() -> None:
+def test_connections_are_dropped_with_their_connectors() -> None:
     system = found(ET.fromstring(structure(SYSTEM, connectors=False)), f"{SSD}System")
     assert connectors(system) == {}
     assert system.findall(f"{SSD}Connections/{SSD}Connection") == []

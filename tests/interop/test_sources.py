@@ -23,9 +23,7 @@ def without_binaries(fmu: Path, target: Path) -> Path:
     return target
 
 
-def test_fmutool_makes_a_binary_that_gives_the_same_numbers(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_fmutool_binary_gives_the_same_numbers(native_fmu: Path, tmp_path: Path) -> None:
     stripped = without_binaries(native_fmu, tmp_path / "stripped.fmu")
     compiled = tmp_path / "compiled.fmu"
     fmutool = Path(sys.executable).with_name("fmutool")

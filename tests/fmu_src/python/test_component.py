@@ -42,7 +42,7 @@ def test_replay_is_bit_equal() -> None:
     assert outputs(other) == later
 
 
-def test_refusals_leave_everything_as_it_was() -> None:
+def test_refused_calls_change_nothing() -> None:
     component = running()
     component.step(0.0, 0.01)
     before = component.snapshot()

@@ -38,7 +38,7 @@ def test_loaded_velocity_balances_the_averaged_friction(
     assert friction == pytest.approx(-load, abs=1e-9), "(20): mean friction and load cancel"
 
 
-def test_velocity_is_greatest_in_quadrature_and_odd_in_phase() -> None:
+def test_velocity_is_largest_in_quadrature_and_odd_in_phase() -> None:
     velocities = [
         closed_forms.steady_velocity(1.0, 1.0, phase)
         for phase in (0.0, 0.5, math.pi / 2, 2.5, -0.5)
@@ -110,7 +110,7 @@ def test_device_linear_velocity_approaches_the_steady_velocity() -> None:
     ],
     ids=["table 1", "above resonance", "damped", "both drives", "direct drive", "undamped"],
 )
-def test_equivalent_force_is_that_of_the_frictionless_device(device: Device) -> None:
+def test_equivalent_force_matches_the_frictionless_device(device: Device) -> None:
     """Integrate fig. 6 without friction from the claimed steady state: it must stay in it."""
     force = closed_forms.equivalent_force(device)
     frequency, mass = device.drive_frequency, device.resonator_mass

@@ -9,7 +9,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.references.resolved.lugre_equations import lugre_equations_of
 
 
-def test_friction_is_that_of_equation_8_on_every_face() -> None:
+def test_friction_follows_equation_8_on_every_face() -> None:
     device = Device(friction_faces=2, bristle_stiffness=3e4, bristle_damping=7.0)
     lugre = lugre_equations_of(device)
     velocity = np.array([-0.3, 0.0, 0.02])
@@ -40,6 +40,6 @@ def test_open_contact_has_no_friction() -> None:
         ("fidelity", 0),
     ],
 )
-def test_refuses_what_equation_8_does_not_cover(name: str, value: float) -> None:
+def test_invalid_lugre_parameters_are_refused(name: str, value: float) -> None:
     with pytest.raises(ValueError, match=name):
         lugre_equations_of(Device(**{name: value}))  # type: ignore[arg-type]

@@ -27,7 +27,7 @@ QUIET = Device(base_amplitude=0.0, normal_amplitude=0.0, resonator_mass=1e-9, br
 
 
 @pytest.mark.parametrize("name", PROBLEMS)
-def test_bristle_from_the_path_is_the_integrated_bristle(name: str) -> None:
+def test_bristle_from_the_path_matches_the_integrated_bristle(name: str) -> None:
     device, held = PROBLEMS[name]
     path = simulate_lugre(device, held, TIMES)
     assert_agree(simulate_lugre(device, held, TIMES, bristle="state"), path, allowed=1e-12)
@@ -41,7 +41,7 @@ def test_tolerance_is_below_rounding(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [*PROBLEMS, *STIFF])
-def test_cutting_the_inputs_changes_nothing(name: str) -> None:
+def test_splitting_the_inputs_changes_nothing(name: str) -> None:
     device, held = (PROBLEMS | STIFF)[name]
     cuts = np.sqrt(np.arange(1.0, 20.0) / 20.0) * DURATION
     pieces: list[HeldInputs] = []
@@ -166,7 +166,7 @@ def test_slider_at_rest_without_drive_stays() -> None:
     assert motion.reversals == 0, "no motion, no reversal"
 
 
-def test_samples_lie_at_starts_stops_and_cuts() -> None:
+def test_samples_at_starts_and_stops_are_kept() -> None:
     device, held = PROBLEMS["schedule"]
     edges = np.array([inputs.start for inputs in held] + [DURATION])
     motion = simulate_lugre(device, held, edges)

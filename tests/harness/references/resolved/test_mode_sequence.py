@@ -38,7 +38,7 @@ def run(
     return sequence.run(held)
 
 
-def test_a_sample_on_a_boundary_belongs_to_the_inputs_before_it() -> None:
+def test_sample_on_a_boundary_belongs_to_the_inputs_before() -> None:
     held = [HeldInputs(0.0, 1.0, load=0.1), HeldInputs(1.0, 2.0, load=0.15)]
     motion = run(BLOCK, held, [0.0, 0.5, 1.0, 1.0, 1.5, 2.0])
     expected = [-0.1, -0.1, -0.1, -0.1, -0.15, -0.15]
@@ -46,7 +46,7 @@ def test_a_sample_on_a_boundary_belongs_to_the_inputs_before_it() -> None:
     assert motion.time.shape == motion.contact_mode.shape == (6,)
 
 
-def test_rest_is_judged_anew_when_inputs_change() -> None:
+def test_rest_is_reassessed_when_inputs_change() -> None:
     held = [HeldInputs(0.0, 1.0), HeldInputs(1.0, 2.0, load=0.5), HeldInputs(2.0, 3.0, load=-0.5)]
     motion = run(BLOCK, held, [0.5, 1.5, 2.5])
     assert motion.contact_mode.tolist() == [0, -1, 1], "friction holds 0.2 N, not 0.5 N"
@@ -54,7 +54,7 @@ def test_rest_is_judged_anew_when_inputs_change() -> None:
     assert (motion.reversals, motion.sticks, motion.stick_time) == (1, 0, 1.0)
 
 
-def test_velocity_is_zero_after_an_event_and_the_slider_sticks_if_friction_suffices() -> None:
+def test_slider_stops_and_sticks_if_friction_suffices() -> None:
     moving = Device(resonator_mass=0.0, base_amplitude=0.0, initial_velocity=0.3)
     motion = run(moving, [HeldInputs(0.0, 1.0)], [0.2, 0.4, 0.6], coast(event_at=0.5, event=-1))
     assert motion.velocity.tolist() == [0.3, 0.3, 0.0]
@@ -91,7 +91,7 @@ def test_flight_begins_and_ends_with_the_normal_load() -> None:
     assert motion.reversals == 0, "it lands in the direction in which it took off"
 
 
-def test_a_change_of_phase_jumps_and_a_change_of_ratio_does_not() -> None:
+def test_phase_change_jumps_and_ratio_change_does_not() -> None:
     device = Device(resonator_mass=0.0, base_amplitude=0.0, drive_frequency=1.0)
     held = [
         HeldInputs(0.0, 1.0, frequency_ratio=2.0),
@@ -110,7 +110,7 @@ def test_counts_do_not_depend_on_samples() -> None:
     assert motion.event_times.tolist() == [1.0], "events after the last sample count as well"
 
 
-def test_contact_that_cannot_be_resolved_is_an_error_with_its_time() -> None:
+def test_unresolvable_contact_is_an_error_with_its_time() -> None:
     def stuttering(stretch: Stretch) -> Passage:
         return Passage(0.0, stretch.state, 1, np.empty((0, 4)), steps=1, evaluations=1)
 

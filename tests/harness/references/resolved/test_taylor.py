@@ -61,7 +61,7 @@ def test_error_falls_with_the_tolerance_down_to_rounding() -> None:
 
 
 @ALL
-def test_cutting_the_inputs_changes_nothing(name: str) -> None:
+def test_splitting_the_inputs_changes_nothing(name: str) -> None:
     problem = PROBLEMS[name]
     cuts = np.sqrt(np.arange(1.0, 40.0) / 40.0) * DURATION
     pieces: list[HeldInputs] = []
@@ -187,7 +187,7 @@ def test_long_run_approaches_the_measured_steady_velocity(
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_located_events_by_another_method_agree(name: str) -> None:
+def test_located_events_by_scipy_agree(name: str) -> None:
     problem = PROBLEMS[name]
     held = [replace(inputs, stop=min(inputs.stop, 0.06)) for inputs in problem.held]
     held = [inputs for inputs in held if inputs.start < inputs.stop]
@@ -240,7 +240,7 @@ def test_random_devices_agree_with_the_other_method(
     assert_agree(exact, located_events.simulate(device, held, times), allowed=1e-7)
 
 
-def test_missing_heyoka_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_heyoka_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "heyoka", None)
     unused_tolerance = 1.5e-9  # the compiled system of the usual one is kept
     with pytest.raises(ModuleNotFoundError, match=r"slider-resonator\[referee\]"):
