@@ -29,7 +29,7 @@ SITUATIONS: dict[str, tuple[dict[str, float], float]] = {
 
 
 def bring_into(instance: Instance, mode: float) -> None:
-    """Small uneven steps until the contact mode is the wanted one."""
+    """Small uneven steps until the contact mode is the given one."""
     for k in range(2000):
         if k > 20 and instance.get("contact_mode") == (mode,):
             return

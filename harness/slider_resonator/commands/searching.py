@@ -15,7 +15,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import readable
-from slider_resonator.steady.outcome import Outcome
+from slider_resonator.steady.search_result import SearchResult
 
 
 def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -25,13 +25,13 @@ def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
     return command
 
 
-def tell(outcome: Outcome, what: str, value: float | None, unit: str, as_json: bool) -> int:
+def tell(outcome: SearchResult, what: str, value: float | None, unit: str, as_json: bool) -> int:
     """Print the outcome of a search and return the exit code: 1 where there is no value."""
     click.echo(to_json(outcome) if as_json else _sentences(outcome, what, value, unit))
     return 1 if value is None else 0
 
 
-def _sentences(outcome: Outcome, what: str, value: float | None, unit: str) -> str:
+def _sentences(outcome: SearchResult, what: str, value: float | None, unit: str) -> str:
     found = "none" if value is None else f"{readable(value, 10)} {unit}"
     lines = [
         f"{what:<17}{found}",

@@ -5,11 +5,11 @@ import json
 import pytest
 
 from slider_resonator.commands.searching import tell
-from slider_resonator.steady.outcome import Outcome
+from slider_resonator.steady.search_result import SearchResult
 
 
 def test_what_was_found_is_told_in_sentences(capsys: pytest.CaptureFixture[str]) -> None:
-    outcome = Outcome("steady", "stable", 0.5, 1, 40, 3, 1e-14, (0.9 + 0j, 0.1j), True)
+    outcome = SearchResult("steady", "stable", 0.5, 1, 40, 3, 1e-14, (0.9 + 0j, 0.1j), True)
     assert tell(outcome, "steady velocity", 0.25, "m/s", as_json=False) == 0
     said = capsys.readouterr().out.splitlines()
     assert said[0] == "steady velocity  0.25 m/s"
@@ -20,7 +20,7 @@ def test_what_was_found_is_told_in_sentences(capsys: pytest.CaptureFixture[str])
 
 
 def test_finding_nothing_ends_with_1_and_says_so(capsys: pytest.CaptureFixture[str]) -> None:
-    outcome = Outcome("slow_beat", "no common period", 0.5)
+    outcome = SearchResult("slow_beat", "no common period", 0.5)
     assert tell(outcome, "blocking force", None, "N", as_json=False) == 1
     said = capsys.readouterr().out
     assert said.startswith("blocking force   none\n")

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous
 from slider_resonator.device.schedule import (
-    MOST_STEPS,
+    MAX_STEPS,
     Signal,
     communication_points,
     constant,
@@ -45,7 +45,7 @@ def test_vectorised_values_equal_single_values(
 
 
 @pytest.mark.parametrize(
-    ("times", "values", "said"),
+    ("times", "values", "message"),
     [
         ((), (), "at least one point"),
         ((0.0, 1.0), (1.0,), "as many values"),
@@ -54,9 +54,9 @@ def test_vectorised_values_equal_single_values(
     ],
 )
 def test_invalid_signal_is_refused(
-    times: tuple[float, ...], values: tuple[float, ...], said: str
+    times: tuple[float, ...], values: tuple[float, ...], message: str
 ) -> None:
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(ValueError, match=message):
         Signal(times, values)
 
 
@@ -89,7 +89,7 @@ def test_communication_points_contain_every_jump_inside(
 
 @pytest.mark.parametrize(("stop", "step"), [(1e9, 1e-4), (1.0, 1e-300), (float("inf"), 1.0)])
 def test_too_many_steps_are_refused_before_allocation(stop: float, step: float) -> None:
-    with pytest.raises(ValueError, match=f"communication steps; allowed are up to {MOST_STEPS}"):
+    with pytest.raises(ValueError, match=f"communication steps; allowed are up to {MAX_STEPS}"):
         communication_points(stop, step)
 
 

@@ -10,7 +10,7 @@ from slider_resonator.device.values import check_integer, check_value
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "said"),
+    ("name", "value", "message"),
     [
         ("load", nan, "load = nan: allowed is a finite number"),
         ("phase", -inf, "phase = -inf: allowed is a finite number"),
@@ -21,8 +21,8 @@ from slider_resonator.device.values import check_integer, check_value
         ("drive_frequency", 0.0, "drive_frequency = 0.0: allowed is a number above 0"),
     ],
 )
-def test_invalid_value_is_refused_by_name(name: str, value: float, said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_invalid_value_is_refused_by_name(name: str, value: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         check_value(name, value)
 
 

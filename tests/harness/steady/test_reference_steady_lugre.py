@@ -1,4 +1,4 @@
-"""Steady motion on bristles by shooting with the Taylor referee, and what averages say of it."""
+"""Steady motion on bristles by shooting with the Taylor reference, and what averages say of it."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ class Equations:
         )
 
     def friction_limit(self, angle: Number) -> Number:
-        """Return the greatest friction force in N at the angle psi + phase of the normal load."""
+        """Return the largest friction force in N at the angle psi + phase of the normal load."""
         sine: Number = np.sin(angle)
         return self.friction_mean + self.friction_amplitude * sine
 
@@ -150,7 +150,7 @@ class Equations:
         return rotating.imag, self.drive_frequency * rotating.real
 
     def fastest_rate(self, frequency_ratio: float) -> float:
-        """Return the greatest of all rates in rad/s of the motion in slip, stick and flight."""
+        """Return the largest of all rates in rad/s of the motion in slip, stick and flight."""
         damping = self.damping_rate + self.coupling_damping / self.inertia
         stiffness = self.stiffness_rate + self.coupling_stiffness / self.inertia
         root = 0.5 * damping + cmath.sqrt(0.25 * damping**2 - stiffness)

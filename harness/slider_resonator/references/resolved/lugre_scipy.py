@@ -1,4 +1,4 @@
-"""LuGre friction by scipy, straight on the full state: slow, and shares no method with the referee.
+"""LuGre friction by scipy on the full state: slow, and independent of the Taylor reference.
 
 The bristle is integrated as it stands in (8), |v| and the open contact are not treated as events.
 An implicit method, because stiff bristles are stiff here.

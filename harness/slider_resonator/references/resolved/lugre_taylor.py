@@ -100,7 +100,7 @@ class _Run:
         self._integrator = taylor_integrator(bristle, tolerance)
         self._position, velocity, *resonator = initial_state(device)
         self._motion = np.array([0.0, velocity, *resonator])
-        self._stretch = device.initial_bristle_deflection / lugre.greatest_deflection
+        self._stretch = device.initial_bristle_deflection / lugre.max_deflection
         self._direction = -1 if velocity < 0.0 else 1
         self._shortfall = self._direction - self._stretch
         self._theta = 0.0
@@ -120,7 +120,7 @@ class _Run:
         load_of = equations.normal_preload, equations.normal_amplitude
         lifted = is_lifted(*load_of, self._psi + inputs.phase, ratio)
         elapsed = Elapsed()
-        while (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
+        while (remaining := elapsed.until(span)) > 0.0:
             time_to = time_to_touchdown if lifted else time_to_lift_off
             change = time_to(*load_of, self._psi + inputs.phase, ratio)
             self._integrator.pars[HELD] = held_parameters(
@@ -140,7 +140,7 @@ class _Run:
         rate = self._equations.drive_frequency
         within = Elapsed()
         events = 0
-        while (remaining := (span - within.seconds) - within.carry) > 0.0:
+        while (remaining := within.until(span)) > 0.0:
             step, fell, coefficients = self._expand(remaining, inputs.phase)
             events = events + 1 if fell and step <= math.ulp(1.0) else 0
             start = elapsed.seconds + elapsed.carry
@@ -236,7 +236,7 @@ class _Run:
         forces = equations.contact_forces(mode, inputs.load, self._theta + local, angle, states)
         if mode != LIFTED:
             forces = forces[0], lugre.friction_force(states[:, 1], stretch, angle)
-        deflection = lugre.greatest_deflection * stretch
+        deflection = lugre.max_deflection * stretch
         self.recorder.keep(states, resonator, forces, mode, deflection)
 
     def _advance(self, step: float, ratio: float, coefficients: Array) -> None:

@@ -1,4 +1,4 @@
-"""The order of contact modes: which stretch of motion follows which, and with what state."""
+"""The order of contact modes: which segment of motion follows which, and with what state."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from slider_resonator.references.resolved.contact import (
     time_to_touchdown,
 )
 from slider_resonator.references.resolved.equations import Equations, State
-from slider_resonator.references.resolved.passage import Follow, Passage, Stretch
 from slider_resonator.references.resolved.recorder import Recorder
+from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 _MAX_EVENTS_AT_ONE_INSTANT = 20
@@ -63,20 +63,20 @@ class ModeSequence:
         mode = self._mode_now(inputs)
         self._contact.enter(mode, inputs.start)
         self._keep_present(mode, inputs, self._recorder.pending(inputs.start))
-        while (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
+        while (remaining := elapsed.until(span)) > 0.0:
             contact_span = self._time_to_contact_change(mode, inputs)
-            passage = self._pass(mode, inputs, elapsed, min(remaining, contact_span))
-            elapsed.add(passage.duration)
-            self._theta = advanced(self._theta, self._equations.drive_frequency * passage.duration)
+            result = self._pass(mode, inputs, elapsed, min(remaining, contact_span))
+            elapsed.add(result.duration)
+            self._theta = advanced(self._theta, self._equations.drive_frequency * result.duration)
             self._psi = advanced(
                 self._psi,
-                inputs.frequency_ratio * self._equations.drive_frequency * passage.duration,
+                inputs.frequency_ratio * self._equations.drive_frequency * result.duration,
             )
-            self.state = passage.state
+            self.state = result.state
             time = inputs.start + elapsed.seconds
-            self._guard_progress(passage.duration, time)
-            if passage.event:
-                mode = self._mode_after_event(mode, passage.event, inputs)
+            self._guard_progress(result.duration, time)
+            if result.event:
+                mode = self._mode_after_event(mode, result.event, inputs)
             elif contact_span < remaining:
                 mode = self._mode_in_contact(inputs) if mode == LIFTED else LIFTED
             else:
@@ -85,10 +85,10 @@ class ModeSequence:
         # An event at the stop, to rounding, has passed over the samples there.
         self._keep_present(mode, inputs, self._recorder.pending(inputs.stop))
 
-    def _pass(self, mode: int, inputs: HeldInputs, elapsed: Elapsed, span: float) -> Passage:
-        local = (self._recorder.pending() - inputs.start) - elapsed.seconds - elapsed.carry
+    def _pass(self, mode: int, inputs: HeldInputs, elapsed: Elapsed, span: float) -> SegmentResult:
+        local = elapsed.until(self._recorder.pending() - inputs.start)
         samples = local[: np.searchsorted(local, span, side="right")]
-        stretch = Stretch(
+        segment = Segment(
             mode=mode,
             start=inputs.start + elapsed.seconds,
             state=self.state,
@@ -99,12 +99,12 @@ class ModeSequence:
             span=span,
             samples=samples,
         )
-        passage = self._follow(stretch)
-        self._keep(mode, inputs, samples[: len(passage.samples)], passage.samples)
-        self._contact.stay(passage.duration)
-        self._recorder.steps += passage.steps
-        self._recorder.evaluations += passage.evaluations
-        return passage
+        result = self._follow(segment)
+        self._keep(mode, inputs, samples[: len(result.samples)], result.samples)
+        self._contact.stay(result.duration)
+        self._recorder.steps += result.steps
+        self._recorder.evaluations += result.evaluations
+        return result
 
     def _keep(
         self,

@@ -18,8 +18,8 @@ from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
-from slider_resonator.references.resolved.passage import Passage, Stretch
 from slider_resonator.references.resolved.polynomial_roots import first_fall
+from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.taylor_system import (
     DIRECTION,
     DRIVE_AND_NORMAL_ANGLE,
@@ -55,38 +55,38 @@ def simulate(
     equations = equations_of(device)
     integrator = taylor_integrator("coulomb", tolerance)
 
-    def follow(stretch: Stretch) -> Passage:
-        return _ScaledMotion(equations, stretch, integrator).follow()
+    def follow(segment: Segment) -> SegmentResult:
+        return _ScaledMotion(equations, segment, integrator).follow()
 
     return ModeSequence(equations, follow, initial_state(device), times).run(held)
 
 
 class _ScaledMotion:
-    """One stretch of motion in drive angle as time and forces over a characteristic force."""
+    """One segment of motion in drive angle as time and forces over a characteristic force."""
 
-    def __init__(self, equations: Equations, stretch: Stretch, integrator: Any) -> None:
+    def __init__(self, equations: Equations, segment: Segment, integrator: Any) -> None:
         self._equations = equations
-        self._stretch = stretch
+        self._segment = segment
         self._integrator = integrator
-        self._force, self._scales = scales_of(equations, stretch.load)
+        self._force, self._scales = scales_of(equations, segment.load)
 
-    def follow(self) -> Passage:
-        stretch, integrator = self._stretch, self._integrator
+    def follow(self) -> SegmentResult:
+        segment, integrator = self._segment, self._integrator
         rate = self._equations.drive_frequency
         integrator.pars[HELD] = held_parameters(
-            self._equations, stretch.load, stretch.frequency_ratio, self._force, stretch.mode
+            self._equations, segment.load, segment.frequency_ratio, self._force, segment.mode
         )
-        integrator.pars[DIRECTION] = stretch.mode
+        integrator.pars[DIRECTION] = segment.mode
         # The displacement starts from zero, so that a long way travelled costs it no digits.
-        state = np.array([0.0, *stretch.state[1:]]) / self._scales
-        times = stretch.samples * rate
-        span = stretch.span * rate
+        state = np.array([0.0, *segment.state[1:]]) / self._scales
+        times = segment.samples * rate
+        span = segment.span * rate
         longest = self._longest_step()
         elapsed = Elapsed()
-        theta, angle = stretch.theta, stretch.angle
+        theta, angle = segment.theta, segment.angle
         samples: list[Array] = []
         steps, event = 0, 0
-        while not event and (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
+        while not event and (remaining := elapsed.until(span)) > 0.0:
             integrator.pars[DRIVE_AND_NORMAL_ANGLE] = theta, angle
             integrator.state[:] = state
             integrator.time = 0.0
@@ -99,18 +99,18 @@ class _ScaledMotion:
             else:
                 step, event = crossing
                 state = series_values(np.array([step]), coefficients)[0]
-            local = (times[len(samples) :] - elapsed.seconds) - elapsed.carry
+            local = elapsed.until(times[len(samples) :])
             covered = local[: np.searchsorted(local, step, side="right")]
             samples.extend(series_values(covered, coefficients))
             elapsed.add(step)
             theta = advanced(theta, step)
-            angle = advanced(angle, stretch.frequency_ratio * step)
+            angle = advanced(angle, segment.frequency_ratio * step)
         sampled = np.array(samples).reshape(-1, 4) * self._scales
-        sampled[:, 0] += stretch.state[0]
+        sampled[:, 0] += segment.state[0]
         displacement, velocity, resonator, resonator_velocity = (state * self._scales).tolist()
-        return Passage(
-            duration=(elapsed.seconds + elapsed.carry) / rate if event else stretch.span,
-            state=(stretch.state[0] + displacement, velocity, resonator, resonator_velocity),
+        return SegmentResult(
+            duration=(elapsed.seconds + elapsed.carry) / rate if event else segment.span,
+            state=(segment.state[0] + displacement, velocity, resonator, resonator_velocity),
             event=event,
             samples=sampled,
             steps=steps,
@@ -121,7 +121,7 @@ class _ScaledMotion:
         self, coefficients: Array, theta: float, angle: float, step: float
     ) -> tuple[float, int] | None:
         """Return scaled time and direction of the first event in a step, None if there is none."""
-        mode = self._stretch.mode
+        mode = self._segment.mode
         if mode == LIFTED:
             return None
         noise = self._noise(coefficients, step)
@@ -139,8 +139,8 @@ class _ScaledMotion:
     def _longest_step(self) -> float:
         # heyoka sizes its steps by the motion. In a stick the event series hold sines that the
         # motion need not contain; steps of one radian of the faster keep them at rounding level.
-        stretch = self._stretch
-        return 1.0 / max(1.0, abs(stretch.frequency_ratio)) if stretch.mode == STICK else np.inf
+        segment = self._segment
+        return 1.0 / max(1.0, abs(segment.frequency_ratio)) if segment.mode == STICK else np.inf
 
     def _noise(self, coefficients: Array, step: float) -> float:
         """Return the rounding error of forces and velocities in a step, over their scales.
@@ -155,12 +155,12 @@ class _ScaledMotion:
 
     def _stick_forces(self, coefficients: Array, theta: float, angle: float) -> tuple[Array, Array]:
         """Return the Taylor coefficients of friction limit and needed force, over force scale."""
-        equations, stretch = self._equations, self._stretch
+        equations, segment = self._equations, self._segment
         count = coefficients.shape[1]
         rate = equations.drive_frequency
         coupling = 1.0 / (equations.inertia * rate)
         drive_sine, drive_cosine = _sine_series(theta, 1.0, count)
-        normal_sine, _ = _sine_series(angle, stretch.frequency_ratio, count)
+        normal_sine, _ = _sine_series(angle, segment.frequency_ratio, count)
         needed = (
             coupling * equations.coupling_damping * coefficients[3]
             + coupling * equations.coupling_stiffness / rate * coefficients[2]
@@ -168,7 +168,7 @@ class _ScaledMotion:
             / self._force
         )
         limit = equations.friction_amplitude / self._force * normal_sine
-        needed[0] -= stretch.load / self._force
+        needed[0] -= segment.load / self._force
         limit[0] += equations.friction_mean / self._force
         return limit, needed
 

@@ -8,7 +8,7 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged import averaged_coulomb as coulomb
-from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.averaged.vibrating_contact import mean_load
 from slider_resonator.references.closed_forms import (
     device_blocking_force,
@@ -148,7 +148,7 @@ def test_linear_beat_is_where_the_linear_slow_motion_settles() -> None:
         phase = coulomb.drifting_phase(time, detuning, 0.3)
         return coulomb.linear_slow_acceleration(velocity, strength, alpha, phase)
 
-    position, velocity = slow_course(acceleration, times)
+    position, velocity = slow_trajectory(acceleration, times)
     late = times > times[-1] - 2.0 * math.pi / detuning
     assert np.ptp(velocity[late]) / 2.0 == pytest.approx(
         coulomb.linear_beat_velocity(strength, alpha, detuning), rel=1e-4

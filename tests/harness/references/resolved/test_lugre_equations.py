@@ -18,7 +18,7 @@ def test_friction_follows_equation_8_on_every_face() -> None:
     normal = device.normal_preload + device.normal_amplitude * np.sin(angle)
     rate = velocity - 3e4 * np.abs(velocity) * deflection / device.friction_coefficient
     expected = 2.0 * normal * (3e4 * deflection + 7.0 * rate)
-    found = lugre.friction_force(velocity, deflection / lugre.greatest_deflection, angle)
+    found = lugre.friction_force(velocity, deflection / lugre.max_deflection, angle)
     np.testing.assert_allclose(found, expected, rtol=1e-13, err_msg="F = faces N (s0 z + s1 z')")
 
 

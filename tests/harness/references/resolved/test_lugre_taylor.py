@@ -1,8 +1,6 @@
 from __future__ import annotations
 
-import importlib
 import math
-import sys
 from dataclasses import replace
 from itertools import pairwise
 
@@ -11,14 +9,14 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved import taylor, taylor_system
+from slider_resonator.references.resolved import taylor
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from tests.harness.references.comparing import assert_agree, split
 from tests.harness.references.lugre_problems import (
     DURATION,
     PROBLEMS,
     STIFF,
     TIMES,
-    assert_agree,
     constant,
 )
 
@@ -43,14 +41,8 @@ def test_tolerance_is_below_rounding(name: str) -> None:
 @pytest.mark.parametrize("name", [*PROBLEMS, *STIFF])
 def test_splitting_the_inputs_changes_nothing(name: str) -> None:
     device, held = (PROBLEMS | STIFF)[name]
-    cuts = np.sqrt(np.arange(1.0, 20.0) / 20.0) * DURATION
-    pieces: list[HeldInputs] = []
-    for inputs in held:
-        within = cuts[(cuts > inputs.start) & (cuts < inputs.stop)]
-        edges = [inputs.start, *within.tolist(), inputs.stop]
-        pieces += [replace(inputs, start=start, stop=stop) for start, stop in pairwise(edges)]
     whole = simulate_lugre(device, held, TIMES)
-    assert_agree(whole, simulate_lugre(device, pieces, TIMES), allowed=1e-12)
+    assert_agree(whole, simulate_lugre(device, split(held, 20), TIMES), allowed=1e-12)
 
 
 @pytest.mark.parametrize("stiffness", [1e3, 1e5, 1e8])
@@ -177,12 +169,3 @@ def test_samples_at_starts_and_stops_are_kept() -> None:
 def test_friction_coefficient_of_zero_is_refused() -> None:
     with pytest.raises(ValueError, match=r"friction_coefficient = 0\.0"):
         simulate_lugre(Device(friction_coefficient=0.0), constant(), TIMES)
-
-
-def test_missing_heyoka_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "heyoka", None)
-    taylor_system.taylor_integrator.cache_clear()
-    with pytest.raises(ModuleNotFoundError, match="slider-resonator\\[referee\\]"):
-        simulate_lugre(Device(), constant(), TIMES)
-    monkeypatch.undo()
-    assert importlib.import_module("heyoka"), "later tests need it again"

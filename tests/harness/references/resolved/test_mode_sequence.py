@@ -7,7 +7,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
-from slider_resonator.references.resolved.passage import Follow, Passage, Stretch
+from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 BLOCK = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
@@ -16,15 +16,17 @@ BLOCK = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
 def coast(event_at: float = np.inf, event: int = 0) -> Follow:
     """A stand-in integrator: uniform motion, with one event after a given time of slip."""
 
-    def follow(stretch: Stretch) -> Passage:
-        happens = stretch.mode != 0 and event_at < stretch.span
-        duration = event_at if happens else stretch.span
-        position, velocity, *resonator = stretch.state
-        times = stretch.samples[stretch.samples <= duration]
-        samples = np.tile(stretch.state, (len(times), 1))
+    def follow(segment: Segment) -> SegmentResult:
+        happens = segment.mode != 0 and event_at < segment.span
+        duration = event_at if happens else segment.span
+        position, velocity, *resonator = segment.state
+        times = segment.samples[segment.samples <= duration]
+        samples = np.tile(segment.state, (len(times), 1))
         samples[:, 0] += velocity * times
         state = (position + velocity * duration, velocity, resonator[0], resonator[1])
-        return Passage(duration, state, event if happens else 0, samples, steps=1, evaluations=3)
+        return SegmentResult(
+            duration, state, event if happens else 0, samples, steps=1, evaluations=3
+        )
 
     return follow
 
@@ -60,7 +62,7 @@ def test_slider_stops_and_sticks_if_friction_suffices() -> None:
     assert motion.velocity.tolist() == [0.3, 0.3, 0.0]
     assert motion.contact_mode.tolist() == [1, 1, 0]
     assert (motion.sticks, motion.reversals) == (1, 0)
-    assert (motion.steps, motion.evaluations) == (2, 6), "the cost of both stretches"
+    assert (motion.steps, motion.evaluations) == (2, 6), "the cost of both segments"
 
 
 def test_slider_reverses_at_once_if_friction_does_not_suffice() -> None:
@@ -111,8 +113,8 @@ def test_counts_do_not_depend_on_samples() -> None:
 
 
 def test_unresolvable_contact_is_an_error_with_its_time() -> None:
-    def stuttering(stretch: Stretch) -> Passage:
-        return Passage(0.0, stretch.state, 1, np.empty((0, 4)), steps=1, evaluations=1)
+    def stuttering(segment: Segment) -> SegmentResult:
+        return SegmentResult(0.0, segment.state, 1, np.empty((0, 4)), steps=1, evaluations=1)
 
     with pytest.raises(RuntimeError, match=r"contact at t = 0\.25 s"):
         run(BLOCK, [HeldInputs(0.25, 1.0)], [], stuttering)

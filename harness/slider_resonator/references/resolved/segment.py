@@ -1,4 +1,4 @@
-"""What an integrator is asked for: one stretch of motion in one contact mode."""
+"""A segment of motion in one contact mode: what an integrator gets and returns."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from slider_resonator.references.resolved.equations import State
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Segment:
     """A contact mode with constant inputs, to be followed for at most ``span`` s.
 
     It begins ``start`` s into the run, at the drive angle ``theta`` and the angle ``angle`` of the
@@ -32,7 +32,7 @@ class Stretch:
 
 
 @dataclass(frozen=True)
-class Passage:
+class SegmentResult:
     """The motion until the first event of the mode, or through the whole span.
 
     ``event`` is 0 if the span ended without one. In a slip it is the sign of the acceleration at
@@ -48,5 +48,5 @@ class Passage:
     evaluations: int
 
 
-Follow = Callable[[Stretch], Passage]
-"""An integrator: follows a stretch of motion to the first event of its contact mode."""
+Follow = Callable[[Segment], SegmentResult]
+"""An integrator: follows a segment of motion to the first event of its contact mode."""

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 
 from slider_resonator.fmu.drive import Instance
-from slider_resonator.steady.outcome import cost, why_not, with_undamped_hint
 from slider_resonator.steady.periodic import FmuPeriodMap, read_facts
+from slider_resonator.steady.search_result import cost, failure, with_undamped_hint
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
@@ -24,6 +24,6 @@ def test_undamped_resonator_is_mentioned_in_the_reason(instance: Instance) -> No
     damped = read_facts(instance, {})
     assert with_undamped_hint("why", damped) == "why"
     undamped = read_facts(instance, {"damping_ratio": 0.0})
-    status, reason = why_not(NoFixedPoint("no_fixed_point", "why", 1, 1, 1.0), undamped)
+    status, reason = failure(NoFixedPoint("no_fixed_point", "why", 1, 1, 1.0), undamped)
     assert status == "no_fixed_point"
     assert "damping_ratio = 0" in reason
