@@ -172,16 +172,6 @@ def device_steady_velocity(device: Device, phase: float, load: float = 0.0) -> f
     )
 
 
-def device_linear_velocity(device: Device, phase: float) -> float:
-    """Return the steady velocity of a device in m/s for small velocities, (7) dimensional.
-
-    Raises ValueError as ``equivalent_force`` does.
-    """
-    force = equivalent_force(device)
-    velocity = linear_velocity(force.strength, device.amplitude_ratio, phase + force.angle)
-    return velocity * force.length_scale * REFERENCE_FREQUENCY
-
-
 def device_blocking_force(device: Device, phase: float) -> float:
     """Return the load in N that stops the motion, (22) for every friction face.
 

@@ -92,12 +92,6 @@ def test_one_face_blocks_at_half_the_force() -> None:
     assert one == pytest.approx(expected), "(22) as printed holds for one face"
 
 
-def test_device_linear_velocity_approaches_the_steady_velocity() -> None:
-    device = replace(TABLE_1, normal_amplitude=1e-3)
-    linear = closed_forms.device_linear_velocity(device, phase=0.2)
-    assert linear == pytest.approx(closed_forms.device_steady_velocity(device, 0.2), rel=1e-6)
-
-
 @pytest.mark.parametrize(
     "device",
     [

@@ -33,19 +33,17 @@ def test_given_load_is_only_the_initial_guess(instance: Instance) -> None:
     assert blocking.blocking_force == pytest.approx(0.0851861, rel=1e-5)
 
 
-def test_stuck_device_has_no_blocking_force(instance: Instance) -> None:
-    blocking = find_blocking(instance, {"base_amplitude": 0.0, "normal_amplitude": 0.5})
+@pytest.mark.parametrize(
+    ("values", "status"),
+    [
+        ({"base_amplitude": 0.0, "normal_amplitude": 0.5}, "stuck"),
+        ({"frequency_ratio": 1.001}, "slow_beat"),
+        ({"frequency_ratio": 1.37}, "no_common_period"),
+    ],
+)
+def test_missing_blocking_force_is_explained(
+    instance: Instance, values: dict[str, float], status: str
+) -> None:
+    blocking = find_blocking(instance, values)
     assert blocking.blocking_force is None
-    assert blocking.status == "stuck"
-
-
-def test_slow_beat_has_no_blocking_force(instance: Instance) -> None:
-    blocking = find_blocking(instance, {"frequency_ratio": 1.001})
-    assert blocking.blocking_force is None
-    assert blocking.status == "slow_beat"
-
-
-def test_no_common_period_has_no_blocking_force(instance: Instance) -> None:
-    blocking = find_blocking(instance, {"frequency_ratio": 1.37})
-    assert blocking.blocking_force is None
-    assert blocking.status == "no_common_period"
+    assert blocking.status == status

@@ -42,33 +42,6 @@ def test_steady_velocity_near_saturation_is_found(instance: Instance, load: floa
     assert motion.predicted == pytest.approx(motion.steady_velocity, rel=1e-3)
 
 
-def test_load_above_friction_has_no_steady_motion(instance: Instance) -> None:
-    motion = find_steady(instance, {"load": 0.25})
-    assert motion.steady_velocity is None
-    assert motion.status == "load_above_friction"
-    assert "0.25 N" in motion.reason
-    assert "0.2 N" in motion.reason
-
-
-def test_lift_off_raises_the_mean_friction(instance: Instance) -> None:
-    assert find_steady(instance, {"load": 0.24, "normal_amplitude": 2.0}).status == "steady"
-
-
-def test_slow_beat_has_no_steady_velocity(instance: Instance) -> None:
-    motion = find_steady(instance, {"frequency_ratio": 1.001})
-    assert motion.steady_velocity is None
-    assert motion.status == "slow_beat"
-    assert "0.557042 Hz" in motion.reason
-
-
-def test_irrational_ratio_far_from_integers_has_no_common_period(
-    instance: Instance,
-) -> None:
-    motion = find_steady(instance, {"frequency_ratio": 1.37})
-    assert motion.steady_velocity is None
-    assert motion.status == "no_common_period"
-
-
 def test_several_periods_make_a_common_one(instance: Instance) -> None:
     motion = find_steady(instance, {"frequency_ratio": 1.5, "phase": 0.3})
     assert motion.status == "steady"
@@ -81,20 +54,10 @@ def test_stuck_device_does_not_creep(instance: Instance) -> None:
     assert motion.steady_velocity == 0.0
 
 
-def test_sticking_in_every_period_is_steady(instance: Instance) -> None:
-    assert find_steady(instance, {"base_amplitude": 1e-7}).status == "steady"
-
-
 def test_fidelity_1_differs_little(instance: Instance) -> None:
     motion = find_steady(instance, {"fidelity": 1.0})
     assert motion.status == "steady"
     assert motion.steady_velocity == pytest.approx(0.126667, rel=1e-4)
-
-
-def test_frictionless_device_is_not_unique(instance: Instance) -> None:
-    motion = find_steady(instance, {"friction_coefficient": 0.0})
-    assert motion.steady_velocity is None
-    assert motion.status == "not_unique"
 
 
 def test_undamped_resonance_has_no_steady_motion(instance: Instance) -> None:
@@ -106,14 +69,41 @@ def test_undamped_resonance_has_no_steady_motion(instance: Instance) -> None:
     assert "damping_ratio = 0" in motion.reason
 
 
-def test_steady_velocity_is_not_unique_if_every_reversal_is_in_flight(
-    instance: Instance,
-) -> None:
-    """Near V = 0 the slips forward and backward then keep their impulses, whatever V is."""
-    values = {"frequency_ratio": 2.0, "normal_amplitude": 1.5, "phase": pi / 2.0 - 1.466}
-    assert find_steady(instance, values).status == "not_unique"
-
-
 def test_search_converges_from_another_velocity(instance: Instance) -> None:
     motion = find_steady(instance, {"initial_velocity": -0.1})
     assert motion.steady_velocity == pytest.approx(0.126667, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [{"load": 0.24, "normal_amplitude": 2.0}, {"base_amplitude": 1e-7}],
+    ids=["load held by the friction of a lifting contact", "stick in every period"],
+)
+def test_motion_is_steady(instance: Instance, values: dict[str, float]) -> None:
+    assert find_steady(instance, values).status == "steady"
+
+
+@pytest.mark.parametrize(
+    ("values", "status", "reasons"),
+    [
+        ({"load": 0.25}, "load_above_friction", ("0.25 N", "0.2 N")),
+        ({"frequency_ratio": 1.001}, "slow_beat", ("0.557042 Hz",)),
+        ({"frequency_ratio": 1.37}, "no_common_period", ()),
+        ({"friction_coefficient": 0.0}, "not_unique", ()),
+        # Near V = 0 the slips forward and backward keep their impulses, whatever V is.
+        (
+            {"frequency_ratio": 2.0, "normal_amplitude": 1.5, "phase": pi / 2.0 - 1.466},
+            "not_unique",
+            (),
+        ),
+    ],
+    ids=["load", "beat", "irrational ratio", "no friction", "reversals in flight"],
+)
+def test_missing_steady_motion_is_explained(
+    instance: Instance, values: dict[str, float], status: str, reasons: tuple[str, ...]
+) -> None:
+    motion = find_steady(instance, values)
+    assert motion.steady_velocity is None
+    assert motion.status == status
+    for reason in reasons:
+        assert reason in motion.reason
