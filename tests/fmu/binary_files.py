@@ -74,7 +74,7 @@ def pe_exports(data: bytes) -> set[str]:
     (optional,) = struct.unpack_from("<H", data, header + 20)
     assert struct.unpack_from("<H", data, header + 24) == (0x20B,), "64 bits"
     (exports,) = struct.unpack_from("<I", data, header + 24 + 112)
-    places = []
+    places: list[tuple[int, int, int]] = []
     for i in range(count):
         at = header + 24 + optional + 40 * i
         size, address, stored, offset = struct.unpack_from("<IIII", data, at + 8)

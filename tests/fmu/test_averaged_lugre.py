@@ -47,7 +47,7 @@ def parameters(kappa: float, frequency: float, amplitude_ratio: float = 0.8) -> 
 def test_predictions_err_by_the_inverse_frequency(
     instantiate: Instantiate, kappa: float, amplitude_ratio: float
 ) -> None:
-    """Against the motion that repeats each period, found by shooting with the referee."""
+    """Against the motion that repeats each period, found by shooting with the reference."""
     errors = []
     for frequency in (1000.0, 4000.0):
         values = parameters(kappa, frequency, amplitude_ratio)

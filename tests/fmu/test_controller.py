@@ -87,7 +87,7 @@ def test_samples_do_not_depend_on_the_communication_step(
     controller: Callable[[], Instance], parts: int
 ) -> None:
     instance = controller().initialize(velocity_reference=0.001)
-    efforts = []
+    efforts: list[float] = []
     for _ in range(20):
         for _ in range(parts):
             instance.step(SAMPLE / parts)
@@ -126,7 +126,7 @@ def test_damaged_states_are_refused(controller: Callable[[], Instance]) -> None:
         instance.restore(state[:-8])
 
 
-def test_bad_values_and_steps_are_refused_and_change_nothing(
+def test_refused_values_and_steps_change_nothing(
     controller: Callable[[], Instance],
 ) -> None:
     instance = controller().initialize(velocity_reference=0.01)

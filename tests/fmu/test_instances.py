@@ -61,7 +61,7 @@ def other_build(unpacked: Unpacked, tmp_path_factory: pytest.TempPathFactory) ->
     return (_native_build if native else _python_build)(tmp_path_factory.mktemp("other"))
 
 
-def test_two_builds_in_one_process_give_their_own_numbers(
+def test_two_builds_in_one_process_stay_independent(
     other_build: Path, instantiate: Callable[[], Instance], tmp_path: Path
 ) -> None:
     golden = instantiate().initialize()

@@ -1,4 +1,4 @@
-"""The built FMU with LuGre friction against the Taylor referee, from soft to hard bristles."""
+"""The built FMU with LuGre friction against the Taylor reference, from soft to hard bristles."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def referee_of(
     inputs: tuple[tuple[str, float], ...],
     duration: float,
 ) -> LugreTrajectory:
-    """The referee at a hundred moments, for both FMUs."""
+    """The reference at a hundred moments, for both FMUs."""
     device = Device.from_mapping(dict(parameters))
     held = HeldInputs(0.0, duration, **dict(inputs))
     return simulate_lugre(device, [held], np.linspace(0.0, duration, 101)[1:])
@@ -48,15 +48,15 @@ def deviations(
 ) -> dict[str, float]:
     """Largest deviation of each signal as a fraction of its peak; reversals as they differ."""
     times = np.linspace(0.0, duration, 101)[1:]
-    referee = referee_of(tuple(parameters.items()), tuple(inputs.items()), duration)
+    reference = referee_of(tuple(parameters.items()), tuple(inputs.items()), duration)
     instance = instantiate().initialize(**parameters, **inputs)
     rows = []
     for time in times:
         instance.step(time - instance.time)
         rows.append(instance.get(*SIGNALS))
-    found = {"reversals": instance.get("reversals")[0] - referee.reversals}
+    found = {"reversals": instance.get("reversals")[0] - reference.reversals}
     for name, column in zip(SIGNALS, np.array(rows).T, strict=True):
-        expected = getattr(referee, name)
+        expected = getattr(reference, name)
         found[name] = float(np.abs(column - expected).max() / np.abs(expected).max())
     return found
 
@@ -72,9 +72,9 @@ def test_against_the_referee(
     found = deviations(
         instantiate, {**parameters, **lugre, "tolerance": 1e-9}, inputs, DURATION / 4
     )
-    assert found.pop("reversals") == 0, "reversals more than the referee has seen"
+    assert found.pop("reversals") == 0, "reversals more than the reference has seen"
     assert max(found.values()) <= 1e-6, (
-        f"deviations from the referee in shares of the peak: {found}"
+        f"deviations from the reference in shares of the peak: {found}"
     )
 
 
@@ -87,7 +87,7 @@ def test_against_the_referee_for_longer(
     parameters, inputs = CASES[case]
     lugre = {"friction_law": 1.0, "bristle_stiffness": stiffness, "tolerance": 1e-9}
     found = deviations(instantiate, {**parameters, **lugre}, inputs, DURATION)
-    assert found.pop("reversals") == 0, "reversals more than the referee has seen"
+    assert found.pop("reversals") == 0, "reversals more than the reference has seen"
     assert max(found.values()) <= 1e-6, (
-        f"deviations from the referee in shares of the peak: {found}"
+        f"deviations from the reference in shares of the peak: {found}"
     )

@@ -6,6 +6,7 @@ import ctypes
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import pytest
 from fmpy import calloc, free
@@ -104,11 +105,11 @@ def give_back(instance: Instance, component: int | None) -> None:
     ids=["guid", "type", "empty name", "no name"],
 )
 def test_a_refused_instantiation_says_why(
-    instance: Instance, unpacked: Unpacked, wrong: dict[str, object], text: str
+    instance: Instance, unpacked: Unpacked, wrong: dict[str, Any], text: str
 ) -> None:
     host = Host()
     wish = {"guid": unpacked.description.guid} | wrong
-    assert instantiate_as(instance, host=host, **wish) is None  # type: ignore[arg-type]
+    assert instantiate_as(instance, host=host, **wish) is None
     ((_, status, category, said),) = host.log
     assert (status, category) == (ERROR, b"logStatusError"), "also when no logging is asked for"
     assert text in said.decode()
@@ -228,7 +229,7 @@ def test_a_status_that_is_not_known_is_discarded(
         assert place.raw == b"\x07" * 8, "nothing was written"
 
 
-def test_a_time_that_leaves_the_range_of_numbers_is_refused(
+def test_time_overflow_is_refused(
     instantiate: Callable[[], Instance],
 ) -> None:
     instance = instantiate().initialize(start_time=1.7e308, fidelity=0, friction_coefficient=0.0)

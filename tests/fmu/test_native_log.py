@@ -68,9 +68,7 @@ def test_every_category_of_the_description_is_known(instance: Instance, category
 
 
 @pytest.mark.parametrize("category", ["logEverything", "", None, "100%d#r1#" * 50])
-def test_an_unknown_category_is_refused_and_changes_nothing(
-    instance: Instance, category: str | None
-) -> None:
+def test_unknown_log_category_is_refused(instance: Instance, category: str | None) -> None:
     assert debug_logging(instance, True, "logStatusError") == OK
     assert debug_logging(instance, True, "logStatusDiscard", category) == ERROR
     shown = "(null)" if category is None else category.replace("%", "%%").replace("#", "##")[:20]
@@ -79,7 +77,7 @@ def test_an_unknown_category_is_refused_and_changes_nothing(
     assert messages_of(instance) == 1
 
 
-def test_more_categories_than_there_are_and_no_categories_are_refused(instance: Instance) -> None:
+def test_invalid_category_counts_are_refused(instance: Instance) -> None:
     null = ctypes.c_void_p()
     assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 10**9, null) == ERROR
     assert "nCategories = 1000000000 refused" in instance.log[-1]

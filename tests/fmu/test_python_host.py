@@ -43,9 +43,7 @@ print(asked.count("_release_interpreter"))
 """
 
 
-def test_each_binary_is_asked_once_to_let_go_before_the_process_ends(
-    python_fmu: Path, tmp_path: Path
-) -> None:
+def test_each_binary_is_released_once_before_exit(python_fmu: Path, tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-c", LET_GO, python_fmu, tmp_path],
         cwd=Path(__file__).resolve().parents[2],

@@ -29,7 +29,7 @@ SITUATIONS: dict[str, tuple[dict[str, float], float]] = {
 
 
 def bring_into(instance: Instance, mode: float) -> None:
-    """Small uneven steps until the contact mode is the wanted one."""
+    """Small uneven steps until the contact mode is the given one."""
     for k in range(2000):
         if k > 20 and instance.get("contact_mode") == (mode,):
             return
@@ -37,7 +37,7 @@ def bring_into(instance: Instance, mode: float) -> None:
     raise AssertionError(f"the device never came into contact mode {mode:g}")
 
 
-@pytest.fixture(params=SITUATIONS.values(), ids=SITUATIONS)
+@pytest.fixture(params=SITUATIONS.values(), ids=list(SITUATIONS))
 def on_its_way(request: pytest.FixtureRequest, instantiate: Callable[[], Instance]) -> Instance:
     values, mode = request.param
     instance = instantiate().initialize(**values)

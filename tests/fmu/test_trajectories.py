@@ -1,4 +1,4 @@
-"""The built FMU against the Taylor referee: every signal, and the counts of events."""
+"""The built FMU against the Taylor reference: every signal, and the counts of events."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def sticks(state: bytes) -> float:
 
 @cache
 def referee_of(name: str, count: int) -> Trajectory:
-    """The referee at the same moments, for both FMUs."""
+    """The reference at the same moments, for both FMUs."""
     problem = PROBLEMS[name]
     return simulate(problem.device, problem.held, grid(problem, count))
 
@@ -66,14 +66,14 @@ def grid(problem: Problem, count: int) -> NDArray[np.float64]:
     return np.union1d(np.linspace(0.0, DURATION, count + 1)[1:], starts)
 
 
-def assert_equal(signals: NDArray[np.float64], referee: Trajectory, allowed: float) -> None:
+def assert_equal(signals: NDArray[np.float64], reference: Trajectory, allowed: float) -> None:
     for name, column in zip(SIGNALS, signals.T, strict=True):
-        expected = getattr(referee, name)
+        expected = getattr(reference, name)
         peak = np.abs(expected).max()
         deviation = np.abs(column - expected).max()
         if name == "position":
             # It is what is left of the resonator's motion, whose rounding it carries.
-            rounding = 2.0 * np.spacing(np.abs(referee.resonator_displacement).max())
+            rounding = 2.0 * np.spacing(np.abs(reference.resonator_displacement).max())
             deviation = max(0.0, deviation - rounding)
         assert deviation <= allowed * peak, (
             f"{name} deviates by {deviation:.3g}, {deviation / peak:.3g} of its peak; "
@@ -85,13 +85,13 @@ def assert_equal(signals: NDArray[np.float64], referee: Trajectory, allowed: flo
 def test_against_the_referee(instantiate: Instantiate, name: str) -> None:
     problem = PROBLEMS[name]
     signals, ends = fmu_run(instantiate, problem, grid(problem, 230))
-    referee = referee_of(name, 230)
-    assert_equal(signals, referee, ALLOWED)
-    assert ends["reversals"] == referee.reversals, "reversals seen by the referee"
-    assert ends["sticks"] == referee.sticks, "sticks seen by the referee"
-    assert ends["contact_mode"] == referee.contact_mode[-1], "the contact at the end"
-    if referee.event_times.size:
-        assert ends["last_event_time"] == pytest.approx(referee.event_times[-1], abs=1e-12)
+    reference = referee_of(name, 230)
+    assert_equal(signals, reference, ALLOWED)
+    assert ends["reversals"] == reference.reversals, "reversals seen by the reference"
+    assert ends["sticks"] == reference.sticks, "sticks seen by the reference"
+    assert ends["contact_mode"] == reference.contact_mode[-1], "the contact at the end"
+    if reference.event_times.size:
+        assert ends["last_event_time"] == pytest.approx(reference.event_times[-1], abs=1e-12)
 
 
 @pytest.mark.parametrize("name", ["table 1", "sticking every period", "lift-off with sticking"])
@@ -99,11 +99,11 @@ def test_against_the_referee(instantiate: Instantiate, name: str) -> None:
 def test_independent_of_the_partition(instantiate: Instantiate, name: str, count: int) -> None:
     problem = PROBLEMS[name]
     signals, ends = fmu_run(instantiate, problem, grid(problem, count))
-    referee = referee_of(name, 1)
+    reference = referee_of(name, 1)
     for column, signal in enumerate(SIGNALS[:4]):
-        expected = getattr(referee, signal)[-1]
+        expected = getattr(reference, signal)[-1]
         assert signals[-1, column] == pytest.approx(expected, rel=1e-9, abs=1e-13)
-    assert ends["reversals"] == referee.reversals, "no partition hides or adds a reversal"
+    assert ends["reversals"] == reference.reversals, "no partition hides or adds a reversal"
 
 
 def test_one_step_of_a_quarter_second(instantiate: Instantiate) -> None:
@@ -125,15 +125,15 @@ def test_steps_of_two_microseconds(instantiate: Instantiate, unpacked: Unpacked,
     """A tenth of them with the Python FMU, whose steps take longer and round as the native ones."""
     problem = PROBLEMS[name]
     share = 1 if unpacked.description.modelName == "SliderResonator" else 10
-    times = np.arange(1, 100_000 // share + 1) * 2e-6
+    times = 2e-6 * np.arange(1.0, 100_000 // share + 1)
     instance = instantiate().initialize(**problem.parameters)
     rows = []
     for i, time in enumerate(times):
         instance.slave.doStep(currentCommunicationPoint=time - 2e-6, communicationStepSize=2e-6)
         if (i + 1) % 500 == 0:
             rows.append(instance.get(*SIGNALS))
-    referee = simulate(
+    reference = simulate(
         problem.device, [replace(problem.held[0], stop=float(times[-1]))], times[499::500]
     )
-    assert_equal(np.array(rows), referee, ALLOWED)
-    assert instance.get("reversals")[0] == referee.reversals, "reversals seen by the referee"
+    assert_equal(np.array(rows), reference, ALLOWED)
+    assert instance.get("reversals")[0] == reference.reversals, "reversals seen by the reference"

@@ -3,6 +3,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -18,8 +19,8 @@ INPUTS = {v.name for v in VARIABLES if v.causality == "input"}
 OUTPUTS = [v.name for v in VARIABLES if v.causality == "output"]
 
 
-def describe(**changes: object) -> bytes:
-    arguments: dict[str, object] = {
+def describe(**changes: Any) -> bytes:
+    arguments: dict[str, Any] = {
         "model": "SliderResonatorPy",
         "guid": "a-guid",
         "generation_tool": "a tool",
@@ -134,7 +135,7 @@ def test_output_dependencies_are_those_of_the_table(root: ET.Element) -> None:
         assert dependencies(unknown) == set(variable.depends_on), name
 
 
-def test_initial_unknowns_depend_on_known_start_values_only(root: ET.Element) -> None:
+def test_initial_unknowns_depend_on_start_values_only(root: ET.Element) -> None:
     known = INPUTS | {v.name for v in VARIABLES if v.causality == "parameter"}
     for name, unknown in unknowns(root, "InitialUnknowns").items():
         assert dependencies(unknown) <= known, name
@@ -178,7 +179,7 @@ def test_log_categories_are_those_that_the_binary_uses(root: ET.Element) -> None
     assert names == list(LOG_CATEGORIES) == list(Fmi2Slave.log_categories)
 
 
-def _changed(name: str, **changes: object) -> list[Variable]:
+def _changed(name: str, **changes: Any) -> list[Variable]:
     return [replace(v, **changes) if v.name == name else v for v in VARIABLES]
 
 

@@ -26,24 +26,30 @@ SYSTEM = System(
 )
 
 
+def found(element: ET.Element, path: str) -> ET.Element:
+    child = element.find(path)
+    assert child is not None, f"{path} is missing"
+    return child
+
+
 def connectors(element: ET.Element) -> dict[str, tuple[str, str]]:
     return {
-        c.attrib["name"]: (c.attrib["kind"], c.find(f"{SSC}Real").attrib["unit"])
+        c.attrib["name"]: (c.attrib["kind"], found(c, f"{SSC}Real").attrib["unit"])
         for c in element.iterfind(f"{SSD}Connectors/{SSD}Connector")
     }
 
 
-def test_connectors_of_the_system_have_the_units_of_what_they_stand_for() -> None:
-    system = ET.fromstring(structure(SYSTEM)).find(f"{SSD}System")
+def test_system_connectors_have_the_units_of_their_variables() -> None:
+    system = found(ET.fromstring(structure(SYSTEM)), f"{SSD}System")
     assert connectors(system) == {"push": ("input", "N"), "speed": ("output", "m/s")}
-    component = system.find(f"{SSD}Elements/{SSD}Component")
+    component = found(system, f"{SSD}Elements/{SSD}Component")
     assert connectors(component) == {"force": ("input", "N"), "speed": ("output", "m/s")}, (
         "an input that nothing is connected with is left alone"
     )
 
 
-def test_without_connectors_of_the_system_its_connections_go_too() -> None:
-    system = ET.fromstring(structure(SYSTEM, connectors=False)).find(f"{SSD}System")
+def test_connections_are_dropped_with_their_connectors() -> None:
+    system = found(ET.fromstring(structure(SYSTEM, connectors=False)), f"{SSD}System")
     assert connectors(system) == {}
     assert system.findall(f"{SSD}Connections/{SSD}Connection") == []
 
@@ -52,8 +58,8 @@ def test_parameters_have_their_type_and_unit() -> None:
     values = {"motor.stages": 2, "motor.gain": 0.1 + 0.2}
     root = ET.fromstring(parameter_set(SYSTEM, "fast", values))
     stages, gain = root.iterfind(f"{SSV}Parameters/{SSV}Parameter")
-    assert stages.find(f"{SSV}Integer").attrib == {"value": "2"}
-    assert gain.find(f"{SSV}Real").attrib == {"value": "0.30000000000000004", "unit": "1"}
+    assert found(stages, f"{SSV}Integer").attrib == {"value": "2"}
+    assert found(gain, f"{SSV}Real").attrib == {"value": "0.30000000000000004", "unit": "1"}
 
 
 def test_a_connection_to_nothing_is_an_error() -> None:

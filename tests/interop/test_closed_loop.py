@@ -15,7 +15,7 @@ from slider_resonator.studies.closed_loop.prediction import predicted_errors
 pytestmark = pytest.mark.interop
 
 
-def test_libcosim_holds_the_velocity_and_gives_the_motion_of_fmpy(
+def test_libcosim_matches_fmpy_in_closed_loop(
     closed_loop_package: Path,
 ) -> None:
     duty = Duty()

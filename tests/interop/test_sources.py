@@ -23,13 +23,12 @@ def without_binaries(fmu: Path, target: Path) -> Path:
     return target
 
 
-def test_fmutool_makes_a_binary_that_gives_the_same_numbers(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_fmutool_binary_gives_the_same_numbers(native_fmu: Path, tmp_path: Path) -> None:
     stripped = without_binaries(native_fmu, tmp_path / "stripped.fmu")
     compiled = tmp_path / "compiled.fmu"
     fmutool = Path(sys.executable).with_name("fmutool")
-    command = [fmutool, "-input", stripped, "-compile-sources", "-output", compiled]
+    command: list[str | Path] = [fmutool, "-input", stripped, "-compile-sources"]
+    command += ["-output", compiled]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert compiled.is_file(), done.stdout + done.stderr
     fmpy = hosts()[0]

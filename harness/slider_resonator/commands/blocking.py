@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import SettingsCommand
-from slider_resonator.commands.searching import print_outcome, search_arguments
+from slider_resonator.commands.searching import print_search_result, search_arguments
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.steady.blocking_force import find_blocking
 
@@ -39,4 +39,5 @@ def blocking_command(
     search = partial(find_blocking, values=settings, max_denominator=max_denominator)
     with IsolatedFmu(fmu, time_limit) as isolated:
         blocking = isolated.run(search)
-    context.exit(print_outcome(blocking, "blocking force", blocking.blocking_force, "N", as_json))
+    code = print_search_result(blocking, "blocking force", blocking.blocking_force, "N", as_json)
+    context.exit(code)

@@ -15,7 +15,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.readable import readable
-from slider_resonator.steady.outcome import Outcome
+from slider_resonator.steady.search_result import SearchResult
 
 
 def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -26,15 +26,15 @@ def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
     return command
 
 
-def print_outcome(
-    outcome: Outcome, what: str, value: float | None, unit: str, as_json: bool
+def print_search_result(
+    result: SearchResult, what: str, value: float | None, unit: str, as_json: bool
 ) -> int:
-    """Print the outcome of a search and return the exit code, 1 when there is no value."""
-    print_result(outcome, _sentences(outcome, what, value, unit), as_json=as_json)
+    """Print the result of a search and return the exit code, 1 when there is no value."""
+    print_result(result, _sentences(result, what, value, unit), as_json=as_json)
     return 1 if value is None else 0
 
 
-def _sentences(outcome: Outcome, what: str, value: float | None, unit: str) -> str:
+def _sentences(outcome: SearchResult, what: str, value: float | None, unit: str) -> str:
     found = "none" if value is None else f"{readable(value, 10)} {unit}"
     lines = [
         f"{what:<17}{found}",

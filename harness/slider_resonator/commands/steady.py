@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import SettingsCommand
-from slider_resonator.commands.searching import print_outcome, search_arguments
+from slider_resonator.commands.searching import print_search_result, search_arguments
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.steady.steady_velocity import find_steady
 
@@ -42,4 +42,5 @@ def steady_command(
     search = partial(find_steady, values=settings, max_denominator=max_denominator)
     with IsolatedFmu(fmu, time_limit) as isolated:
         motion = isolated.run(search)
-    context.exit(print_outcome(motion, "steady velocity", motion.steady_velocity, "m/s", as_json))
+    code = print_search_result(motion, "steady velocity", motion.steady_velocity, "m/s", as_json)
+    context.exit(code)

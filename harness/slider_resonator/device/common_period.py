@@ -1,18 +1,18 @@
-"""After how many drive periods drive and normal force repeat together."""
+"""Number of drive periods after which drive and normal force repeat together."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 
 MAX_DENOMINATOR = 20
-"""Largest number of drive periods that counts as a common period, unless told otherwise."""
+"""Largest number of drive periods that counts as a common period, by default."""
 
-RATIONAL = 1e-12
-"""How near a frequency ratio must be to p/q, relative to the larger of it and 1."""
+MAX_DEVIATION = 1e-12
+"""Largest distance of a frequency ratio from p/q, relative to the larger of it and 1."""
 
 
 def common_period(frequency_ratio: float, max_denominator: int = MAX_DENOMINATOR) -> int | None:
     """Return the q of frequency_ratio = p/q in lowest terms, None where it exceeds the maximum."""
     fraction = Fraction(frequency_ratio).limit_denominator(max_denominator)
-    near = abs(float(fraction) - frequency_ratio) <= RATIONAL * max(1.0, abs(frequency_ratio))
+    near = abs(float(fraction) - frequency_ratio) <= MAX_DEVIATION * max(1.0, abs(frequency_ratio))
     return fraction.denominator if near else None

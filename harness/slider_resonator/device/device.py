@@ -75,6 +75,16 @@ class Device:
         return self.resonator_mass / self.total_mass
 
     @property
+    def mean_friction(self) -> float:
+        """Friction of all faces at the mean normal load of a closed contact, faces mu N0, N."""
+        return self.friction_faces * self.friction_coefficient * self.normal_preload
+
+    @property
+    def amplitude_ratio(self) -> float:
+        """Amplitude over mean of the normal load, alpha below (2)."""
+        return self.normal_amplitude / self.normal_preload
+
+    @property
     def stiffness(self) -> float:
         """Resonator stiffness k, N/m."""
         return self.resonator_mass * self.resonator_frequency**2

@@ -1,7 +1,6 @@
 """The interface that the harness asks of an FMU: names and SI units of inputs and outputs.
 
-Written down here a second time on purpose: an FMU whose own table is wrong must not be able to
-agree with itself.
+Repeated here on purpose: an FMU whose own table is wrong must not agree with itself.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ INPUTS: Mapping[str, str] = {"phase": "rad", "load": "N", "frequency_ratio": "1"
 """Input name to unit."""
 
 INPUT_STARTS: Mapping[str, float] = {"phase": 0.0, "load": 0.0, "frequency_ratio": 1.0}
-"""Value of each input that a scene or command leaves alone."""
+"""Default value of each input."""
 
 PARAMETERS: Mapping[str, str] = {f.name: f.metadata["unit"] for f in fields(Device)}
 """Parameter name to unit."""

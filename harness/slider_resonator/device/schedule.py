@@ -15,7 +15,7 @@ from slider_resonator.device.interface import INPUT_STARTS
 GRID_TOLERANCE = 1e-9
 """A jump closer to a communication point than this fraction of the step moves that point."""
 
-MOST_STEPS = 3_000_000
+MAX_STEPS = 3_000_000
 """Communication steps that a run may have: an hour of table 1 in steps of a drive period has two
 million, and all outputs are kept in memory."""
 
@@ -95,31 +95,31 @@ def communication_points(
 ) -> NDArray[np.float64]:
     """Return the times 0, step, 2 step, ..., stop (s) together with the jumps inside, shape (n,).
 
-    A grid point that all but coincides with a jump is replaced by it, so that no step starts just
+    A grid point next to a jump is replaced by it, so that no step starts just
     before a jump and holds the old value throughout. Raises ValueError as `step_count` does.
     """
     grid = step * np.arange(step_count(stop, step), dtype=np.float64)
     inside = {time for time in jumps if 0.0 < time < stop}
-    return _giving_way(grid, np.array(sorted({0.0, stop} | inside)), GRID_TOLERANCE * step)
+    return _merged(grid, np.array(sorted({0.0, stop} | inside)), GRID_TOLERANCE * step)
 
 
 def step_count(stop: float, step: float) -> int:
     """Return how many steps (s) it takes to reach `stop` (s), the last of them perhaps shorter.
 
-    Raises ValueError for times that are not positive and for more than `MOST_STEPS` steps.
+    Raises ValueError for times that are not positive and for more than `MAX_STEPS` steps.
     """
     if not (stop > 0.0 and step > 0.0):
         raise ValueError(f"a stop time of {stop!r} s in steps of {step!r} s: both must be positive")
     ratio = stop / step * (1.0 - GRID_TOLERANCE)
-    if not ratio <= MOST_STEPS:
+    if not ratio <= MAX_STEPS:
         raise ValueError(
             f"a stop time of {stop:.6g} s in steps of {step:.6g} s makes {ratio:.3g} communication "
-            f"steps; must be at most {MOST_STEPS}"
+            f"steps; must be at most {MAX_STEPS}"
         )
     return int(np.ceil(ratio))
 
 
-def _giving_way(
+def _merged(
     grid: NDArray[np.float64], fixed: NDArray[np.float64], distance: float
 ) -> NDArray[np.float64]:
     """Return the sorted `fixed` points and those of the grid that are farther from all of them."""
@@ -163,7 +163,7 @@ class Schedule:
 
         Those within `distance` (s) of a point of this schedule are left out.
         """
-        merged = _giving_way(times, self.times, distance)
+        merged = _merged(times, self.times, distance)
         return Schedule(merged, *map(self._as_held, (self.phase, self.load, self.frequency_ratio)))
 
     def _as_held(self, signal: Signal) -> Signal:

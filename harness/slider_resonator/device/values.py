@@ -1,4 +1,4 @@
-"""Values of parameters and inputs that no FMU with this interface could take."""
+"""Checks of parameters and inputs that hold for every FMU with this interface."""
 
 from __future__ import annotations
 

@@ -169,11 +169,11 @@ class Instance:
     def check_steps(self, times: NDArray[np.float64]) -> None:
         """Raise FmuError for an FMU that takes equal steps only, if those to `times` (s) differ."""
         steps = np.diff(times, prepend=self.time)
-        if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * steps.max():
+        if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * np.max(steps):
             raise FmuError(
                 f"{self.fmu.path.name} says canHandleVariableCommunicationStepSize = false, but "
-                f"this needs steps from {steps.min():.6g} s to {steps.max():.6g} s; must be one "
-                "size for the whole run"
+                f"this needs steps from {np.min(steps):.6g} s to {np.max(steps):.6g} s; must be "
+                "one size for the whole run"
             )
 
     def set_inputs(self, values: Sequence[float]) -> None:

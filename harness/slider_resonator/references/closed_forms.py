@@ -66,7 +66,7 @@ def loaded_velocity(strength: float, amplitude_ratio: float, phase: float, load:
     Raises ValueError unless ``strength`` > 0, 0 <= ``amplitude_ratio`` <= 1, and the load lies
     between -1 and 1: a load above full friction runs away.
     """
-    _check_strength(strength)
+    check_strength(strength)
     _check_amplitude_ratio(amplitude_ratio)
     if not -1.0 < load < 1.0:
         raise ValueError(
@@ -111,7 +111,7 @@ def equivalent_force(device: Device) -> EquivalentForce:
             f"{device.resonator_frequency!r} rad/s, the slipping resonance: there is no steady "
             "state; damping_ratio must be greater than 0 or the frequencies differ"
         )
-    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
+    friction = device.mean_friction
     if friction <= 0.0:
         raise ValueError(
             f"mean friction = {friction!r} N from friction_coefficient = "
@@ -157,7 +157,7 @@ def device_steady_velocity(device: Device, phase: float, load: float = 0.0) -> f
             f"base_amplitude = {device.base_amplitude!r} m and tangential_force = "
             f"{device.tangential_force!r} N: (5) needs a vibration, one must differ from 0"
         )
-    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
+    friction = device.mean_friction
     if not -friction < load < friction:
         raise ValueError(
             f"load = {load!r} N must lie between -{friction!r} and {friction!r} N, the mean "
@@ -165,21 +165,11 @@ def device_steady_velocity(device: Device, phase: float, load: float = 0.0) -> f
         )
     return (
         loaded_velocity(
-            force.strength, _amplitude_ratio(device), phase + force.angle, load / friction
+            force.strength, device.amplitude_ratio, phase + force.angle, load / friction
         )
         * force.length_scale
         * REFERENCE_FREQUENCY
     )
-
-
-def device_linear_velocity(device: Device, phase: float) -> float:
-    """Return the steady velocity of a device in m/s for small velocities, (7) dimensional.
-
-    Raises ValueError as ``equivalent_force`` does.
-    """
-    force = equivalent_force(device)
-    velocity = linear_velocity(force.strength, _amplitude_ratio(device), phase + force.angle)
-    return velocity * force.length_scale * REFERENCE_FREQUENCY
 
 
 def device_blocking_force(device: Device, phase: float) -> float:
@@ -189,15 +179,11 @@ def device_blocking_force(device: Device, phase: float) -> float:
     does and for a contact that lifts.
     """
     force = equivalent_force(device)
-    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
-    return friction * blocking_load(_amplitude_ratio(device), phase + force.angle)
+    return device.mean_friction * blocking_load(device.amplitude_ratio, phase + force.angle)
 
 
-def _amplitude_ratio(device: Device) -> float:
-    return device.normal_amplitude / device.normal_preload
-
-
-def _check_strength(strength: float) -> None:
+def check_strength(strength: float) -> None:
+    """Raise ValueError unless the strength of the vibration is above 0."""
     if not strength > 0.0:
         raise ValueError(f"strength = {strength!r} must be greater than 0")
 

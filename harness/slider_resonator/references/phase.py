@@ -4,6 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Number = TypeVar("Number", float, NDArray[np.float64])
 
 _TURN = 2.0 * math.pi
 _TURN_REMAINDER = 2.4492935982947064e-16  # 2 pi minus its double precision value
@@ -22,6 +28,10 @@ class Elapsed:
 
     seconds: float = 0.0
     carry: float = 0.0
+
+    def until(self, time: Number) -> Number:
+        """Return how far a time, or an array of times, lies ahead (s)."""
+        return (time - self.seconds) - self.carry
 
     def add(self, step: float) -> None:
         """Add a step of at least 0 s."""

@@ -40,7 +40,7 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
     period = scene.drive_period
     varying = [i for i in range(len(INPUTS)) if np.ptp(record.inputs[:, i]) > 0.0]
     gaps = np.diff(record.times[_last_periods(record, period)])
-    resolved = gaps.size > 0 and bool(gaps.max() * MIN_POINTS <= period)
+    resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= period)
     with style():
         heights = [2.0, 2.0, *([2.0] if resolved else []), *([1.3] if varying else [])]
         figure = Figure(figsize=(8.0, sum(heights) + 0.3), layout="constrained")

@@ -8,15 +8,15 @@ from math import isfinite
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.outcome import Outcome, cost, why_not
 from slider_resonator.steady.periodic import FmuPeriodMap, Obstacle, read_facts, repeating_periods
 from slider_resonator.steady.search import blocked_point
+from slider_resonator.steady.search_result import SearchResult, cost, failure
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
 @dataclass(frozen=True)
-class Blocking(Outcome):
-    """The outcome of a search for the blocking force.
+class Blocking(SearchResult):
+    """The result of a search for the blocking force.
 
     `blocking_force` (N) is None where there is none. `status` is blocked, unstable or neutral;
     without a force it is stuck, slow_beat (frequency_ratio next to an integer), no_common_period,
@@ -55,7 +55,7 @@ def find_blocking(
         )
     found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
     if isinstance(found, NoFixedPoint):
-        return Blocking(*why_not(found, facts), predicted, **cost(period_map, found))
+        return Blocking(*failure(found, facts), predicted, **cost(period_map, found))
     return Blocking(
         _status(found),
         f"at this load the mean velocity is zero; the largest multiplier is "

@@ -1,4 +1,4 @@
-"""The deflection of the LuGre bristle, which no output shows, at the end of a period.
+"""The deflection of the LuGre bristle at the end of a period, inferred from the outputs.
 
 Friction is F = faces N (s0 z + s1 (v - |v| s0 z / mu)), (8), so that z follows from the outputs
 wherever the contact is closed and the bracket depends on it. Where it does not at the very end, z
@@ -28,7 +28,7 @@ LEAD = 1.0 / 16.0
 POINTS = 64
 """Readings in a turn of whatever turns fastest: four of them give the position where the velocity
 vanishes in between to rounding."""
-MOST_POINTS = 1024
+MAX_POINTS = 1024
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def _leads(values: Mapping[str, float], angle: float) -> tuple[float, ...]:
     mass = values["slider_mass"] + values["resonator_mass"]
     resonator = values["resonator_frequency"] * sqrt(mass / values["slider_mass"])
     fastest = max(drive * max(1.0, turning), resonator)
-    count = min(MOST_POINTS, round(POINTS * span * fastest / tau) + 1)
+    count = min(MAX_POINTS, round(POINTS * span * fastest / tau) + 1)
     return tuple((span * np.linspace(1.0, 0.0, count + 1)).tolist())
 
 
@@ -133,12 +133,12 @@ def _turn(times: Array, position: Array, velocity: Array, index: int) -> float:
     size = times[index + 1] - times[index]
     local = (times[near] - times[index]) / size
     data = np.column_stack([position[near] - position[index], velocity[near] * size])
-    course = scipy.interpolate.KroghInterpolator(np.repeat(local, 2), data.ravel())
+    path = scipy.interpolate.KroghInterpolator(np.repeat(local, 2), data.ravel())
 
     def speed(time: float) -> float:
-        return float(course.derivative(time))
+        return float(path.derivative(time))
 
     if speed(0.0) * speed(1.0) >= 0.0:  # rounding, of a reversal at one of the two times
         return float(position[index] if abs(speed(0.0)) < abs(speed(1.0)) else position[index + 1])
     turn = scipy.optimize.brentq(speed, 0.0, 1.0, xtol=1e-15)
-    return float(position[index] + course(turn))
+    return float(position[index] + path(turn))

@@ -1,4 +1,4 @@
-"""The map of an FMU over one common period, and what must hold before anything can repeat."""
+"""The map of an FMU over one common period, and the conditions for a periodic motion."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SLOW = 0.1
 
 @dataclass(frozen=True)
 class Obstacle:
-    """Why nothing repeats; `status` for machines, `reason` for people."""
+    """Why there is no periodic motion; `status` for machines, `reason` for people."""
 
     status: str
     reason: str
@@ -66,7 +66,7 @@ class Facts:
 
     @property
     def velocity_floor(self) -> float:
-        """Velocity (m/s) that friction takes away in a drive period; a scale where all rests."""
+        """Change of velocity (m/s) by friction in a drive period: the scale of a device at rest."""
         mass = self["slider_mass"] + self["resonator_mass"]
         return max(self.friction_limit / mass * self.drive_period, 1e-9)
 
@@ -89,7 +89,7 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
 def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:
     """Return the number q of drive periods of a common period.
 
-    Where frequency_ratio is no p/q with a small q nothing repeats: slow_beat next to an integer,
+    Where frequency_ratio is no p/q with a small q there is none: slow_beat next to an integer,
     where the phase runs slowly through all its values, no_common_period elsewhere.
     """
     ratio = facts["frequency_ratio"]

@@ -25,8 +25,8 @@ from slider_resonator.steady.shooting import FixedPoint
 STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
 SAMPLES = 16
 TOLERANCE = 1e-9
-"""Wanted accuracy in units of the scale: the integrator's own 1e-12 per period, amplified by the
-thousand periods that the slow velocity remembers."""
+"""Accuracy in units of the scale: the integrator's own 1e-12 per period, amplified by
+the time constant of the slow velocity, a thousand periods."""
 
 
 Simulate = Callable[[Device, Sequence[HeldInputs], Vector], Trajectory]
@@ -51,8 +51,8 @@ def reference_steady_velocity(
     """Return the mean velocity (m/s) of the steady motion, None where none is found.
 
     `phase` in rad, `load` in N; `guess` (m/s) is where the search begins. `simulate` is any
-    reference instead of that for the friction law, `tolerance` the accuracy wanted of the state in
-    units of its scale.
+    reference instead of that for the friction law, `tolerance` that of the state in units of its
+    scale.
     """
     period_map = _period_map(device, phase, ratio, simulate)
     if period_map is None:

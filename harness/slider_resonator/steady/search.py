@@ -12,7 +12,7 @@ from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint, blocking_
 WARM_UP = 20
 """Drive periods run before shooting, so that the resonator's own transient is mostly gone."""
 TOLERANCE = 1e-11
-"""Accuracy of the state in units of its scale, unless told otherwise."""
+"""Accuracy of the state in units of its scale, by default."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class WarmedUp:
     mean_velocity: float
 
     def shifted(self, velocity: float) -> Vector:
-        """Return the state with the mean velocity (m/s) brought to a wanted one."""
+        """Return the state shifted to a mean velocity (m/s)."""
         state = self.state.copy()
         state[0] += velocity - self.mean_velocity
         return state
@@ -74,7 +74,7 @@ def blocked_point(
     *,
     tolerance: float = TOLERANCE,
 ) -> FixedPoint | NoFixedPoint:
-    """Find the load under which the repeating motion goes nowhere, near `load` (N).
+    """Find the load of the repeating motion without displacement, near `load` (N).
 
     `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load.
     """

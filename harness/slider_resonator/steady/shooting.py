@@ -1,7 +1,7 @@
 """Steady motion as a fixed point of the map over one common period, found by shooting.
 
-The slow velocity of the table 1 device forgets its start over some 1140 periods, so that waiting
-for 1e-6 takes 16 000 of them. The map over a single period, solved for its fixed point, gives
+The transient of the slow velocity of table 1 has a time constant of 1140 periods, so that a run
+needs 16 000 of them for 1e-6. The map over a single period, solved for its fixed point, gives
 rounding accuracy from a few dozen.
 """
 
@@ -23,7 +23,7 @@ LoadedPeriodMap = Callable[[Vector, float], tuple[Vector, float]]
 """The same, with the load (N) that acts during the period."""
 
 NEUTRAL = 1e-7
-"""A multiplier this close to the unit circle neither grows nor decays, as far as can be told."""
+"""A multiplier this close to the unit circle counts as neutral: its error is of that size."""
 FRESH = 1e-6
 """A Jacobian taken this close to the fixed point, in units of the scale, gives its multipliers."""
 
@@ -81,8 +81,8 @@ def fixed_point(
 ) -> FixedPoint | NoFixedPoint:
     """Find a state that the map returns to, starting from `guess` (n,).
 
-    `scale` (n,) is the typical size of each entry of the state and `tolerance` the accuracy
-    wanted in units of it. `load` is only recorded.
+    `scale` (n,) is the typical size of each entry of the state and `tolerance` is in units
+    of it. `load` is only recorded.
     """
     displacements: list[float] = []
 
@@ -170,7 +170,7 @@ def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
 
 
 def _failure(root: Root, evaluations: int) -> NoFixedPoint:
-    """Put the end of a failed iteration into words."""
+    """Explain a failed iteration."""
     numbers = (root.iterations, evaluations, root.residual)
     if root.status == "singular" and root.residual <= FAMILY:
         return NoFixedPoint(

@@ -8,7 +8,6 @@ from math import isfinite
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.outcome import Outcome, cost, why_not, with_undamped_hint
 from slider_resonator.steady.periodic import (
     Facts,
     FmuPeriodMap,
@@ -17,12 +16,13 @@ from slider_resonator.steady.periodic import (
     repeating_periods,
 )
 from slider_resonator.steady.search import steady_point
+from slider_resonator.steady.search_result import SearchResult, cost, failure, with_undamped_hint
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
 @dataclass(frozen=True)
-class SteadyMotion(Outcome):
-    """The outcome of a search for steady motion.
+class SteadyMotion(SearchResult):
+    """The result of a search for steady motion.
 
     `steady_velocity` (m/s) is the mean over the common period, None where there is no steady
     motion; `state` is the one at theta = psi = 0. `status` is steady, stuck, unstable or neutral;
@@ -48,16 +48,16 @@ def find_steady(
     facts = read_facts(instance, values)
     predicted = facts.steady_velocity
     runaway = _runaway(facts)
-    # Damped bristles can give more friction than full sliding: there only the search can tell.
+    # Damped bristles can give more friction than full sliding: only the search can decide.
     certain = runaway if facts["friction_law"] == 0 else None
     count = certain or repeating_periods(facts, max_denominator)
     if isinstance(count, Obstacle):
         return SteadyMotion(count.status, count.reason, predicted)
     period_map = FmuPeriodMap(instance, values, facts, count)
-    wanted = values.get("initial_velocity", predicted)
-    found = steady_point(period_map, wanted if isfinite(wanted) else 0.0, facts["load"])
+    guess = values.get("initial_velocity", predicted)
+    found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
     if isinstance(found, NoFixedPoint):
-        status, reason = why_not(found, facts)
+        status, reason = failure(found, facts)
         if runaway is not None:
             status, reason = runaway.status, runaway.reason
         return SteadyMotion(status, reason, predicted, **cost(period_map, found))

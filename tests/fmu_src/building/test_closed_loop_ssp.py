@@ -36,7 +36,7 @@ def test_parameter_sets_differ_in_fidelity_only(
     assert {name.partition(".")[0] for name in values} == {"controller"}
 
 
-def test_no_input_is_left_to_a_host_that_sets_all_to_zero(closed_loop_package: Path) -> None:
+def test_every_component_input_is_connected(closed_loop_package: Path) -> None:
     system = read_ssd(closed_loop_package).system
     ends = {(c.endElement, c.endConnector) for c in system.connections}
     for component in system.elements:

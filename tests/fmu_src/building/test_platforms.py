@@ -13,7 +13,7 @@ def test_no_names_stand_for_all() -> None:
     assert platforms_named([]) == list(PLATFORMS.values())
 
 
-def test_each_platform_comes_once_and_in_the_order_of_the_table() -> None:
+def test_platforms_are_unique_and_in_table_order() -> None:
     names = [p.name for p in platforms_named(["win64", "linux64", "win64"])]
     assert names == ["linux64", "win64"]
 

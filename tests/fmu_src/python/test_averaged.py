@@ -64,7 +64,7 @@ def test_mean_friction_by_quadrature(ratio: float, amplitude: float) -> None:
     if ratio == round(ratio):
         load = np.maximum(0.0, 1.0 + amplitude * np.sin(ratio * (angles + LAG) + 0.3))
     else:
-        load = np.mean(np.maximum(0.0, 1.0 + amplitude * np.sin(angles)))
+        load = np.maximum(0.0, 1.0 + amplitude * np.sin(angles)).mean(keepdims=True)
     sliding = np.sign(velocity - FAST_VELOCITY * np.cos(angles))
     assert np.mean(0.2 * load * sliding) == pytest.approx(-0.02, abs=3e-6)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import pytest
 
@@ -41,11 +42,11 @@ def test_replay_is_bit_equal() -> None:
     assert outputs(other) == later
 
 
-def test_refusals_leave_everything_as_it_was() -> None:
+def test_refused_calls_change_nothing() -> None:
     component = running()
     component.step(0.0, 0.01)
     before = component.snapshot()
-    for call in (
+    refused: tuple[Callable[[], object], ...] = (
         lambda: component.step(0.01, 0.0),
         lambda: component.step(0.01, -1e-3),
         lambda: component.step(0.01, math.nan),
@@ -64,7 +65,8 @@ def test_refusals_leave_everything_as_it_was() -> None:
         lambda: component.restore({**before, "values": {"phase": 0.0}}),
         lambda: component.restore({**before, "moment": {**before["moment"], "psi": "x"}}),
         lambda: component.restore({**before, "moment": None}),
-    ):
+    )
+    for call in refused:
         with pytest.raises(Refusal, match=r"refused"):
             call()
         assert component.snapshot() == before

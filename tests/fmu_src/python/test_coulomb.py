@@ -57,7 +57,7 @@ def test_load_below_the_limit_never_moves() -> None:
     assert (end.position, end.mode, end.counts) == (0.0, STICK, (0, 0, 0))
 
 
-def test_load_exactly_at_the_limit_sticks_and_above_it_slides() -> None:
+def test_load_at_the_limit_sticks_and_above_it_slides() -> None:
     at = Inputs(load=0.2)
     assert run(BLOCK, at, begin(BLOCK, at), 10.0).position == 0.0
     above = Inputs(load=0.2 * (1 + 1e-12))
@@ -172,7 +172,7 @@ def test_work_is_bounded_by_the_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     assert searches == []
 
 
-def test_without_friction_the_pair_keeps_the_momentum_of_its_drive() -> None:
+def test_frictionless_pair_keeps_the_momentum_of_its_drive() -> None:
     """At rest under a lifting contact at first: it must not stick where there is no friction."""
     device = Device(
         resonator_mass=0.5,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import pytest
 from hypothesis import given
@@ -18,17 +19,21 @@ def position(t: float) -> float:
     return 0.3 * t + 0.05 * t * t + math.sin(1.7 * t)
 
 
+def _moved(start: float, duration: float) -> float:
+    return position(start + duration) - position(start)
+
+
 def follow(durations: list[float]) -> tuple[PeriodMeans, float, float]:
     means, theta, now = PeriodMeans(), 0.0, 0.0
     for duration in durations:
-        start = now
+        moved = partial(_moved, now)
         means, theta = means.advanced(
             duration,
             theta,
             FREQUENCY,
             False,
-            lambda t, start=start: position(start + t) - position(start),
-            position(start + duration) - position(start),
+            moved,
+            moved(duration),
         )
         now += duration
     return means, theta, now

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -56,7 +57,7 @@ def pair(device: Device, inputs: Inputs, periods: int) -> tuple[Moment, Moment]:
         ({"friction_faces": 1}, Inputs(1.0)),
     ],
 )
-def test_against_the_resolved_device(parameters: dict[str, float], inputs: Inputs) -> None:
+def test_against_the_resolved_device(parameters: dict[str, Any], inputs: Inputs) -> None:
     """Within 1 % of v_q after 560 drive periods, about a second; position accordingly."""
     slow, full = pair(replace(TABLE_1, **parameters), inputs, 560)
     gap = slow.means.mean_velocity - full.means.mean_velocity
@@ -139,7 +140,7 @@ def test_without_vibration_it_is_a_block(load: float, moves: bool) -> None:
         ({"bristle_stiffness": 1e5}, Inputs(0.4, 0.5)),
     ],
 )
-def test_lugre_against_the_resolved_device(parameters: dict[str, float], inputs: Inputs) -> None:
+def test_lugre_against_the_resolved_device(parameters: dict[str, Any], inputs: Inputs) -> None:
     device = replace(TABLE_1, friction_law=1, tolerance=1e-6, **parameters)
     slow, full = pair(device, inputs, 280)
     gap = slow.means.mean_velocity - full.means.mean_velocity

@@ -52,7 +52,7 @@ def test_between_integers_only_the_mean_counts(amplitude: float) -> None:
 
 
 @pytest.mark.parametrize("ratio", [1.0, 3.0, -2.0])
-def test_kinks_are_where_the_contact_lifts_and_touches_down(ratio: float) -> None:
+def test_kinks_are_at_lift_off_and_touchdown(ratio: float) -> None:
     load = VibratingLoad(Device(normal_amplitude=1.7), ratio, 0.9)
     angles = np.linspace(-1.0, 6.0, 70_001)
     lifted = np.array([load.at(float(angle)) == 0.0 for angle in angles])
@@ -73,7 +73,7 @@ def test_turns_to_repeat(amplitude: float, ratio: float, turns: int | None) -> N
     assert turns_to_repeat(Device(normal_amplitude=amplitude), ratio, 1e-9) == turns
 
 
-def test_a_clipped_load_is_averaged_over_the_turns_that_it_repeats_after() -> None:
+def test_clipped_load_is_averaged_over_its_turns() -> None:
     load = VibratingLoad(Device(normal_amplitude=2.0), 2 / 3, 0.4)
     turns = np.array([0.0, 1.0, 2.0]) * math.tau
     for angle in (0.1, 2.0, 5.0):

@@ -4,13 +4,13 @@ import json
 
 import pytest
 
-from slider_resonator.commands.searching import print_outcome
-from slider_resonator.steady.outcome import Outcome
+from slider_resonator.commands.searching import print_search_result
+from slider_resonator.steady.search_result import SearchResult
 
 
 def test_a_result_is_reported_in_sentences(capsys: pytest.CaptureFixture[str]) -> None:
-    outcome = Outcome("steady", "stable", 0.5, 1, 40, 3, 1e-14, (0.9 + 0j, 0.1j), True)
-    assert print_outcome(outcome, "steady velocity", 0.25, "m/s", as_json=False) == 0
+    outcome = SearchResult("steady", "stable", 0.5, 1, 40, 3, 1e-14, (0.9 + 0j, 0.1j), True)
+    assert print_search_result(outcome, "steady velocity", 0.25, "m/s", as_json=False) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "steady velocity  0.25 m/s"
     assert lines[1] == "status           steady: stable"
@@ -20,10 +20,10 @@ def test_a_result_is_reported_in_sentences(capsys: pytest.CaptureFixture[str]) -
 
 
 def test_no_result_is_reported_and_exits_with_1(capsys: pytest.CaptureFixture[str]) -> None:
-    outcome = Outcome("slow_beat", "no common period", 0.5)
-    assert print_outcome(outcome, "blocking force", None, "N", as_json=False) == 1
+    outcome = SearchResult("slow_beat", "no common period", 0.5)
+    assert print_search_result(outcome, "blocking force", None, "N", as_json=False) == 1
     lines = capsys.readouterr().out
     assert lines.startswith("blocking force   none\n")
     assert "cost" not in lines, "nothing was run"
-    assert print_outcome(outcome, "blocking force", None, "N", as_json=True) == 1
+    assert print_search_result(outcome, "blocking force", None, "N", as_json=True) == 1
     assert json.loads(capsys.readouterr().out)["status"] == "slow_beat"

@@ -18,14 +18,14 @@ from slider_resonator.device.common_period import common_period
         (19.0 / 20.0, 20),
     ],
 )
-def test_a_rational_ratio_repeats_after_its_denominator(ratio: float, count: int) -> None:
+def test_rational_ratio_repeats_after_its_denominator(ratio: float, count: int) -> None:
     assert common_period(ratio) == count
 
 
 @pytest.mark.parametrize("ratio", [1.001, 1.37, 2.0**0.5, 1.0 + 1e-9])
-def test_a_ratio_without_a_small_denominator_has_no_common_period(ratio: float) -> None:
+def test_ratio_without_small_denominator_has_no_common_period(ratio: float) -> None:
     assert common_period(ratio) is None
 
 
-def test_the_largest_denominator_is_the_callers_choice() -> None:
+def test_max_denominator_is_an_argument() -> None:
     assert common_period(1.37, 100) == 100

@@ -33,6 +33,6 @@ def test_fraction_for_an_integer_is_refused_by_name() -> None:
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
-def test_not_a_number_for_an_integer_is_refused_by_name(value: float) -> None:
+def test_nonfinite_integer_is_refused_by_name(value: float) -> None:
     with pytest.raises(ValueError, match="friction_faces"):
         Device.from_mapping({"friction_faces": value})

@@ -7,7 +7,7 @@ from slider_resonator.device.interface import INPUT_STARTS, INPUTS, OUTPUTS, PAR
 from slider_resonator.fmu.opening import Fmu
 
 
-def test_the_fmu_has_these_variables_and_no_others(fmu: Fmu) -> None:
+def test_fmu_has_exactly_these_variables(fmu: Fmu) -> None:
     assert set(fmu.variables) == {*INPUTS, *PARAMETERS, *OUTPUTS}
 
 

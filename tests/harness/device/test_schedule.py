@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous
 from slider_resonator.device.schedule import (
-    MOST_STEPS,
+    MAX_STEPS,
     Signal,
     communication_points,
     constant,
@@ -18,7 +18,7 @@ from slider_resonator.device.schedule import (
 )
 
 
-def test_steps_hold_their_value_until_the_next_and_jump_to_the_right() -> None:
+def test_steps_hold_until_the_next_point() -> None:
     signal = steps([(0.0, 1.0), (0.5, 2.0)])
     assert [signal.at(t) for t in (-1.0, 0.0, 0.4999, 0.5, 9.0)] == [1.0, 1.0, 1.0, 2.0, 2.0]
     assert signal.jumps == (0.5,)
@@ -35,7 +35,7 @@ def test_ramp_is_a_polyline_without_jumps() -> None:
     st.lists(st.floats(-1, 12), min_size=1, max_size=20),
     st.booleans(),
 )
-def test_many_values_are_those_of_each_time_to_the_last_digit(
+def test_vectorised_values_equal_single_values(
     points: list[tuple[float, float]], times: list[float], hold: bool
 ) -> None:
     ascending = sorted(dict(points).items())
@@ -45,7 +45,7 @@ def test_many_values_are_those_of_each_time_to_the_last_digit(
 
 
 @pytest.mark.parametrize(
-    ("times", "values", "said"),
+    ("times", "values", "message"),
     [
         ((), (), "at least one point"),
         ((0.0, 1.0), (1.0,), "as many values"),
@@ -53,10 +53,10 @@ def test_many_values_are_those_of_each_time_to_the_last_digit(
         ((0.0, 1.0), (1.0, float("nan")), "finite"),
     ],
 )
-def test_a_signal_that_makes_no_sense_is_refused(
-    times: tuple[float, ...], values: tuple[float, ...], said: str
+def test_invalid_signal_is_refused(
+    times: tuple[float, ...], values: tuple[float, ...], message: str
 ) -> None:
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(ValueError, match=message):
         Signal(times, values)
 
 
@@ -66,7 +66,7 @@ def test_communication_points_end_exactly_at_the_stop_time() -> None:
     assert points[-1] == 1.0
 
 
-def test_a_stop_time_that_is_a_multiple_of_the_step_but_for_rounding_adds_no_sliver() -> None:
+def test_rounded_stop_time_adds_no_tiny_step() -> None:
     points = communication_points(0.1 * 3, 0.1)
     assert len(points) == 4, f"three steps of 0.1 make 0.3, got {points}"
 
@@ -83,15 +83,13 @@ def test_communication_points_contain_every_jump_inside(
     assert points[0] == 0.0
     assert points[-1] == stop
     assert np.all(np.diff(points) > 0.0)
-    assert np.diff(points).max() <= step * (1.0 + 1e-6)
+    assert np.max(np.diff(points)) <= step * (1.0 + 1e-6)
     assert {t for t in jumps if 0.0 < t < stop} <= set(points.tolist())
 
 
 @pytest.mark.parametrize(("stop", "step"), [(1e9, 1e-4), (1.0, 1e-300), (float("inf"), 1.0)])
-def test_more_steps_than_memory_can_hold_are_refused_before_they_are_made(
-    stop: float, step: float
-) -> None:
-    with pytest.raises(ValueError, match=f"communication steps; must be at most {MOST_STEPS}"):
+def test_too_many_steps_are_refused_before_allocation(stop: float, step: float) -> None:
+    with pytest.raises(ValueError, match=f"communication steps; must be at most {MAX_STEPS}"):
         communication_points(stop, step)
 
 
@@ -101,14 +99,14 @@ def test_times_that_are_not_positive_are_refused(stop: float, step: float) -> No
         step_count(stop, step)
 
 
-def test_many_jumps_on_many_points_fit_into_memory() -> None:
+def test_many_jumps_and_points_fit_into_memory() -> None:
     """All distances between them at once would take 24 GB."""
     jumps = np.linspace(0.0, 1.0, 30_001)
     points = communication_points(1.0, 1e-5, jumps.tolist())
     assert len(points) == 120_001, "every third of the jumps is on the grid of 100 001 points"
 
 
-def test_a_refined_schedule_keeps_its_points_and_its_held_inputs() -> None:
+def test_refined_schedule_keeps_points_and_held_inputs() -> None:
     made = schedule(1.0, 0.1, load=ramp([(0.0, 0.0), (1.0, 1.0)]), phase=steps([(0, 0), (0.77, 1)]))
     fine = made.refined(0.65, 0.01)
     assert set(made.times.tolist()) <= set(fine.times.tolist())
@@ -116,7 +114,7 @@ def test_a_refined_schedule_keeps_its_points_and_its_held_inputs() -> None:
     assert fine.held() == made.held(), "more points must not make the ramp finer"
 
 
-def test_a_grid_point_just_before_a_jump_gives_way_to_it() -> None:
+def test_jump_replaces_a_grid_point_just_before_it() -> None:
     """Otherwise a whole step, or a sliver of one, would hold the old value."""
     jump = 0.3 * (1.0 + 1e-12)
     made = schedule(1.0, 0.1, load=steps([(0.0, 0.0), (jump, 5.0)]))
@@ -131,14 +129,14 @@ def test_held_inputs_merge_equal_neighbours() -> None:
     assert held == [HeldInputs(0.0, 0.25, 0.2, 0.05, 1.0), HeldInputs(0.25, 1.0, 0.7, 0.05, 1.0)]
 
 
-def test_a_ramp_is_sampled_and_held_over_each_step() -> None:
+def test_ramp_is_sampled_and_held_over_each_step() -> None:
     made = schedule(0.4, 0.1, frequency_ratio=ramp([(0.0, 1.0), (0.4, 2.0)]))
     held = made.held()
     check_contiguous(held)
     assert [inputs.frequency_ratio for inputs in held] == pytest.approx([1.0, 1.25, 1.5, 1.75])
 
 
-def test_more_readings_leave_the_held_inputs_alone() -> None:
+def test_extra_readings_keep_the_held_inputs() -> None:
     plan = schedule(1.0, 0.25, load=ramp([(0.0, 0.0), (1.0, 4.0)]))
     more = plan.read_at(np.array([0.1, 0.25 + 1e-12, 0.6]), 1e-9)
     assert more.times.tolist() == [0.0, 0.1, 0.25, 0.5, 0.6, 0.75, 1.0]

@@ -37,7 +37,7 @@ def deviation(run: Trajectory, signal: str, exact: np.ndarray) -> float:
 
 @by_integrator
 @pytest.mark.parametrize("name", KNOWN_MOTIONS)
-def test_motion_is_that_of_the_closed_form(simulate: Simulate, allowed: float, name: str) -> None:
+def test_motion_matches_the_closed_form(simulate: Simulate, allowed: float, name: str) -> None:
     motion = KNOWN_MOTIONS[name]
     run = simulate(motion.device, motion.held, TIMES)
     found = deviation(run, motion.signal, motion.exact(TIMES))

@@ -7,7 +7,7 @@ from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
 
 
-def test_table_1_meets_the_figure_of_taylor_integration(instance: Instance) -> None:
+def test_table_1_blocking_force_matches_taylor_integration(instance: Instance) -> None:
     blocking = find_blocking(instance, {})
     assert blocking.status == "blocked"
     assert blocking.blocking_force == pytest.approx(0.0851861, rel=1e-5)
@@ -15,7 +15,7 @@ def test_table_1_meets_the_figure_of_taylor_integration(instance: Instance) -> N
 
 
 @pytest.mark.parametrize("values", [{"phase": 0.4}, {"friction_faces": 1.0}, {"fidelity": 1.0}])
-def test_the_load_found_stops_the_device(instance: Instance, values: dict[str, float]) -> None:
+def test_blocking_force_stops_the_device(instance: Instance, values: dict[str, float]) -> None:
     blocking = find_blocking(instance, values)
     assert blocking.blocking_force is not None
     motion = find_steady(instance, {**values, "load": blocking.blocking_force})
@@ -28,24 +28,22 @@ def test_one_face_has_half_the_force_of_two(instance: Instance) -> None:
     assert two == pytest.approx(2.0 * one, rel=1e-3), "(22) for each face"
 
 
-def test_a_load_among_the_values_is_only_where_the_search_begins(instance: Instance) -> None:
+def test_given_load_is_only_the_initial_guess(instance: Instance) -> None:
     blocking = find_blocking(instance, {"load": 0.19})
     assert blocking.blocking_force == pytest.approx(0.0851861, rel=1e-5)
 
 
-def test_a_stuck_device_has_no_single_blocking_force(instance: Instance) -> None:
-    blocking = find_blocking(instance, {"base_amplitude": 0.0, "normal_amplitude": 0.5})
+@pytest.mark.parametrize(
+    ("values", "status"),
+    [
+        ({"base_amplitude": 0.0, "normal_amplitude": 0.5}, "stuck"),
+        ({"frequency_ratio": 1.001}, "slow_beat"),
+        ({"frequency_ratio": 1.37}, "no_common_period"),
+    ],
+)
+def test_missing_blocking_force_is_explained(
+    instance: Instance, values: dict[str, float], status: str
+) -> None:
+    blocking = find_blocking(instance, values)
     assert blocking.blocking_force is None
-    assert blocking.status == "stuck"
-
-
-def test_a_slow_beat_has_no_blocking_force(instance: Instance) -> None:
-    blocking = find_blocking(instance, {"frequency_ratio": 1.001})
-    assert blocking.blocking_force is None
-    assert blocking.status == "slow_beat"
-
-
-def test_without_a_common_period_there_is_no_blocking_force(instance: Instance) -> None:
-    blocking = find_blocking(instance, {"frequency_ratio": 1.37})
-    assert blocking.blocking_force is None
-    assert blocking.status == "no_common_period"
+    assert blocking.status == status

@@ -17,7 +17,7 @@ def saturated_map(state: Vector) -> tuple[Vector, float]:
     return np.array([v - 1e-3 * drift, 0.2 + fast[0], -0.1 + fast[1]]), v
 
 
-def test_a_root_in_the_flat_is_found_where_newton_cannot_start() -> None:
+def test_bracketing_finds_a_root_out_of_reach_of_newton() -> None:
     guess, scale = np.array([40.0, 1.0, 1.0]), np.ones(3)
     state = bracketed_state(saturated_map, guess, scale)
     assert state is not None
@@ -26,17 +26,17 @@ def test_a_root_in_the_flat_is_found_where_newton_cannot_start() -> None:
     assert isinstance(found, FixedPoint), "Newton must accept what lies between the bounds"
 
 
-def test_a_lone_slow_state_needs_no_elimination() -> None:
+def test_single_slow_state_needs_no_elimination() -> None:
     state = bracketed_state(lambda s: (s - 1e-3 * np.tanh(s - 0.4), 0.0), np.zeros(1), np.ones(1))
     assert state is not None
     assert abs(state[0] - 0.4) < 1e-12
 
 
-def test_drift_in_one_direction_has_no_bracket() -> None:
+def test_one_sided_drift_has_no_bracket() -> None:
     assert bracketed_state(lambda s: (s - 1e-3, 0.0), np.zeros(1), np.ones(1)) is None
 
 
-def test_a_state_that_forgets_slowly_where_the_slow_one_is_small() -> None:
+def test_bracketing_renews_its_jacobian_for_a_bristle_state() -> None:
     """As a soft bristle does: one Jacobian does not serve for all velocities."""
 
     def period_map(state: Vector) -> tuple[Vector, float]:
@@ -49,7 +49,7 @@ def test_a_state_that_forgets_slowly_where_the_slow_one_is_small() -> None:
     assert state == pytest.approx(np.arctanh([0.3, 0.3]), abs=1e-9)
 
 
-def test_a_fast_state_that_grows_is_given_up() -> None:
+def test_growing_fast_state_has_no_bracket() -> None:
     growing = bracketed_state(
         lambda s: (np.array([-s[0], s[1] + 1.0]), 0.0), np.zeros(2), np.ones(2)
     )

@@ -81,7 +81,7 @@ def read_and_true(drift: float, lag: float, **changed: float) -> tuple[float, fl
     ],
 )
 @pytest.mark.parametrize("lag", [0.7, 1.4, 2.0, -1.6])
-def test_the_deflection_is_read_whatever_the_contact_does(
+def test_deflection_is_read_in_every_contact(
     stiffness: float, changed: dict[str, float], lag: float
 ) -> None:
     """Lags near +-pi / 2 put a reversal just before the end, in flight where it is lifted."""
@@ -89,14 +89,14 @@ def test_the_deflection_is_read_whatever_the_contact_does(
     assert read == pytest.approx(true, abs=1e-9 * 0.1 / stiffness)
 
 
-def test_it_is_read_where_friction_depends_on_nothing_but_the_load() -> None:
+def test_deflection_is_read_where_friction_does_not_depend_on_it() -> None:
     """At |v| = mu / sigma_1 the deflection drops out of (8)."""
     speed = abs(0.05 - 0.24 * np.cos(0.7))
     read, true = read_and_true(0.05, 0.7, bristle_damping=0.1 / speed, bristle_stiffness=50.0)
     assert read == pytest.approx(true, abs=1e-9 * 0.1 / 50.0)
 
 
-def test_an_open_contact_throughout_shows_nothing() -> None:
+def test_open_contact_cannot_be_read() -> None:
     reading = replace(reading_of(), leads=(1e-4, 0.0))
     zeros, ones = np.zeros(2), np.ones(2)
     with pytest.raises(FmuError, match="cannot be read"):
@@ -115,11 +115,11 @@ def test_an_open_contact_throughout_shows_nothing() -> None:
         {"frequency_ratio": 0.0, "phase": -pi / 2.0, "normal_amplitude": 2.0},
     ],
 )
-def test_without_friction_of_bristles_there_is_none_to_read(changed: dict[str, float]) -> None:
+def test_no_bristle_is_read_without_bristle_friction(changed: dict[str, float]) -> None:
     assert bristle_reading({**VALUES, **changed}) is None
 
 
-def test_what_is_read_lies_within_a_common_period_and_reaches_back_to_contact() -> None:
+def test_readings_reach_back_to_contact_within_the_period() -> None:
     flight = reading_of(phase=-pi / 2.0 + 0.6, normal_amplitude=3.0)
     lift_off = (pi / 2.0 + 0.6 - np.arcsin(1.0 / 3.0)) / RATE
     assert flight.leads[-1] == 0.0

@@ -28,24 +28,24 @@ def test_scales_do_not_change_the_root_nor_the_work(scales: tuple[float, float])
     assert root.iterations < 10
 
 
-def test_damping_tames_a_function_on_which_full_steps_diverge() -> None:
+def test_damping_converges_where_full_steps_diverge() -> None:
     root = solve(lambda x: np.arctan(x), np.array([5.0]), np.ones(1))
     assert root.status == "converged"
     assert abs(root.x[0]) < 1e-9
 
 
-def test_a_triple_root_is_reached_though_slowly() -> None:
+def test_triple_root_converges() -> None:
     """The averaged drift of a device with twice the frequency is nearly one of these."""
     root = solve(lambda x: x**3, np.array([0.5]), np.ones(1), tolerance=1e-4)
     assert root.status == "converged"
     assert abs(root.x[0]) < 1e-3
 
 
-def test_a_function_without_a_zero_stalls() -> None:
+def test_function_without_a_zero_stalls() -> None:
     assert solve(lambda x: 1.0 + x**2, np.array([0.7]), np.ones(1)).status in ("stalled", "limit")
 
 
-def test_a_singular_jacobian_leaves_a_residual_only_where_there_is_no_zero() -> None:
+def test_singular_jacobian_has_a_residual_only_without_a_zero() -> None:
     family = solve(lambda x: np.array([0.0, x[1] - 1.0]), np.array([0.3, 0.0]), np.ones(2))
     assert family.status == "singular"
     assert family.residual < 1e-12, "every (x, 1) is a zero"
@@ -54,7 +54,7 @@ def test_a_singular_jacobian_leaves_a_residual_only_where_there_is_no_zero() -> 
     assert none.residual == pytest.approx(0.5)
 
 
-def test_noise_at_the_level_of_rounding_does_not_keep_it_from_converging() -> None:
+def test_rounding_noise_does_not_prevent_convergence() -> None:
     noise = iter(1e-11 * np.random.default_rng(0).standard_normal(1000))
 
     def function(x: Vector) -> Vector:

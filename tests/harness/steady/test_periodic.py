@@ -44,13 +44,13 @@ def test_mean_normal_force_is_that_of_the_clipped_sine(amplitude: float) -> None
     assert facts(normal_amplitude=amplitude).mean_normal_force == pytest.approx(mean, rel=1e-9)
 
 
-def test_without_frequency_the_normal_force_is_constant() -> None:
+def test_normal_force_at_ratio_0_is_constant() -> None:
     still = facts(frequency_ratio=0.0, phase=-pi / 6.0)
     assert still.mean_normal_force == pytest.approx(0.5)
     assert facts(frequency_ratio=0.0, phase=-2.0, normal_amplitude=3.0).mean_normal_force == 0.0
 
 
-def test_a_beat_is_named_with_its_frequency() -> None:
+def test_slow_beat_reports_its_frequency() -> None:
     found = repeating_periods(facts(frequency_ratio=1.001), 20)
     assert isinstance(found, Obstacle)
     assert found.status == "slow_beat"
@@ -69,7 +69,7 @@ def test_a_beat_is_named_with_its_frequency() -> None:
         (-2.4567, "no_common_period"),
     ],
 )
-def test_only_a_ratio_next_to_an_integer_beats_slowly(ratio: float, status: str) -> None:
+def test_slow_beat_needs_a_ratio_near_an_integer(ratio: float, status: str) -> None:
     found = repeating_periods(facts(frequency_ratio=ratio), 20)
     assert isinstance(found, Obstacle)
     assert found.status == status
@@ -77,14 +77,14 @@ def test_only_a_ratio_next_to_an_integer_beats_slowly(ratio: float, status: str)
     assert ("Hz" in found.reason) == (status == "slow_beat"), "a fast beat is none"
 
 
-def test_facts_are_read_back_from_the_fmu(instance: Instance) -> None:
+def test_facts_are_read_from_the_fmu(instance: Instance) -> None:
     read = read_facts(instance, {"friction_faces": 1.0, "load": 0.05})
     assert (read["friction_faces"], read["load"], read["slider_mass"]) == (1.0, 0.05, 1.0)
     assert read.friction_limit == pytest.approx(0.1)
     assert np.isfinite(read.steady_velocity)
 
 
-def test_the_map_is_a_run_of_the_fmu_and_counts_its_periods(instance: Instance) -> None:
+def test_period_maps_can_be_chained_and_count_periods(instance: Instance) -> None:
     read = read_facts(instance, {})
     period_map = FmuPeriodMap(instance, {}, read, 2)
     first, moved = period_map(np.array([0.1, 1e-4, -0.2]), 0.01)
@@ -96,7 +96,7 @@ def test_the_map_is_a_run_of_the_fmu_and_counts_its_periods(instance: Instance) 
     assert displacement == pytest.approx(moved + further, rel=1e-11)
 
 
-def test_the_warm_up_gives_state_size_and_mean(instance: Instance) -> None:
+def test_warm_up_gives_state_scale_and_mean(instance: Instance) -> None:
     period_map = FmuPeriodMap(instance, {}, read_facts(instance, {}), 1)
     warm = period_map.warm_up(0.1, 0.0)
     assert period_map.periods == 20
@@ -104,7 +104,7 @@ def test_the_warm_up_gives_state_size_and_mean(instance: Instance) -> None:
     assert 0.0 < warm.mean_velocity < 0.3
 
 
-def test_a_device_at_rest_still_has_a_scale(instance: Instance) -> None:
+def test_device_at_rest_has_positive_scales(instance: Instance) -> None:
     values = {"base_amplitude": 0.0}
     period_map = FmuPeriodMap(instance, values, read_facts(instance, values), 1)
     warm = period_map.warm_up(0.0, 0.0)

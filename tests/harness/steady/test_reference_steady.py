@@ -15,14 +15,14 @@ TABLE_1 = Device()
     ("phase", "load", "ratio", "velocity"),
     [(0.0, 0.0, 1.0, 0.12666700), (0.4, 0.05, 1.0, 0.0986951), (0.4, 0.0, 3.0, -0.0362968)],
 )
-def test_figures_of_taylor_integration_are_met(
+def test_steady_velocity_matches_taylor_integration(
     phase: float, load: float, ratio: float, velocity: float
 ) -> None:
     found = reference_steady_velocity(TABLE_1, phase, load, ratio)
     assert found == pytest.approx(velocity, rel=1e-6)
 
 
-def test_the_blocking_force_of_table_1() -> None:
+def test_blocking_force_of_table_1() -> None:
     assert reference_blocking_force(TABLE_1, 0.0, 1.0) == pytest.approx(0.0851861, rel=1e-6)
 
 
@@ -31,12 +31,12 @@ def test_fidelity_1_has_a_single_state() -> None:
     assert found == pytest.approx(0.126667, rel=1e-4)
 
 
-def test_a_ratio_without_a_common_period_has_none() -> None:
+def test_ratio_without_common_period_has_no_steady_motion() -> None:
     assert reference_steady_velocity(TABLE_1, 0.0, 0.0, 1.001) is None
     assert reference_blocking_force(TABLE_1, 0.0, 1.001) is None
 
 
-def test_a_load_above_friction_has_none() -> None:
+def test_load_above_friction_has_no_steady_velocity() -> None:
     assert reference_steady_velocity(TABLE_1, 0.0, 0.25, 1.0) is None
 
 
@@ -57,7 +57,7 @@ def test_blocking_force_without_preload() -> None:
         (1e4, 1, -0.0491765734),
     ],
 )
-def test_lugre_figures_of_taylor_integration_are_met(
+def test_lugre_steady_velocity_matches_taylor_integration(
     stiffness: float, fidelity: int, velocity: float
 ) -> None:
     device = Device(friction_law=1, bristle_stiffness=stiffness, fidelity=fidelity)
@@ -65,7 +65,7 @@ def test_lugre_figures_of_taylor_integration_are_met(
     assert found == pytest.approx(velocity, abs=5e-8)
 
 
-def test_the_blocking_force_of_bristles_stops_them() -> None:
+def test_lugre_blocking_force_stops_the_device() -> None:
     device = Device(friction_law=1, bristle_stiffness=1e4)
     force = reference_blocking_force(device, 0.4, 1.0)
     assert force is not None

@@ -1,4 +1,4 @@
-"""Steady motion on bristles by shooting with the Taylor referee, and what averages say of it."""
+"""Steady motion on bristles by shooting with the Taylor reference, and what averages say of it."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def blocking_force(device: Device, phase: float, guess: float) -> float:
 
 
 @pytest.mark.parametrize("fidelity", [1, 2])
-def test_a_run_goes_on_as_the_steady_motion_does(fidelity: int) -> None:
+def test_long_run_converges_to_the_steady_motion(fidelity: int) -> None:
     """Strong friction, so that 250 drive periods forget the start."""
     device = Device(friction_law=1, fidelity=fidelity, friction_coefficient=2.0)
     steady = steady_velocity(device, 0.4, 0.1)
@@ -59,7 +59,7 @@ def test_a_run_goes_on_as_the_steady_motion_does(fidelity: int) -> None:
 
 @pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
 @pytest.mark.parametrize("kappa", KAPPAS)
-def test_uniform_averages_err_by_the_inverse_frequency(
+def test_uniform_average_errors_fall_with_the_frequency(
     kappa: float, amplitude_ratio: float
 ) -> None:
     """Soft to hard bristles, closed and lifting: velocity and blocking force."""
@@ -79,7 +79,7 @@ def test_uniform_averages_err_by_the_inverse_frequency(
         assert coarse / fine == pytest.approx(4.0, rel=0.02), "averages err by 1 / Omega"
 
 
-def test_ratio_three_with_the_resonator() -> None:
+def test_ratio_3_with_the_resonator_matches_the_average() -> None:
     device = Device(friction_law=1)
     average = uniform_average.device_steady_velocity(device, 0.4, 0.02, 3)
     found = steady_velocity(device, 0.4, 0.02, 3.0, guess=average)
@@ -87,7 +87,7 @@ def test_ratio_three_with_the_resonator() -> None:
     assert found == pytest.approx(average, abs=5e-3 * fast)
 
 
-def test_a_load_that_nothing_holds_has_no_steady_motion() -> None:
+def test_load_above_all_friction_has_no_steady_motion() -> None:
     device = unit_device(1.0, 1000.0, 1.0)
     assert reference_steady_velocity(device, 0.0, 3.0, 1.0, simulate=simulate_lugre) is None
 

@@ -24,14 +24,14 @@ class _Slider:
 
 
 @pytest.mark.parametrize("velocity", [0.0, 0.3, 40.0])
-def test_steady_motion_is_found_also_from_where_newton_alone_fails(velocity: float) -> None:
+def test_steady_motion_is_found_from_any_guess(velocity: float) -> None:
     found = steady_point(_Slider(), velocity, 0.03)
     assert isinstance(found, FixedPoint)
     assert found.load == 0.03
     assert found.displacement / _Slider.period == pytest.approx(0.07, abs=1e-9)
 
 
-def test_the_load_that_stops_it_is_found() -> None:
+def test_blocking_load_is_found() -> None:
     found = blocked_point(_Slider(), _Slider().warm_up(0.0, 0.0), 0.0, 0.2)
     assert isinstance(found, FixedPoint)
     assert found.load == pytest.approx(0.1, abs=1e-10)

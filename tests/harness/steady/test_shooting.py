@@ -35,7 +35,7 @@ def test_linear_contraction_is_solved_by_one_jacobian(slow: float) -> None:
     )
 
 
-def test_map_that_saturates_is_solved_from_a_far_guess() -> None:
+def test_saturating_map_converges_from_a_far_guess() -> None:
     """The averaged slow motion of the paper, (4): vertical tangents at |V| = q."""
 
     def period_map(state: Vector) -> tuple[Vector, float]:
@@ -58,13 +58,13 @@ def test_saturated_drift_has_no_fixed_point() -> None:
     assert "drifts" in found.reason
 
 
-def test_a_frictionless_slider_has_no_unique_velocity() -> None:
+def test_frictionless_slider_is_not_unique() -> None:
     found = fixed_point(lambda s: (s.copy(), float(s[0])), np.array([0.3, 0.0]), ONES)
     assert isinstance(found, NoFixedPoint)
     assert found.status == "not_unique"
 
 
-def test_a_map_that_never_returns_is_named() -> None:
+def test_diverging_map_is_reported_as_not_converged() -> None:
     found = fixed_point(lambda s: (s + 1.0 + s**2, 0.0), np.array([0.1]), np.ones(1))
     assert isinstance(found, NoFixedPoint)
     assert found.status == "not_converged"
@@ -98,6 +98,6 @@ def test_blocking_point_finds_the_load_that_stops_the_drift() -> None:
     assert found.multipliers[0] == pytest.approx(0.999, abs=1e-8)
 
 
-def test_blocking_point_of_a_map_that_never_moves_is_singular() -> None:
+def test_blocking_point_of_a_map_without_motion_is_singular() -> None:
     found = blocking_point(lambda s, f: (0.5 * s, 0.0), np.ones(2), 0.1, ONES, 1.0, 1.0)
     assert isinstance(found, NoFixedPoint)

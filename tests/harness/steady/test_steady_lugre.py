@@ -24,7 +24,7 @@ LUGRE = {"friction_law": 1.0}
 
 @pytest.mark.parametrize("fidelity", [1.0, 2.0])
 @pytest.mark.parametrize("stiffness", [50.0, 1e4, 1e5, 1e6, 1e8])
-def test_soft_and_hard_bristles_meet_the_reference(
+def test_soft_and_hard_bristles_match_the_reference(
     instance: Instance, fidelity: float, stiffness: float
 ) -> None:
     changed = {**LUGRE, "fidelity": fidelity, "bristle_stiffness": stiffness, "tolerance": 1e-11}
@@ -41,7 +41,7 @@ def test_soft_and_hard_bristles_meet_the_reference(
 
 @pytest.mark.parametrize("stiffness", [50.0, 1e4, 1e6])
 @pytest.mark.parametrize(("phase", "load"), [(0.0, 0.0), (0.4, 0.05), (2.0, -0.05)])
-def test_the_uniform_average_is_near(
+def test_uniform_average_is_near(
     instance: Instance, stiffness: float, phase: float, load: float
 ) -> None:
     values = {**LUGRE, "bristle_stiffness": stiffness, "phase": phase, "load": load}
@@ -66,7 +66,7 @@ def test_the_uniform_average_is_near(
         {"normal_preload": 0.0},
     ],
 )
-def test_a_run_from_the_steady_state_stays_there(
+def test_run_from_the_steady_state_stays_there(
     instance: Instance, stiffness: float, changed: dict[str, float]
 ) -> None:
     values = {**LUGRE, "bristle_stiffness": stiffness, "tolerance": 1e-11, **changed}
@@ -84,7 +84,7 @@ def test_a_run_from_the_steady_state_stays_there(
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("stiffness", "normal_amplitude"), [(50.0, 1.0), (1e6, 1.0), (1e4, 3.0)])
-def test_a_long_run_from_elsewhere_ends_there(
+def test_long_run_converges_to_the_steady_velocity(
     instance: Instance, stiffness: float, normal_amplitude: float
 ) -> None:
     """The slowest departure has a multiplier of 0.9989."""
@@ -105,7 +105,7 @@ def test_a_long_run_from_elsewhere_ends_there(
 
 
 @pytest.mark.parametrize("stiffness", [50.0, 3e3, 1e6])
-def test_the_bristle_is_read_earlier_where_friction_does_not_show_it(
+def test_bristle_is_read_earlier_where_friction_hides_it(
     instance: Instance, stiffness: float
 ) -> None:
     """At |v| = mu / sigma_1 friction is mu N whatever the deflection."""
@@ -126,7 +126,7 @@ def test_the_bristle_is_read_earlier_where_friction_does_not_show_it(
 
 @pytest.mark.parametrize("stiffness", [1.0, 50.0, 1e3, 1e5])
 @pytest.mark.parametrize("velocity", [-0.23, -0.05, 0.0, 0.23])
-def test_the_search_can_begin_anywhere(
+def test_search_converges_from_any_velocity(
     instance: Instance, stiffness: float, velocity: float
 ) -> None:
     values = {**LUGRE, "bristle_stiffness": stiffness}
@@ -137,7 +137,7 @@ def test_the_search_can_begin_anywhere(
 
 
 @pytest.mark.parametrize("values", [{"phase": 0.4}, {"bristle_stiffness": 50.0}, {"fidelity": 1.0}])
-def test_the_load_found_stops_the_device(instance: Instance, values: dict[str, float]) -> None:
+def test_blocking_force_stops_the_device(instance: Instance, values: dict[str, float]) -> None:
     values = {**LUGRE, **values}
     blocking = find_blocking(instance, values)
     assert blocking.blocking_force is not None
@@ -145,7 +145,7 @@ def test_the_load_found_stops_the_device(instance: Instance, values: dict[str, f
     assert motion.steady_velocity == pytest.approx(0.0, abs=1e-9)
 
 
-def test_damped_bristles_hold_more_than_full_sliding(instance: Instance) -> None:
+def test_damped_bristles_hold_loads_above_sliding_friction(instance: Instance) -> None:
     """(24) can exceed mu N0: a load above full sliding friction is no obstacle of its own."""
     soft = {**LUGRE, "bristle_stiffness": 50.0}
     motion = find_steady(instance, {**soft, "load": 0.5})
@@ -157,7 +157,7 @@ def test_damped_bristles_hold_more_than_full_sliding(instance: Instance) -> None
     assert over.status == "load_above_friction"
 
 
-def test_hard_bristles_approach_coulomb_friction_as_theory_says(instance: Instance) -> None:
+def test_hard_bristles_approach_coulomb_at_the_theoretical_rate(instance: Instance) -> None:
     """The bristle is bent over a path of mu / s0 from each reversal, hence a time of s0^(-1/2)."""
     coulomb = find_steady(instance, {}).steady_velocity
     gaps = []

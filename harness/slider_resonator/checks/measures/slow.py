@@ -22,5 +22,5 @@ def slow_displacement(times: Array, position: Array, period: float) -> Array:
         raise ValueError(
             f"a record of {times[-1] - times[0]:.6g} s is shorter than the period {period:.6g} s"
         )
-    integral = scipy.integrate.cumulative_trapezoid(position, times, initial=0.0)
+    integral = scipy.integrate.cumulative_trapezoid(position, times, initial=0)
     return np.asarray((integral[first:] - np.interp(starts[first:], times, integral)) / period)

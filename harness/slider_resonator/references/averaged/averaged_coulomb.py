@@ -19,11 +19,13 @@ from slider_resonator.references.averaged.vibrating_contact import (
     check_never_lifts,
     closed_spans,
     mean_load,
+    turning_angle,
     turns_until_repeat,
 )
 from slider_resonator.references.closed_forms import (
     REFERENCE_FREQUENCY,
     EquivalentForce,
+    check_strength,
     equivalent_force,
 )
 
@@ -39,8 +41,9 @@ def mean_friction(
     where the load never repeats (see `turns_until_repeat`) only its mean counts. Raises ValueError
     as `steady_velocity_at_ratio` does for strength and amplitude_ratio.
     """
-    _check(strength, amplitude_ratio)
-    angle = math.acos(max(-1.0, min(1.0, velocity / strength)))
+    check_strength(strength)
+    check_amplitude_ratio(amplitude_ratio)
+    angle = turning_angle(velocity, strength)
     slide = 1.0 - 2.0 * angle / math.pi
     if ratio == 0.0:
         return slide * max(0.0, 1.0 + amplitude_ratio * math.sin(phase))
@@ -149,9 +152,7 @@ def device_blocking_force_at_ratio(device: Device, phase: float, ratio: float) -
     Raises ValueError as `equivalent_force` does.
     """
     lag = phase_to_force(equivalent_force(device), phase, ratio)
-    amplitude_ratio = device.normal_amplitude / device.normal_preload
-    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
-    return friction * blocking_load_at_ratio(amplitude_ratio, lag, ratio)
+    return device.mean_friction * blocking_load_at_ratio(device.amplitude_ratio, lag, ratio)
 
 
 def device_steady_velocity_at_ratio(
@@ -162,14 +163,13 @@ def device_steady_velocity_at_ratio(
     Raises ValueError as `equivalent_force` and `steady_velocity_at_ratio` do.
     """
     force = equivalent_force(device)
-    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
     return (
         steady_velocity_at_ratio(
             force.strength,
-            device.normal_amplitude / device.normal_preload,
+            device.amplitude_ratio,
             phase_to_force(force, phase, ratio),
             ratio,
-            load / friction,
+            load / device.mean_friction,
         )
         * force.length_scale
         * REFERENCE_FREQUENCY
@@ -203,9 +203,3 @@ def _load_integral(
         * (math.cos(ratio * last + phase) - math.cos(ratio * first + phase))
         for first, last in closed_spans(start, end, amplitude_ratio, phase, ratio)
     )
-
-
-def _check(strength: float, amplitude_ratio: float) -> None:
-    if not strength > 0.0:
-        raise ValueError(f"strength = {strength!r} must be greater than 0")
-    check_amplitude_ratio(amplitude_ratio)

@@ -20,6 +20,7 @@ from slider_resonator.references.averaged.vibrating_contact import (
     check_never_lifts,
     closed_spans,
     mean_load,
+    turning_angle,
 )
 
 Array = NDArray[np.float64]
@@ -77,7 +78,7 @@ def fast_displacement(angle: float, strength: float, frequency: float) -> float:
 
 def mean_speed(velocity: float, strength: float) -> float:
     """Return the mean of |velocity - q cos(theta)| over theta, f1 of (12)."""
-    turn = _turning_angle(velocity, strength)
+    turn = turning_angle(velocity, strength)
     return (velocity * (math.pi - 2.0 * turn) + 2.0 * strength * math.sin(turn)) / math.pi
 
 
@@ -86,7 +87,7 @@ def load_weighted_speed(velocity: float, case: LugreCase) -> float:
 
     N - 1 is alpha sin(theta + phi) in a contact that never lifts.
     """
-    turn = _turning_angle(velocity, case.strength)
+    turn = turning_angle(velocity, case.strength)
     forward = _mean_of_load_times_velocity(velocity, case, turn, 2.0 * math.pi - turn)
     backward = _mean_of_load_times_velocity(velocity, case, -turn, turn)
     return forward - backward - mean_speed(velocity, case.strength)
@@ -132,7 +133,7 @@ def mean_friction(velocity: float, case: LugreCase) -> float:
 def steady_velocity(case: LugreCase, load: float = 0.0) -> float:
     """Return the steady slow velocity, the root of (17), or of (23) under a load.
 
-    Raises ValueError for a load that no velocity holds.
+    Raises ValueError for a load that friction balances at no velocity.
     """
     return stable_velocity(
         lambda velocity: mean_friction(velocity, case),
@@ -173,11 +174,6 @@ def blocking_force(
     in N.
     """
     return 0.5 * damping * velocity_amplitude * normal_amplitude * math.sin(phase)
-
-
-def _turning_angle(velocity: float, strength: float) -> float:
-    """Return theta_1 = acos(velocity / q), at its bounds where the motion no longer reverses."""
-    return math.acos(max(-1.0, min(1.0, velocity / strength)))
 
 
 def _mean_of_load_times_velocity(

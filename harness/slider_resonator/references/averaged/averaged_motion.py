@@ -20,16 +20,16 @@ from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, ch
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
 from slider_resonator.references.averaged.averaged_coulomb import slow_start
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
 
 Array = NDArray[np.float64]
 
-NEAR_AN_INTEGER = 0.1
-"""Greatest distance of the frequency ratio from an integer at which the phase counts as slow; for a
-load that repeats after several turns, of that many times the ratio, times the turns."""
+MAX_DETUNING = 0.1
+"""Largest distance of the frequency ratio from an integer at which the phase counts as slow. For a
+load that repeats after several turns: of turns times the ratio, times the turns."""
 
 
 @dataclass(frozen=True)
@@ -53,14 +53,13 @@ def mean_friction(
     ``lead`` in rad is how far the normal load is ahead of ``ratio`` times the base excitation; the
     phase counts only for an integer ratio. Raises ValueError for values out of bounds.
     """
-    amplitude_ratio = device.normal_amplitude / device.normal_preload
     phase = lead + ratio * force.angle
     fast, scale = force.velocity_amplitude, device.friction_faces * device.normal_preload
     if device.friction_law == 0:
-        share = averaged_coulomb.mean_friction(velocity, fast, amplitude_ratio, phase, ratio)
+        share = averaged_coulomb.mean_friction(velocity, fast, device.amplitude_ratio, phase, ratio)
         return scale * device.friction_coefficient * share
     case = LugreCase(
-        fast, amplitude_ratio, phase, device.friction_coefficient, device.bristle_damping
+        fast, device.amplitude_ratio, phase, device.friction_coefficient, device.bristle_damping
     )
     return scale * uniform_average.mean_friction(
         velocity, case, device.bristle_stiffness, device.drive_frequency, ratio
@@ -73,8 +72,8 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
     start. The initial values fix the momentum and the centre of slider and resonator; right after
     the start the fast motion is the steady one, whatever they are. Raises ValueError for inputs
-    with gaps, times outside them, and where
-    `equivalent_force` does; RuntimeError when the slow motion cannot be integrated.
+    with gaps, times outside them, and as `equivalent_force` does; RuntimeError when the slow motion
+    cannot be integrated.
     """
     check_contiguous(held)
     check_times(times, held)
@@ -85,13 +84,13 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     theta = psi = 0.0
     rows = np.empty((0, 3))
     for inputs in held:
-        wanted = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
-        grid = np.union1d(wanted, [0.0, inputs.stop - inputs.start])
+        local = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
+        grid = np.union1d(local, [0.0, inputs.stop - inputs.start])
         slope = _slow_acceleration(device, force, inputs, theta, psi)
-        moved, velocity = slow_course(slope, grid, slow / force.velocity_amplitude)
+        moved, velocity = slow_trajectory(slope, grid, slow / force.velocity_amplitude)
         moved, velocity = force.velocity_amplitude * moved, force.velocity_amplitude * velocity
-        places = np.searchsorted(grid, wanted)
-        angle = theta + device.drive_frequency * wanted - force.angle
+        places = np.searchsorted(grid, local)
+        angle = theta + device.drive_frequency * local - force.angle
         position = centre + moved[places] - force.ripple_amplitude * np.sin(angle)
         fast = -force.velocity_amplitude * np.cos(angle)
         slow_there = velocity[places]
@@ -113,8 +112,7 @@ def _slow_acceleration(
     Time is that since the inputs were set, where base excitation and normal load have the angles
     ``theta`` and ``psi``.
     """
-    amplitude_ratio = device.normal_amplitude / device.normal_preload
-    turns = turns_until_repeat(amplitude_ratio, inputs.frequency_ratio, NEAR_AN_INTEGER)
+    turns = turns_until_repeat(device.amplitude_ratio, inputs.frequency_ratio, MAX_DETUNING)
     ratio = inputs.frequency_ratio
     if turns:
         ratio = round(turns * ratio) / turns

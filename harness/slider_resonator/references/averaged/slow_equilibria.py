@@ -1,4 +1,4 @@
-"""Where a slow motion rests: the velocities at which averaged friction holds a load."""
+"""Equilibria of the slow motion: velocities at which averaged friction balances a load."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq
 
-_SCANNED = 65
+_SAMPLES = 65
 
 
 def stable_velocity(friction: Callable[[float], float], strength: float, load: float) -> float:
-    """Return the slow velocity within +-``strength`` that holds a load and is returned to.
+    """Return the slow velocity within +-``strength`` that balances a load and is stable.
 
     ``friction`` is the averaged friction at a slow velocity, constant from +-strength on, ``load``
     in its unit. LuGre friction is not monotonic, so that a load above that of full sliding may be
-    held, and more than one velocity may hold it: the one farthest in the direction in which the
-    slider leaves rest without load is returned. Raises ValueError where none holds it.
+    balanced, and at more than one velocity: the one farthest in the direction in which the slider
+    leaves rest without load is returned. Raises ValueError if there is none.
     """
-    turns = np.linspace(0.0, math.pi, _SCANNED)
+    turns = np.linspace(0.0, math.pi, _SAMPLES)
 
     def excess(turn: float) -> float:
         return friction(strength * math.cos(turn)) + load
@@ -32,7 +32,7 @@ def stable_velocity(friction: Callable[[float], float], strength: float, load: f
             found.append(strength * math.cos(root))
     if not found:
         raise ValueError(
-            f"load = {load!r} is held at no velocity: friction lies between "
+            f"load = {load!r} is balanced at no velocity: friction lies between "
             f"{min(values) - load!r} and {max(values) - load!r}, a greater load runs away"
         )
     return max(found) if friction(0.0) <= 0.0 else min(found)

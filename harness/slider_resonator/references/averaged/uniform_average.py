@@ -1,8 +1,8 @@
 """LuGre friction averaged over the fast motion without assuming a bristle slower or faster than it.
 
-To the fast velocity V - q cos(theta) belongs a periodic bristle response, explicit from the path:
-between reversals s0 z relaxes to +-mu with the distance slid. Its friction, weighted with the load
-and integrated numerically over a turn, is the mean friction. For ``stiffness_number`` -> 0 it is
+The fast velocity V - q cos(theta) has a periodic bristle response, explicit from the path: between
+reversals s0 z relaxes to +-mu with the distance slid. Its friction, weighted with the load and
+integrated numerically over a turn, is the mean friction. For ``stiffness_number`` -> 0 it is
 the slow manifold of the paper, (16), for large ones Coulomb friction, (4). Errors are O(1 / Omega).
 The contact may lift (``amplitude_ratio`` > 1).
 """
@@ -87,7 +87,7 @@ def steady_velocity(
 ) -> float:
     """Return the steady slow velocity under a load in units of N0.
 
-    Raises ValueError for a load that no velocity holds.
+    Raises ValueError for a load that friction balances at no velocity.
     """
     return stable_velocity(
         lambda velocity: mean_friction(velocity, case, stiffness, frequency, ratio),
@@ -111,7 +111,7 @@ def device_case(device: Device, phase: float, ratio: float = 1) -> LugreCase:
     force = equivalent_force(device)
     return LugreCase(
         strength=force.velocity_amplitude,
-        amplitude_ratio=device.normal_amplitude / device.normal_preload,
+        amplitude_ratio=device.amplitude_ratio,
         phase=phase + ratio * force.angle,
         friction_coefficient=device.friction_coefficient,
         damping=device.bristle_damping,

@@ -9,10 +9,13 @@ from slider_resonator.references.resolved.contact import SLIP_BACKWARD, SLIP_FOR
 
 @dataclass
 class ContactRecord:
-    """Counts reversals and sticks as ``Trajectory`` defines them while the modes are entered."""
+    """Counts reversals and sticks as ``Trajectory`` defines them while the modes are entered.
+
+    ``direction`` is that of the last motion, 0 before the first.
+    """
 
     mode: int | None = None
-    last_slip: int | None = None
+    direction: int = 0
     reversals: int = 0
     sticks: int = 0
     stick_time: float = 0.0
@@ -26,9 +29,13 @@ class ContactRecord:
             self.event_times.append(time)
             self.sticks += mode == STICK
         if mode in (SLIP_BACKWARD, SLIP_FORWARD):
-            self.reversals += self.last_slip == -mode
-            self.last_slip = mode
+            self.slide(mode)
         self.mode = mode
+
+    def slide(self, direction: int) -> None:
+        """Move in a direction (-1, 0 or 1), in flight too; the opposite of the last reverses."""
+        self.reversals += direction * self.direction < 0
+        self.direction = direction or self.direction
 
     def stay(self, duration: float) -> None:
         """Stay in the present mode for a duration in s."""

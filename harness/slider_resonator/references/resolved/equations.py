@@ -40,18 +40,18 @@ class Equations:
 
     drive_frequency: float
     inertia: float
-    coupling_damping: float
-    coupling_stiffness: float
-    force_sine: float
-    force_cosine: float
-    base_acceleration: float
-    damping_rate: float
-    stiffness_rate: float
     friction_mean: float
     friction_amplitude: float
     normal_preload: float
     normal_amplitude: float
-    steady_resonator: complex | None
+    force_sine: float
+    force_cosine: float = 0.0
+    coupling_damping: float = 0.0
+    coupling_stiffness: float = 0.0
+    base_acceleration: float = 0.0
+    damping_rate: float = 0.0
+    stiffness_rate: float = 0.0
+    steady_resonator: complex | None = None
 
     def needed_force(
         self, load: float, theta: Number, displacement: Number, velocity: Number
@@ -71,7 +71,7 @@ class Equations:
         )
 
     def friction_limit(self, angle: Number) -> Number:
-        """Return the greatest friction force in N at the angle psi + phase of the normal load."""
+        """Return the largest friction force in N at the angle psi + phase of the normal load."""
         sine: Number = np.sin(angle)
         return self.friction_mean + self.friction_amplitude * sine
 
@@ -150,7 +150,7 @@ class Equations:
         return rotating.imag, self.drive_frequency * rotating.real
 
     def fastest_rate(self, frequency_ratio: float) -> float:
-        """Return the greatest of all rates in rad/s of the motion in slip, stick and flight."""
+        """Return the largest of all rates in rad/s of the motion in slip, stick and flight."""
         damping = self.damping_rate + self.coupling_damping / self.inertia
         stiffness = self.stiffness_rate + self.coupling_stiffness / self.inertia
         root = 0.5 * damping + cmath.sqrt(0.25 * damping**2 - stiffness)
@@ -192,23 +192,34 @@ def equations_of(device: Device) -> Equations:
     for name in ("normal_preload", "normal_amplitude"):
         if not getattr(device, name) >= 0.0:
             raise ValueError(f"{name} = {getattr(device, name)!r} N must be at least 0")
+    coefficient = device.friction_faces * device.friction_coefficient
+    contact = {
+        "friction_mean": coefficient * device.normal_preload,
+        "friction_amplitude": coefficient * device.normal_amplitude,
+        "normal_preload": device.normal_preload,
+        "normal_amplitude": device.normal_amplitude,
+    }
+    frequency = device.drive_frequency
     if device.fidelity == 1:
-        return _rigid_equations(device)
+        resonator, force = _steady_resonator(device)
+        return Equations(
+            drive_frequency=frequency,
+            inertia=device.total_mass,
+            force_sine=force.real,
+            force_cosine=force.imag,
+            steady_resonator=resonator,
+            **contact,
+        )
     return Equations(
-        drive_frequency=device.drive_frequency,
+        drive_frequency=frequency,
         inertia=device.slider_mass,
+        force_sine=device.tangential_force,
         coupling_damping=device.damping,
         coupling_stiffness=device.stiffness,
-        force_sine=device.tangential_force,
-        force_cosine=0.0,
-        base_acceleration=device.base_amplitude * device.drive_frequency**2,
+        base_acceleration=device.base_amplitude * frequency**2,
         damping_rate=2.0 * device.damping_ratio * device.resonator_frequency,
         stiffness_rate=device.resonator_frequency**2,
-        friction_mean=_friction_coefficient(device) * device.normal_preload,
-        friction_amplitude=_friction_coefficient(device) * device.normal_amplitude,
-        normal_preload=device.normal_preload,
-        normal_amplitude=device.normal_amplitude,
-        steady_resonator=None,
+        **contact,
     )
 
 
@@ -224,11 +235,8 @@ def initial_state(device: Device) -> State:
     )
 
 
-def _friction_coefficient(device: Device) -> float:
-    return device.friction_faces * device.friction_coefficient
-
-
-def _rigid_equations(device: Device) -> Equations:
+def _steady_resonator(device: Device) -> tuple[complex, complex]:
+    """Return the complex amplitudes of the resonator (m), (32), and of the force (N) in (33)."""
     frequency = device.drive_frequency
     base_acceleration = device.base_amplitude * frequency**2
     mobility = 1.0 / (1.0 - device.mass_ratio)
@@ -248,19 +256,4 @@ def _rigid_equations(device: Device) -> Equations:
         + device.tangential_force
         + device.resonator_mass * frequency**2 * resonator
     )
-    return Equations(
-        drive_frequency=frequency,
-        inertia=device.total_mass,
-        coupling_damping=0.0,
-        coupling_stiffness=0.0,
-        force_sine=force.real,
-        force_cosine=force.imag,
-        base_acceleration=0.0,
-        damping_rate=0.0,
-        stiffness_rate=0.0,
-        friction_mean=_friction_coefficient(device) * device.normal_preload,
-        friction_amplitude=_friction_coefficient(device) * device.normal_amplitude,
-        normal_preload=device.normal_preload,
-        normal_amplitude=device.normal_amplitude,
-        steady_resonator=resonator,
-    )
+    return resonator, force

@@ -30,7 +30,7 @@ def first_crossing(
     """
     falls = values[1:] < -floor
     dips = (slopes[:-1] < 0.0) & (slopes[1:] > 0.0)
-    for index in np.flatnonzero(falls | dips):
+    for index in np.flatnonzero(falls | dips).tolist():
         left, right = float(grid[index]), float(grid[index + 1])
         if not falls[index]:
             right = _root(lambda time: function(time)[1], left, right)

@@ -8,13 +8,11 @@ and each is searched on a finer grid with slopes, so that no pair of close roots
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import OdeSolver
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
@@ -22,12 +20,16 @@ from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
 from slider_resonator.references.resolved.first_crossing import first_crossing
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
-from slider_resonator.references.resolved.passage import Follow, Passage, Stretch
-from slider_resonator.references.resolved.scipy_methods import scipy_method
+from slider_resonator.references.resolved.scipy_methods import (
+    Dense,
+    Method,
+    scipy_method,
+    take_step,
+)
+from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 Array = NDArray[np.float64]
-Dense = Callable[[float | Array], Array]
 
 STEPS_PER_FASTEST_PERIOD = 16
 _SEARCHED_PER_STEP = 8
@@ -50,7 +52,7 @@ def simulate(
     start. A sample on a boundary between inputs belongs to the inputs before it. ``rtol`` is the
     relative tolerance of every step, ``atol`` the absolute one in fractions of a characteristic
     velocity and displacement. ``method`` is DOP853, LSODA or Radau; the fastest period takes at
-    least ``steps_per_period`` steps, which costs a loose tolerance more than it asks for. Counts
+    least ``steps_per_period`` steps, more than a loose tolerance needs. Counts
     cover the whole span of the inputs. Raises ValueError for a device that the equations do not
     cover, another method, inputs with gaps, and times outside them.
     """
@@ -60,90 +62,85 @@ def simulate(
 
 
 def _follow_with(
-    equations: Equations, method: type[OdeSolver], rtol: float, atol: float, steps_per_period: int
+    equations: Equations, method: Method, rtol: float, atol: float, steps_per_period: int
 ) -> Follow:
-    def follow(stretch: Stretch) -> Passage:
-        return _Motion(equations, stretch).follow(method, rtol, atol, steps_per_period)
+    def follow(segment: Segment) -> SegmentResult:
+        return _Motion(equations, segment).follow(method, rtol, atol, steps_per_period)
 
     return follow
 
 
 class _Motion:
-    """One stretch of motion: its right hand side, its events, and its integration.
+    """One segment of motion: its right hand side, its events, and its integration.
 
-    The integrated states are (displacement since the start of the stretch, velocity, Y, Y').
+    The integrated states are (displacement since the start of the segment, velocity, Y, Y').
     """
 
-    def __init__(self, equations: Equations, stretch: Stretch) -> None:
+    def __init__(self, equations: Equations, segment: Segment) -> None:
         self._equations = equations
-        self._stretch = stretch
+        self._segment = segment
         self._rate = equations.drive_frequency
-        self._angle_rate = stretch.frequency_ratio * equations.drive_frequency
+        self._angle_rate = segment.frequency_ratio * equations.drive_frequency
 
     def follow(
-        self, method: type[OdeSolver], rtol: float, atol: float, steps_per_period: int
-    ) -> Passage:
-        stretch = self._stretch
-        fastest = self._equations.fastest_rate(stretch.frequency_ratio)
+        self, method: Method, rtol: float, atol: float, steps_per_period: int
+    ) -> SegmentResult:
+        segment = self._segment
+        fastest = self._equations.fastest_rate(segment.frequency_ratio)
         longest_step = 2.0 * math.pi / fastest / steps_per_period
-        solver: Any = method(
+        solver = method(
             self._equations.slopes(
-                stretch.mode, stretch.load, stretch.theta, stretch.angle, stretch.frequency_ratio
+                segment.mode, segment.load, segment.theta, segment.angle, segment.frequency_ratio
             ),
             0.0,
-            np.array([0.0, *stretch.state[1:]]),
-            stretch.span,
-            first_step=min(longest_step, stretch.span),
+            np.array([0.0, *segment.state[1:]]),
+            segment.span,
+            first_step=min(longest_step, segment.span),
             max_step=longest_step,
             rtol=rtol,
-            atol=atol * self._equations.state_scales(stretch.load),
+            atol=atol * self._equations.state_scales(segment.load),
         )
-        steps = 0
         samples: list[Array] = []
-        event = 0
+        steps = sampled = event = 0
         time, state = 0.0, solver.y
         while solver.status == "running" and not event:
-            message = solver.step()
-            if solver.status == "failed":
-                raise RuntimeError(
-                    f"{method.__name__} failed at {solver.t!r} s into a stretch of mode "
-                    f"{stretch.mode}: {message}; use a greater rtol"
-                )
+            start = time
+            take_step(solver, segment.start, "use a greater rtol")
             steps += 1
             dense = solver.dense_output()
             time, state = solver.t, solver.y
-            crossing = self._first_event(dense, solver.t_old, solver.t)
+            crossing = self._first_event(dense, start, time)
             if crossing is not None:
                 time, event = crossing
                 state = dense(time)
-            after = np.searchsorted(stretch.samples, [solver.t_old, time], side="right")
-            first = 0 if steps == 1 else int(after[0])
-            if after[1] > first:
-                samples.append(dense(stretch.samples[first : after[1]]).T)
-        sampled = np.concatenate([np.empty((0, 4)), *samples])
-        sampled[:, 0] += stretch.state[0]
-        return Passage(
+            end = int(np.searchsorted(segment.samples, time, side="right"))
+            if end > sampled:
+                samples.append(dense(segment.samples[sampled:end]).T)
+                sampled = end
+        states = np.concatenate([np.empty((0, 4)), *samples])
+        states[:, 0] += segment.state[0]
+        return SegmentResult(
             duration=float(time),
             state=(
-                stretch.state[0] + float(state[0]),
+                segment.state[0] + float(state[0]),
                 float(state[1]),
                 float(state[2]),
                 float(state[3]),
             ),
             event=event,
-            samples=sampled,
+            samples=states,
             steps=steps,
             evaluations=solver.nfev,
         )
 
     def _first_event(self, dense: Dense, start: float, stop: float) -> tuple[float, int] | None:
         """Return time (s) and direction of the first event within a step, None if there is none."""
-        if self._stretch.mode == LIFTED:
+        if self._segment.mode == LIFTED:
             return None
         grid = np.linspace(start, stop, _SEARCHED_PER_STEP + 1)
         states = dense(grid)
         crossings = []
-        for event in (-self._stretch.mode,) if self._stretch.mode else (1, -1):
+        for event in (-self._segment.mode,) if self._segment.mode else (1, -1):
             margin = partial(self._margin_at, dense, event)
             values, slopes = self._margin(event, grid, states)
             floor = _NOISE * float(np.abs(values).max())
@@ -162,15 +159,15 @@ class _Motion:
         In a slip the margin is the velocity in the slip direction, in a stick the friction left
         before the slider breaks loose in the direction ``event``.
         """
-        equations, stretch = self._equations, self._stretch
+        equations, segment = self._equations, self._segment
         _, velocity, displacement, resonator_velocity = states
-        theta = stretch.theta + self._rate * np.asarray(time)
-        angle = stretch.angle + self._angle_rate * np.asarray(time)
-        needed = equations.needed_force(stretch.load, theta, displacement, resonator_velocity)
+        theta = segment.theta + self._rate * np.asarray(time)
+        angle = segment.angle + self._angle_rate * np.asarray(time)
+        needed = equations.needed_force(segment.load, theta, displacement, resonator_velocity)
         limit = equations.friction_limit(angle)
-        if stretch.mode != STICK:
-            acceleration = (needed - stretch.mode * limit) / equations.inertia
-            return stretch.mode * velocity, stretch.mode * acceleration
+        if segment.mode != STICK:
+            acceleration = (needed - segment.mode * limit) / equations.inertia
+            return segment.mode * velocity, segment.mode * acceleration
         resonator_acceleration = (
             equations.base_acceleration * np.sin(theta)
             - equations.damping_rate * resonator_velocity

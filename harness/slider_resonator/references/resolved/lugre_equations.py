@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LugreEquations:
-    """The equations apart from friction, and the bristle in units of its greatest deflection.
+    """The equations apart from friction, and the bristle in units of its largest deflection.
 
     With the stretch ``w = s0 z / mu``, 1 in steady sliding, v the velocity, s its sign and N the
     normal force::
@@ -30,7 +30,7 @@ class LugreEquations:
     path_damping: float
 
     @property
-    def greatest_deflection(self) -> float:
+    def max_deflection(self) -> float:
         """Deflection in m of the bristle in steady sliding, mu / s0."""
         return 1.0 / self.path_rate
 

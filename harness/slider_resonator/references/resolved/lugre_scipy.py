@@ -1,4 +1,4 @@
-"""LuGre friction by scipy, straight on the full state: slow, and shares no method with the referee.
+"""LuGre friction by scipy on the full state: slow, and independent of the Taylor reference.
 
 The bristle is integrated as it stands in (8), |v| and the open contact are not treated as events.
 An implicit method, because stiff bristles are stiff here.
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +18,8 @@ from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
 from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
-from slider_resonator.references.resolved.scipy_methods import scipy_method
+from slider_resonator.references.resolved.recorder import Recorder
+from slider_resonator.references.resolved.scipy_methods import Method, scipy_method, take_step
 
 Array = NDArray[np.float64]
 
@@ -48,33 +48,14 @@ def simulate_lugre(
     run = _Run(device, lugre_equations_of(device), times)
     for inputs in held:
         run.follow(inputs, solver, rtol, atol)
-    return LugreTrajectory(
-        time=times,
-        position=run.signals[:, 0],
-        velocity=run.signals[:, 1],
-        resonator_displacement=run.signals[:, 2],
-        resonator_velocity=run.signals[:, 3],
-        normal_force=run.signals[:, 4],
-        friction_force=run.signals[:, 5],
-        contact_mode=run.signals[:, 6].astype(np.int64),
-        bristle_deflection=run.signals[:, 7],
-        reversals=run.reversals,
-        sticks=0,
-        stick_time=0.0,
-        event_times=np.empty(0),
-        steps=run.steps,
-        evaluations=run.evaluations,
-    )
+    return run.recorder.lugre_trajectory()
 
 
 class _Run:
     """The state (position, velocity, Y, Y', z) of a run between held inputs, samples and counts."""
 
     def __init__(self, device: Device, lugre: LugreEquations, times: Array) -> None:
-        self.signals = np.empty((len(times), 8))
-        self.reversals = 0
-        self.steps = 0
-        self.evaluations = 0
+        self.recorder = Recorder(times)
         self._lugre = lugre
         self._equations = lugre.equations
         self._stiffness = device.bristle_stiffness
@@ -82,15 +63,10 @@ class _Run:
         self._coefficient = device.friction_coefficient
         self._faces = device.friction_faces
         self._state = np.array([*initial_state(device), device.initial_bristle_deflection])
-        self._times = times
-        self._kept = 0
         self._theta = 0.0
         self._psi = 0.0
-        self._moved = 0.0
 
-    def follow(
-        self, inputs: HeldInputs, method: Callable[..., Any], rtol: float, atol: float
-    ) -> None:
+    def follow(self, inputs: HeldInputs, method: Method, rtol: float, atol: float) -> None:
         equations = self._equations
         ratio = inputs.frequency_ratio
         scales = np.append(equations.state_scales(inputs.load), self._coefficient / self._stiffness)
@@ -105,25 +81,16 @@ class _Run:
             atol=atol * scales,
         )
         while solver.status == "running":
-            message = solver.step()
-            if solver.status == "failed":
-                raise RuntimeError(
-                    f"{method.__name__} failed at t = {inputs.start + float(solver.t)!r} s: "
-                    f"{message}; use a greater rtol"
-                )
-            self.steps += 1
-            direction = float(np.sign(solver.y[1]))
-            self.reversals += direction * self._moved < 0.0
-            self._moved = direction or self._moved
+            take_step(solver, inputs.start, "use a greater rtol")
+            self.recorder.steps += 1
+            self.recorder.contact.slide(int(np.sign(solver.y[1])))
             reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
-            until = int(np.searchsorted(self._times, reached, side="right"))
-            if until > self._kept:
-                local = self._times[self._kept : until] - inputs.start
+            local = self.recorder.pending(reached) - inputs.start
+            if local.size:
                 states = solver.dense_output()(local).T
                 states[:, 0] += start
-                self.signals[self._kept : until] = self._signals(inputs, local, states)
-                self._kept = until
-        self.evaluations += solver.nfev
+                self._keep(inputs, local, states)
+        self.recorder.evaluations += solver.nfev
         turned = equations.drive_frequency * (inputs.stop - inputs.start)
         self._theta += turned
         self._psi += ratio * turned
@@ -166,7 +133,7 @@ class _Run:
 
         return slopes
 
-    def _signals(self, inputs: HeldInputs, time: Array, states: Array) -> Array:
+    def _keep(self, inputs: HeldInputs, time: Array, states: Array) -> None:
         equations = self._equations
         theta = self._theta + equations.drive_frequency * time
         angle_rate = inputs.frequency_ratio * equations.drive_frequency
@@ -177,13 +144,11 @@ class _Run:
             self._coefficient
         )
         friction = self._stiffness * deflection + self._damping * deflection_rate
-        return np.column_stack(
-            [
-                states[:, :2],
-                *equations.resonator_motion(theta, states),
-                np.maximum(0.0, load),
-                self._faces * np.maximum(0.0, load) * friction,
-                np.where(load > 0.0, np.sign(velocity), float(LIFTED)),
-                deflection,
-            ]
+        normal = np.maximum(0.0, load)
+        self.recorder.keep(
+            states,
+            equations.resonator_motion(theta, states),
+            (normal, self._faces * normal * friction),
+            np.where(load > 0.0, np.sign(velocity), float(LIFTED)),
+            deflection,
         )

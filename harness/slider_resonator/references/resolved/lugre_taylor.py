@@ -1,15 +1,15 @@
-"""The LuGre referee: heyoka's Taylor method, bristles from the path, reversals located.
+"""The LuGre reference: heyoka's Taylor method, bristles from the path, reversals located.
 
 Between two reversals the bristle is an explicit function of the path, so that stiff bristles do not
 make the equations stiff. For comparison the bristle can be integrated as a state instead, which
-costs steps in proportion to its stiffness. Each formulation is one compiled system for every
-device; all numbers are runtime parameters.
+costs steps in proportion to its stiffness.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,29 +23,32 @@ from slider_resonator.references.resolved.contact import (
     time_to_lift_off,
     time_to_touchdown,
 )
-from slider_resonator.references.resolved.contact_record import ContactRecord
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
-from slider_resonator.references.resolved.lugre_system import (
+from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
+from slider_resonator.references.resolved.polynomial_roots import first_fall
+from slider_resonator.references.resolved.recorder import Recorder
+from slider_resonator.references.resolved.taylor_system import (
+    BRISTLE,
     DIRECTION,
     DRIVE_AND_NORMAL_ANGLE,
     HELD,
+    ROUNDING,
+    ROUNDING_OF_A_SUM,
     STRETCH_AND_SHORTFALL,
-    Bristle,
-    lugre_integrator,
-    lugre_parameters,
+    held_parameters,
+    scales_of,
+    series_values,
+    taylor_integrator,
 )
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
-from slider_resonator.references.resolved.polynomial_roots import first_fall
 
 Array = NDArray[np.float64]
 
-ROUNDING = 1e-18
-"""Tolerance of a Taylor step in the scaled variables, below what double precision resolves."""
+Bristle = Literal["path", "state"]
+"""Whether the bristle follows from the path since the start of a step, or is a state."""
 
-_ROUNDING_OF_A_SUM = 1e-15
 _FORGOTTEN = 1e-25
-_MOST_EVENTS_AT_ONE_INSTANT = 20
+_MAX_EVENTS_AT_ONE_INSTANT = 20
 
 
 def simulate_lugre(
@@ -72,24 +75,7 @@ def simulate_lugre(
     run = _Run(device, lugre_equations_of(device), times, bristle, tolerance)
     for inputs in held:
         run.follow(inputs)
-    signals = np.concatenate([np.empty((0, 8)), *run.signals])
-    return LugreTrajectory(
-        time=times,
-        position=signals[:, 0],
-        velocity=signals[:, 1],
-        resonator_displacement=signals[:, 2],
-        resonator_velocity=signals[:, 3],
-        normal_force=signals[:, 4],
-        friction_force=signals[:, 5],
-        contact_mode=signals[:, 6].astype(np.int64),
-        bristle_deflection=signals[:, 7],
-        reversals=run.reversals,
-        sticks=0,
-        stick_time=0.0,
-        event_times=np.array(run.record.event_times),
-        steps=run.steps,
-        evaluations=run.evaluations,
-    )
+    return run.recorder.lugre_trajectory()
 
 
 class _Run:
@@ -107,74 +93,68 @@ class _Run:
         bristle: Bristle,
         tolerance: float,
     ) -> None:
-        self.record = ContactRecord()
-        self.signals: list[Array] = []
-        self.reversals = 0
-        self.steps = 0
-        self.evaluations = 0
+        self.recorder = Recorder(times)
         self._lugre = lugre
         self._equations = lugre.equations
-        self._times = times
-        self._kept = 0
         self._from_path = bristle == "path"
-        self._integrator = lugre_integrator(bristle, tolerance)
+        self._integrator = taylor_integrator(bristle, tolerance)
         self._position, velocity, *resonator = initial_state(device)
         self._motion = np.array([0.0, velocity, *resonator])
-        self._stretch = device.initial_bristle_deflection / lugre.greatest_deflection
+        self._stretch = device.initial_bristle_deflection / lugre.max_deflection
         self._direction = -1 if velocity < 0.0 else 1
         self._shortfall = self._direction - self._stretch
-        self._moved = 0
         self._theta = 0.0
         self._psi = 0.0
 
     def follow(self, inputs: HeldInputs) -> None:
         equations = self._equations
         rate, ratio = equations.drive_frequency, inputs.frequency_ratio
-        force = equations.force_scale(inputs.load) or 1.0
-        speed = force / (equations.inertia * rate)
-        self._scales = np.array([speed / rate, speed] * 2)
+        force, self._scales = scales_of(equations, inputs.load)
+        self._integrator.pars[BRISTLE] = (
+            self._lugre.path_rate * self._scales[0],
+            self._lugre.path_damping * self._scales[1],
+        )
         friction = equations.friction_mean + equations.friction_amplitude
         self._driving_share = 1.0 - friction / force
         span = (inputs.stop - inputs.start) * rate
-        end = int(np.searchsorted(self._times, inputs.stop, side="right"))
         load_of = equations.normal_preload, equations.normal_amplitude
         lifted = is_lifted(*load_of, self._psi + inputs.phase, ratio)
         elapsed = Elapsed()
-        while (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
+        while (remaining := elapsed.until(span)) > 0.0:
             time_to = time_to_touchdown if lifted else time_to_lift_off
             change = time_to(*load_of, self._psi + inputs.phase, ratio)
-            self._integrator.pars[HELD] = lugre_parameters(
-                self._lugre, inputs.load, ratio, force, lifted
+            self._integrator.pars[HELD] = held_parameters(
+                equations, inputs.load, ratio, force, LIFTED if lifted else None
             )
-            self._follow_contact(inputs, lifted, elapsed, min(change, remaining), end)
+            self._follow_contact(inputs, lifted, elapsed, min(change, remaining))
             lifted = lifted != (change < remaining)
         # A last step that ends short of the stop by rounding has not covered samples there.
         still = np.append(self._motion / self._scales, self._stretch)[:, np.newaxis]
-        self._keep(inputs, LIFTED if lifted else self._moved, np.zeros(end - self._kept), still)
+        missed = np.zeros(len(self.recorder.pending(inputs.stop)))
+        self._keep(inputs, LIFTED if lifted else self.recorder.contact.direction, missed, still)
 
     def _follow_contact(
-        self, inputs: HeldInputs, lifted: bool, elapsed: Elapsed, span: float, end: int
+        self, inputs: HeldInputs, lifted: bool, elapsed: Elapsed, span: float
     ) -> None:
-        """Follow an open or a closed contact for a scaled span; samples up to index ``end``."""
+        """Follow an open or a closed contact for a scaled span."""
         rate = self._equations.drive_frequency
         within = Elapsed()
         events = 0
-        while (remaining := (span - within.seconds) - within.carry) > 0.0:
+        while (remaining := within.until(span)) > 0.0:
             step, fell, coefficients = self._expand(remaining, inputs.phase)
             events = events + 1 if fell and step <= math.ulp(1.0) else 0
             start = elapsed.seconds + elapsed.carry
-            if events > _MOST_EVENTS_AT_ONE_INSTANT:
+            if events > _MAX_EVENTS_AT_ONE_INSTANT:
                 raise RuntimeError(
                     f"the velocity at t = {inputs.start + start / rate!r} s changes sign more than "
-                    f"{_MOST_EVENTS_AT_ONE_INSTANT} times at one instant: the motion there is "
+                    f"{_MAX_EVENTS_AT_ONE_INSTANT} times at one instant: the motion there is "
                     "below rounding; perturb the initial state or an input"
                 )
             if step > 0.0:
                 mode = LIFTED if lifted else self._direction
-                self.record.enter(mode, inputs.start + start / rate)
-                self.reversals += self._moved == -self._direction
-                self._moved = self._direction
-                local = ((self._times[self._kept : end] - inputs.start) * rate) - start
+                self.recorder.contact.slide(self._direction)
+                self.recorder.contact.enter(mode, inputs.start + start / rate)
+                local = (self.recorder.pending(inputs.stop) - inputs.start) * rate - start
                 stop = (inputs.stop - inputs.start) * rate - start
                 covered = len(local)
                 if step < stop:
@@ -202,8 +182,8 @@ class _Run:
         integrator.time = 0.0
         _, step = integrator.step(max_delta_t=longest, write_tc=True)
         coefficients: Array = np.array(integrator.tc)
-        self.steps += 1
-        self.evaluations += 1
+        self.recorder.steps += 1
+        self.recorder.evaluations += 1
         if not (step > 0.0 and np.isfinite(coefficients).all()):
             raise RuntimeError(
                 f"the Taylor step from velocity {self._motion[1]!r} m/s is {step!r}: "
@@ -232,12 +212,12 @@ class _Run:
             + (1.0 - self._driving_share) * grip
             + coupling / (equations.inertia * rate) * float(terms[2:].max())
         )
-        return _ROUNDING_OF_A_SUM * (speed_share + min(step, 1.0) * force)
+        return ROUNDING_OF_A_SUM * (speed_share + min(step, 1.0) * force)
 
     def _stretched(self, path: Array, local: Array, coefficients: Array) -> tuple[Array, Array]:
         """Return stretch and shortfall where the scaled path and time have the given values."""
         if not self._from_path:
-            stretch = _values(local, coefficients[4:])[:, 0]
+            stretch = series_values(local, coefficients[4:])[:, 0]
             return stretch, self._direction - stretch
         exponent = -self._lugre.path_rate * self._scales[0] * self._direction * path
         return (
@@ -246,34 +226,22 @@ class _Run:
         )
 
     def _keep(self, inputs: HeldInputs, mode: int, local: Array, coefficients: Array) -> None:
-        if not len(local):
-            return
         lugre, equations = self._lugre, self._equations
-        scaled = _values(local, coefficients[:4])
+        scaled = series_values(local, coefficients[:4])
         stretch, _ = self._stretched(scaled[:, 0], local, coefficients)
         states = scaled * self._scales
         states[:, 0] += self._position
         angle = self._psi + inputs.phase + inputs.frequency_ratio * local
         resonator = equations.resonator_motion(self._theta + local, states)
-        normal, _ = equations.contact_forces(mode, inputs.load, self._theta + local, angle, states)
-        if mode == LIFTED:
-            friction = np.zeros(len(local))
-        else:
-            friction = lugre.friction_force(states[:, 1], stretch, angle)
-        self.signals.append(
-            np.column_stack(
-                [
-                    *(states[:, 0], states[:, 1], *resonator, normal, friction),
-                    np.full(len(local), float(mode)),
-                    lugre.greatest_deflection * stretch,
-                ]
-            )
-        )
-        self._kept += len(local)
+        forces = equations.contact_forces(mode, inputs.load, self._theta + local, angle, states)
+        if mode != LIFTED:
+            forces = forces[0], lugre.friction_force(states[:, 1], stretch, angle)
+        deflection = lugre.max_deflection * stretch
+        self.recorder.keep(states, resonator, forces, mode, deflection)
 
     def _advance(self, step: float, ratio: float, coefficients: Array) -> None:
         local = np.array([step])
-        end = _values(local, coefficients[:4])[0]
+        end = series_values(local, coefficients[:4])[0]
         stretch, shortfall = self._stretched(end[:1], local, coefficients)
         self._stretch = float(stretch[0])
         self._shortfall = float(shortfall[0]) if abs(shortfall[0]) > _FORGOTTEN else 0.0
@@ -282,8 +250,3 @@ class _Run:
         self._motion[0] = 0.0
         self._theta = advanced(self._theta, step)
         self._psi = advanced(self._psi, ratio * step)
-
-
-def _values(local: Array, coefficients: Array) -> Array:
-    """Return the values, shape (n, k), of k Taylor series at n times."""
-    return np.asarray(np.polynomial.polynomial.polyval(local, coefficients.T), dtype=np.float64).T

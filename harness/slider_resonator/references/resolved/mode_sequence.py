@@ -1,4 +1,4 @@
-"""The order of contact modes: which stretch of motion follows which, and with what state."""
+"""The order of contact modes: which segment of motion follows which, and with what state."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from slider_resonator.references.resolved.contact import (
     time_to_lift_off,
     time_to_touchdown,
 )
-from slider_resonator.references.resolved.contact_record import ContactRecord
 from slider_resonator.references.resolved.equations import Equations, State
-from slider_resonator.references.resolved.passage import Follow, Passage, Stretch
+from slider_resonator.references.resolved.recorder import Recorder
+from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
 
-_MOST_EVENTS_AT_ONE_INSTANT = 20
+_MAX_EVENTS_AT_ONE_INSTANT = 20
 
 
 class ModeSequence:
@@ -37,93 +37,74 @@ class ModeSequence:
         self.state = state
         self._equations = equations
         self._follow = follow
-        self._times = times
+        self._recorder = Recorder(times)
+        self._contact = self._recorder.contact
         self._theta = 0.0
         self._psi = 0.0
-        self._record = ContactRecord()
-        self._next_sample = 0
-        self._signals: list[NDArray[np.float64]] = []
-        self._steps = 0
-        self._evaluations = 0
         self._events_at_this_instant = 0
 
     def run(self, held: Sequence[HeldInputs]) -> Trajectory:
         """Return the motion through the held inputs.
 
         A sample on a boundary between held inputs belongs to the inputs before it. Counts and
-        event times cover the whole span of the inputs, whatever the times wanted. Raises ValueError
-        for inputs with gaps or times outside them, RuntimeError for a contact that cannot be
+        event times cover the whole span of the inputs, whatever the times. Raises ValueError for
+        inputs with gaps or times outside them, RuntimeError for a contact that cannot be
         resolved in floating point numbers.
         """
         check_contiguous(held)
-        check_times(self._times, held)
+        check_times(self._recorder.times, held)
         for inputs in held:
-            self._run_held(inputs, first=inputs is held[0])
-        signals = np.concatenate([*self._signals, np.empty((0, 7))])
-        return Trajectory(
-            time=self._times,
-            position=signals[:, 0],
-            velocity=signals[:, 1],
-            resonator_displacement=signals[:, 2],
-            resonator_velocity=signals[:, 3],
-            normal_force=signals[:, 4],
-            friction_force=signals[:, 5],
-            contact_mode=signals[:, 6].astype(np.int64),
-            reversals=self._record.reversals,
-            sticks=self._record.sticks,
-            stick_time=self._record.stick_time,
-            event_times=np.array(self._record.event_times),
-            steps=self._steps,
-            evaluations=self._evaluations,
-        )
+            self._run_held(inputs)
+        return self._recorder.trajectory()
 
-    def _run_held(self, inputs: HeldInputs, first: bool) -> None:
+    def _run_held(self, inputs: HeldInputs) -> None:
         elapsed = Elapsed()
         span = inputs.stop - inputs.start
         mode = self._mode_now(inputs)
-        self._record.enter(mode, inputs.start)
-        if first and self._times.size and self._times[0] == inputs.start:
-            self._keep(mode, inputs, np.zeros(1), np.array([self.state]))
-        while (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
+        self._contact.enter(mode, inputs.start)
+        self._keep_present(mode, inputs, self._recorder.pending(inputs.start))
+        while (remaining := elapsed.until(span)) > 0.0:
             contact_span = self._time_to_contact_change(mode, inputs)
-            passage = self._pass(mode, inputs, elapsed, min(remaining, contact_span))
-            elapsed.add(passage.duration)
-            self._theta = advanced(self._theta, self._equations.drive_frequency * passage.duration)
+            result = self._pass(mode, inputs, elapsed, min(remaining, contact_span))
+            elapsed.add(result.duration)
+            self._theta = advanced(self._theta, self._equations.drive_frequency * result.duration)
             self._psi = advanced(
                 self._psi,
-                inputs.frequency_ratio * self._equations.drive_frequency * passage.duration,
+                inputs.frequency_ratio * self._equations.drive_frequency * result.duration,
             )
-            self.state = passage.state
+            self.state = result.state
             time = inputs.start + elapsed.seconds
-            self._guard_progress(passage.duration, time)
-            if passage.event:
-                mode = self._mode_after_event(mode, passage.event, inputs)
+            self._guard_progress(result.duration, time)
+            if result.event:
+                mode = self._mode_after_event(mode, result.event, inputs)
             elif contact_span < remaining:
                 mode = self._mode_in_contact(inputs) if mode == LIFTED else LIFTED
             else:
                 break
-            self._record.enter(mode, time)
-        self._keep_leftovers(mode, inputs)
+            self._contact.enter(mode, time)
+        # An event at the stop, to rounding, has passed over the samples there.
+        self._keep_present(mode, inputs, self._recorder.pending(inputs.stop))
 
-    def _pass(self, mode: int, inputs: HeldInputs, elapsed: Elapsed, span: float) -> Passage:
-        local = (self._times[self._next_sample :] - inputs.start) - elapsed.seconds - elapsed.carry
-        wanted = local[: np.searchsorted(local, span, side="right")]
-        stretch = Stretch(
+    def _pass(self, mode: int, inputs: HeldInputs, elapsed: Elapsed, span: float) -> SegmentResult:
+        local = elapsed.until(self._recorder.pending() - inputs.start)
+        samples = local[: np.searchsorted(local, span, side="right")]
+        segment = Segment(
             mode=mode,
+            start=inputs.start + elapsed.seconds,
             state=self.state,
             theta=self._theta,
             angle=self._psi + inputs.phase,
             load=inputs.load,
             frequency_ratio=inputs.frequency_ratio,
             span=span,
-            samples=wanted,
+            samples=samples,
         )
-        passage = self._follow(stretch)
-        self._keep(mode, inputs, wanted[: len(passage.samples)], passage.samples)
-        self._record.stay(passage.duration)
-        self._steps += passage.steps
-        self._evaluations += passage.evaluations
-        return passage
+        result = self._follow(segment)
+        self._keep(mode, inputs, samples[: len(result.samples)], result.samples)
+        self._contact.stay(result.duration)
+        self._recorder.steps += result.steps
+        self._recorder.evaluations += result.evaluations
+        return result
 
     def _keep(
         self,
@@ -132,8 +113,6 @@ class ModeSequence:
         local: NDArray[np.float64],
         states: NDArray[np.float64],
     ) -> None:
-        if not len(local):
-            return
         equations = self._equations
         theta = self._theta + equations.drive_frequency * local
         angle = (
@@ -141,16 +120,11 @@ class ModeSequence:
         )
         resonator = equations.resonator_motion(theta, states)
         forces = equations.contact_forces(mode, inputs.load, theta, angle, states)
-        modes = np.full(len(local), float(mode))
-        self._signals.append(
-            np.column_stack([states[:, 0], states[:, 1], *resonator, *forces, modes])
-        )
-        self._next_sample += len(local)
+        self._recorder.keep(states, resonator, forces, mode)
 
-    def _keep_leftovers(self, mode: int, inputs: HeldInputs) -> None:
-        """Keep the samples at the stop that an event at the stop, to rounding, has passed over."""
-        end = int(np.searchsorted(self._times, inputs.stop, side="right"))
-        count = max(0, end - self._next_sample)
+    def _keep_present(self, mode: int, inputs: HeldInputs, times: NDArray[np.float64]) -> None:
+        """Keep the present state as the sample of each of the times."""
+        count = len(times)
         self._keep(mode, inputs, np.zeros(count), np.tile(self.state, (count, 1)))
 
     def _mode_now(self, inputs: HeldInputs) -> int:
@@ -197,9 +171,9 @@ class ModeSequence:
         self._events_at_this_instant = (
             self._events_at_this_instant + 1 if duration <= resolution else 0
         )
-        if self._events_at_this_instant > _MOST_EVENTS_AT_ONE_INSTANT:
+        if self._events_at_this_instant > _MAX_EVENTS_AT_ONE_INSTANT:
             raise RuntimeError(
-                f"contact at t = {time!r} s changes mode more than {_MOST_EVENTS_AT_ONE_INSTANT} "
+                f"contact at t = {time!r} s changes mode more than {_MAX_EVENTS_AT_ONE_INSTANT} "
                 f"times at one instant (state {self.state!r}): stick and slip cannot be told apart "
                 "there; perturb the initial state or an input"
             )

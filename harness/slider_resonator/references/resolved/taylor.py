@@ -1,15 +1,12 @@
-"""The referee: the full equations by heyoka's Taylor method, events located to rounding.
+"""The Coulomb reference: heyoka's Taylor method, events located to rounding.
 
 heyoka supplies the Taylor polynomials of the motion within one contact mode; the events are the
-first roots of those polynomials. There is one compiled system for every device and mode, all
-numbers are runtime parameters.
+first roots of those polynomials.
 """
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -21,16 +18,22 @@ from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
-from slider_resonator.references.resolved.passage import Passage, Stretch
 from slider_resonator.references.resolved.polynomial_roots import first_fall
+from slider_resonator.references.resolved.segment import Segment, SegmentResult
+from slider_resonator.references.resolved.taylor_system import (
+    DIRECTION,
+    DRIVE_AND_NORMAL_ANGLE,
+    HELD,
+    ROUNDING,
+    ROUNDING_OF_A_SUM,
+    held_parameters,
+    scales_of,
+    series_values,
+    taylor_integrator,
+)
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 Array = NDArray[np.float64]
-
-ROUNDING = 1e-18
-"""Tolerance of a Taylor step in the scaled variables, below what double precision resolves."""
-
-_ROUNDING_OF_A_SUM = 1e-15
 
 
 def simulate(
@@ -50,97 +53,41 @@ def simulate(
     when heyoka is not installed.
     """
     equations = equations_of(device)
-    integrator = _integrator(tolerance)
+    integrator = taylor_integrator("coulomb", tolerance)
 
-    def follow(stretch: Stretch) -> Passage:
-        return _ScaledMotion(equations, stretch, integrator).follow()
+    def follow(segment: Segment) -> SegmentResult:
+        return _ScaledMotion(equations, segment, integrator).follow()
 
     return ModeSequence(equations, follow, initial_state(device), times).run(held)
 
 
-def _heyoka() -> Any:
-    try:
-        return importlib.import_module("heyoka")
-    except ModuleNotFoundError as error:
-        raise ModuleNotFoundError(
-            "the Taylor reference needs heyoka: pip install 'slider-resonator[referee]'"
-        ) from error
-
-
-@cache
-def _integrator(tolerance: float) -> Any:
-    """Compile the scaled equations once; see ``_ScaledMotion`` for the order of parameters."""
-    heyoka = _heyoka()
-    position, velocity, displacement, resonator_velocity = heyoka.make_vars("x", "v", "y", "u")
-    (
-        damping,
-        stiffness,
-        sine,
-        cosine,
-        constant,
-        normal,
-        base,
-        damping_rate,
-        stiffness_rate,
-        theta,
-        angle,
-        ratio,
-    ) = (heyoka.par[index] for index in range(12))
-    drive_angle = theta + heyoka.time
-    acceleration = (
-        damping * resonator_velocity
-        + stiffness * displacement
-        + sine * heyoka.sin(drive_angle)
-        + cosine * heyoka.cos(drive_angle)
-        + constant
-        + normal * heyoka.sin(angle + ratio * heyoka.time)
-    )
-    resonator_acceleration = (
-        base * heyoka.sin(drive_angle)
-        - damping_rate * resonator_velocity
-        - stiffness_rate * displacement
-        - acceleration
-    )
-    return heyoka.taylor_adaptive(
-        [
-            (position, velocity),
-            (velocity, acceleration),
-            (displacement, resonator_velocity),
-            (resonator_velocity, resonator_acceleration),
-        ],
-        [0.0] * 4,
-        pars=[0.0] * 12,
-        tol=tolerance,
-    )
-
-
 class _ScaledMotion:
-    """One stretch of motion in drive angle as time and forces over a characteristic force."""
+    """One segment of motion in drive angle as time and forces over a characteristic force."""
 
-    def __init__(self, equations: Equations, stretch: Stretch, integrator: Any) -> None:
+    def __init__(self, equations: Equations, segment: Segment, integrator: Any) -> None:
         self._equations = equations
-        self._stretch = stretch
+        self._segment = segment
         self._integrator = integrator
-        rate = equations.drive_frequency
-        self._force = equations.force_scale(stretch.load) or 1.0
-        velocity = self._force / (equations.inertia * rate)
-        self._scales = np.array([velocity / rate, velocity] * 2)
+        self._force, self._scales = scales_of(equations, segment.load)
 
-    def follow(self) -> Passage:
-        stretch, integrator = self._stretch, self._integrator
+    def follow(self) -> SegmentResult:
+        segment, integrator = self._segment, self._integrator
         rate = self._equations.drive_frequency
-        integrator.pars[:] = self._parameters()
+        integrator.pars[HELD] = held_parameters(
+            self._equations, segment.load, segment.frequency_ratio, self._force, segment.mode
+        )
+        integrator.pars[DIRECTION] = segment.mode
         # The displacement starts from zero, so that a long way travelled costs it no digits.
-        state = np.array([0.0, *stretch.state[1:]]) / self._scales
-        wanted = stretch.samples * rate
-        span = stretch.span * rate
+        state = np.array([0.0, *segment.state[1:]]) / self._scales
+        times = segment.samples * rate
+        span = segment.span * rate
         longest = self._longest_step()
         elapsed = Elapsed()
-        theta, angle = stretch.theta, stretch.angle
+        theta, angle = segment.theta, segment.angle
         samples: list[Array] = []
         steps, event = 0, 0
-        while not event and (remaining := (span - elapsed.seconds) - elapsed.carry) > 0.0:
-            integrator.pars[9:11] = theta, angle
+        while not event and (remaining := elapsed.until(span)) > 0.0:
+            integrator.pars[DRIVE_AND_NORMAL_ANGLE] = theta, angle
             integrator.state[:] = state
             integrator.time = 0.0
             _, step = integrator.step(max_delta_t=min(remaining, longest), write_tc=True)
@@ -151,52 +98,30 @@ class _ScaledMotion:
                 state = np.array(integrator.state)
             else:
                 step, event = crossing
-                state = np.polynomial.polynomial.polyval(step, coefficients.T)
-            local = (wanted[len(samples) :] - elapsed.seconds) - elapsed.carry
+                state = series_values(np.array([step]), coefficients)[0]
+            local = elapsed.until(times[len(samples) :])
             covered = local[: np.searchsorted(local, step, side="right")]
-            samples.extend(np.polynomial.polynomial.polyval(covered, coefficients.T).T)
+            samples.extend(series_values(covered, coefficients))
             elapsed.add(step)
             theta = advanced(theta, step)
-            angle = advanced(angle, stretch.frequency_ratio * step)
+            angle = advanced(angle, segment.frequency_ratio * step)
         sampled = np.array(samples).reshape(-1, 4) * self._scales
-        sampled[:, 0] += stretch.state[0]
+        sampled[:, 0] += segment.state[0]
         displacement, velocity, resonator, resonator_velocity = (state * self._scales).tolist()
-        return Passage(
-            duration=(elapsed.seconds + elapsed.carry) / rate if event else stretch.span,
-            state=(stretch.state[0] + displacement, velocity, resonator, resonator_velocity),
+        return SegmentResult(
+            duration=(elapsed.seconds + elapsed.carry) / rate if event else segment.span,
+            state=(segment.state[0] + displacement, velocity, resonator, resonator_velocity),
             event=event,
             samples=sampled,
             steps=steps,
             evaluations=steps,
         )
 
-    def _parameters(self) -> list[float]:
-        equations, stretch = self._equations, self._stretch
-        rate = equations.drive_frequency
-        slides = float(stretch.mode != STICK)
-        friction = 0.0 if stretch.mode == LIFTED else float(stretch.mode)
-        coupling = slides / (equations.inertia * rate)
-        per_force = slides / self._force
-        return [
-            coupling * equations.coupling_damping,
-            coupling * equations.coupling_stiffness / rate,
-            per_force * equations.force_sine,
-            per_force * equations.force_cosine,
-            -per_force * (stretch.load + friction * equations.friction_mean),
-            -per_force * friction * equations.friction_amplitude,
-            equations.base_acceleration * equations.inertia / self._force,
-            equations.damping_rate / rate,
-            equations.stiffness_rate / rate**2,
-            stretch.theta,
-            stretch.angle,
-            stretch.frequency_ratio,
-        ]
-
     def _first_event(
         self, coefficients: Array, theta: float, angle: float, step: float
     ) -> tuple[float, int] | None:
         """Return scaled time and direction of the first event in a step, None if there is none."""
-        mode = self._stretch.mode
+        mode = self._segment.mode
         if mode == LIFTED:
             return None
         noise = self._noise(coefficients, step)
@@ -214,8 +139,8 @@ class _ScaledMotion:
     def _longest_step(self) -> float:
         # heyoka sizes its steps by the motion. In a stick the event series hold sines that the
         # motion need not contain; steps of one radian of the faster keep them at rounding level.
-        stretch = self._stretch
-        return 1.0 / max(1.0, abs(stretch.frequency_ratio)) if stretch.mode == STICK else np.inf
+        segment = self._segment
+        return 1.0 / max(1.0, abs(segment.frequency_ratio)) if segment.mode == STICK else np.inf
 
     def _noise(self, coefficients: Array, step: float) -> float:
         """Return the rounding error of forces and velocities in a step, over their scales.
@@ -226,16 +151,16 @@ class _ScaledMotion:
         rate = equations.drive_frequency
         coupling = equations.coupling_damping + equations.coupling_stiffness / rate
         reach = np.abs(coefficients[2:] * step ** np.arange(coefficients.shape[1])).max()
-        return _ROUNDING_OF_A_SUM * float(1.0 + coupling / (equations.inertia * rate) * reach)
+        return ROUNDING_OF_A_SUM * float(1.0 + coupling / (equations.inertia * rate) * reach)
 
     def _stick_forces(self, coefficients: Array, theta: float, angle: float) -> tuple[Array, Array]:
         """Return the Taylor coefficients of friction limit and needed force, over force scale."""
-        equations, stretch = self._equations, self._stretch
+        equations, segment = self._equations, self._segment
         count = coefficients.shape[1]
         rate = equations.drive_frequency
         coupling = 1.0 / (equations.inertia * rate)
         drive_sine, drive_cosine = _sine_series(theta, 1.0, count)
-        normal_sine, _ = _sine_series(angle, stretch.frequency_ratio, count)
+        normal_sine, _ = _sine_series(angle, segment.frequency_ratio, count)
         needed = (
             coupling * equations.coupling_damping * coefficients[3]
             + coupling * equations.coupling_stiffness / rate * coefficients[2]
@@ -243,7 +168,7 @@ class _ScaledMotion:
             / self._force
         )
         limit = equations.friction_amplitude / self._force * normal_sine
-        needed[0] -= stretch.load / self._force
+        needed[0] -= segment.load / self._force
         limit[0] += equations.friction_mean / self._force
         return limit, needed
 

@@ -39,7 +39,7 @@ def step_ladder(probe: Probe) -> tuple[float, ...]:
     first = own * 2.0 ** floor(log2(longest / own * (1.0 + 1e-9)))
     if not probe.varying:
         return (first,)
-    finest = max(scales.period / FINEST, probe.duration / schedule.MOST_STEPS)
+    finest = max(scales.period / FINEST, probe.duration / schedule.MAX_STEPS)
     if probe.covers != "windows":
         finest = max(finest, probe.probed_duration / MAX_STEPS)
     count = max(1, floor(log2(first / finest)) + 1)

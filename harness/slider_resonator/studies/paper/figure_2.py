@@ -11,7 +11,7 @@ from matplotlib.figure import Figure as Drawing
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase, fast_displacement
-from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.studies.paper.figure import (
     SHADES,
     Array,
@@ -59,7 +59,7 @@ def averaged_position(law: str, frequency: float, times: Array) -> Array:
         return -uniform_average.mean_friction(velocity, LugreCase(), STIFFNESS, frequency)
 
     coarse = np.linspace(0.0, times[-1], 201)
-    slow = np.interp(times, coarse, slow_course(acceleration, coarse, velocity=STRENGTH)[0])
+    slow = np.interp(times, coarse, slow_trajectory(acceleration, coarse, velocity=STRENGTH)[0])
     fast = np.array([fast_displacement(frequency * t, STRENGTH, frequency) for t in times])
     return np.asarray(slow + fast)
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure as Drawing
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb
-from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.studies.paper.figure import (
     SHADES,
@@ -50,7 +50,7 @@ def averaged_trajectory(fidelity: int, times: Array) -> tuple[Array, Array]:
     phase = averaged_coulomb.phase_to_force(force, PHASE, 1.0)
     swinging = force.velocity_amplitude * cos(force.angle)
     start = averaged_coulomb.slow_start(device) if fidelity == 2 else swinging
-    return slow_course(
+    return slow_trajectory(
         lambda time, velocity: averaged_coulomb.slow_acceleration(
             velocity, force.strength, 1.0, phase
         ),

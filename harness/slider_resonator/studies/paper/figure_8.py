@@ -15,7 +15,7 @@ from slider_resonator.references.averaged.averaged_coulomb import (
     device_steady_velocity_at_ratio,
     drifting_phase,
 )
-from slider_resonator.references.averaged.slow_course import slow_course
+from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.paper.figure import (
@@ -108,7 +108,7 @@ def _detuned(axis: Axes, data: Data) -> None:
             return averaged_coulomb.slow_acceleration(velocity, force.strength, 1.0, phase)
 
         start = averaged_coulomb.slow_start(DEVICE) / force.length_scale
-        axis.plot(times, slow_course(acceleration, times, start)[0], color=shade)
+        axis.plot(times, slow_trajectory(acceleration, times, start)[0], color=shade)
         run = data["detuned"][f"{detuning:g}"]
         position = np.array(run["position"]) / force.length_scale
         label = f"$\\Delta\\Omega$ = {detuning:g}"

@@ -34,8 +34,8 @@ def _mean(values: Array) -> float:
 STATISTICS: Mapping[str, Callable[[Array], float]] = {
     "mean": _mean,
     "rms": lambda values: _mean(values**2) ** 0.5,
-    "minimum": lambda values: float(values.min()),
-    "maximum": lambda values: float(values.max()),
+    "minimum": lambda values: float(np.min(values)),
+    "maximum": lambda values: float(np.max(values)),
     "peak_to_peak": lambda values: float(np.ptp(values)),
     "last": lambda values: float(values[-1]),
 }

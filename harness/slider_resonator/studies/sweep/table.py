@@ -59,7 +59,7 @@ def _write_csv(path: Path, columns: Columns) -> None:
 
 
 def _write_parquet(path: Path, task: Task, columns: Columns) -> None:
-    import pyarrow as pa  # type: ignore[import-untyped]
+    import pyarrow as pa
     from pyarrow import parquet
 
     types = {int: pa.int64(), float: pa.float64(), str: pa.string()}

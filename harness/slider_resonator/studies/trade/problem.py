@@ -13,7 +13,7 @@ from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.schedule import Schedule, Signal, schedule
-from slider_resonator.references.averaged.averaged_motion import NEAR_AN_INTEGER
+from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.scenes.scene import Scene
 
 Array = NDArray[np.float64]
@@ -79,7 +79,7 @@ class Problem:
         """
         ratio = self.inputs["frequency_ratio"]
         detuning = abs(ratio - round(ratio))
-        apart = 1e-9 < detuning < NEAR_AN_INTEGER
+        apart = 1e-9 < detuning < MAX_DETUNING
         return detuning / self.period if self.constant and apart else None
 
     @property

@@ -58,8 +58,8 @@ def _phase(cell: Cell, seen: Observation, psi: Exact) -> BoundCheck:
     swing = device.normal_amplitude * np.sin(psi + held)
     expected = np.maximum(0.0, (device.normal_preload + swing).astype(float))
     angle = np.abs(psi).astype(float) + np.abs(held)
-    allowed = BOUND * (device.normal_preload + device.normal_amplitude)
-    allowed = allowed + 4.0 * ROUNDING * angle * device.normal_amplitude
+    bound = BOUND * (device.normal_preload + device.normal_amplitude)
+    allowed = bound + 4.0 * ROUNDING * angle * device.normal_amplitude
     return _largest("phase of the normal load", seen.signal("normal_force") - expected, allowed)
 
 
@@ -173,6 +173,5 @@ def _largest(
     deviation = np.abs(np.asarray(deviation, dtype=float))
     floor = np.finfo(float).tiny
     found = float(np.max(deviation / np.maximum(allowed, floor)))
-    return BoundCheck(
-        name, found, f"off by up to {deviation.max():.3g}, {found:.3g} times the allowed"
-    )
+    worst = float(np.max(deviation))
+    return BoundCheck(name, found, f"off by up to {worst:.3g}, {found:.3g} times the allowed")

@@ -154,7 +154,7 @@ def compare(ours: Rows, theirs: Answer) -> Comparison:
         return Comparison(None, f"{found.shape} values, not {expected.shape}")
     peaks = np.abs(expected).max(axis=0)
     deviations = np.abs(found - expected).max(axis=0) / np.where(peaks > 0.0, peaks, 1.0)
-    return Comparison(float(deviations.max()))
+    return Comparison(float(np.max(deviations)))
 
 
 def run_host(host: Host, reference: Host, native: Path, python: Path) -> list[HostResult]:

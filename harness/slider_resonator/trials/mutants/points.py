@@ -12,7 +12,7 @@ from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
 from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
-from slider_resonator.trials.mutants.trial import Point
+from slider_resonator.trials.mutants.trial import Point, observe
 
 
 def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) -> list[Point]:

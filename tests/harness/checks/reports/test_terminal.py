@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import io
 from dataclasses import replace
+from typing import Any
 
 from rich.console import Console
 
@@ -10,26 +11,31 @@ from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import Validation
 from slider_resonator.output.console import LOG_WIDTH
 
-GOOD = Check(
+
+def check(*fields: Any) -> Check:
+    return Check(*fields)
+
+
+GOOD = check(
     *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),
     *(1e-10, 1e-7, True, "both must agree", "", {"phase": 0.0}),
 )
-BAD = Check(
+BAD = check(
     *("phase_sweep", "steady_velocity", "m/s", None, "located_events", 0.15),
     *(None, None, False, "both must agree", "no steady motion", {"phase": 0.4}),
 )
 
 
 WIDEST = (
-    Check(
+    check(
         *("table_1_high_frequency", "steady_status", "", "load_above_friction", "value"),
         *("load_above_friction", None, None, True, "why", "", {}),
     ),
-    Check(
+    check(
         *("phase_sweep", "predicted_blocking_force", "N", -1.2345678e-05, "at least"),
         *(-1.2345678e-05, 1.2e-10, 1.3e-07, True, "why", "", {"phase": 2.4083}),
     ),
-    Check(
+    check(
         *("phase_sweep", "resonator_displacement", "m", 0.00012345678, "located_events"),
         *(0.00012345678, 1.2e-10, 1.3e-07, True, "why", "", {"phase": 2.4083}),
     ),

@@ -1,16 +1,22 @@
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import Finished, run_tasks
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 
 REPOSITORY = Path(__file__).resolve().parents[4]
 MOVE = partial(tasks.position_after, time=0.01)
+
+
+Named = tuple[str, Callable[[Instance], Any]]
 
 
 @pytest.fixture(autouse=True)
@@ -25,7 +31,7 @@ def outcome(finished: Finished[str]) -> str:
 
 
 def test_a_task_that_fails_leaves_the_others_alone(native_fmu: Path) -> None:
-    given = [("a", MOVE), ("b", tasks.refused), ("c", tasks.abort), ("d", MOVE)]
+    given: list[Named] = [("a", MOVE), ("b", tasks.refused), ("c", tasks.abort), ("d", MOVE)]
     working: list[str] = []
     finished = list(run_tasks(native_fmu, given, 60.0, name=str, meanwhile=working.append))
     assert [one.item for one in finished] == working == ["a", "b", "c", "d"]
@@ -34,7 +40,7 @@ def test_a_task_that_fails_leaves_the_others_alone(native_fmu: Path) -> None:
 
 
 def test_tasks_of_one_name_are_left_out_after_a_crash(native_fmu: Path) -> None:
-    given = [("a", tasks.abort), ("a", MOVE), ("b", MOVE)]
+    given: list[Named] = [("a", tasks.abort), ("a", MOVE), ("b", MOVE)]
     finished = list(run_tasks(native_fmu, given, 60.0, name=str))
     assert [(one.item, outcome(one)) for one in finished] == [("a", "died"), ("b", "done")]
 

@@ -28,7 +28,7 @@ def _mean(function: Callable[[float], float], turn: float) -> float:
 
 @both_contacts
 @pytest.mark.parametrize("velocity", [-0.7, 0.0, 0.3, 0.79])
-def test_averages_of_the_speed_are_the_integrals(velocity: float, case: LugreCase) -> None:
+def test_mean_speeds_match_quadrature(velocity: float, case: LugreCase) -> None:
     q = case.strength
     turn = math.acos(velocity / q)
 
@@ -45,7 +45,7 @@ def test_averages_of_the_speed_are_the_integrals(velocity: float, case: LugreCas
     )
 
 
-def test_averages_of_a_closed_contact_are_the_formulas_of_the_paper() -> None:
+def test_averages_of_a_closed_contact_match_the_paper() -> None:
     q, alpha, phi = CASE.strength, CASE.amplitude_ratio, CASE.phase
     for velocity in (-0.5, 0.2, 1.4):
         turn = math.acos(min(1.0, velocity / q))
@@ -59,9 +59,7 @@ def test_averages_of_a_closed_contact_are_the_formulas_of_the_paper() -> None:
 
 @both_contacts
 @pytest.mark.parametrize("velocity", [-0.7, 0.1, 0.6])
-def test_slow_rates_are_the_full_rates_averaged_over_a_turn(
-    velocity: float, case: LugreCase
-) -> None:
+def test_slow_rates_match_the_averaged_full_rates(velocity: float, case: LugreCase) -> None:
     """(11): the bristle held, the velocity V - q cos(theta) put into (9)."""
     stiffness, bristle, frequency = 50.0, 0.003, 1.0
     turn = math.acos(velocity / case.strength)
@@ -77,7 +75,7 @@ def test_slow_rates_are_the_full_rates_averaged_over_a_turn(
 
 
 @both_contacts
-def test_slow_manifold_is_where_the_bristle_rests_and_the_rest_follows(case: LugreCase) -> None:
+def test_slow_manifold_is_the_equilibrium_of_the_bristle(case: LugreCase) -> None:
     velocity, stiffness = 0.35, 100.0
     force = lugre.slow_manifold(velocity, case)
     acceleration, rate = lugre.stretched_rates(velocity, force, case, stiffness)
@@ -89,7 +87,7 @@ def test_slow_manifold_is_where_the_bristle_rests_and_the_rest_follows(case: Lug
     ), "(15) is the decay toward it"
 
 
-def test_steady_velocity_of_the_paper_s_case() -> None:
+def test_steady_velocity_of_the_paper_case() -> None:
     velocity = lugre.steady_velocity(LugreCase())
     assert velocity == pytest.approx(0.50827, abs=5e-6)
     assert lugre.mean_friction(velocity, LugreCase()) == pytest.approx(0.0, abs=1e-12)
@@ -102,7 +100,7 @@ def test_blocking_load_stops_the_motion() -> None:
 
 
 @both_contacts
-def test_friction_saturates_where_nothing_reverses(case: LugreCase) -> None:
+def test_friction_saturates_without_reversals(case: LugreCase) -> None:
     limit = case.friction_coefficient * mean_load(case.amplitude_ratio)
     for velocity in (-2.0, -0.8, 0.8, 2.0):
         assert lugre.mean_friction(velocity, case) == pytest.approx(
@@ -126,7 +124,7 @@ def test_fast_displacement_is_the_integral_of_the_fast_velocity() -> None:
 
 
 @pytest.mark.slow
-def test_the_full_equations_slide_at_the_slow_manifold_s_velocity() -> None:
+def test_full_equations_match_the_slow_manifold() -> None:
     """A bristle far slower than the vibration, kappa = 0.025: (17) holds.
 
     Departures decay geometrically, so three means at equal distances tell where they lead.
@@ -155,20 +153,18 @@ def test_the_full_equations_slide_at_the_slow_manifold_s_velocity() -> None:
     ("name", "value"),
     [("strength", 0.0), ("friction_coefficient", -0.1), ("damping", -1.0), ("amplitude_ratio", -1)],
 )
-def test_what_has_no_answer_is_refused_by_name(name: str, value: float) -> None:
+def test_invalid_arguments_are_refused_by_name(name: str, value: float) -> None:
     with pytest.raises(ValueError, match=name):
         LugreCase(**{name: value})
 
 
-def test_a_load_above_friction_is_refused() -> None:
+def test_load_above_friction_is_refused() -> None:
     with pytest.raises(ValueError, match=r"load = 0\.6"):
         lugre.steady_velocity(LugreCase(), 0.6)
 
 
-def test_the_linear_forms_refuse_a_contact_that_lifts() -> None:
-    for linear in (
-        lambda: lugre.linear_velocity(LIFTING),
-        lambda: lugre.linear_slow_acceleration(0.0, LIFTING),
-    ):
-        with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
-            linear()
+def test_linear_forms_refuse_a_lifting_contact() -> None:
+    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
+        lugre.linear_velocity(LIFTING)
+    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
+        lugre.linear_slow_acceleration(0.0, LIFTING)

@@ -19,8 +19,8 @@ from slider_resonator.references.resolved.trajectory import Trajectory
 PERIOD = 2.0 * np.pi / 3500.0
 COULOMB = Device(fidelity=0)
 BRISTLES = Device(fidelity=0, friction_law=1)
-STRONG = {"friction_coefficient": 0.5}
-"""Friction that moves the slow velocity by a fair share of v_q within 100 drive periods."""
+STRONG_FRICTION = 0.5
+"""It moves the slow velocity by a fair share of v_q within 100 drive periods."""
 
 
 def at_factor(device: Device, factor: float) -> Device:
@@ -72,7 +72,7 @@ QUICK = ("Coulomb", "Coulomb, lifting", "Coulomb, overload", "soft", "medium, li
 )
 def test_error_falls_with_the_drive_frequency(name: str) -> None:
     device, inputs = CASES[name]
-    device = replace(device, **STRONG)
+    device = replace(device, friction_coefficient=STRONG_FRICTION)
     errors = []
     for factor in (1.0, 4.0):
         held = [HeldInputs(0.0, 100.0 * PERIOD, **inputs)]
@@ -84,10 +84,10 @@ def test_error_falls_with_the_drive_frequency(name: str) -> None:
 
 
 @pytest.mark.parametrize("device", [COULOMB, BRISTLES], ids=["Coulomb", "LuGre"])
-def test_inputs_that_change_act_when_they_change(device: Device) -> None:
+def test_input_changes_act_at_once(device: Device) -> None:
     device = replace(
         device,
-        **STRONG,
+        friction_coefficient=STRONG_FRICTION,
         initial_position=0.01,
         initial_velocity=0.05,
         initial_resonator_displacement=1e-3,
@@ -107,7 +107,7 @@ def test_inputs_that_change_act_when_they_change(device: Device) -> None:
     assert deviation < 0.02 * fast, "the fast motion is that of (34) once the resonator is steady"
 
 
-def test_it_begins_at_the_initial_values_and_with_the_momentum_of_the_drive() -> None:
+def test_averaged_motion_starts_with_the_momentum_of_the_drive() -> None:
     device = replace(COULOMB, initial_position=0.2, initial_velocity=0.3)
     motion = simulate_averaged(device, [HeldInputs(0.0, 1e-9)], np.array([0.0, 1e-9]))
     assert (motion.position[0], motion.velocity[0]) == (0.2, 0.3)
@@ -117,7 +117,7 @@ def test_it_begins_at_the_initial_values_and_with_the_momentum_of_the_drive() ->
 
 
 @pytest.mark.parametrize("load", [0.0, 0.06])
-def test_it_settles_at_the_steady_velocity(load: float) -> None:
+def test_averaged_motion_settles_at_the_steady_velocity(load: float) -> None:
     held = [HeldInputs(0.0, 60.0, 0.4, load)]
     for device, velocity in (
         (COULOMB, device_steady_velocity_at_ratio(COULOMB, 0.4, 1.0, load)),
@@ -127,7 +127,7 @@ def test_it_settles_at_the_steady_velocity(load: float) -> None:
         assert motion.mean_velocity[0] == pytest.approx(velocity, rel=1e-6)
 
 
-def test_a_detuning_of_a_tenth_is_the_last_slow_one() -> None:
+def test_phase_is_slow_up_to_a_detuning_of_one_tenth() -> None:
     held = [HeldInputs(0.0, 1.0, 0.4, frequency_ratio=ratio) for ratio in (1.0999, 1.1001)]
     times = np.linspace(0.0, 1.0, 400)
     beating, still = (simulate_averaged(COULOMB, [inputs], times) for inputs in held)
@@ -135,7 +135,7 @@ def test_a_detuning_of_a_tenth_is_the_last_slow_one() -> None:
     assert (np.diff(beating.mean_velocity) > 0.0).any(), "with one it swings"
 
 
-def test_cutting_the_inputs_changes_nothing() -> None:
+def test_splitting_the_inputs_changes_nothing() -> None:
     whole = [HeldInputs(0.0, 1.0, 0.4, frequency_ratio=1.004)]
     cuts = np.linspace(0.0, 1.0, 12).tolist()
     pieces = [replace(whole[0], start=start, stop=stop) for start, stop in pairwise(cuts)]
@@ -145,7 +145,7 @@ def test_cutting_the_inputs_changes_nothing() -> None:
         assert getattr(other, name) == pytest.approx(getattr(one, name), abs=1e-7), name
 
 
-def test_what_cannot_be_averaged_is_refused() -> None:
+def test_invalid_averages_are_refused() -> None:
     held = [HeldInputs(0.0, 1.0)]
     with pytest.raises(ValueError, match=r"normal_preload = 0\.0"):
         simulate_averaged(replace(COULOMB, normal_preload=0.0), held, np.array([1.0]))

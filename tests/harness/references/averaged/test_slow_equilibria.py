@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pytest
+from numpy.polynomial import Polynomial
 
 from slider_resonator.references.averaged.averaged_lugre import (
     LugreCase,
@@ -10,18 +11,19 @@ from slider_resonator.references.averaged.averaged_lugre import (
 from slider_resonator.references.averaged.slow_equilibria import stable_velocity
 
 
-def test_a_monotonic_friction_has_one_velocity() -> None:
+def test_monotonic_friction_has_one_velocity() -> None:
     assert stable_velocity(lambda v: v - 0.2, 1.0, 0.1) == pytest.approx(0.1, abs=1e-12)
 
 
-def test_of_two_stable_velocities_the_one_ahead_is_taken() -> None:
+def test_forward_one_of_two_stable_velocities_is_returned() -> None:
     """v^3 - 0.25 v has its stable roots at +-0.5; the shift says where the slider sets off."""
     for shift, side in ((-1e-6, 1.0), (1e-6, -1.0)):
-        found = stable_velocity(lambda v, s=shift: v**3 - 0.25 * v + s, 1.0, 0.0)
+        cubic = Polynomial([shift, -0.25, 0.0, 1.0])
+        found = stable_velocity(cubic, 1.0, 0.0)
         assert found == pytest.approx(side * 0.5, abs=1e-4)
 
 
-def test_lugre_friction_holds_more_than_full_sliding_does() -> None:
+def test_lugre_friction_holds_loads_above_sliding_friction() -> None:
     case = LugreCase()
     load = 0.45
     assert case.friction_coefficient < load < blocking_load(case)
@@ -30,6 +32,6 @@ def test_lugre_friction_holds_more_than_full_sliding_does() -> None:
     assert mean_friction(velocity, case) + load == pytest.approx(0.0, abs=1e-12)
 
 
-def test_a_load_that_nothing_holds_is_refused() -> None:
+def test_load_above_all_friction_is_refused() -> None:
     with pytest.raises(ValueError, match="load = 2"):
         stable_velocity(lambda v: v, 1.0, 2.0)

@@ -27,7 +27,7 @@ CASE = LugreCase()
         (100.0, 10.0, 0.65274),
     ],
 )
-def test_steady_velocity_meets_the_figures(
+def test_steady_velocity_matches_the_design_figures(
     stiffness: float, frequency: float, velocity: float
 ) -> None:
     found = uniform_average.steady_velocity(CASE, stiffness, frequency)
@@ -37,7 +37,7 @@ def test_steady_velocity_meets_the_figures(
 @pytest.mark.parametrize("velocity", [-0.6, 0.0, 0.3])
 @pytest.mark.parametrize("stiffness", [20.0, 1000.0])
 @pytest.mark.parametrize(("ratio", "amplitude_ratio"), [(1, 0.8), (3, 0.8), (1, 1.9), (3, 1.9)])
-def test_mean_friction_is_that_of_an_integrated_bristle(
+def test_mean_friction_matches_an_integrated_bristle(
     velocity: float, stiffness: float, ratio: int, amplitude_ratio: float
 ) -> None:
     """The bristle as a state under the prescribed velocity, over the turn that it repeats.
@@ -79,7 +79,7 @@ def test_mean_friction_is_that_of_an_integrated_bristle(
 
 
 @pytest.mark.parametrize("amplitude_ratio", [1.0, 1.8])
-def test_a_soft_bristle_is_on_the_slow_manifold_of_the_paper(amplitude_ratio: float) -> None:
+def test_soft_bristle_is_on_the_slow_manifold(amplitude_ratio: float) -> None:
     case = LugreCase(amplitude_ratio=amplitude_ratio)
     errors = []
     for stiffness in (10.0, 1.0):
@@ -90,7 +90,7 @@ def test_a_soft_bristle_is_on_the_slow_manifold_of_the_paper(amplitude_ratio: fl
 
 
 @pytest.mark.parametrize(("phase", "order"), [(math.pi / 2.0, 1.0), (0.5, 0.5)])
-def test_a_stiff_bristle_is_coulomb_friction(phase: float, order: float) -> None:
+def test_stiff_bristle_approaches_coulomb_friction(phase: float, order: float) -> None:
     """The turnover takes an angle of order kappa^(-1/2), which in quadrature cancels."""
     target = closed_forms.steady_velocity(1.0, 1.0, phase)
     case = LugreCase(strength=0.4, phase=phase)  # q / mu = 1: velocities in units of mu
@@ -104,7 +104,7 @@ def test_a_stiff_bristle_is_coulomb_friction(phase: float, order: float) -> None
 
 @pytest.mark.parametrize("ratio", [-1, 0, 1, 2, 3, 1.37, 60])
 @pytest.mark.parametrize("amplitude_ratio", [0.7, 2.5])
-def test_a_stiff_bristle_is_coulomb_friction_at_every_velocity(
+def test_stiff_bristle_approaches_coulomb_friction_at_every_velocity(
     ratio: float, amplitude_ratio: float
 ) -> None:
     case = LugreCase(strength=1.0, amplitude_ratio=amplitude_ratio, phase=0.6, damping=0.0)
@@ -137,7 +137,7 @@ def test_units_do_not_matter() -> None:
     )
 
 
-def test_a_device_with_stiff_bristles_is_the_coulomb_device() -> None:
+def test_device_with_stiff_bristles_matches_coulomb() -> None:
     device = Device(bristle_stiffness=1e13, bristle_damping=0.0)
     for ratio in (1, 3):
         assert uniform_average.device_steady_velocity(device, 0.4, 0.02, ratio) == pytest.approx(
@@ -147,11 +147,11 @@ def test_a_device_with_stiff_bristles_is_the_coulomb_device() -> None:
 
 
 @pytest.mark.parametrize(("stiffness", "frequency"), [(0.0, 1.0), (1.0, 0.0), (math.nan, 1.0)])
-def test_what_has_no_answer_is_refused_by_name(stiffness: float, frequency: float) -> None:
+def test_invalid_arguments_are_refused_by_name(stiffness: float, frequency: float) -> None:
     with pytest.raises(ValueError, match="must be greater than 0"):
         uniform_average.mean_friction(0.1, CASE, stiffness, frequency)
 
 
-def test_a_load_above_friction_is_refused() -> None:
+def test_load_above_friction_is_refused() -> None:
     with pytest.raises(ValueError, match=r"load = -0\.6"):
         uniform_average.steady_velocity(CASE, 10.0, 10.0, load=-0.6)

@@ -11,7 +11,7 @@ from slider_resonator.references.averaged import vibrating_contact as contact
 @pytest.mark.parametrize("ratio", [-3.0, -1.0, 0.0, 1.0, 2.0, 5.0])
 @pytest.mark.parametrize("amplitude_ratio", [0.6, 1.0, 1.3, 40.0])
 @pytest.mark.parametrize("phase", [-2.0, 0.4])
-def test_spans_are_where_the_load_is_above_zero(
+def test_closed_spans_have_a_positive_load(
     amplitude_ratio: float, phase: float, ratio: float
 ) -> None:
     start, end = -0.7, 6.1
@@ -35,14 +35,14 @@ def test_mean_load_is_the_mean_over_a_turn(amplitude_ratio: float) -> None:
 
 
 @pytest.mark.parametrize("value", [-0.1, math.inf, math.nan])
-def test_impossible_amplitudes_are_refused(value: float) -> None:
+def test_invalid_amplitudes_are_refused(value: float) -> None:
     with pytest.raises(ValueError, match=f"amplitude_ratio = {value!r}"):
         contact.check_amplitude_ratio(value)
     with pytest.raises(ValueError, match="amplitude_ratio"):
         contact.closed_spans(0.0, 1.0, value, 0.0, 1.0)
 
 
-def test_lifting_contacts_are_refused_where_only_closed_ones_are_covered() -> None:
+def test_lifting_contact_is_refused_by_closed_forms() -> None:
     contact.check_never_lifts(1.0)
     with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
         contact.check_never_lifts(1.5)
@@ -52,7 +52,5 @@ def test_lifting_contacts_are_refused_where_only_closed_ones_are_covered() -> No
     ("amplitude_ratio", "ratio", "turns"),
     [(1.0, 2.0, 1), (1.0, 1.5, 0), (1.1, 1.5, 2), (3.0, -2 / 3, 3), (3.0, 0.25, 4), (3.0, 0.2, 0)],
 )
-def test_after_how_many_turns_a_load_repeats(
-    amplitude_ratio: float, ratio: float, turns: int
-) -> None:
+def test_turns_until_a_load_repeats(amplitude_ratio: float, ratio: float, turns: int) -> None:
     assert contact.turns_until_repeat(amplitude_ratio, ratio) == turns

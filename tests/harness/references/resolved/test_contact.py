@@ -35,7 +35,7 @@ def test_slider_at_rest_sticks_while_friction_suffices(
 @pytest.mark.parametrize("rate", [3500.0, -3500.0, 0.5])
 @pytest.mark.parametrize("amplitude", [1.0 + 1e-9, 1.5, 40.0])
 @pytest.mark.parametrize("angle", [-3.0, 0.0, 1.0, 3.5, 5.0, 100.0])
-def test_times_are_those_at_which_the_normal_load_crosses_zero(
+def test_contact_changes_where_the_normal_load_crosses_zero(
     rate: float, amplitude: float, angle: float
 ) -> None:
     for time_to, falls in ((time_to_lift_off, True), (time_to_touchdown, False)):
@@ -48,14 +48,14 @@ def test_times_are_those_at_which_the_normal_load_crosses_zero(
 
 
 @pytest.mark.parametrize("rate", [1.0, -2.0])
-def test_contact_is_open_while_the_normal_load_would_pull(rate: float) -> None:
+def test_contact_is_open_while_the_normal_load_is_negative(rate: float) -> None:
     for angle in np.linspace(-7.0, 7.0, 97):
         pulls = 1.0 + 1.7 * math.sin(angle) < 0.0
         assert is_lifted(1.0, 1.7, float(angle), rate) == pulls, f"at angle {angle}"
 
 
 @pytest.mark.parametrize("rate", [1.0, -1.0])
-def test_at_a_crossing_the_contact_is_what_it_becomes(rate: float) -> None:
+def test_contact_at_a_crossing_is_the_one_just_after(rate: float) -> None:
     assert is_lifted(0.0, 1.0, math.pi, 1.0), "at lift-off it has lifted"
     assert not is_lifted(0.0, 1.0, 2.0 * math.pi, 1.0), "at touchdown it has touched down"
     assert time_to_lift_off(1.0, 1.0, -math.pi / 2.0, rate) == math.inf, "touching is not lifting"

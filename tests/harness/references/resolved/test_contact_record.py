@@ -20,13 +20,13 @@ def test_sliding_on_in_the_same_direction_is_no_reversal() -> None:
     assert record_of(STICK, SLIP_FORWARD, STICK, SLIP_FORWARD, LIFTED, SLIP_FORWARD).reversals == 0
 
 
-def test_opposite_slide_is_a_reversal_directly_after_a_stick_and_after_a_flight() -> None:
+def test_reversal_counts_directly_and_after_stick_or_flight() -> None:
     assert record_of(SLIP_FORWARD, SLIP_BACKWARD).reversals == 1
     assert record_of(SLIP_FORWARD, STICK, SLIP_BACKWARD).reversals == 1
     assert record_of(SLIP_BACKWARD, LIFTED, STICK, SLIP_FORWARD).reversals == 1
 
 
-def test_sticks_and_event_times_are_those_of_changes_only() -> None:
+def test_only_mode_changes_are_counted() -> None:
     record = record_of(SLIP_FORWARD, STICK, STICK, LIFTED, STICK)
     assert record.sticks == 2, "re-entering the present mode is no new stick"
     assert record.event_times == [1.0, 3.0, 4.0]

@@ -35,7 +35,7 @@ def test_slopes_satisfy_the_two_equations_of_motion(mode: int) -> None:
     assert slopes[2] == STATE[3]
 
 
-def test_a_stuck_slider_does_not_accelerate_and_the_resonator_follows_its_own_equation() -> None:
+def test_stuck_slider_leaves_the_resonator_its_own_equation() -> None:
     slopes = equations_of(TABLE_1).slopes(STICK, LOAD, THETA, ANGLE, 1.0)(0.0, STATE)
     drive = 1e-4 * 3500.0**2 * math.sin(THETA)
     assert slopes[:3] == [0.0, 0.0, STATE[3]]
@@ -46,7 +46,7 @@ def test_a_stuck_slider_does_not_accelerate_and_the_resonator_follows_its_own_eq
 @pytest.mark.parametrize(
     ("velocity", "direction"), [(0.1, 1.0), (-0.1, -1.0), (0.0, 0.0)], ids=["+", "-", "rest"]
 )
-def test_without_a_mode_friction_follows_the_sign_of_velocity(
+def test_friction_without_a_mode_follows_the_sign_of_velocity(
     velocity: float, direction: float
 ) -> None:
     state = np.array([0.0, velocity, 0.0, 0.0])
@@ -123,8 +123,6 @@ def test_fastest_rate_is_that_of_the_resonator_on_a_free_slider(
         ),
     ],
 )
-def test_what_the_equations_do_not_cover_is_refused(
-    parameters: dict[str, float], message: str
-) -> None:
+def test_unsupported_devices_are_refused(parameters: dict[str, float], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         equations_of(Device.from_mapping(parameters))

@@ -17,24 +17,24 @@ def crossing(value: Polynomial, floor: float = 1e-15) -> float | None:
     return first_crossing(GRID, value(GRID), slope(GRID), function, floor)
 
 
-def test_a_single_fall_is_located() -> None:
+def test_single_crossing_is_located() -> None:
     assert crossing(Polynomial([0.3, -1.0])) == pytest.approx(0.3, rel=1e-14)
     assert crossing(Polynomial([1.0, -0.5])) is None, "it stays positive"
 
 
-def test_twin_roots_between_two_grid_points_are_found_by_their_minimum() -> None:
+def test_twin_roots_between_grid_points_are_found() -> None:
     twins = Polynomial.fromroots([0.43, 0.4301])
     assert (twins(GRID) > 0.0).all(), "the grid alone does not see them"
     assert crossing(twins) == pytest.approx(0.43, abs=1e-11)
     assert crossing(twins + 1e-8) is None, "a minimum above zero is no event"
 
 
-def test_a_start_on_a_root_is_not_the_event() -> None:
+def test_start_on_a_root_is_no_event() -> None:
     leaving = Polynomial([0.0, 0.04, -1.0])
     assert crossing(leaving) == pytest.approx(0.04), "back at zero within the first interval"
     assert crossing(Polynomial([0.0, 1.0])) is None, "it leaves for good"
     assert crossing(Polynomial([-1e-18, 1.0])) is None, "below zero by rounding only"
 
 
-def test_a_start_on_a_root_that_falls_at_once_is_an_event_at_the_start() -> None:
+def test_start_on_a_root_is_an_event_if_the_function_falls() -> None:
     assert crossing(Polynomial([0.0, -1.0])) == 0.0

@@ -37,7 +37,7 @@ def deviation(first: Trajectory, second: Trajectory) -> float:
     return max(float(abs(a - b).max() / abs(b).max()) for a, b in pairs)
 
 
-def test_a_sliding_block_slows_down_evenly_stops_and_sticks() -> None:
+def test_sliding_block_decelerates_stops_and_sticks() -> None:
     load = 0.05
     deceleration = (0.2 + load) / 1.1
     stop = 0.3 / deceleration
@@ -56,7 +56,7 @@ def test_a_sliding_block_slows_down_evenly_stops_and_sticks() -> None:
     assert run.contact_mode.tolist() == np.where(times < stop, 1, 0).tolist()
 
 
-def test_a_block_under_more_load_than_friction_turns_round_and_runs_away() -> None:
+def test_block_reverses_under_load_above_friction() -> None:
     load = 0.5
     stop = 0.3 * 1.1 / (0.2 + load)
     run = simulate(BLOCK, until(2.0, load=load), np.array([stop, 2.0]))
@@ -65,7 +65,7 @@ def test_a_block_under_more_load_than_friction_turns_round_and_runs_away() -> No
     assert (run.reversals, run.sticks) == (1, 0), "friction cannot hold it for an instant"
 
 
-def test_without_normal_load_nothing_but_the_load_takes_momentum() -> None:
+def test_free_flight_loses_momentum_to_the_load_only() -> None:
     device = Device(
         normal_preload=0.0, normal_amplitude=0.0, initial_velocity=0.2, damping_ratio=0.3
     )
@@ -81,7 +81,7 @@ def test_without_normal_load_nothing_but_the_load_takes_momentum() -> None:
 
 
 @pytest.mark.parametrize("load", [0.0, 0.1, -0.13])
-def test_without_drive_a_load_below_the_least_friction_moves_nothing(load: float) -> None:
+def test_load_below_minimum_friction_moves_nothing(load: float) -> None:
     device = Device(base_amplitude=0.0, normal_amplitude=0.3)
     run = simulate(device, until(0.05, load=load), np.linspace(0.0, 0.05, 51))
     for name in SIGNALS:
@@ -91,7 +91,7 @@ def test_without_drive_a_load_below_the_least_friction_moves_nothing(load: float
     assert run.sticks == 0, "a stick from the start is not a stick that begins"
 
 
-def test_a_resonator_at_resonance_under_a_held_slider_breaks_it_loose_on_time() -> None:
+def test_growing_resonance_breaks_a_stuck_slider_loose_on_time() -> None:
     device = Device(damping_ratio=0.0, base_amplitude=1e-8, normal_amplitude=0.0)
     half = 0.5 * device.base_amplitude
 
@@ -116,7 +116,7 @@ def test_a_resonator_at_resonance_under_a_held_slider_breaks_it_loose_on_time() 
     assert not run.velocity[:-1].any(), "held until then"
 
 
-def test_the_contact_is_open_exactly_while_the_normal_load_would_pull() -> None:
+def test_contact_is_open_exactly_while_the_normal_load_is_negative() -> None:
     device = Device(normal_amplitude=1.5)
     times = np.linspace(0.0, 10 * PERIOD, 997)
     run = simulate(device, until(10 * PERIOD), times)
@@ -126,7 +126,7 @@ def test_the_contact_is_open_exactly_while_the_normal_load_would_pull() -> None:
     half = math.acos(1.0 / 1.5)
     expected = [(2 * n + 1.5) * math.pi + s * half for n in range(10) for s in (-1, 1)]
     for switch in expected:
-        nearest = abs(run.event_times - switch / 3500.0).min()
+        nearest = np.abs(run.event_times - switch / 3500.0).min()
         assert nearest < 1e-15, f"no event at the change of contact at angle {switch}"
 
 
@@ -145,7 +145,7 @@ def test_friction_stays_within_its_limit_and_reaches_it_in_slip(device: Device) 
     assert not run.velocity[run.contact_mode == 0].any(), "a stuck slider is at rest"
 
 
-def test_counts_agree_with_the_modes_that_are_seen() -> None:
+def test_counts_agree_with_sampled_modes() -> None:
     run = simulate(STICKING, until(30 * PERIOD), np.linspace(0.0, 30 * PERIOD, 60001))
     modes = run.contact_mode
     changes = modes[np.flatnonzero(np.diff(modes)) + 1]
@@ -158,7 +158,7 @@ def test_counts_agree_with_the_modes_that_are_seen() -> None:
     assert run.stick_time == pytest.approx((modes == 0).mean() * 30 * PERIOD, rel=2e-3)
 
 
-def test_cutting_the_inputs_into_pieces_changes_nothing() -> None:
+def test_splitting_the_inputs_changes_nothing() -> None:
     times = np.linspace(0.0, 12 * PERIOD, 201)
     inputs = {"phase": 0.4, "load": 0.03, "frequency_ratio": 1.3}
     whole = simulate(TABLE_1, until(12 * PERIOD, **inputs), times)
@@ -169,7 +169,7 @@ def test_cutting_the_inputs_into_pieces_changes_nothing() -> None:
     assert cut.reversals == whole.reversals
 
 
-def test_a_change_of_ratio_changes_a_rate_and_not_an_angle() -> None:
+def test_ratio_change_keeps_the_angle() -> None:
     stop = 1.3 * PERIOD
     held = [HeldInputs(0.0, stop), HeldInputs(stop, 2 * stop, frequency_ratio=3.0)]
     times = np.linspace(0.0, 2 * stop, 401)
@@ -185,7 +185,7 @@ def test_samples_do_not_influence_the_motion() -> None:
         assert getattr(few, name)[-1] == getattr(many, name)[-1], f"{name} at the end"
 
 
-def test_the_error_falls_with_the_tolerance() -> None:
+def test_error_falls_with_the_tolerance() -> None:
     times = np.linspace(0.0, 10 * PERIOD, 301)
     best = simulate(TABLE_1, until(10 * PERIOD), times, rtol=1e-13, atol=1e-15)
 
@@ -211,7 +211,7 @@ def test_the_error_falls_with_the_tolerance() -> None:
         (TABLE_1, until(1.0), [0.5, 0.2], "ascending"),
     ],
 )
-def test_what_cannot_be_simulated_is_refused(
+def test_invalid_runs_are_refused(
     device: Device, held: list[HeldInputs], times: list[float], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):
@@ -220,7 +220,7 @@ def test_what_cannot_be_simulated_is_refused(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PROBLEMS)
-def test_the_referee_agrees(name: str) -> None:
+def test_taylor_agrees(name: str) -> None:
     from slider_resonator.references.resolved import taylor
 
     problem = PROBLEMS[name]
@@ -247,6 +247,6 @@ def test_another_method_finds_the_same_events(method: str) -> None:
     assert np.abs(run.velocity - expected.velocity).max() < 1e-5 * np.abs(expected.velocity).max()
 
 
-def test_an_unknown_method_is_refused() -> None:
+def test_unknown_method_is_refused() -> None:
     with pytest.raises(ValueError, match="method = 'Euler': must be one of DOP853, LSODA, Radau"):
         simulate(Device(), [HeldInputs(0.0, PERIOD)], np.empty(0), method="Euler")

@@ -9,7 +9,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.references.resolved.lugre_equations import lugre_equations_of
 
 
-def test_friction_is_that_of_equation_8_on_every_face() -> None:
+def test_friction_follows_equation_8_on_every_face() -> None:
     device = Device(friction_faces=2, bristle_stiffness=3e4, bristle_damping=7.0)
     lugre = lugre_equations_of(device)
     velocity = np.array([-0.3, 0.0, 0.02])
@@ -18,7 +18,7 @@ def test_friction_is_that_of_equation_8_on_every_face() -> None:
     normal = device.normal_preload + device.normal_amplitude * np.sin(angle)
     rate = velocity - 3e4 * np.abs(velocity) * deflection / device.friction_coefficient
     expected = 2.0 * normal * (3e4 * deflection + 7.0 * rate)
-    found = lugre.friction_force(velocity, deflection / lugre.greatest_deflection, angle)
+    found = lugre.friction_force(velocity, deflection / lugre.max_deflection, angle)
     np.testing.assert_allclose(found, expected, rtol=1e-13, err_msg="F = faces N (s0 z + s1 z')")
 
 
@@ -40,6 +40,6 @@ def test_open_contact_has_no_friction() -> None:
         ("fidelity", 0),
     ],
 )
-def test_refuses_what_equation_8_does_not_cover(name: str, value: float) -> None:
+def test_invalid_lugre_parameters_are_refused(name: str, value: float) -> None:
     with pytest.raises(ValueError, match=name):
         lugre_equations_of(Device(**{name: value}))  # type: ignore[arg-type]

@@ -7,7 +7,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
-from slider_resonator.references.resolved.passage import Follow, Passage, Stretch
+from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 BLOCK = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
@@ -16,15 +16,17 @@ BLOCK = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
 def coast(event_at: float = np.inf, event: int = 0) -> Follow:
     """A stand-in integrator: uniform motion, with one event after a given time of slip."""
 
-    def follow(stretch: Stretch) -> Passage:
-        happens = stretch.mode != 0 and event_at < stretch.span
-        duration = event_at if happens else stretch.span
-        position, velocity, *resonator = stretch.state
-        times = stretch.samples[stretch.samples <= duration]
-        samples = np.tile(stretch.state, (len(times), 1))
+    def follow(segment: Segment) -> SegmentResult:
+        happens = segment.mode != 0 and event_at < segment.span
+        duration = event_at if happens else segment.span
+        position, velocity, *resonator = segment.state
+        times = segment.samples[segment.samples <= duration]
+        samples = np.tile(segment.state, (len(times), 1))
         samples[:, 0] += velocity * times
         state = (position + velocity * duration, velocity, resonator[0], resonator[1])
-        return Passage(duration, state, event if happens else 0, samples, steps=1, evaluations=3)
+        return SegmentResult(
+            duration, state, event if happens else 0, samples, steps=1, evaluations=3
+        )
 
     return follow
 
@@ -38,7 +40,7 @@ def run(
     return sequence.run(held)
 
 
-def test_a_sample_on_a_boundary_belongs_to_the_inputs_before_it() -> None:
+def test_sample_on_a_boundary_belongs_to_the_inputs_before() -> None:
     held = [HeldInputs(0.0, 1.0, load=0.1), HeldInputs(1.0, 2.0, load=0.15)]
     motion = run(BLOCK, held, [0.0, 0.5, 1.0, 1.0, 1.5, 2.0])
     expected = [-0.1, -0.1, -0.1, -0.1, -0.15, -0.15]
@@ -46,7 +48,7 @@ def test_a_sample_on_a_boundary_belongs_to_the_inputs_before_it() -> None:
     assert motion.time.shape == motion.contact_mode.shape == (6,)
 
 
-def test_rest_is_judged_anew_when_inputs_change() -> None:
+def test_rest_is_reassessed_when_inputs_change() -> None:
     held = [HeldInputs(0.0, 1.0), HeldInputs(1.0, 2.0, load=0.5), HeldInputs(2.0, 3.0, load=-0.5)]
     motion = run(BLOCK, held, [0.5, 1.5, 2.5])
     assert motion.contact_mode.tolist() == [0, -1, 1], "friction holds 0.2 N, not 0.5 N"
@@ -54,13 +56,13 @@ def test_rest_is_judged_anew_when_inputs_change() -> None:
     assert (motion.reversals, motion.sticks, motion.stick_time) == (1, 0, 1.0)
 
 
-def test_velocity_is_zero_after_an_event_and_the_slider_sticks_if_friction_suffices() -> None:
+def test_slider_stops_and_sticks_if_friction_suffices() -> None:
     moving = Device(resonator_mass=0.0, base_amplitude=0.0, initial_velocity=0.3)
     motion = run(moving, [HeldInputs(0.0, 1.0)], [0.2, 0.4, 0.6], coast(event_at=0.5, event=-1))
     assert motion.velocity.tolist() == [0.3, 0.3, 0.0]
     assert motion.contact_mode.tolist() == [1, 1, 0]
     assert (motion.sticks, motion.reversals) == (1, 0)
-    assert (motion.steps, motion.evaluations) == (2, 6), "the cost of both stretches"
+    assert (motion.steps, motion.evaluations) == (2, 6), "the cost of both segments"
 
 
 def test_slider_reverses_at_once_if_friction_does_not_suffice() -> None:
@@ -91,7 +93,7 @@ def test_flight_begins_and_ends_with_the_normal_load() -> None:
     assert motion.reversals == 0, "it lands in the direction in which it took off"
 
 
-def test_a_change_of_phase_jumps_and_a_change_of_ratio_does_not() -> None:
+def test_phase_change_jumps_and_ratio_change_does_not() -> None:
     device = Device(resonator_mass=0.0, base_amplitude=0.0, drive_frequency=1.0)
     held = [
         HeldInputs(0.0, 1.0, frequency_ratio=2.0),
@@ -110,9 +112,9 @@ def test_counts_do_not_depend_on_samples() -> None:
     assert motion.event_times.tolist() == [1.0], "events after the last sample count as well"
 
 
-def test_contact_that_cannot_be_resolved_is_an_error_with_its_time() -> None:
-    def stuttering(stretch: Stretch) -> Passage:
-        return Passage(0.0, stretch.state, 1, np.empty((0, 4)), steps=1, evaluations=1)
+def test_unresolvable_contact_is_an_error_with_its_time() -> None:
+    def stuttering(segment: Segment) -> SegmentResult:
+        return SegmentResult(0.0, segment.state, 1, np.empty((0, 4)), steps=1, evaluations=1)
 
     with pytest.raises(RuntimeError, match=r"contact at t = 0\.25 s"):
         run(BLOCK, [HeldInputs(0.25, 1.0)], [], stuttering)

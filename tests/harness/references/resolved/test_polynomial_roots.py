@@ -13,7 +13,7 @@ def fall(polynomial: Polynomial, stop: float = 1.0) -> float | None:
     return first_fall(polynomial.coef.astype(np.float64), stop, NOISE)
 
 
-def test_first_of_several_falls_is_found() -> None:
+def test_first_of_several_roots_is_found() -> None:
     polynomial = -Polynomial.fromroots([0.3, 0.5, 0.7])
     assert fall(polynomial) == pytest.approx(0.3, rel=1e-14), "it falls at 0.3 and again at 0.7"
     rising_first = Polynomial.fromroots([-0.1, 0.3, 0.7])
@@ -27,7 +27,7 @@ def test_twin_roots_are_not_stepped_over(gap: float) -> None:
     assert fall(twins) == pytest.approx(0.37, abs=1e-15 / gap)
 
 
-def test_a_polynomial_that_only_comes_close_has_no_root() -> None:
+def test_near_miss_is_no_root() -> None:
     near_miss = Polynomial.fromroots([0.37, 0.37]) + 1e-9
     assert fall(near_miss) is None
     assert fall(Polynomial([0.0, 0.0, 0.0])) is None, "identically zero does not fall"
@@ -39,7 +39,7 @@ def test_roots_beyond_the_interval_are_not_reported() -> None:
 
 
 @pytest.mark.parametrize("order", [1, 2])
-def test_a_root_at_the_start_is_judged_by_what_follows(order: int) -> None:
+def test_root_at_the_start_counts_only_if_the_polynomial_falls(order: int) -> None:
     start = Polynomial.fromroots([0.0] * order)
     assert fall(start * Polynomial([1.0, -2.0])) == pytest.approx(0.5), "rises, falls at 0.5"
     assert fall(-start) == 0.0, "falls at once"

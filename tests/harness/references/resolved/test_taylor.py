@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -15,9 +16,11 @@ from numpy.typing import NDArray
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_coulomb import slow_start
-from slider_resonator.references.resolved import located_events, taylor
+from slider_resonator.references.resolved import located_events, lugre_taylor, taylor
+from slider_resonator.references.resolved.taylor_system import ROUNDING
 from slider_resonator.references.resolved.trajectory import Trajectory
-from tests.problems import DURATION, PROBLEMS, SIGNALS
+from tests.harness.references.comparing import assert_agree, split
+from tests.problems import DURATION, PROBLEMS
 
 PERIOD = 2.0 * np.pi / 3500.0
 TIMES = np.linspace(0.0, DURATION, 1501)
@@ -29,18 +32,9 @@ ALL = pytest.mark.parametrize(
 
 
 @cache
-def run(name: str, tolerance: float = taylor.ROUNDING) -> Trajectory:
+def run(name: str, tolerance: float = ROUNDING) -> Trajectory:
     problem = PROBLEMS[name]
     return taylor.simulate(problem.device, problem.held, TIMES, tolerance=tolerance)
-
-
-def assert_agree(first: Trajectory, second: Trajectory, allowed: float) -> None:
-    for signal in SIGNALS:
-        expected = getattr(first, signal)
-        found = np.abs(getattr(second, signal) - expected).max()
-        peak = np.abs(expected).max()
-        assert found <= allowed * peak, f"{signal} deviates by {found:.1e}, its peak is {peak:.1e}"
-    assert (first.reversals, first.sticks) == (second.reversals, second.sticks), "event counts"
 
 
 @ALL
@@ -60,14 +54,9 @@ def test_error_falls_with_the_tolerance_down_to_rounding() -> None:
 
 
 @ALL
-def test_cutting_the_inputs_changes_nothing(name: str) -> None:
+def test_splitting_the_inputs_changes_nothing(name: str) -> None:
     problem = PROBLEMS[name]
-    cuts = np.sqrt(np.arange(1.0, 40.0) / 40.0) * DURATION
-    pieces: list[HeldInputs] = []
-    for inputs in problem.held:
-        within = cuts[(cuts > inputs.start) & (cuts < inputs.stop)]
-        edges = [inputs.start, *within.tolist(), inputs.stop]
-        pieces += [replace(inputs, start=start, stop=stop) for start, stop in pairwise(edges)]
+    pieces = split(problem.held, 40)
     cut = taylor.simulate(problem.device, pieces, TIMES)
     assert len(pieces) > 30, "the inputs must really be cut"
     assert_agree(run(name), cut, allowed=5e-12)
@@ -186,7 +175,7 @@ def test_long_run_approaches_the_measured_steady_velocity(
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_located_events_by_another_method_agree(name: str) -> None:
+def test_located_events_by_scipy_agree(name: str) -> None:
     problem = PROBLEMS[name]
     held = [replace(inputs, stop=min(inputs.stop, 0.06)) for inputs in problem.held]
     held = [inputs for inputs in held if inputs.start < inputs.stop]
@@ -239,10 +228,13 @@ def test_random_devices_agree_with_the_other_method(
     assert_agree(exact, located_events.simulate(device, held, times), allowed=1e-7)
 
 
-def test_missing_heyoka_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("simulate", [taylor.simulate, lugre_taylor.simulate_lugre])
+def test_missing_heyoka_is_named(
+    simulate: Callable[..., Trajectory], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setitem(sys.modules, "heyoka", None)
     unused_tolerance = 1.5e-9  # the compiled system of the usual one is kept
     with pytest.raises(ModuleNotFoundError, match=r"slider-resonator\[referee\]"):
-        taylor.simulate(Device(), [HeldInputs(0.0, 0.1)], np.empty(0), tolerance=unused_tolerance)
+        simulate(Device(), [HeldInputs(0.0, 0.1)], np.empty(0), tolerance=unused_tolerance)
     monkeypatch.undo()
     assert importlib.import_module("heyoka"), "the import works again"

@@ -22,7 +22,8 @@ from slider_resonator.scenes.schema import STEADY_NEEDS
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.choose.candidate import Candidate, Model
-from slider_resonator.studies.choose.choosing import Choice, candidates
+from slider_resonator.studies.choose.choice import Choice
+from slider_resonator.studies.choose.choosing import candidates
 from slider_resonator.studies.choose.cost import search_cost
 from slider_resonator.studies.choose.scales import scales_of
 
@@ -79,10 +80,11 @@ class Judge:
 
     def _excess(self, name: str, candidate: Candidate) -> float:
         if name in STEADY_NEEDS:
-            true, found = (self._steady(name, p) for p in (self.reference, candidate.parameters))
-            if true is None or found is None:
+            both = (self.reference, candidate.parameters)
+            resolved, found = (self._steady(name, parameters) for parameters in both)
+            if resolved is None or found is None:
                 return inf
-            return _over(abs(found - true), self.needs[name].at(true))
+            return _over(abs(found - resolved), self.needs[name].at(resolved))
         assert candidate.step is not None
         record, true = self._record(candidate), self.true_record(candidate.step)
         error, size = self._error(name, record, true, candidate.step)
@@ -97,8 +99,8 @@ class Judge:
             beats = abs(ratio - round(ratio)) / period * 0.5 * float(record.times[-1])
             if not (0.0 < abs(ratio - round(ratio)) < 0.1 and beats >= 2.0):
                 return inf, 0.0
-            found, there = (_beat(r, step) for r in (record, true))
-            return abs(found - there), there
+            found, resolved = (_beat(r, step) for r in (record, true))
+            return abs(found - resolved), resolved
         checkpoints = self.scene.schedule().times
         at, there = (np.searchsorted(r.times, checkpoints) for r in (record, true))
         assert np.array_equal(record.times[at], true.times[there]), "at the checkpoints"

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
+from typing import cast
 
 import pytest
-from distributed import LocalCluster
+from distributed import LocalCluster, Worker
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.studies.sweep import cluster, sweeping
@@ -19,7 +20,8 @@ from slider_resonator.studies.sweep.sweeping import run_sweep
 
 @pytest.fixture
 def two_workers() -> Iterator[LocalCluster]:
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as made:
+    start: Callable[..., LocalCluster] = LocalCluster
+    with start(n_workers=2, threads_per_worker=1, dashboard_address=None) as made:
         yield made
 
 
@@ -64,7 +66,7 @@ def test_a_worker_of_another_version_refuses(native_fmu: Path, tmp_path: Path) -
     plugin.version = "0.0"
     worker = SimpleNamespace(address="tcp://192.0.2.7:1", local_directory=str(tmp_path))
     with pytest.raises(HarnessError, match=r"worker tcp://192\.0\.2\.7:1 has .*must be 0\.0"):
-        plugin.setup(worker)
+        plugin.setup(cast(Worker, worker))
     assert list(tmp_path.iterdir()) == []
 
 

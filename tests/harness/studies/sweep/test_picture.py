@@ -3,9 +3,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from matplotlib.axes import Axes
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.studies.sweep import picture
 from slider_resonator.studies.sweep.grid import read_grid
 from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
 from slider_resonator.studies.sweep.table import table_columns
@@ -29,7 +29,7 @@ def test_lines_maps_and_samples_are_drawn_with_gaps_for_failures(
     used: list[str] = []
     methods = {"line": "plot", "pcolormesh": "pcolormesh", "scatter": "scatter"}
     for kind, method in methods.items():
-        original = getattr(picture.Axes, method)
+        original = getattr(Axes, method)
 
         def noted(
             *args: object, _kind: str = kind, _do: object = original, **more: object
@@ -37,7 +37,7 @@ def test_lines_maps_and_samples_are_drawn_with_gaps_for_failures(
             used.append(_kind)
             return _do(*args, **more)  # type: ignore[operator]
 
-        monkeypatch.setattr(picture.Axes, method, noted)
+        monkeypatch.setattr(Axes, method, noted)
     (tmp_path / "grid.toml").write_text(text, encoding="utf-8")
     sweep = read_grid(tmp_path / "grid.toml")
     rows: dict[int, Row] = {

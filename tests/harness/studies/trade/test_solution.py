@@ -40,12 +40,13 @@ def test_equal_solutions_have_no_error(short: Problem) -> None:
 
 def test_each_error_is_a_share_of_the_peak(short: Problem) -> None:
     solution = drifting(short)
+    assert solution.last_event is not None
     reference = windows(short, solution, 4)
     late = replace(
         solution,
         position=1.01 * solution.position,
         velocity=solution.velocity + 0.025,
-        last_event=solution.last_event + 1e-3 * short.period,  # type: ignore[operator]
+        last_event=solution.last_event + 1e-3 * short.period,
     )
     found = errors(short, late, reference, 4)
     for name in ("position", "mean_velocity", "slow_displacement"):
@@ -95,7 +96,7 @@ def test_a_beat_needs_enough_samples(tmp_path: Path, step: int, reported: bool) 
     solution = Solution(times, times, np.ones_like(times), history=history)
     found = errors(beating, solution, windows(beating, solution, 1600), 1600)
     assert ("beat_frequency" in found) == reported, "twenty periods are a beat"
-    early = replace(solution, history=tuple(part[:1] for part in history))
+    early = replace(solution, history=(history[0][:1], history[1][:1]))
     assert "beat_frequency" not in errors(beating, early, windows(beating, solution, 1600), 1600)
     if reported:
         assert found["beat_frequency"] == pytest.approx(1e-3, rel=1e-3)

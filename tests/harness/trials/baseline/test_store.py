@@ -44,7 +44,9 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
         assert golden["steady_status"].value == "slow_beat"
         for name in SIGNALS:
             assert np.allclose(golden[name].value, GOLDEN[name].value, rtol=1e-12, atol=0.0)
-            assert np.array_equal(golden[name].times, TIMES)
+            times = golden[name].times
+            assert times is not None
+            assert np.array_equal(times, TIMES)
 
 
 def test_the_same_results_make_the_same_bytes_whatever_their_order(tmp_path: Path) -> None:

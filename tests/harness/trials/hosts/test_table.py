@@ -43,12 +43,12 @@ def test_the_table_of_the_readme_is_one_that_this_code_writes() -> None:
     head, _, *rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in between]
     assert head == [column.heading for column in COLUMNS]
     found: dict[str, list[str]] = {}
-    for host, version, fmu, *deviations in rows:
-        assert version, f"the version of {host} is missing"
+    for name, version, fmu, *deviations in rows:
+        assert version, f"the version of {name} is missing"
         assert len(deviations) == len(CASES)
         for deviation in deviations:
-            assert re.fullmatch(r"0|\de-\d\d", deviation), f"{host}: {deviation} is no agreement"
-        found.setdefault(host, []).append(fmu)
+            assert re.fullmatch(r"0|\de-\d\d", deviation), f"{name}: {deviation} is no agreement"
+        found.setdefault(name, []).append(fmu)
     assert list(found) == [host.name for host in hosts()]
     for host in hosts():
         fmus = ["native", "Python"] if host.loads_python else ["native"]

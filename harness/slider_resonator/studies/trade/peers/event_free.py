@@ -10,17 +10,22 @@ creeps.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import DOP853, OdeSolver
+from scipy.integrate import DOP853
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.equations import equations_of, initial_state
-from slider_resonator.references.resolved.scipy_methods import scipy_method
+from slider_resonator.references.resolved.recorder import Recorder
+from slider_resonator.references.resolved.scipy_methods import (
+    Method,
+    Solver,
+    scipy_method,
+    take_step,
+)
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 Array = NDArray[np.float64]
@@ -74,7 +79,7 @@ class _Run:
         self,
         device: Device,
         times: Array,
-        method: type[OdeSolver],
+        method: Method,
         rtol: float,
         atol: float,
         width: float = 0.0,
@@ -85,17 +90,11 @@ class _Run:
         self._atol = atol
         self._width = width
         self._max_evaluations = max_evaluations
-        self._signals = np.empty((len(times), 7))
-        self._reversals = 0
-        self._steps = 0
-        self._evaluations = 0
+        self._recorder = Recorder(times)
         self._equations = equations_of(device)
         self._state = np.array(initial_state(device))
-        self._times = times
-        self._kept = 0
         self._theta = 0.0
         self._psi = 0.0
-        self._slip = 0
 
     def run(self, held: Sequence[HeldInputs]) -> Trajectory:
         """Return the motion through the held inputs.
@@ -106,30 +105,15 @@ class _Run:
         RuntimeError if a step fails or the evaluations of the right hand side become too many.
         """
         check_contiguous(held)
-        check_times(self._times, held)
+        check_times(self._recorder.times, held)
         for inputs in held:
             self._follow(inputs)
-        return Trajectory(
-            time=self._times,
-            position=self._signals[:, 0],
-            velocity=self._signals[:, 1],
-            resonator_displacement=self._signals[:, 2],
-            resonator_velocity=self._signals[:, 3],
-            normal_force=self._signals[:, 4],
-            friction_force=self._signals[:, 5],
-            contact_mode=self._signals[:, 6].astype(np.int64),
-            reversals=self._reversals,
-            sticks=0,
-            stick_time=0.0,
-            event_times=np.empty(0),
-            steps=self._steps,
-            evaluations=self._evaluations,
-        )
+        return self._recorder.trajectory()
 
     def _follow(self, inputs: HeldInputs) -> None:
         equations = self._equations
         angle = self._psi + inputs.phase
-        solver: Any = self._method(
+        solver = self._method(
             equations.slopes(
                 None, inputs.load, self._theta, angle, inputs.frequency_ratio, self._width
             ),
@@ -140,33 +124,26 @@ class _Run:
             atol=self._atol * equations.state_scales(inputs.load),
         )
         while solver.status == "running":
-            message = solver.step()
-            self._check_progress(solver, inputs.start, message)
-            self._steps += 1
+            take_step(solver, inputs.start, "use a greater atol")
+            self._check_progress(solver, inputs.start)
+            self._recorder.steps += 1
             self._count_reversal(angle + self._angle_rate(inputs) * solver.t, float(solver.y[1]))
             reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
-            until = int(np.searchsorted(self._times, reached, side="right"))
-            if until > self._kept:
-                local = self._times[self._kept : until] - inputs.start
-                states = solver.dense_output()(local).T
-                self._signals[self._kept : until] = self._sampled(inputs, angle, local, states)
-                self._kept = until
-        self._evaluations += solver.nfev
+            local = self._recorder.pending(reached) - inputs.start
+            if local.size:
+                self._keep(inputs, angle, local, solver.dense_output()(local).T)
+        self._recorder.evaluations += solver.nfev
         turned = equations.drive_frequency * (inputs.stop - inputs.start)
         self._theta += turned
         self._psi += inputs.frequency_ratio * turned
         self._state = solver.y
 
-    def _check_progress(self, solver: Any, start: float, message: str | None) -> None:
-        time = start + float(solver.t)
-        if solver.status == "failed":
-            raise RuntimeError(
-                f"{self._method.__name__} failed at t = {time!r} s: {message}; use a greater atol"
-            )
-        evaluations = self._evaluations + solver.nfev
+    def _check_progress(self, solver: Solver, start: float) -> None:
+        evaluations = self._recorder.evaluations + solver.nfev
         if evaluations > self._max_evaluations:
+            time = start + float(solver.t)
             raise RuntimeError(
-                f"{self._method.__name__} has used {evaluations} evaluations up to t = {time!r} s, "
+                f"{type(solver).__name__} has used {evaluations} evaluations up to t = {time!r} s, "
                 f"max_evaluations = {self._max_evaluations}: it chatters in a stick; use a "
                 "greater atol, or located_events"
             )
@@ -175,12 +152,9 @@ class _Run:
         equations = self._equations
         if equations.normal_preload + equations.normal_amplitude * np.sin(angle) <= 0.0:
             return
-        slip = (velocity > 0.0) - (velocity < 0.0)
-        if slip:
-            self._reversals += self._slip == -slip
-            self._slip = slip
+        self._recorder.contact.slide((velocity > 0.0) - (velocity < 0.0))
 
-    def _sampled(self, inputs: HeldInputs, angle: float, time: Array, states: Array) -> Array:
+    def _keep(self, inputs: HeldInputs, angle: float, time: Array, states: Array) -> None:
         equations = self._equations
         theta = self._theta + equations.drive_frequency * time
         angles = angle + self._angle_rate(inputs) * time
@@ -188,14 +162,11 @@ class _Run:
         velocity = states[:, 1]
         sign = np.sign(velocity)
         share = np.tanh(velocity / self._width) if self._width else sign
-        return np.column_stack(
-            [
-                states[:, :2],
-                *equations.resonator_motion(theta, states),
-                np.maximum(0.0, load),
-                share * np.maximum(0.0, equations.friction_limit(angles)),
-                np.where(load > 0.0, sign, float(LIFTED)),
-            ]
+        self._recorder.keep(
+            states,
+            equations.resonator_motion(theta, states),
+            (np.maximum(0.0, load), share * np.maximum(0.0, equations.friction_limit(angles))),
+            np.where(load > 0.0, sign, float(LIFTED)),
         )
 
     def _angle_rate(self, inputs: HeldInputs) -> float:

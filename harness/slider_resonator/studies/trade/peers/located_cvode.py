@@ -19,7 +19,7 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
-from slider_resonator.references.resolved.passage import Passage, Stretch
+from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.studies.trade.peers.sundials import MAX_STEPS, cvode
 
@@ -40,53 +40,53 @@ def simulate(
     """
     solver, equations = cvode(), equations_of(device)
 
-    def follow(stretch: Stretch) -> Passage:
-        return _follow(solver, equations, stretch, tolerance)
+    def follow(segment: Segment) -> SegmentResult:
+        return _follow(solver, equations, segment, tolerance)
 
     return ModeSequence(equations, follow, initial_state(device), times).run(held)
 
 
-def _follow(cvode: Any, equations: Equations, stretch: Stretch, tolerance: float) -> Passage:
-    """Follow one stretch; the integrated position is the displacement since its start."""
+def _follow(cvode: Any, equations: Equations, segment: Segment, tolerance: float) -> SegmentResult:
+    """Follow one segment; the integrated position is the displacement since its start."""
     slopes = equations.slopes(
-        stretch.mode, stretch.load, stretch.theta, stretch.angle, stretch.frequency_ratio
+        segment.mode, segment.load, segment.theta, segment.angle, segment.frequency_ratio
     )
 
     def right_hand_side(time: float, state: Array, change: Array) -> None:
         change[:] = slopes(time, state)
 
     options: dict[str, Any] = {}
-    if stretch.mode != LIFTED:
-        margins = _margins(equations, stretch)
+    if segment.mode != LIFTED:
+        margins = _margins(equations, segment)
         options = {"eventsfn": margins, "num_events": len(margins.direction)}  # type: ignore[attr-defined]
     solver = cvode(
         right_hand_side,
         method="Adams",
         rtol=tolerance,
-        atol=tolerance * equations.state_scales(stretch.load),
-        max_step=2.0 * math.pi / equations.fastest_rate(stretch.frequency_ratio) / 4.0,
+        atol=tolerance * equations.state_scales(segment.load),
+        max_step=2.0 * math.pi / equations.fastest_rate(segment.frequency_ratio) / 4.0,
         max_num_steps=MAX_STEPS,
         **options,
     )
-    instants = np.union1d(stretch.samples, [0.0, stretch.span])
-    solution = solver.solve(instants, np.array([0.0, *stretch.state[1:]]))
+    instants = np.union1d(segment.samples, [0.0, segment.span])
+    solution = solver.solve(instants, np.array([0.0, *segment.state[1:]]))
     if not solution.success:
         raise RuntimeError(f"CVODE gave up: {solution.message}; use a greater tolerance")
     event = 0
     if solution.status == _FOUND_A_ROOT:
-        event = -stretch.mode
-        if stretch.mode == STICK:
+        event = -segment.mode
+        if segment.mode == STICK:
             left = np.empty(2)
             options["eventsfn"](solution.t[-1], solution.y[-1], left)
             event = 1 if left[0] < left[1] else -1
-    duration = float(solution.t[-1]) if event else stretch.span
-    covered = stretch.samples[: np.searchsorted(stretch.samples, duration, side="right")]
+    duration = float(solution.t[-1]) if event else segment.span
+    covered = segment.samples[: np.searchsorted(segment.samples, duration, side="right")]
     samples = solution.y[np.searchsorted(solution.t, covered)].reshape(-1, 4)
-    samples[:, 0] += stretch.state[0]
+    samples[:, 0] += segment.state[0]
     displacement, velocity, resonator, resonator_velocity = solution.y[-1].tolist()
-    return Passage(
+    return SegmentResult(
         duration=duration,
-        state=(stretch.state[0] + displacement, velocity, resonator, resonator_velocity),
+        state=(segment.state[0] + displacement, velocity, resonator, resonator_velocity),
         event=event,
         samples=samples,
         steps=0,
@@ -94,16 +94,16 @@ def _follow(cvode: Any, equations: Equations, stretch: Stretch, tolerance: float
     )
 
 
-def _margins(equations: Equations, stretch: Stretch) -> Callable[[float, Array, Array], None]:
+def _margins(equations: Equations, segment: Segment) -> Callable[[float, Array, Array], None]:
     """Return what falls to zero at an event: velocity in a slip, friction left in a stick."""
-    rate, ratio, mode = equations.drive_frequency, stretch.frequency_ratio, stretch.mode
+    rate, ratio, mode = equations.drive_frequency, segment.frequency_ratio, segment.mode
 
     def margins(time: float, state: Array, left: Array) -> None:
         if mode != STICK:
             left[0] = mode * state[1]
             return
-        theta, angle = stretch.theta + rate * time, stretch.angle + ratio * rate * time
-        needed = equations.needed_force(stretch.load, theta, float(state[2]), float(state[3]))
+        theta, angle = segment.theta + rate * time, segment.angle + ratio * rate * time
+        needed = equations.needed_force(segment.load, theta, float(state[2]), float(state[3]))
         limit = equations.friction_limit(angle)
         left[:] = limit - needed, limit + needed
 

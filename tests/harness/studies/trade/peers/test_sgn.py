@@ -48,7 +48,7 @@ def test_a_block_that_should_stick_chatters_about_rest_instead() -> None:
     stop = 0.3 * 1.1 / 0.25
     times = np.linspace(stop + 0.01, stop + 0.1, 51)
     run = simulate_sgn(BLOCK, until(stop + 0.1, load=0.05), times, atol=1e-3)
-    assert abs(run.velocity).max() < 1e-3, "friction keeps the velocity near zero"
+    assert np.abs(run.velocity).max() < 1e-3, "friction keeps the velocity near zero"
     assert run.reversals > 10, "sgn jumps to and fro where the slider should be held"
     assert (run.sticks, run.stick_time) == (0, 0.0), "without events there is no stick"
     assert abs(run.friction_force) == pytest.approx(0.2), "never the force that would hold it"

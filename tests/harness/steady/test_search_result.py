@@ -3,12 +3,12 @@ from __future__ import annotations
 import numpy as np
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.outcome import cost, why_not, with_undamped_hint
 from slider_resonator.steady.periodic import FmuPeriodMap, read_facts
+from slider_resonator.steady.search_result import cost, failure, with_undamped_hint
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
-def test_the_cost_of_a_search_is_told_as_far_as_it_came(instance: Instance) -> None:
+def test_search_cost_is_reported_as_far_as_known(instance: Instance) -> None:
     period_map = FmuPeriodMap(instance, {}, read_facts(instance, {}), 2)
     period_map(np.zeros(3), 0.0)
     assert cost(period_map, None) == {"common_period": 2, "periods": 2}
@@ -20,10 +20,10 @@ def test_the_cost_of_a_search_is_told_as_far_as_it_came(instance: Instance) -> N
     assert cost(period_map, found)["multipliers"] == (0.5 + 0.1j,)
 
 
-def test_a_resonator_without_damping_is_pointed_out(instance: Instance) -> None:
+def test_undamped_resonator_is_mentioned_in_the_reason(instance: Instance) -> None:
     damped = read_facts(instance, {})
     assert with_undamped_hint("why", damped) == "why"
     undamped = read_facts(instance, {"damping_ratio": 0.0})
-    status, reason = why_not(NoFixedPoint("no_fixed_point", "why", 1, 1, 1.0), undamped)
+    status, reason = failure(NoFixedPoint("no_fixed_point", "why", 1, 1, 1.0), undamped)
     assert status == "no_fixed_point"
     assert "damping_ratio = 0" in reason

@@ -1,4 +1,4 @@
-"""What a search by shooting ends with, whatever it looks for."""
+"""The result of a search by shooting, for a velocity or a load."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """How a search ended and what it cost.
+class SearchResult:
+    """Status, reason and cost of a search.
 
-    `status` is for machines, `reason` for people; `predicted` is what the FMU's own output says.
+    `status` is for machines, `reason` for people; `predicted` is the FMU's own output.
     The common period has `common_period` drive periods; `periods` counts all simulated ones.
     `multipliers` are the Floquet multipliers, largest first, `residual` the largest change of the
     state over the common period in units of its scale.
@@ -31,7 +31,7 @@ class Outcome:
 
 
 def cost(period_map: FmuPeriodMap, found: FixedPoint | NoFixedPoint | None) -> dict[str, Any]:
-    """Return the fields of an outcome that follow from the search itself."""
+    """Return the fields of a result that follow from the search itself."""
     fields: dict[str, Any] = {
         "common_period": period_map.drive_periods,
         "periods": period_map.periods,
@@ -44,13 +44,13 @@ def cost(period_map: FmuPeriodMap, found: FixedPoint | NoFixedPoint | None) -> d
     return fields
 
 
-def why_not(found: NoFixedPoint, facts: Facts) -> tuple[str, str]:
-    """Return status and reason of a search that found nothing."""
+def failure(found: NoFixedPoint, facts: Facts) -> tuple[str, str]:
+    """Return status and reason of a failed search."""
     return found.status, with_undamped_hint(found.reason, facts)
 
 
 def with_undamped_hint(reason: str, facts: Facts) -> str:
-    """Add, where it applies, that the resonator has no damping and so forgets nothing."""
+    """Add to a reason that the resonator is undamped, if it is."""
     if facts["damping_ratio"] > 0.0:
         return reason
-    return f"{reason} (damping_ratio = 0: the resonator never forgets its start)"
+    return f"{reason} (damping_ratio = 0: the transient of the resonator never decays)"

@@ -1,4 +1,4 @@
-"""What an integrator is asked for: one stretch of motion in one contact mode."""
+"""A segment of motion in one contact mode: what an integrator gets and returns."""
 
 from __future__ import annotations
 
@@ -12,14 +12,16 @@ from slider_resonator.references.resolved.equations import State
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Segment:
     """A contact mode with constant inputs, to be followed for at most ``span`` s.
 
-    ``theta`` is the drive angle and ``angle`` that of the normal load at the start, rad.
-    ``samples`` (shape (n,), ascending, within (0, span], s from the start) are the times wanted.
+    It begins ``start`` s into the run, at the drive angle ``theta`` and the angle ``angle`` of the
+    normal load, rad. The motion is sampled at ``samples`` (shape (n,), ascending, within (0, span],
+    s from its start).
     """
 
     mode: int
+    start: float
     state: State
     theta: float
     angle: float
@@ -30,12 +32,12 @@ class Stretch:
 
 
 @dataclass(frozen=True)
-class Passage:
+class SegmentResult:
     """The motion until the first event of the mode, or through the whole span.
 
     ``event`` is 0 if the span ended without one. In a slip it is the sign of the acceleration at
     which the velocity vanished; in a stick the direction in which the slider breaks loose.
-    ``samples`` has shape (k, 4), the states at those times wanted that lie within ``duration`` s.
+    ``samples`` has shape (k, 4), the states at the sample times that lie within ``duration`` s.
     """
 
     duration: float
@@ -46,5 +48,5 @@ class Passage:
     evaluations: int
 
 
-Follow = Callable[[Stretch], Passage]
-"""An integrator: follows a stretch of motion to the first event of its contact mode."""
+Follow = Callable[[Segment], SegmentResult]
+"""An integrator: follows a segment of motion to the first event of its contact mode."""

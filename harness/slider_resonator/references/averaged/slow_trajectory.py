@@ -1,4 +1,4 @@
-"""The course of a slow motion from its averaged acceleration."""
+"""The trajectory of a slow motion, from its averaged acceleration."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 Array = NDArray[np.float64]
 
 
-def slow_course(
+def slow_trajectory(
     acceleration: Callable[[float, float], float], times: Array, velocity: float = 0.0
 ) -> tuple[Array, Array]:
     """Return slow position and velocity at ``times`` (n,), from position 0 at the first of them.

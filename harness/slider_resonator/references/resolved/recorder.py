@@ -1,0 +1,75 @@
+"""The samples and counts of a run, kept alike by every integrator."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.references.resolved.contact_record import ContactRecord
+from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
+from slider_resonator.references.resolved.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+
+
+class Recorder:
+    """Keeps samples at ``times`` (shape (n,), s, ascending) and counts while a run is followed."""
+
+    def __init__(self, times: Array) -> None:
+        self.times = times
+        self.contact = ContactRecord()
+        self.steps = 0
+        self.evaluations = 0
+        self._next = 0
+        self._signals: list[Array] = []
+        self._deflections: list[Array] = []
+
+    def pending(self, stop: float = np.inf) -> Array:
+        """Return the times up to ``stop`` (s) that have no sample yet, shape (k,)."""
+        return self.times[self._next : np.searchsorted(self.times, stop, side="right")]
+
+    def keep(
+        self,
+        states: Array,
+        resonator: tuple[Array, Array],
+        forces: tuple[Array, Array],
+        mode: int | Array,
+        deflection: Array | None = None,
+    ) -> None:
+        """Keep the samples of the next k times, SI units.
+
+        ``states`` (k, m) begin with position and velocity; ``resonator`` is its displacement and
+        velocity, ``forces`` are normal force and friction, and ``deflection`` is that of the
+        bristle: (k,) each. ``mode`` is the contact mode of all, or of each.
+        """
+        modes = np.broadcast_to(np.asarray(mode, dtype=np.float64), len(states))
+        rows = np.column_stack([states[:, 0], states[:, 1], *resonator, *forces, modes])
+        self._signals.append(rows)
+        self._next += len(rows)
+        if deflection is not None:
+            self._deflections.append(deflection)
+
+    def trajectory(self) -> Trajectory:
+        """Return all that has been kept."""
+        signals = np.concatenate([np.empty((0, 7)), *self._signals])
+        return Trajectory(
+            time=self.times,
+            position=signals[:, 0],
+            velocity=signals[:, 1],
+            resonator_displacement=signals[:, 2],
+            resonator_velocity=signals[:, 3],
+            normal_force=signals[:, 4],
+            friction_force=signals[:, 5],
+            contact_mode=signals[:, 6].astype(np.int64),
+            reversals=self.contact.reversals,
+            sticks=self.contact.sticks,
+            stick_time=self.contact.stick_time,
+            event_times=np.array(self.contact.event_times),
+            steps=self.steps,
+            evaluations=self.evaluations,
+        )
+
+    def lugre_trajectory(self) -> LugreTrajectory:
+        """Return all that has been kept, the bristle too."""
+        deflection = np.concatenate([np.empty(0), *self._deflections])
+        return LugreTrajectory(**vars(self.trajectory()), bristle_deflection=deflection)
