@@ -12,7 +12,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from harness.benchmark.c_host import StepCost, measure_steps
+from harness.benchmark.c_host import STEPS, StepCost, measure_steps, short_step_ratio
 from harness.benchmark.cost import Cost, Ratio
 from harness.benchmark.coulomb import CoulombBenchmark, measure_coulomb
 from harness.benchmark.lugre import CASES, EQUAL_ERROR, LugreBenchmark, measure_lugre
@@ -103,6 +103,9 @@ def _print(console: Console, measured: Benchmarks, repeats: int) -> None:
     if measured.c_host:
         console.print("\nOne communication step from a host in C: set, step, get", style="bold")
         console.print(_steps(measured.c_host))
+        for begin in range(0, len(measured.c_host), len(STEPS)):
+            ratio = short_step_ratio(measured.c_host[begin : begin + len(STEPS)])
+            console.print(f"A period costs {ratio:.2f} x as much in steps of one as in long steps.")
     console.print(
         f"Medians of {repeats} repeats in turn; errors over the peak, at the ends of drive periods."
     )
