@@ -6,20 +6,26 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
-from rich import box
-from rich.table import Table
 
 from slider_resonator.commands.options import default_fmu, json_option
+from slider_resonator.commands.results import print_table
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.output.console import output, progress_bar
+from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
-from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps
+from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
 
 @click.command("bench")
 @click.argument("fmu", type=click.Path(path_type=Path), required=False)
-@click.option("--repeats", type=click.IntRange(min=1), default=9, show_default=True)
+@click.option(
+    "--repeats",
+    type=click.IntRange(min=1),
+    default=9,
+    show_default=True,
+    help="How often each kind of step is timed; the median is reported.",
+)
 @json_option
 def bench_command(fmu: Path | None, repeats: int, as_json: bool) -> None:
     """Measure what a communication step costs in a C host: set an input, step, get outputs.
@@ -36,19 +42,19 @@ def bench_command(fmu: Path | None, repeats: int, as_json: bool) -> None:
         if not opened.runs_without_python:
             raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host is without")
         costs = measure_steps(opened.path, repeats, progress)
+    ratio = short_step_ratio(costs)
     if as_json:
-        click.echo(to_json({"c_host": costs}))
-    else:
-        output().print(_table(costs))
-        click.echo(f"Medians of {repeats} repeats in turn.")
+        click.echo(to_json({"c_host": costs, "short_step_ratio": ratio}))
+        return
+    print_table(_table(costs))
+    click.echo(f"A period costs {ratio:.2f} times as much in steps of one as in long steps.")
+    click.echo(f"Medians of {repeats} repeats in turn; the ratio is that of the fastest.")
 
 
 def _table(costs: Sequence[StepCost]) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    table.add_column("step", no_wrap=True)
-    for heading in ("outputs read", "us", "fastest-slowest"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    for cost in costs:
-        spread = f"{cost.fastest:.2f}-{cost.slowest:.2f}"
-        table.add_row(cost.name, str(cost.outputs), f"{cost.microseconds:.2f}", spread)
-    return table
+    columns = (*texts("step"), *numbers("outputs read", "us", "fastest-slowest"))
+    rows = [
+        (c.name, str(c.outputs), f"{c.microseconds:.2f}", f"{c.fastest:.2f}-{c.slowest:.2f}")
+        for c in costs
+    ]
+    return Table(columns, rows)

@@ -8,7 +8,8 @@ from click.testing import CliRunner, Result
 
 from slider_resonator.cli import main
 from slider_resonator.commands import bench
-from slider_resonator.trials.hosts.step_cost import StepCost
+from slider_resonator.trials.hosts.step_cost import LONG_STEP, ONE_PERIOD, StepCost
+from tests.harness.public_json import assert_public_keys
 
 
 def call(*arguments: object) -> Result:
@@ -18,13 +19,19 @@ def call(*arguments: object) -> Result:
 def test_costs_are_printed_and_returned_as_json(
     native_fmu: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    cost = StepCost("resolved Coulomb, 1 ms", 4, 1.03, 1.01, 1.25)
-    monkeypatch.setattr(bench, "measure_steps", lambda *_: (cost,))
+    costs = (
+        StepCost("resolved Coulomb, 1 ms", 4, 1.03, 1.01, 1.25),
+        StepCost(ONE_PERIOD, 0, 0.7, 0.6, 0.9),
+        StepCost(LONG_STEP, 0, 55.0, 50.0, 70.0),
+    )
+    monkeypatch.setattr(bench, "measure_steps", lambda *_: costs)
     text = call(native_fmu).stdout
     assert "resolved Coulomb, 1 ms" in text
     assert "1.01-1.25" in text
-    (entry,) = json.loads(call(native_fmu, "--json").stdout)["c_host"]
-    assert entry == vars(cost)
+    assert "1.20 times" in text
+    printed = call(native_fmu, "--json").stdout
+    assert_public_keys("bench", printed)
+    assert json.loads(printed)["c_host"][0] == vars(costs[0])
 
 
 def test_an_fmu_that_needs_python_is_refused(python_fmu: Path) -> None:

@@ -70,7 +70,7 @@ def test_an_ended_command_ends_the_fmu_and_leaves_nothing(
     time.sleep(0.5)  # until it is in the loop
     command.send_signal(number)
     _, message = command.communicate(timeout=60.0)
-    assert command.returncode == 2
+    assert command.returncode == 130
     assert message.strip() == "interrupted"
     assert not list(temporary.iterdir())
     running = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from math import tau
 from pathlib import Path
 from statistics import median
 
@@ -14,18 +15,27 @@ from slider_resonator.trials.hosts.job import describe
 
 @dataclass(frozen=True)
 class Step:
-    """A kind of communication step: parameters, its size (s), and how many to take."""
+    """A kind of communication step: parameters, its size (s), and how many to take.
+
+    Where the step `exchanges` values, an input is set before it and `outputs` are read after it.
+    """
 
     name: str
     parameters: Mapping[str, float]
     size: float
     count: int
     outputs: tuple[str, ...]
+    exchanges: bool = True
 
 
 _ALL_MOTION = ("position", "velocity", "mean_velocity", "friction_force")
 _FEED_FORWARD = (*_ALL_MOTION, "steady_velocity", "blocking_force")
 _FAST = {"drive_frequency": 35000.0, "resonator_frequency": 35000.0, "base_amplitude": 1e-5}
+
+_PERIOD = tau / 3500.0
+_PERIODS = 100
+ONE_PERIOD = "resolved Coulomb, 1 drive period, no set or get"
+LONG_STEP = f"the same, {_PERIODS} drive periods"
 
 STEPS = (
     Step("resolved Coulomb, 1 ms", {"fidelity": 2}, 1e-3, 20_000, _ALL_MOTION),
@@ -35,6 +45,8 @@ STEPS = (
     Step("averaged LuGre, 10 ms", {"fidelity": 0, "friction_law": 1}, 1e-2, 20_000, _ALL_MOTION),
     Step("resolved Coulomb at 35 000 rad/s, 10 ms", {**_FAST}, 1e-2, 500, _ALL_MOTION),
     Step("resolved LuGre, 1 ms", {"friction_law": 1}, 1e-3, 5_000, _ALL_MOTION),
+    Step(ONE_PERIOD, {"fidelity": 2}, _PERIOD, 100_000, (), exchanges=False),
+    Step(LONG_STEP, {"fidelity": 2}, _PERIODS * _PERIOD, 1_000, (), exchanges=False),
 )
 
 
@@ -71,6 +83,12 @@ def measure_steps(
     )
 
 
+def short_step_ratio(costs: Iterable[StepCost]) -> float:
+    """Return the cost of a drive period in steps of one over that in long steps, at the fastest."""
+    fastest = {cost.name: cost.fastest for cost in costs}
+    return _PERIODS * fastest[ONE_PERIOD] / fastest[LONG_STEP]
+
+
 def _commands(fmu: Path, step: Step) -> str:
     references = describe(str(fmu)).references
     lines = [
@@ -79,5 +97,6 @@ def _commands(fmu: Path, step: Step) -> str:
     ]
     outputs = " ".join(str(references[name]) for name in step.outputs)
     lines += ["initialize", f"step {step.size!r} 10"]
-    lines.append(f"time {step.count} {step.size!r} {references['load']} 0.01 {outputs}")
+    exchange = f"{references['load']} 0.01 {outputs}" if step.exchanges else ""
+    lines.append(f"time {step.count} {step.size!r} {exchange}")
     return "\n".join(lines) + "\n"

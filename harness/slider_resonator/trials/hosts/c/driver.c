@@ -7,10 +7,11 @@
  *     initialize                  ends initialisation; time starts at 0
  *     step SIZE COUNT             takes COUNT steps of SIZE seconds
  *     get REFERENCE...            prints Reals on one line
+ *     time COUNT SIZE             prints the microseconds that a step takes, over COUNT steps of
+ *                                 SIZE seconds
  *     time COUNT SIZE INPUT VALUE OUTPUT...
- *                                 prints the microseconds that a step takes, over COUNT steps of
- *                                 SIZE seconds, each with setting INPUT to a millionth of VALUE
- *                                 more than before and getting the OUTPUTs
+ *                                 the same, each with setting INPUT to a millionth of VALUE more
+ *                                 than before and getting the OUTPUTs
  *
  * Ends with 0; with 1 and a message when the FMU refuses a call or leaves memory behind; with 2 when
  * it cannot be loaded or a command is not understood. C99 and the operating system's loader only. */
@@ -97,17 +98,24 @@ static void get(const Host *host) {
 }
 
 static void time_steps(Host *host) {
-    fmi2ValueReference references[MOST_REFERENCES], input;
-    fmi2Real first, value, values[MOST_REFERENCES];
+    fmi2ValueReference references[MOST_REFERENCES], input = 0;
+    fmi2Real first = 0.0, value, values[MOST_REFERENCES];
     long i, steps = (long)read_number();
     double size = read_number();
-    size_t count;
+    size_t count = 0;
     clock_t began;
-    input = (fmi2ValueReference)read_number();
-    first = read_number();
-    count = read_references(references);
+    const char *word = strtok(NULL, " \r\n");
+    if (word) {
+        input = (fmi2ValueReference)strtoul(word, NULL, 10);
+        first = read_number();
+        count = read_references(references);
+    }
     began = clock();
     for (i = 0; i < steps; i++) {
+        if (!word) {
+            step(host, size);
+            continue;
+        }
         value = first * (1.0 + 1e-6 * (double)i);
         check(host->fmu.SetReal(host->instance, &input, 1, &value), "fmi2SetReal");
         step(host, size);

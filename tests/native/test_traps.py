@@ -1,0 +1,28 @@
+"""Hosts that trap floating-point exceptions: resolved motion raises none that they trap."""
+
+from __future__ import annotations
+
+import pytest
+
+from slider_resonator.trials.hosts.driver_host import native_driver
+from tests.native.scripts import CHOICES, script
+from tests.native.toolchain import PROGRAMS, Binary, program, run
+from tests.problems import PROBLEMS
+
+PRELOADED = ("-shared", "-fPIC", "-Wl,--no-as-needed", "-lm")
+
+
+@pytest.mark.slow
+def test_no_invalid_operation_and_no_division_by_zero(
+    product: Binary, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    trap = program(PROGRAMS / "trap.c", tmp_path_factory.mktemp("trap"), PRELOADED)
+    command = [native_driver(), product.library, product.guid, "file:///nowhere"]
+    died = {}
+    for name, problem in PROBLEMS.items():
+        values = dict(problem.parameters) | problem.pieces[0][1]
+        for law, fidelity in ((law, fidelity) for law, fidelity in CHOICES if fidelity > 0):
+            done = run(command, script(values, law, fidelity), {"LD_PRELOAD": str(trap)})
+            if done.returncode < 0:
+                died[name, law, fidelity] = done.returncode
+    assert not died
