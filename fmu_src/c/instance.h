@@ -6,8 +6,16 @@
 #include <stddef.h>
 
 #include "component.h"
-#include "fmi2/fmi2Functions.h"
+#include "fmi2Functions.h"
 #include "refusal.h"
+
+/* The header of fmpy leaves out the prefix of FMI 2.0 for static linking. */
+#ifdef FMI2_FUNCTION_PREFIX
+#undef fmi2FullName
+#define fmi2Paste(a, b) a##b
+#define fmi2PasteB(a, b) fmi2Paste(a, b)
+#define fmi2FullName(name) fmi2PasteB(FMI2_FUNCTION_PREFIX, name)
+#endif
 
 /* The log categories, in the order of the model description. */
 typedef enum {
