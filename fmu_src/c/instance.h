@@ -54,13 +54,11 @@ bool enable_messages(Instance *instance, const char *category, Refusal *refusal)
 void send_message(const fmi2CallbackFunctions *host, const char *instance_name, fmi2Status status,
                   const char *text);
 
-/* Send a text if its category is enabled; return the status. */
+/* Send a text if there is an instance and its category is enabled; return the status. */
 fmi2Status report(const Instance *instance, fmi2Status status, const char *text);
 
-/* Return fmi2OK for a call that is `done`; otherwise report the refusal and return fmi2Error. */
+/* Return fmi2OK for a call that is `done`; otherwise report the refusal and return fmi2Error. A call
+ * without an instance is never done. */
 fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal);
-
-/* Report that this FMU does not have a function, and return fmi2Error. */
-fmi2Status not_offered(fmi2Component component, const char *text);
 
 #endif
