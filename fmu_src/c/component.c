@@ -169,7 +169,9 @@ bool component_get(Component *component, const unsigned *references, double *val
         found[i] = output_value(references[i], present_law(component), moment,
                                 component->now.last_event_time, &component->theory);
     }
-    memcpy(values, found, count * sizeof *values);
+    if (count > 0) { /* of none `values` may be null */
+        memcpy(values, found, count * sizeof *values);
+    }
     return true;
 }
 
