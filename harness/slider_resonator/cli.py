@@ -125,17 +125,17 @@ def main() -> None:
 
     \b
     Examples:
-      python -m harness validate
-      python -m harness validate my.fmu --scene table_1 --scene lift_off
-      python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
-      python -m harness steady my.fmu --set phase=0.4 --set load=0.05 --json
-      python -m harness blocking my.fmu --json
-      python -m harness choose feed_forward --json
-      python -m harness paper --out paper
-      python -m harness extremes --out extremes
-      python -m harness sweep grid.toml --out table.parquet
-      python -m harness trade table_1 --out trade
-      python -m harness closed-loop --out closed_loop
-      python -m harness mutants --sample 200
-      python -m harness baseline check my.fmu --dir baseline
+      slider-resonator validate
+      slider-resonator validate my.fmu --scene table_1 --scene lift_off
+      slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
+      slider-resonator steady my.fmu --set phase=0.4 --set load=0.05 --json
+      slider-resonator blocking my.fmu --json
+      slider-resonator choose feed_forward --json
+      slider-resonator paper --out paper
+      slider-resonator extremes --out extremes
+      slider-resonator sweep grid.toml --out table.parquet
+      slider-resonator trade table_1 --out trade
+      slider-resonator closed-loop --out closed_loop
+      slider-resonator mutants --sample 200
+      slider-resonator baseline check my.fmu --dir baseline
     """

@@ -97,9 +97,9 @@ def run_command(
 
     \b
     Examples:
-      python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
-      python -m harness run my.fmu feed_forward --auto
-      python -m harness run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
+      slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
+      slider-resonator run my.fmu feed_forward --auto
+      slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
     read = read_scene(find_scene(scene), settings)
     files = {f"the scene's file {file}": file for file in read.files}

@@ -94,9 +94,9 @@ def trade_command(
 
     \b
     Examples:
-      python -m harness trade --out trade
-      python -m harness trade table_1 lugre detuned_beat --out trade --picture trade.png
-      python -m harness trade my.toml --out trade --fmu my.fmu --json
+      slider-resonator trade --out trade
+      slider-resonator trade table_1 lugre detuned_beat --out trade --picture trade.png
+      slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
     problems = _problems(scenes or ("table_1",), periods)
     trades: list[Trade] = []
