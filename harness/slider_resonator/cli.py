@@ -20,7 +20,7 @@ from slider_resonator.output.terminal import escaped
 
 COULD_NOT_RUN = 2
 INTERRUPTED = 130
-"""What a shell makes of a process that SIGINT ended."""
+"""The exit code that shells report for a process ended by SIGINT."""
 COMMANDS = (
     "baseline",
     "bench",
@@ -77,7 +77,7 @@ class HarnessGroup(click.Group):
             signal.signal(signal.SIGTERM, signal.default_int_handler)
         try:
             code = super().main(arguments, prog_name, complete_var, standalone_mode=False, **extra)
-        except SystemExit as end:  # click and rich exit with 1 when nobody reads their output
+        except SystemExit as end:  # click and rich exit with 1 when their output is a closed pipe
             exit_with(COULD_NOT_RUN if end.code else 0)
         except Exception as error:
             # click raises Abort from a KeyboardInterrupt, but also from an EOFError.
@@ -99,7 +99,7 @@ def _prints_json(arguments: Sequence[str]) -> bool:
 
 
 def _report(error: BaseException) -> str:
-    """Print on stderr what went wrong, and return it."""
+    """Print the error message on stderr and return it."""
     if isinstance(error, click.ClickException):
         error.show()
         return error.format_message()

@@ -26,7 +26,7 @@ def place(at: Mapping[str, float], before: str = "") -> str:
 
 
 def sentence(check: Check) -> str:
-    """Return the deviation of the FMU, where it is and how it compares with the tolerance."""
+    """Return the deviation of the FMU, its time and its ratio to the tolerance."""
     unit = "" if check.unit in ("", "1") else f" {check.unit}"
     if check.fmu is None:
         return f"the FMU gives none, expected is {_value(check.reference, unit)}: {check.note}"

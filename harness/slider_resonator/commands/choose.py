@@ -1,4 +1,4 @@
-"""`choose`: find the cheapest model that meets a scene's needs, confirmed by a short probe."""
+"""`choose`: find the cheapest model that meets a scene's needs, confirmed by a short run."""
 
 from __future__ import annotations
 

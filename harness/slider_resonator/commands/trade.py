@@ -1,4 +1,4 @@
-"""`trade`: measure the cost of accuracy, of the FMUs' models and of other methods."""
+"""`trade`: measure error over cost of the FMUs' models and of other methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`validate`: compare FMUs with the references, and report to people and CI servers."""
+"""`validate`: compare FMUs with the references, and write reports for terminals and CI servers."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.opening import Fmu
 
 EQUAL = 1e-6
-"""Relative difference up to which two communication steps are of one size."""
+"""Relative difference up to which two communication steps count as equal."""
 
 _numbers = count(1)
 
@@ -109,7 +109,7 @@ class Instance:
         self._create()
 
     def recreate(self) -> None:
-        """Free the instance and make a new one, as after a failure that may have left traces.
+        """Free the instance and create a new one, for instance after a failure.
 
         Blocks of the old one must not be used again. Raises FmuError as at first.
         """

@@ -15,11 +15,11 @@ Points = tuple[tuple[str, ...], tuple[tuple[float, ...], ...]]
 
 SPACINGS = ("linear", "log")
 MAX_POINTS = 10_000_000
-"""More would not fit beside each other in the memory of the process that writes the table."""
+"""More would not fit into the memory of the process that writes the table."""
 
 
 class AxisError(ValueError):
-    """A description of points that makes no sense; the message is meant for the user."""
+    """An invalid description of points; the message is shown to the user."""
 
 
 def grid_points(table: Mapping[str, Any]) -> Points:

@@ -1,4 +1,4 @@
-"""What has changed since golden results were recorded, as checks like those of `validate`."""
+"""The changes since golden results were recorded, as checks like those of `validate`."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 from slider_resonator.trials.baseline.golden import SIGNALS, Golden, order
 
 TOLERANCE = 1e-8
-"""Relative change that counts as none: other platforms and compilers round differently."""
+"""Relative change that passes: other platforms and compilers round differently."""
 AGAINST = "baseline"
 
 
 def compare_golden(
     point: ScenePoint, golden: Golden, now: Golden, tolerance: float
 ) -> Iterator[tuple[Check, Curves | None]]:
-    """Compare every quantity that was recorded, or is there now; yield checks and their curves.
+    """Compare every quantity that was recorded or exists now; yield checks and their curves.
 
     Numbers may change by `tolerance` times their size, signals by that share of their peak, times
     of events by that share of a drive period; counts, words and contact modes must be equal. Raises

@@ -47,7 +47,7 @@ def record(
     replace: bool = False,
     time_limit: float = TIME_LIMIT,
 ) -> tuple[tuple[str, ...], tuple[RunFailure, ...]]:
-    """Record scenes; return the names of those written and what could not be run.
+    """Record scenes; return the names of those written and the run failures.
 
     Raises HarnessError, before anything is run, where a scene is recorded already and `replace` is
     not set, where two scenes have one name, and for a folder that cannot be made; FmuError for a

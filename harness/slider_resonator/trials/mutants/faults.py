@@ -1,4 +1,4 @@
-"""Faults of the kind that events and inputs suffer from, as code appended to a module.
+"""Typical faults of events and inputs, as code appended to a module.
 
 What is appended takes the place of a function or method of the module when it is loaded, so these
 mutants hang on a few names and not on how things are done.

@@ -10,13 +10,13 @@ import pytest
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.trials.extremes.averaged_reference import REFERENCE_ERROR, covers
-from slider_resonator.trials.extremes.cell import Cell, Hold, Model
+from slider_resonator.trials.extremes.cell import Hold, MatrixCell, Model
 from slider_resonator.trials.extremes.judge import judge
 from slider_resonator.trials.extremes.matrix import all_cells
 from slider_resonator.trials.extremes.observe import NAMES, Observation, observe
 from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFERENCE
 
-CELL = Cell("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0.02),))
+CELL = MatrixCell("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0.02),))
 
 
 @pytest.fixture(scope="module")

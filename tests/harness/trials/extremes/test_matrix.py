@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from slider_resonator.trials.extremes.cell import MODELS, Cell, Hold, Model
+from slider_resonator.trials.extremes.cell import MODELS, Hold, MatrixCell, Model
 from slider_resonator.trials.extremes.matrix import all_cells
 
 AXES = {
@@ -81,5 +81,5 @@ def test_other_steps_cover_the_same_times() -> None:
 
 
 def test_steps_that_cannot_be_cut_are_kept() -> None:
-    cell = Cell("step", "denormal", Model(2, 0), {}, (Hold(5e-324), Hold(1e-3)))
+    cell = MatrixCell("step", "denormal", Model(2, 0), {}, (Hold(5e-324), Hold(1e-3)))
     assert [hold.count for hold in cell.other_holds] == [1, 3]

@@ -1,4 +1,4 @@
-"""LuGre friction (8) by CVODE's BDF with the bristle as a state: what a stiff solver makes of it.
+"""LuGre friction (8) by CVODE's BDF with the bristle as a state: a stiff solver.
 
 No event is located; the solver steps over the kinks at the reversals. A peer for measurements of
 cost, not a reference.
