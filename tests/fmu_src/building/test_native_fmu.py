@@ -124,7 +124,7 @@ def test_a_compiler_for_another_platform_is_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "dist").exists()
 
 
-def test_what_the_compiler_says_is_passed_on(tmp_path: Path, edited_sources: Path) -> None:
+def test_compiler_messages_are_passed_on(tmp_path: Path, edited_sources: Path) -> None:
     (edited_sources / "values.c").write_text("#error broken on purpose\n")
     with pytest.raises(BuildError, match="broken on purpose"):
         build_native(tmp_path / "dist", platforms=[HOST], sources=edited_sources)

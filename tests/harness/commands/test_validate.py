@@ -50,7 +50,7 @@ def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("fault", faulty_fmus.BROKEN)
-def test_what_could_not_run_exits_with_2_and_all_reports(
+def test_run_failures_exit_with_2_and_all_reports(
     native_fmu: Path, tmp_path: Path, fault: str
 ) -> None:
     broken, cause = faulty_fmus.BROKEN[fault]

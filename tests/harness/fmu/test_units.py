@@ -21,7 +21,7 @@ def test_every_unit_of_the_interface_has_a_dimension() -> None:
     assert {*INPUTS.values(), *PARAMETERS.values(), *OUTPUTS.values()} <= set(DIMENSIONS)
 
 
-def test_si_units_are_what_they_are() -> None:
+def test_si_units_are_accepted() -> None:
     assert problems("N", **NEWTON) == []
     assert problems("m/s", m=1, s=-1) == []
     assert unit_problems("N", []) == [], "without a definition the name counts"
@@ -51,7 +51,7 @@ def test_another_definition_is_named(unit: str, base: dict[str, float], said: st
     assert problem.startswith(said)
 
 
-def test_display_units_must_be_what_their_names_say() -> None:
+def test_display_units_must_agree_with_their_names() -> None:
     rounded = DisplayUnit("deg", 57.29578)
     assert problems("rad", rounded, rad=1) == []
     assert problems("m", DisplayUnit("mm", 1e3), DisplayUnit("furlong", 7.0), m=1) == []

@@ -117,7 +117,7 @@ def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Pa
         ("name = 3\n", ["not TOML"]),
     ],
 )
-def test_a_mistake_is_named_with_its_key_its_value_and_what_is_allowed(
+def test_a_mistake_is_named_with_key_value_and_requirement(
     tmp_path: Path, text: str, parts: list[str]
 ) -> None:
     message = refusal(tmp_path, HEAD + text)
@@ -234,7 +234,7 @@ def test_a_scene_knows_the_files_it_was_read_from(tmp_path: Path) -> None:
     assert read_scene(path).files == (path, tmp_path / "load.csv")
 
 
-def test_a_scene_without_a_run_says_where_to_find_one(tmp_path: Path) -> None:
+def test_the_refusal_of_a_scene_without_a_run_names_the_command_scenes(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"no \[run\].*the command scenes"):
         read_scene(write(tmp_path, HEAD)).schedule()
 

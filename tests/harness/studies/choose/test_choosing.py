@@ -132,7 +132,9 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
         ),
     ],
 )
-def test_what_does_not_exist_is_met_by_nothing(instance: Instance, text: str, said: str) -> None:
+def test_a_quantity_that_does_not_exist_is_met_by_no_model(
+    instance: Instance, text: str, said: str
+) -> None:
     choice = choose_with(instance, scene_of(text))
     assert not choice.meets
     assert said in choice.reason
@@ -180,7 +182,7 @@ def test_without_friction_or_vibration_averaged_motion_serves_but_not_in_undampe
         assert "damping_ratio = 0.0 refused" in choice.ruled_out[0].why
 
 
-def test_a_scene_without_needs_says_so(instance: Instance) -> None:
+def test_a_scene_without_needs_is_refused(instance: Instance) -> None:
     with pytest.raises(SceneError, match=r"no \[need\].*mean_velocity = \{ rel = 0.01 \}"):
         choose_with(instance, scene_of(""))
 

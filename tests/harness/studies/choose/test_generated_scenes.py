@@ -66,7 +66,7 @@ def test_choices_meet_the_needs_at_little_cost(instance: Instance, first: int) -
     judged(instance, range(first, first + CHUNK))
 
 
-def test_the_scenes_span_what_averaging_suits_and_what_it_does_not() -> None:
+def test_some_scenes_suit_averaging_and_some_do_not() -> None:
     scenes = [generated_scene(seed) for seed in range(COUNT)]
     devices = [scene.device for scene in scenes]
     assert 0.3 < np.mean([device.friction_law for device in devices]) < 0.6
@@ -82,7 +82,7 @@ def test_the_scenes_span_what_averaging_suits_and_what_it_does_not() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", REFEREED)
-def test_the_judge_agrees_with_a_referee_that_shares_no_code(instance: Instance, seed: int) -> None:
+def test_the_judge_agrees_with_an_independent_reference(instance: Instance, seed: int) -> None:
     scene = generated_scene(seed)
     assert scene.step_size is not None
     assert scene.device.friction_law == 0

@@ -24,7 +24,7 @@ def test_table_1_by_theory_and_by_shooting(
         assert (found.periods > 0) == (fidelity == 2)
 
 
-def test_what_does_not_settle_has_no_value_and_a_reason(instance: Instance) -> None:
+def test_a_device_that_does_not_settle_has_no_value_and_a_reason(instance: Instance) -> None:
     candidate = Candidate(Model(2, 0), 1e-8, None)
     found = find(instance, {"frequency_ratio": 1.0001}, "steady_velocity", candidate)
     assert found.value is None

@@ -75,7 +75,9 @@ def test_points_of_another_grid_are_refused_unless_discarded(
     assert run_sweep(sweep, native_fmu, out, workers=1, restart=True).found == 0
 
 
-def test_what_is_no_fmu_is_said_before_anything_is_kept(grid: Path, tmp_path: Path) -> None:
+def test_an_invalid_fmu_is_refused_before_the_journal_is_written(
+    grid: Path, tmp_path: Path
+) -> None:
     with pytest.raises(HarnessError, match=r"none\.fmu: no such file"):
         run_sweep(read_grid(grid), tmp_path / "none.fmu", tmp_path / "a.csv", workers=1)
     assert not journal_path(tmp_path / "a.csv").exists()

@@ -46,7 +46,7 @@ sizes = st.floats(1e-11, 1e3)
 
 
 @given(st.lists(st.tuples(sizes, sizes), min_size=1, max_size=12))
-def test_nobody_beats_the_front(points: list[tuple[float, float]]) -> None:
+def test_no_row_beats_the_front(points: list[tuple[float, float]]) -> None:
     rows = [row(*point) for point in points]
     best = front(rows, "position")
     for one in rows:

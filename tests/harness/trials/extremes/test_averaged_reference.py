@@ -60,7 +60,7 @@ def test_most_averaged_cells_are_covered() -> None:
         {"resonator_mass": 0.0},
     ],
 )
-def test_what_the_reference_has_no_average_for_is_left_to_the_other_bounds(
+def test_cells_without_an_average_are_left_to_the_other_bounds(
     parameters: dict[str, float],
 ) -> None:
     assert not covers(replace(CELL, parameters=parameters))

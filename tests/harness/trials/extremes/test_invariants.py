@@ -78,7 +78,7 @@ def test_a_replay_that_differs_fails(seen: Observation) -> None:
         "doStep: communicationStepSize = 0.0001 refused: it takes more than 9; must be less",
     ],
 )
-def test_a_refusal_names_thing_value_and_what_is_allowed(seen: Observation, words: str) -> None:
+def test_a_refusal_names_thing_value_and_requirement(seen: Observation, words: str) -> None:
     assert judge(TABLE_1, replace(seen, refusal=words)).verdict == REFUSED
 
 

@@ -53,7 +53,7 @@ def test_every_value_is_there(axis: str) -> None:
     assert {cell.value for cell in all_cells() if cell.axis == axis} >= AXES[axis]
 
 
-def test_what_a_device_can_be_is_run_by_every_model_that_knows_it() -> None:
+def test_every_device_is_run_by_every_model_that_covers_it() -> None:
     for axis in ("Omega", "q", "alpha", "mu", "r_m", "xi", "resonance", "communication step"):
         counts = Counter(cell.value for cell in all_cells() if cell.axis == axis)
         assert set(counts.values()) == {len(MODELS)}, axis

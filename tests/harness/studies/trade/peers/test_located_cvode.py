@@ -45,7 +45,7 @@ def test_it_breaks_loose_when_friction_gives_way() -> None:
 
 
 @pytest.mark.parametrize("parameters", [{}, {"normal_amplitude": 2.0}, {"base_amplitude": 5e-8}])
-def test_it_agrees_with_the_referee(parameters: dict[str, float]) -> None:
+def test_it_agrees_with_the_taylor_reference(parameters: dict[str, float]) -> None:
     device = Device.from_mapping(parameters)
     middle, stop = 2.3 * PERIOD, 6 * PERIOD
     held = [HeldInputs(0.0, middle, phase=0.4), HeldInputs(middle, stop, load=0.03)]

@@ -137,7 +137,7 @@ def test_samples_do_not_influence_the_motion() -> None:
         (TABLE_1, until(1.0), [-0.5], "must lie within"),
     ],
 )
-def test_what_cannot_be_simulated_is_refused(
+def test_devices_that_cannot_be_simulated_are_refused(
     device: Device, held: list[HeldInputs], times: list[float], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):
