@@ -40,7 +40,7 @@ def bench_command(fmu: Path | None, repeats: int, as_json: bool) -> None:
     """
     with progress_bar() as progress, open_fmu(default_fmu(fmu)) as opened:
         if not opened.runs_without_python:
-            raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host is without")
+            raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host lacks")
         costs = measure_steps(opened.path, repeats, progress)
     ratio = short_step_ratio(costs)
     if as_json:

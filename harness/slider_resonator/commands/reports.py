@@ -75,7 +75,7 @@ class Reports:
         if self.junit is not None:
             write_junit(self.junit, validations, error, title=self.title)
         if self.html is not None:
-            # Here, for drawing takes longer to load than everything else.
+            # Imported here: drawing takes longer to load than everything else.
             from slider_resonator.checks.reports.html_report import write_html
 
             write_html(self.html, validations, error, title=self.title)

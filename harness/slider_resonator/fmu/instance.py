@@ -127,7 +127,7 @@ class Instance:
                 unzipDirectory=str(self.fmu.folder),
             )
             self.slave.instantiate(callbacks=callbacks, loggingOn=True)
-        except Exception as error:  # fmpy raises bare Exception for all that goes wrong here
+        except Exception as error:  # fmpy raises bare Exception for every error here
             reason = "; ".join([str(error), *self.messages])
             fmu_log.forget(self._name)
             raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
@@ -171,7 +171,7 @@ class Instance:
         steps = np.diff(times, prepend=self.time)
         if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * np.max(steps):
             raise FmuError(
-                f"{self.fmu.path.name} says canHandleVariableCommunicationStepSize = false, but "
+                f"{self.fmu.path.name} has canHandleVariableCommunicationStepSize = false, but "
                 f"this needs steps from {np.min(steps):.6g} s to {np.max(steps):.6g} s; must be "
                 "one size for the whole run"
             )

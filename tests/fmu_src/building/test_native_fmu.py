@@ -54,12 +54,12 @@ def edited_sources(tmp_path: Path) -> Path:
 def test_another_content_gets_another_guid(
     native_fmu: Path, tmp_path: Path, edited_sources: Path
 ) -> None:
-    said: list[str] = []
+    messages: list[str] = []
     other = build_native(
-        tmp_path / "dist", platforms=[HOST], sources=edited_sources, progress=said.append
+        tmp_path / "dist", platforms=[HOST], sources=edited_sources, progress=messages.append
     )
     assert guid(other) != guid(native_fmu), "hosts and states must tell builds apart"
-    assert f"compiling for {host_platform().name} with ziglang" in said[0]
+    assert f"compiling for {host_platform().name} with ziglang" in messages[0]
 
 
 def test_the_guid_is_in_the_sources_and_in_the_binary(native_fmu: Path) -> None:

@@ -287,5 +287,5 @@ def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) 
     if not passed:
         assert verdict.first_time == 0.6
     if shift == 2e-3:
-        said = "off by 0.002 drive periods, 2 times the allowed 0.001; from 0.6 s on"
-        assert sentence(verdict).startswith(said)
+        message = "off by 0.002 drive periods, 2 times the allowed 0.001; from 0.6 s on"
+        assert sentence(verdict).startswith(message)

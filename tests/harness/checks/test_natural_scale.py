@@ -1,4 +1,4 @@
-"""What counts as near zero follows from the device."""
+"""The size that counts as near zero follows from the device."""
 
 from __future__ import annotations
 

@@ -8,14 +8,14 @@ from tests.harness.verdicts import BOUND, NONE, SIGNAL, SLOWER, WORD
 
 def test_a_number_is_off_by_so_much() -> None:
     assert sentence(SLOWER) == (
-        "the FMU gives 0.12 m/s, expected is 0.126667 m/s: off by 0.0067 m/s, "
+        "the FMU gives 0.12 m/s, expected 0.126667 m/s: off by 0.0067 m/s, "
         "6.67e+04 times the allowed 1e-07"
     )
     assert title(SLOWER) == "steady_velocity against located_events at phase 0.4"
 
 
 def test_the_sentence_of_a_bound_names_its_side() -> None:
-    assert sentence(BOUND) == ("the FMU gives 120, expected is at most 100: off by 20, must be 0")
+    assert sentence(BOUND) == ("the FMU gives 120, expected at most 100: off by 20, must be 0")
 
 
 def test_the_sentence_of_a_signal_names_the_times() -> None:
@@ -35,4 +35,4 @@ def test_the_sentence_of_a_value_that_does_not_exist() -> None:
     assert "no steady motion" in sentence(NONE)
     without = replace(SLOWER, reference=None, deviation=None, allowed=None)
     assert sentence(without) == "the FMU gives 0.12 m/s, the reference has none"
-    assert sentence(WORD) == "the FMU gives 'steady', expected is 'stuck'"
+    assert sentence(WORD) == "the FMU gives 'steady', expected 'stuck'"

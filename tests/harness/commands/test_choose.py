@@ -1,4 +1,4 @@
-"""What `choose` and `run --auto` print, and their exit codes."""
+"""Output and exit codes of `choose` and `run --auto`."""
 
 from __future__ import annotations
 

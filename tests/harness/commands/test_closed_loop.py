@@ -1,4 +1,4 @@
-"""The loop in fmpy: what it shows, and that a loop that fails is rejected."""
+"""The loop in fmpy: its output, and the rejection of a loop that fails."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
 
 @pytest.fixture
 def brief(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Fewer predictions, where they do not matter."""
+    """Make fewer predictions, where they do not matter."""
     monkeypatch.setattr(prediction, "FIRST", 1)
 
 

@@ -1,4 +1,4 @@
-"""What `trade` writes, and its exit codes."""
+"""Files and exit codes of `trade`."""
 
 from __future__ import annotations
 

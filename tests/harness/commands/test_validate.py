@@ -20,7 +20,7 @@ def call(*arguments: object, summary: Path | None = None) -> Result:
 
 
 def reported(folder: Path, *arguments: object) -> tuple[Result, dict[str, object], ET.Element]:
-    """Run with all reports and return what came of it, the JSON and the JUnit document."""
+    """Run with all reports and return the result, the JSON and the JUnit document."""
     names = ("report.json", "report.xml", "report.html", "summary.md")
     files = [folder / name for name in names]
     options = [*("--json", files[0]), *("--junit", files[1]), *("--html", files[2])]

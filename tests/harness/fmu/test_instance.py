@@ -49,7 +49,7 @@ def test_a_refusal_carries_the_words_of_the_fmu(instance: Instance) -> None:
     message = str(caught.value)
     assert "slider_mass = -1.0" in message
     assert "t = 0 s" in message
-    assert message.count("slider_mass") == 1, "said once"
+    assert message.count("slider_mass") == 1, "reported once"
     assert "Refusal" not in message, "without pythonfmu's wrapping"
     assert "fmi2" not in message
     instance.start({})

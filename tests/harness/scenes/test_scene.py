@@ -317,11 +317,11 @@ def test_a_need_that_cannot_be_judged_is_refused(
 
 
 def test_needs_are_measured_in_a_run_or_under_constant_inputs(tmp_path: Path) -> None:
-    said = refusal(tmp_path, HEAD + "[need]\nbeat = { rel = 0.1 }\n")
-    assert "need.beat is measured in a run: [run] is missing" in said
+    message = refusal(tmp_path, HEAD + "[need]\nbeat = { rel = 0.1 }\n")
+    assert "need.beat is measured in a run: [run] is missing" in message
     inputs = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
-    said = refusal(tmp_path, HEAD + inputs + "[need]\nblocking_force = { rel = 0.1 }\n")
-    assert "need.blocking_force needs constant inputs" in said
+    message = refusal(tmp_path, HEAD + inputs + "[need]\nblocking_force = { rel = 0.1 }\n")
+    assert "need.blocking_force needs constant inputs" in message
 
 
 def test_an_allowed_error_has_an_absolute_and_a_relative_part(tmp_path: Path) -> None:

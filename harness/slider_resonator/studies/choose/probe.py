@@ -186,7 +186,7 @@ class Probe:
     def _grown(self, candidate: Candidate, seen: Estimates) -> Estimates:
         """Return the errors of the resolved model itself, extrapolated to the end of the scene."""
         if candidate.model != self.reference_model:
-            reason = "the scene is too long, and changes too often, for a short probe to confirm it"
+            reason = "the scene is too long, with too many changes of inputs, for a short probe"
             return {name: replace(e, error=inf, reason=reason) for name, e in seen.items()}
         growth = CAUTION * self.duration / self.probed_duration
         return {
@@ -217,7 +217,7 @@ class Probe:
         if self.scales.beat == 0.0:
             where = f"no beat at frequency_ratio = {ratio.values[0]:.9g}"
             if self.scales.detuning == 0.0:
-                return f"{where}: at an integer the two phases stand still to each other"
+                return f"{where}: at an integer the difference of the two phases is constant"
             return f"{where}: it is farther than {NEAR_AN_INTEGER:g} from an integer"
         beats = 0.5 * self.duration * self.scales.beat
         if beats < MIN_BEATS:

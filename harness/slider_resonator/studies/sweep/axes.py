@@ -120,7 +120,7 @@ def _between(first: float, last: float, spacing: str, share: float) -> float:
 def whole_number(key: str, value: object, minimum: int) -> int:
     """Return a whole number of at least `minimum`; AxisError for anything else."""
     if isinstance(value, bool) or not isinstance(value, int) or value < minimum:
-        raise AxisError(f"{_given(key, value)}: must be a whole number from {minimum} on")
+        raise AxisError(f"{_given(key, value)}: must be a whole number of at least {minimum}")
     return value
 
 

@@ -95,7 +95,7 @@ class DaskWorkers:
         """Check that the cluster is still there: it replaces its workers itself."""
         if self.client.status != "running":
             raise HarnessError(
-                f"{self.address}: the cluster is gone; the same command goes on where this ended"
+                f"{self.address}: the cluster is lost; the same command continues the sweep"
             )
 
 

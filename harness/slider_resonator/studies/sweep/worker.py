@@ -85,7 +85,7 @@ def failed_row(task: Task, number: int, error: str) -> Row:
 def _row(instance: Instance, task: Task, number: int, values: tuple[float, ...]) -> Row:
     try:
         return number, measure(instance, task, values), None
-    except Exception as error:  # whatever goes wrong is the result of this point
+    except Exception as error:  # any error is the result of this point
         instance.recreate()
         return failed_row(task, number, _text(error, instance.fmu.path))
 

@@ -49,4 +49,4 @@ def shoot(
         value = reference_blocking_force(
             problem.device, phase, ratio, simulate=counted, tolerance=tolerance
         )
-    return SteadyAnswer(value, "the search by shooting has found none", round(sum(turns)))
+    return SteadyAnswer(value, "the search by shooting found none", round(sum(turns)))

@@ -53,11 +53,11 @@ def standings(trade: Trade) -> list[Standing]:
 
 def sentence(standing: Standing) -> str:
     """Return a standing in words."""
-    who = CLASSES[standing.kind]
+    name = CLASSES[standing.kind]
     if standing.row is None:
-        return f"{who}: not reached"
+        return f"{name}: not reached"
     row = standing.row
-    words = f"{who}: {duration(row.cost)} a simulated second ({row.method})"
+    words = f"{name}: {duration(row.cost)} a simulated second ({row.method})"
     if standing.ratio is None or standing.kind == RESOLVED:
         return words
     middle, least, most = standing.ratio

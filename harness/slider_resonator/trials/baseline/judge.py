@@ -32,7 +32,7 @@ def compare_golden(
     """
     for name in sorted({*golden, *now}, key=order):
         recorded = golden.get(name, Measurement(None, "it was not recorded"))
-        measured = now.get(name, Measurement(None, "the scene does not allow it any more"))
+        measured = now.get(name, Measurement(None, "the scene no longer allows it"))
         if name in SIGNALS and not _same_points(recorded, measured):
             raise SceneError(
                 f"{point.scene.source}: the run of {point.scene.name} has other points than when "
@@ -51,7 +51,7 @@ def _comparison(name: str, share: float) -> Comparison:
         tolerance = Tolerance()
     elif quantity.in_periods:
         tolerance = Tolerance(tube=share)
-    return Comparison(name, AGAINST, tolerance, "it was so when it was recorded")
+    return Comparison(name, AGAINST, tolerance, "the recorded result")
 
 
 def _same_points(one: Measurement, other: Measurement) -> bool:

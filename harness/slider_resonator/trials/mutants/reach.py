@@ -79,7 +79,7 @@ def _note(body: list[ast.stmt]) -> None:
     for index in range(len(body) - 1, -1, -1):
         statement = body[index]
         if isinstance(statement, Function):
-            continue  # its own body is noted on its own
+            continue  # its body is noted separately
         for block in blocks(statement):
             _note(block)
         body[index:index] = ast.parse(f"{_NOTED}.add({statement.lineno})").body

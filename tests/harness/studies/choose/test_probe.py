@@ -1,4 +1,4 @@
-"""How much of a scene is resolved to confirm a choice."""
+"""The part of a scene that is resolved to confirm a choice."""
 
 from __future__ import annotations
 

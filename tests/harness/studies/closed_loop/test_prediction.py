@@ -16,7 +16,7 @@ DUTY = Duty(loads=((0.0, 0.0), (0.8, 0.03)), end=1.6, settling=0.5)
 
 @pytest.fixture
 def brief(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Fewer predictions, where one tells as much."""
+    """Make fewer predictions, where one suffices."""
     monkeypatch.setattr(prediction, "FIRST", 1)
 
 

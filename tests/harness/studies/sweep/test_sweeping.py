@@ -1,4 +1,4 @@
-"""Whole sweeps: the table does not show who computed it, in what order, or how often it ended."""
+"""Whole sweeps: the table does not depend on workers, order or interruptions."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def undisturbed(
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:
-    """Kill a sweep, and wait for its workers, which nobody told."""
+    """Kill a sweep and wait for its workers to end."""
     workers = _children(process)
     os.kill(process.pid, signal.SIGKILL)
     process.wait(DEADLINE)

@@ -97,7 +97,7 @@ def tables(path: Path) -> list[list[str]]:
 
 def test_committed_tables_were_written_by_this_code() -> None:
     rows = tables(PAGE)
-    assert rows == tables(DOCUMENTATION), "the page and the FMU's documentation tell the same"
+    assert rows == tables(DOCUMENTATION), "the page and the FMU's documentation agree"
     needs = {(quantity.replace("_", " "), f"{error:.0e}") for quantity, error in NEEDS}
     assert needs == {(row[0], row[1]) for row in rows}, "each need is met in some scene, or not"
     assert all(len(row) == len(HEAD) for row in rows)

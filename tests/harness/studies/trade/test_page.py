@@ -1,4 +1,4 @@
-"""The page: self-contained, with the ratios at its top and what is missing at its end."""
+"""The page: self-contained, with the ratios at its top and the omissions at its end."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Peers as methods: their names, their inputs, and who can be shot with."""
+"""Peers as methods: their names, their inputs, and which of them support shooting."""
 
 from __future__ import annotations
 

@@ -49,8 +49,8 @@ def test_inputs_that_vary_allow_no_steady_motion(tmp_path: Path) -> None:
     found = problem(tmp_path, RAMP)
     assert not found.constant
     assert not found.steady
-    assert found.periods == 16, "the scene says how long its inputs are meant for"
-    assert found.lengths == (16,), "who stops earlier has not seen all of them"
+    assert found.periods == 16, "the scene sets the duration of its inputs"
+    assert found.lengths == (16,), "a method that stops earlier has not seen all of them"
 
 
 @pytest.mark.parametrize(

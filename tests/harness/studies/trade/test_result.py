@@ -70,7 +70,7 @@ def test_the_cheapest_that_is_exact_enough() -> None:
     rows = [row(1.0, 1e-2), row(3.0, 1e-9), row(9.0, 1e-12)]
     assert cheapest(rows, "position", 1e-9) is rows[1]
     assert cheapest(rows, "position", 1e-13) is None
-    assert cheapest(rows, "velocity", 1.0) is None, "none of them tells a velocity"
+    assert cheapest(rows, "velocity", 1.0) is None, "none of them has a velocity"
 
 
 def test_ratios_are_taken_repeat_by_repeat() -> None:

@@ -1,4 +1,4 @@
-"""What counts as a change."""
+"""Comparing results with recorded ones."""
 
 from __future__ import annotations
 

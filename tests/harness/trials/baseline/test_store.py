@@ -1,4 +1,4 @@
-"""Golden results in files: what is written is what is read, in an order that diffs well."""
+"""Golden results in files: written and read back, in an order that diffs well."""
 
 from __future__ import annotations
 

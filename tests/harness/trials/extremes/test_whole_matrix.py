@@ -1,4 +1,4 @@
-"""Every cell of the matrix: it passes, or is refused with name, value and what is allowed."""
+"""Every cell of the matrix: it passes, or is refused with name, value and requirement."""
 
 from __future__ import annotations
 
