@@ -1,4 +1,4 @@
-"""The line that tells readers of a generated file where to edit."""
+"""The line in a generated file that names its source."""
 
 from __future__ import annotations
 
