@@ -46,7 +46,7 @@ validate: build ## build both FMUs, run every built-in scene and compare them wi
 	$(PY) -m harness validate
 
 test: $(READY) ## run the tests that take seconds; SLOW=1 runs the slow ones too, COVERAGE=1 reports the lines reached
-	$(PY) -m pytest -n 2 $(if $(SLOW),--dist worksteal -m "not interop",--dist loadfile) $(if $(COVERAGE),$(COVER))
+	$(if $(COVERAGE),COVERAGE_CORE=sysmon )$(PY) -m pytest -n 2 $(if $(SLOW),--dist worksteal -m "not interop",--dist loadfile) $(if $(COVERAGE),$(COVER))
 
 lint: $(LINT)/.ready ## check style, formatting, types and layers, with the versions of requirements-lint.lock
 	$(LINT)/bin/ruff check .
