@@ -1,4 +1,4 @@
-"""Builds the FMUs: `python build_fmu.py` writes dist/SliderResonator.fmu and its Python twin.
+"""Build the FMUs: `python build_fmu.py` writes dist/SliderResonator.fmu and its Python twin.
 
 Besides these it writes a velocity controller, and slider and controller as a closed loop.
 """
@@ -22,7 +22,7 @@ from fmu_src.building.python_fmu import build_python
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; returns the exit code."""
+    """Run the command line and return the exit code."""
     parser = _parser()
     options = parser.parse_args(arguments)
     if options.only == "python" and (options.platform or options.compiler):
@@ -60,10 +60,10 @@ def _builds(options: argparse.Namespace) -> Iterator[Callable[[], Path]]:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="build_fmu.py",
-        description=f"Build {native_fmu.MODEL}.fmu (native, no needs on the target) and "
+        description=f"Build {native_fmu.MODEL}.fmu (native, self-contained on the target) and "
         f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation; then "
         f"{controller_fmu.MODEL}.fmu and, with both components, {closed_loop_ssp.MODEL}.ssp.",
-        epilog="The same sources give the same bytes, but for chance padding in the binary for "
+        epilog="The same sources give the same bytes, except for random padding in the binary for "
         "macOS. The environment variable SOURCE_DATE_EPOCH (seconds since 1970-01-01) sets the "
         f"date in the model description; without it the date is {EPOCH:%Y-%m-%d}. Exit code 0: "
         "built; 2: could not be built.",

@@ -16,7 +16,7 @@ SIGNALS = (
     "normal_force",
     "friction_force",
 )
-"""What is compared with a referee."""
+"""The signals that are compared with a reference."""
 
 DURATION = 0.2
 MASS_FRACTION = 0.1 / 1.1

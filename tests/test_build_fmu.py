@@ -80,7 +80,7 @@ def test_equal_bytes_wherever_and_however_it_is_built(fmu: Path, tmp_path: Path)
     assert (elsewhere / fmu.name).read_bytes() == fmu.read_bytes(), (
         "folder, working folder, umask, time and hash seed must not show in the FMU"
     )
-    assert done.stderr == "", "progress is for people, not for a file"
+    assert done.stderr == "", "progress is for a terminal, not for a file"
 
 
 @both_fmus
@@ -147,9 +147,9 @@ def test_page_is_self_contained_and_balanced(page: str) -> None:
     assert re.search(r"\$\w", page) is None, "every place of the template is filled"
 
 
-def test_all_are_built_and_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_are_built_and_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--out", str(tmp_path), "--platform", HOST]) == 0
-    said = capsys.readouterr().out
+    printed = capsys.readouterr().out
     names = [
         "ClosedLoop.ssp",
         "SliderResonator.fmu",
@@ -157,7 +157,7 @@ def test_all_are_built_and_said(tmp_path: Path, capsys: pytest.CaptureFixture[st
         "VelocityController.fmu",
     ]
     for name in names:
-        assert str(tmp_path / name) in said
+        assert str(tmp_path / name) in printed
     assert sorted(p.name for p in tmp_path.iterdir()) == names, "no left-overs"
 
 

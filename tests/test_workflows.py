@@ -1,4 +1,4 @@
-"""The workflows call commands that there are, with options that they take."""
+"""The workflows call existing commands with existing options."""
 
 from __future__ import annotations
 

@@ -4,4 +4,4 @@ from __future__ import annotations
 
 
 class BuildError(Exception):
-    """The FMU cannot be built; the text says why."""
+    """The FMU cannot be built; the text gives the reason."""

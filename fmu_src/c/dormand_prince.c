@@ -32,9 +32,9 @@ static Stage try_step(AccelerationFunction acceleration, const void *motion, dou
     return stage;
 }
 
-Passage integrate(AccelerationFunction acceleration, const void *motion, Passage from, double end,
+Reached integrate(AccelerationFunction acceleration, const void *motion, Reached from, double end,
                   double tolerance, int most) {
-    Passage now = from;
+    Reached now = from;
     double first = acceleration(motion, now.t, now.velocity);
     for (int count = 0; count < most && now.t < end && isfinite(now.velocity); count++) {
         double left = end - now.t, h = fmin(now.step, left);

@@ -5,14 +5,15 @@
 /* Acceleration [m/s^2] at time `t` [s] and velocity `v` [m/s]. */
 typedef double (*AccelerationFunction)(const void *motion, double t, double v);
 
-/* A motion on its way: time [s], velocity [m/s], displacement [m], and the `step` [s] to try next. */
+/* What an integration has reached: time [s], velocity [m/s], displacement [m], and the next `step`
+ * [s] to try. */
 typedef struct {
     double t, velocity, moved, step;
-} Passage;
+} Reached;
 
-/* Carries the passage on to time `end` [s], or for `most` accepted and rejected steps if those do
- * not suffice. `tolerance` [m/s] is allowed per step. */
-Passage integrate(AccelerationFunction acceleration, const void *motion, Passage from, double end,
+/* Integrate to time `end` [s], or for at most `most` accepted and rejected steps. `tolerance` [m/s]
+ * is allowed per step. */
+Reached integrate(AccelerationFunction acceleration, const void *motion, Reached from, double end,
                   double tolerance, int most);
 
 #endif

@@ -12,7 +12,7 @@ enum { MAX_NEWTON_STEPS = 60, MAX_EXPECTING_STEPS = 4 };
 /* Share of what two parabolas cover that must do: keeps rounding out of the argument. */
 #define SURE 0.99
 
-/* Time [s] to which two zeros or two steps of Newton's method are told apart. */
+/* Time [s] to which two zeros or two steps of Newton's method are distinguished. */
 static double resolution(const Watch *watch) {
     return 1e-16 / watch->fastest;
 }

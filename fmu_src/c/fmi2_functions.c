@@ -33,7 +33,7 @@ static bool instantiation_check(const char *name, fmi2Type type, const char *gui
     return true;
 }
 
-/* Reports a refusal even with logging off: nothing else tells the host why. */
+/* Report a refusal even with logging off: the host has no other source for the reason. */
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
                               fmi2String fmuResourceLocation,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible,

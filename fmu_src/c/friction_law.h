@@ -1,4 +1,4 @@
-/* What a friction law is to the rest of the component: a row of functions.
+/* The interface of a friction law: a table row of functions.
  *
  * A new law is a file of its own that ends with its row, and a line in friction_laws.c. */
 #ifndef SLIDER_FRICTION_LAW_H
@@ -25,12 +25,12 @@ typedef struct FrictionLaw {
     /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
     double (*force)(const Law *law, const Moment *moment, int mode);
 
-    /* Begins the leg that goes on from `now`, in the contact mode that it has, and follows it for up
-     * to `longest` [s]. The contact switches after `switching` [s]. */
+    /* Begin the leg that starts at `now`, in its contact mode, and follow it for up to `longest`
+     * [s]. The contact switches after `switching` [s]. */
     void (*follow)(Leg *leg, const Law *law, Moment *now, double longest, double switching);
 
-    /* Goes over from the end of a finished leg to the contact mode that succeeds; `switches` tells
-     * whether the contact lifts or touches down there. */
+    /* Change from the end of a finished leg to the next contact mode; `switches` is true where the
+     * contact lifts or touches down there. */
     void (*succeed)(const Leg *leg, const Law *law, Moment *now, bool switches);
 
     const AveragedFriction *averaged;

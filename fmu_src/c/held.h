@@ -8,8 +8,8 @@
 #include "plant.h"
 #include "split_slide.h"
 
-/* `splits` tells whether `split` serves sliding and flight, `arc` [s] is the time after which a motion
- * is anchored anew. */
+/* `splits`: whether `split` serves sliding and flight; `arc` [s]: the time after which a motion is
+ * anchored anew. */
 typedef struct {
     Plant plant;
     bool splits;

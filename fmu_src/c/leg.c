@@ -116,8 +116,8 @@ static State end_of(Leg *leg) {
 void leg_finish(Leg *leg, const Held *held, Moment *now) {
     const Plant *plant = &held->plant;
     now->state = end_of(leg);
-    Stretch stretch = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
-    now->theta = period_advance(&now->means, &stretch, now->theta, plant->drive_frequency);
+    Segment segment = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
+    now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
     now->psi = within_turn(now->psi + plant->normal_frequency * leg->t);
     now->position += leg->travelled;
     if (leg->travelled * leg->direction > 0.0 && leg->direction != now->counts.sliding) {

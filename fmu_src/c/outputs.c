@@ -29,7 +29,7 @@ static double stick_fraction(const Law *law, const Moment *moment) {
     return period_stick_fraction(&moment->means, law_mode(law, moment) == STICK);
 }
 
-/* psi - n theta in [-pi, pi] [rad]; 0 where the load never repeats and it says nothing. */
+/* psi - n theta in [-pi, pi] [rad]; 0 where the load never repeats. */
 static double normal_lead(const Law *law, const Moment *moment) {
     double ratio = law->inputs.frequency_ratio;
     if (turns_to_repeat(&law->device, ratio, EXACT) == 0) {

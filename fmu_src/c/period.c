@@ -10,40 +10,40 @@
 
 /* Displacement [m] at time `t` [s]; close to the end, as steps of whole periods have it, it follows
  * from that at the end. */
-static double travel_until(const Stretch *stretch, double t, double frequency) {
-    double rest = stretch->duration - t;
+static double travel_until(const Segment *segment, double t, double frequency) {
+    double rest = segment->duration - t;
     if (fabs(rest) * frequency <= MARK_TOLERANCE) {
-        return stretch->travelled - stretch->velocity * rest;
+        return segment->travelled - segment->velocity * rest;
     }
-    return stretch->travel_at(stretch->motion, t);
+    return segment->travel_at(segment->motion, t);
 }
 
-double period_advance(PeriodMeans *means, const Stretch *stretch, double theta, double frequency) {
-    double duration = stretch->duration, end = theta + frequency * duration;
+double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency) {
+    double duration = segment->duration, end = theta + frequency * duration;
     double ended = floor((end + MARK_TOLERANCE) / TAU);
     if (!(ended > 0.0)) {
-        means->travel += stretch->travelled;
+        means->travel += segment->travelled;
         means->elapsed += duration;
-        means->sticking += stretch->sticks ? duration : 0.0;
+        means->sticking += segment->sticks ? duration : 0.0;
         return end;
     }
     double last = (TAU * ended - theta) / frequency;
-    double travel_last = travel_until(stretch, last, frequency), fraction;
+    double travel_last = travel_until(segment, last, frequency), fraction;
     if (ended == 1.0) {
         double length = means->elapsed + last;
         means->mean_velocity = (means->travel + travel_last) / length;
-        fraction = (means->sticking + (stretch->sticks ? last : 0.0)) / length;
+        fraction = (means->sticking + (segment->sticks ? last : 0.0)) / length;
     } else {
         double length = TAU / frequency;
         means->mean_velocity =
-            (travel_last - travel_until(stretch, last - length, frequency)) / length;
-        fraction = stretch->sticks ? 1.0 : 0.0;
+            (travel_last - travel_until(segment, last - length, frequency)) / length;
+        fraction = segment->sticks ? 1.0 : 0.0;
     }
     means->complete = true;
     means->stick_fraction = fmin(fmax(fraction, 0.0), 1.0);
-    means->travel = stretch->travelled - travel_last;
+    means->travel = segment->travelled - travel_last;
     means->elapsed = duration - last;
-    means->sticking = stretch->sticks ? means->elapsed : 0.0;
+    means->sticking = segment->sticks ? means->elapsed : 0.0;
     return end - TAU * ended;
 }
 

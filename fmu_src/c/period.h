@@ -17,18 +17,18 @@ typedef struct {
 /* Displacement [m] of a motion after `t` [s]. */
 typedef double (*TravelFunction)(const void *motion, double t);
 
-/* A motion of `duration` [s]: `travel_at(motion, t)` is its displacement [m], `travelled` that at its
- * end, and `velocity` [m/s] that there. */
+/* A segment of motion of `duration` [s]: `travel_at(motion, t)` is its displacement [m]; `travelled`
+ * [m] and `velocity` [m/s] are those at its end. */
 typedef struct {
     double duration, travelled, velocity;
     bool sticks;
     TravelFunction travel_at;
     const void *motion;
-} Stretch;
+} Segment;
 
-/* Takes in a stretch that began at drive phase `theta` [rad]. Returns the drive phase at its end,
- * modulo 2 pi. */
-double period_advance(PeriodMeans *means, const Stretch *stretch, double theta, double frequency);
+/* Add a segment that began at drive phase `theta` [rad]. Return the drive phase at its end, modulo
+ * 2 pi. */
+double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency);
 
 /* Mean of the last whole period, or since the start, or at the start `velocity` [m/s]. */
 double period_mean_velocity(const PeriodMeans *means, double velocity);

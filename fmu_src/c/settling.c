@@ -40,7 +40,7 @@ static double balance_between(AccelerationFunction acceleration, const void *mot
 }
 
 bool settle(AccelerationFunction acceleration, const void *motion, double fast, double end,
-            Passage *now) {
+            Reached *now) {
     double low = now->velocity - NEAR * fast, high = now->velocity + NEAR * fast;
     double left = end - now->t;
     double at_low = acceleration(motion, 0.0, low), at_high = acceleration(motion, 0.0, high);

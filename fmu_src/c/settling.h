@@ -6,10 +6,9 @@
 
 #include "dormand_prince.h"
 
-/* Takes `now` to time `end` [s] if its velocity has come close to one at which forces balance, by
- * the measure of the `fast` velocity [m/s], and would be drawn into it well before `end`; answers
- * whether so. The acceleration must not depend on time. */
+/* Advance `now` to time `end` [s] if its velocity is close to one at which forces balance, relative
+ * to the `fast` velocity [m/s], and reaches it well before `end`; return whether that is so. The acceleration must not depend on time. */
 bool settle(AccelerationFunction acceleration, const void *motion, double fast, double end,
-            Passage *now);
+            Reached *now);
 
 #endif

@@ -21,27 +21,27 @@
 enum { MAX_STEPS = 20000, MAX_EXPENSIVE_STEPS = 1000, BLOCK = 16 };
 
 /* A block without vibration, under constant forces, from `velocity` on. */
-static Passage block_after(double velocity, double friction, double load, double mass,
+static Reached block_after(double velocity, double friction, double load, double mass,
                            double duration) {
-    Passage passage = {.t = duration};
+    Reached reached = {.t = duration};
     if (velocity != 0.0) {
         double deceleration = (copysign(friction, velocity) + load) / mass;
         double stop = deceleration * velocity > 0.0 ? velocity / deceleration : INFINITY;
         double time = fmin(stop, duration);
-        passage.moved = velocity * time - 0.5 * deceleration * time * time;
+        reached.moved = velocity * time - 0.5 * deceleration * time * time;
         if (stop >= duration) {
-            passage.velocity = velocity - deceleration * duration;
-            return passage;
+            reached.velocity = velocity - deceleration * duration;
+            return reached;
         }
         duration -= stop;
     }
     double spare = fabs(load) - friction;
     if (spare > 0.0) {
         double acceleration = -copysign(spare, load) / mass;
-        passage.velocity = acceleration * duration;
-        passage.moved += 0.5 * acceleration * duration * duration;
+        reached.velocity = acceleration * duration;
+        reached.moved += 0.5 * acceleration * duration * duration;
     }
-    return passage;
+    return reached;
 }
 
 static double slow_acceleration(const void *motion, double t, double velocity) {
@@ -50,21 +50,21 @@ static double slow_acceleration(const void *motion, double t, double velocity) {
     return -(slow_friction_at(friction, t, velocity) + plant->load) / plant->total_mass;
 }
 
-/* Carries the slow velocity in `passage` on over `duration` [s]; one that settles takes few steps,
- * for however long. */
-static bool pass(const SlowFriction *friction, double duration, Passage *passage,
+/* Integrate the slow velocity over `duration` [s]; one that settles takes few steps, however long
+ * the duration. */
+static bool pass(const SlowFriction *friction, double duration, Reached *reached,
                  Refusal *refusal) {
     const Plant *plant = &friction->law->held.plant;
     double fast = friction->law->fast.velocity, load = plant->load, total = plant->total_mass;
     double full = slow_friction_at(friction, 0.0, INFINITY);
     if (fast == 0.0) {
-        *passage = block_after(passage->velocity, full, load, total, duration);
+        *reached = block_after(reached->velocity, full, load, total, duration);
         return true;
     }
     double strongest = full + fabs(load);
     double step = strongest > 0.0 ? FIRST_STEP * fast * total / strongest : duration;
     int most = slow_friction_is_expensive(friction) ? MAX_EXPENSIVE_STEPS : MAX_STEPS;
-    Passage now = {.velocity = passage->velocity, .step = step};
+    Reached now = {.velocity = reached->velocity, .step = step};
     for (int count = 0; now.t < duration && isfinite(now.velocity); count += BLOCK) {
         if (count >= most) {
             return refuse_work(refusal, duration, now.t, most, "steps of averaged motion");
@@ -75,7 +75,7 @@ static bool pass(const SlowFriction *friction, double duration, Passage *passage
         }
         now = integrate(slow_acceleration, friction, now, duration, TOLERANCE * fast, BLOCK);
     }
-    *passage = now;
+    *reached = now;
     return true;
 }
 
@@ -91,24 +91,24 @@ bool slow_advance(const Law *law, const Moment *moment, double duration, Moment 
     double share = device_mass_fraction(&law->device);
     double theta = moment->theta, psi = moment->psi;
     State state = moment->state;
-    Passage passage = {.velocity = state.velocity + share * state.rate + drive * cos(theta)};
+    Reached reached = {.velocity = state.velocity + share * state.rate + drive * cos(theta)};
     double centre = moment->position + share * state.displacement + drive / w * sin(theta);
     SlowFriction friction = slow_friction_of(law, theta, psi);
-    if (!pass(&friction, duration, &passage, refusal)) {
+    if (!pass(&friction, duration, &reached, refusal)) {
         return false;
     }
     theta = within_turn(theta + w * duration);
     psi = within_turn(psi + plant->normal_frequency * duration);
     Response swing = steady_swing(law->fast.resonator, theta, w);
-    state.velocity = passage.velocity - drive * cos(theta) - share * swing.rate;
+    state.velocity = reached.velocity - drive * cos(theta) - share * swing.rate;
     state.displacement = swing.displacement;
     state.rate = swing.rate;
     Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
-    next.position = centre + passage.moved - drive / w * sin(theta) - share * swing.displacement;
+    next.position = centre + reached.moved - drive / w * sin(theta) - share * swing.displacement;
     next.mode = slow_mode(law, &next);
     next.event_age = INFINITY;
     next.means.complete = true;
-    next.means.mean_velocity = passage.velocity;
+    next.means.mean_velocity = reached.velocity;
     *after = next;
     return true;
 }

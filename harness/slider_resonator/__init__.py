@@ -1,4 +1,4 @@
-"""The harness: runs a slider-resonator FMU, and says with numbers whether it is right.
+"""The harness: runs slider-resonator FMUs and compares them with independent references.
 
 Any FMI 2.0 co-simulation FMU with the interface of `slider_resonator.device.interface` can be run.
 It is compared with the models in `slider_resonator.references`, which share no code with any FMU.

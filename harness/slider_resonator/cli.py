@@ -20,7 +20,7 @@ from slider_resonator.output.terminal import escaped
 
 COULD_NOT_RUN = 2
 INTERRUPTED = 130
-"""What a shell makes of a process that SIGINT ended."""
+"""The exit code that shells report for a process ended by SIGINT."""
 COMMANDS = (
     "baseline",
     "bench",
@@ -77,7 +77,7 @@ class HarnessGroup(click.Group):
             signal.signal(signal.SIGTERM, signal.default_int_handler)
         try:
             code = super().main(arguments, prog_name, complete_var, standalone_mode=False, **extra)
-        except SystemExit as end:  # click and rich exit with 1 when nobody reads their output
+        except SystemExit as end:  # click and rich exit with 1 when their output is a closed pipe
             exit_with(COULD_NOT_RUN if end.code else 0)
         except Exception as error:
             # click raises Abort from a KeyboardInterrupt, but also from an EOFError.
@@ -99,7 +99,7 @@ def _prints_json(arguments: Sequence[str]) -> bool:
 
 
 def _report(error: BaseException) -> str:
-    """Print on stderr what went wrong, and return it."""
+    """Print the error message on stderr and return it."""
     if isinstance(error, click.ClickException):
         error.show()
         return error.format_message()
@@ -125,17 +125,17 @@ def main() -> None:
 
     \b
     Examples:
-      python -m harness validate
-      python -m harness validate my.fmu --scene table_1 --scene lift_off
-      python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
-      python -m harness steady my.fmu --set phase=0.4 --set load=0.05 --json
-      python -m harness blocking my.fmu --json
-      python -m harness choose feed_forward --json
-      python -m harness paper --out paper
-      python -m harness extremes --out extremes
-      python -m harness sweep grid.toml --out table.parquet
-      python -m harness trade table_1 --out trade
-      python -m harness closed-loop --out closed_loop
-      python -m harness mutants --sample 200
-      python -m harness baseline check my.fmu --dir baseline
+      slider-resonator validate
+      slider-resonator validate my.fmu --scene table_1 --scene lift_off
+      slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
+      slider-resonator steady my.fmu --set phase=0.4 --set load=0.05 --json
+      slider-resonator blocking my.fmu --json
+      slider-resonator choose feed_forward --json
+      slider-resonator paper --out paper
+      slider-resonator extremes --out extremes
+      slider-resonator sweep grid.toml --out table.parquet
+      slider-resonator trade table_1 --out trade
+      slider-resonator closed-loop --out closed_loop
+      slider-resonator mutants --sample 200
+      slider-resonator baseline check my.fmu --dir baseline
     """

@@ -1,4 +1,4 @@
-"""Errors that keep a command from a verdict. The message of each is written for the user."""
+"""Errors that stop a command before a verdict; their messages are shown to the user."""
 
 from __future__ import annotations
 

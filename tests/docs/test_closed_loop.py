@@ -21,7 +21,7 @@ FMPY, LIBCOSIMPY = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="u
         pytest.param(LIBCOSIMPY, id="libcosimpy", marks=pytest.mark.interop),
     ],
 )
-def test_the_code_prints_what_is_written_below_it(
+def test_documented_code_prints_the_documented_output(
     code: str, closed_loop_package: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "dist").mkdir()

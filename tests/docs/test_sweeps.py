@@ -1,4 +1,4 @@
-"""The grid files in the documentation are sound, and as large as it says."""
+"""The grid files in the documentation are valid, and of the documented size."""
 
 from __future__ import annotations
 

@@ -38,12 +38,12 @@ def scene_file(folder: Path, text: str) -> Path:
 def test_help_shows_examples(command: str) -> None:
     result = call(command, "--help")
     assert result.exit_code == 0
-    assert f"python -m harness {command}" in result.stdout
+    assert f"slider-resonator {command}" in result.stdout
 
 
 @pytest.mark.parametrize("verb", ["record", "check", "accept"])
 def test_help_of_a_part_shows_examples(verb: str) -> None:
-    assert f"python -m harness baseline {verb}" in call("baseline", verb, "--help").stdout
+    assert f"slider-resonator baseline {verb}" in call("baseline", verb, "--help").stdout
 
 
 def test_every_command_is_listed() -> None:

@@ -1,4 +1,4 @@
-"""The C driver: figures that do not come from fmpy, and what it says when something is wrong."""
+"""The C driver: figures that do not come from fmpy, and its error messages."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def test_the_cost_of_a_communication_step_is_told(native_fmu: Path, binary: Bina
 
 
 @pytest.mark.parametrize(
-    ("line", "code", "said"),
+    ("line", "code", "message"),
     [
         ("step -1.0 1", 1, "communicationStepSize = -1.0 refused"),
         ("real 999 1.0", 1, "999"),
@@ -66,12 +66,12 @@ def test_the_cost_of_a_communication_step_is_told(native_fmu: Path, binary: Bina
         ("step 0.001 many", 2, "many is not a number"),
     ],
 )
-def test_what_goes_wrong_is_said(
-    native_fmu: Path, binary: Binary, line: str, code: int, said: str
+def test_errors_are_reported(
+    native_fmu: Path, binary: Binary, line: str, code: int, message: str
 ) -> None:
     done = drive(binary, commands(native_fmu, {}, line))
     assert done.returncode == code
-    assert said in done.stderr
+    assert message in done.stderr
 
 
 def test_another_guid_makes_no_instance(binary: Binary) -> None:

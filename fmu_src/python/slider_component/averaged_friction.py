@@ -34,7 +34,7 @@ class FrictionMeans(NamedTuple):
 class AveragedFriction:
     """The averages of one friction law; `turning` is Theta [rad], in [0, pi].
 
-    `is_expensive` tells whether means cost a quadrature each, and are better tabulated.
+    `is_expensive`: each mean costs a quadrature, so that means are better tabulated.
 
     `drag(bristle, fast_velocity)` is the largest friction per unit load beyond mu at a fast
     velocity [m/s]; above mu, mean friction may rise with Theta.

@@ -7,8 +7,8 @@ from math import isfinite
 from typing import NamedTuple
 
 
-class Passage(NamedTuple):
-    """A motion on its way: time [s], velocity [m/s], displacement [m], and the step [s] to try."""
+class Reached(NamedTuple):
+    """The end reached: time [s], velocity [m/s], displacement [m], and the step [s] to try next."""
 
     t: float
     velocity: float
@@ -18,12 +18,12 @@ class Passage(NamedTuple):
 
 def integrate(
     acceleration: Callable[[float, float], float],
-    now: Passage,
+    now: Reached,
     end: float,
     tolerance: float,
     most: int,
-) -> Passage:
-    """The passage at time `end` [s], or after `most` accepted and rejected steps if before.
+) -> Reached:
+    """Integrate to time `end` [s], or for at most `most` accepted and rejected steps.
 
     `acceleration(t, v)` [m/s^2]; `tolerance` [m/s] is allowed per step.
     """
@@ -75,4 +75,4 @@ def integrate(
             t = t + h if h < left else end
         growth = 0.9 * (tolerance / error) ** 0.2 if error > 0.0 else 5.0
         step = h * min(5.0, max(0.2, growth))
-    return Passage(t, velocity, displacement, step)
+    return Reached(t, velocity, displacement, step)

@@ -1,4 +1,4 @@
-"""What a friction law is to the rest of the component: a row of functions.
+"""The interface of a friction law: a table row of functions.
 
 A new law is a module of its own with its row, and a line in `friction_laws`.
 """
@@ -41,10 +41,10 @@ class FrictionLaw:
 
     `follow(held, now, longest, switching, departs)` is the leg that goes on from `now`, in the
     contact mode that it has, for up to `longest` [s]. The contact switches after `switching` [s];
-    `departs` tells whether a slider at rest is about to move, and not thrown back by a reversal.
+    `departs` is True for a slider at rest that is about to move, not one in a reversal.
 
-    `succeed(held, leg, now, switches)` goes over from the end of a finished leg to the contact mode
-    that succeeds; `switches` tells whether the contact lifts or touches down there.
+    `succeed(held, leg, now, switches)` changes from the end of a finished leg to the next contact
+    mode; `switches` is True where the contact lifts or touches down there.
     """
 
     check: Callable[[Device], None]

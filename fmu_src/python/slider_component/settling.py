@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .dormand_prince import Passage
+from .dormand_prince import Reached
 
 NEAR = 1e-7
 """Distance from balance, in fast velocities: well above the error of the steps before, and so short
@@ -18,8 +18,8 @@ MAX_SECANTS = 40
 Acceleration = Callable[[float, float], float]
 
 
-def settled(acceleration: Acceleration, fast: float, end: float, now: Passage) -> Passage | None:
-    """The passage at time `end` [s] if its velocity is drawn into a balance of forces before.
+def settled(acceleration: Acceleration, fast: float, end: float, now: Reached) -> Reached | None:
+    """The state at time `end` [s] if the velocity reaches a balance of forces before.
 
     It must have come close to that, by the measure of the `fast` velocity [m/s]; None if not.
     `acceleration(t, v)` [m/s^2] must not depend on time.
@@ -34,7 +34,7 @@ def settled(acceleration: Acceleration, fast: float, end: float, now: Passage) -
         return None
     balance = _balance_between(acceleration, low, at_low, high, at_high)
     moved = now.moved + (balance * left + (now.velocity - balance) / rate)
-    return Passage(end, balance, moved, now.step)
+    return Reached(end, balance, moved, now.step)
 
 
 def _balance_between(

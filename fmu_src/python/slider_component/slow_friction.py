@@ -31,8 +31,8 @@ Friction = Callable[[float, float], float]
 class SlowFriction(NamedTuple):
     """The mean friction `at` a time and velocity, which depends on time where `drift` is not 0.
 
-    `drift` [rad/s] is that of the phase of the normal load, and `is_expensive` tells whether each
-    value costs a quadrature.
+    `drift` [rad/s] is that of the phase of the normal load, and `is_expensive` means that
+    each value costs a quadrature.
     """
 
     at: Friction

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import copysign, cos, inf, isfinite, sin, tau
 
-from .dormand_prince import Passage, integrate
+from .dormand_prince import Reached, integrate
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
 from .friction_law import FrictionLaw
 from .held import Held
@@ -90,7 +90,7 @@ class SlowLaw:
         strongest = full + abs(load)
         step = FIRST_STEP * fast * total / strongest if strongest > 0.0 else duration
         most = MAX_EXPENSIVE_STEPS if friction.is_expensive else MAX_STEPS
-        now = Passage(0.0, velocity, 0.0, step)
+        now = Reached(0.0, velocity, 0.0, step)
         for _ in range(0, most, BLOCK):
             if friction.drift == 0.0 and duration - now.t > SETTLING * step:
                 now = settled(acceleration, fast, duration, now) or now

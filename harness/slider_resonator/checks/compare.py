@@ -1,4 +1,4 @@
-"""Comparing the measurement of one quantity with its expected value: the check and its verdict."""
+"""Compare the measurement of one quantity with its expected value."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Check:
 
     @property
     def severity(self) -> float:
-        """Deviation in units of what is allowed: the larger, the worse."""
+        """Deviation over the allowed deviation."""
         if self.deviation is None or not isfinite(self.deviation):
             return 0.0 if self.passed else float("inf")
         if self.allowed:
@@ -65,7 +65,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What a quantity is compared with, how exactly, and why."""
+    """The reference of a quantity, its tolerance and the reason of the expectation."""
 
     quantity: str
     against: str
@@ -74,7 +74,7 @@ class Comparison:
 
     @classmethod
     def of(cls, expect: ExpectTable) -> Comparison:
-        """Return the comparison that a scene file asks for."""
+        """Return the comparison of an expectation in a scene file."""
         bounds = {AT_MOST: expect.at_most, AT_LEAST: expect.at_least}
         bound = next((name for name, value in bounds.items() if value is not None), "value")
         against = expect.reference or bound

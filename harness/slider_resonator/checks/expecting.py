@@ -1,4 +1,4 @@
-"""What each reference gives for the quantities of the vocabulary."""
+"""The expected value of each quantity by each reference."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Expected = Callable[[ReferenceSide], Any]
 
 
 def expected_value(expect: ExpectTable, references: ReferenceSide) -> Any:
-    """Return what an expectation compares with: number, word, None, signal (n,) or a tube.
+    """Return the expected value: number, word, None, signal (n,) or tube.
 
     Raises SceneError where the reference does not apply to the scene.
     """

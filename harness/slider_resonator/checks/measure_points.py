@@ -1,4 +1,4 @@
-"""Measuring at many scene points on one FMU, which is isolated in a process of its own."""
+"""Measure at many scene points on one isolated FMU."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How each quantity of the vocabulary is measured in an FMU."""
+"""Measure each quantity of the vocabulary in an FMU."""
 
 from __future__ import annotations
 
@@ -103,4 +103,4 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
         *_later_half(fmu.record.times, fmu.record["mean_velocity"])
     ),
 }
-"""Quantity to the function that takes it from the FMU; None is for what does not exist."""
+"""Quantity to the function that measures it; None stands for a value that does not exist."""

@@ -1,4 +1,4 @@
-"""The natural scale of a quantity in a device, which says what counts as near zero."""
+"""The natural scale of a quantity in a device, below which a reference counts as near zero."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
 
 
 def smallest_reference(quantity: str, device: Device) -> float:
-    """Return the size, in the quantity's unit, below which a reference counts as that size.
+    """Return the minimum size of a reference, in the quantity's unit.
 
     It is `NEAR_ZERO` times the amplitude of the fast velocity v_q for velocities, the force of full
     friction for forces, the amplitude of the fast motion for displacements, and so on; 0 for

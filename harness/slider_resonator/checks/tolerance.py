@@ -1,4 +1,4 @@
-"""How far a result may be from its reference."""
+"""The allowed deviation of a result from its reference."""
 
 from __future__ import annotations
 
@@ -30,5 +30,5 @@ class Tolerance:
         return cls(expect.absolute if given else None, expect.relative, expect.tube)
 
     def smallest_reference(self, quantity: str, device: Device) -> float:
-        """Return the size that a reference counts as at least, in the quantity's unit."""
+        """Return the minimum size of a reference, in the quantity's unit."""
         return smallest_reference(quantity, device) if self.absolute is None else 0.0

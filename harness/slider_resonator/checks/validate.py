@@ -1,4 +1,4 @@
-"""Running scenes against FMUs, each in a process of its own, and judging what they give."""
+"""Run scenes on isolated FMUs and compare the results with the references."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class RunFailure:
-    """A scene that could not be run, at a point of its sweep; no `scene` means the whole FMU."""
+    """A scene or point that could not be run; an empty `scene` means the whole FMU."""
 
     scene: str
     reason: str
@@ -37,7 +37,7 @@ class RunFailure:
 
     @classmethod
     def of(cls, fmu: Path, point: ScenePoint | None, error: Exception | None) -> RunFailure:
-        """Return the failure at a point, or without one that of the FMU, naming its file."""
+        """Return the failure at a point; without a point that of the FMU, with its file name."""
         text = str(error)
         if point is not None:
             return cls(point.scene.name, text, point.at)
@@ -56,7 +56,7 @@ class Curves:
 
 @dataclass(frozen=True)
 class Validation:
-    """All checks of an FMU, in the order of the scenes, and the seconds that they took.
+    """All checks of an FMU, in the order of the scenes, and the wall time in s.
 
     `run_failures` are scenes that could not be run, `curves` the signals that differ.
     """
@@ -115,7 +115,7 @@ def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
 
 
 class ExpectedValues:
-    """What scenes expect at their points, each value computed once."""
+    """The expected values of scenes at their points, each computed once."""
 
     def __init__(self) -> None:
         self._values: dict[ScenePoint, list[Any]] = {}

@@ -26,19 +26,19 @@ def place(at: Mapping[str, float], before: str = "") -> str:
 
 
 def sentence(check: Check) -> str:
-    """Return the deviation of the FMU, where it is and how it compares with the tolerance."""
+    """Return the deviation of the FMU, its time and its ratio to the tolerance."""
     unit = "" if check.unit in ("", "1") else f" {check.unit}"
     if check.fmu is None:
-        return f"the FMU gives none, expected is {_value(check.reference, unit)}: {check.note}"
+        return f"the FMU gives none, expected {_value(check.reference, unit)}: {check.note}"
     if check.reference is None:
         return f"the FMU gives {_value(check.fmu, unit)}, the reference has none"
     if check.deviation is None or check.allowed is None:
-        return f"the FMU gives {check.fmu!r}, expected is {check.reference!r}"
+        return f"the FMU gives {check.fmu!r}, expected {check.reference!r}"
     if QUANTITIES[check.quantity].kind == "signal":
         return _signal_sentence(check, unit)
     bound = f"{check.against} " if check.against in (AT_MOST, AT_LEAST) else ""
     return (
-        f"the FMU gives {_value(check.fmu, unit)}, expected is {bound}"
+        f"the FMU gives {_value(check.fmu, unit)}, expected {bound}"
         f"{_value(check.reference, unit)}: off by {check.deviation:.2g}{unit}, {_times(check)}"
     )
 

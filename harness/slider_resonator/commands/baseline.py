@@ -40,9 +40,9 @@ def baseline_command() -> None:
 
     \b
     Examples:
-      python -m harness baseline record my.fmu --dir baseline
-      python -m harness baseline check my.fmu --dir baseline --html changes.html
-      python -m harness baseline accept my.fmu --dir baseline
+      slider-resonator baseline record my.fmu --dir baseline
+      slider-resonator baseline check my.fmu --dir baseline --html changes.html
+      slider-resonator baseline accept my.fmu --dir baseline
     """
 
 
@@ -68,8 +68,8 @@ def record_command(
 
     \b
     Examples:
-      python -m harness baseline record my.fmu --dir baseline
-      python -m harness baseline record my.fmu --dir baseline --scene scenes/mine.toml --replace
+      slider-resonator baseline record my.fmu --dir baseline
+      slider-resonator baseline record my.fmu --dir baseline --scene scenes/mine.toml --replace
     """
     files = files_of_scenes(scenes)
     with progress_bar() as progress:
@@ -116,9 +116,9 @@ def check_command(
 
     \b
     Examples:
-      python -m harness baseline check my.fmu --dir baseline
-      python -m harness baseline check my.fmu --dir baseline --scene table_1 --tolerance 1e-6
-      python -m harness baseline check my.fmu --dir baseline --junit report.xml --html report.html
+      slider-resonator baseline check my.fmu --dir baseline
+      slider-resonator baseline check my.fmu --dir baseline --scene table_1 --tolerance 1e-6
+      slider-resonator baseline check my.fmu --dir baseline --junit report.xml --html report.html
     """
     reports = Reports.requested("Slider-resonator baseline", junit, html, json, {"the FMU": fmu})
     try:
@@ -151,8 +151,8 @@ def accept_command(fmu: Path, folder: Path, scenes: tuple[str, ...]) -> None:
 
     \b
     Examples:
-      python -m harness baseline accept my.fmu --dir baseline
-      python -m harness baseline accept my.fmu --dir baseline --scene table_1 --scene lift_off
+      slider-resonator baseline accept my.fmu --dir baseline
+      slider-resonator baseline accept my.fmu --dir baseline --scene table_1 --scene lift_off
     """
     names = accept(fmu, folder, scenes)
     click.echo(f"accepted {', '.join(names) or 'nothing: nothing has changed'}")

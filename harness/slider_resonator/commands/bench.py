@@ -35,12 +35,12 @@ def bench_command(fmu: Path | None, repeats: int, as_json: bool) -> None:
 
     \b
     Examples:
-      python -m harness bench
-      python -m harness bench my.fmu --repeats 11 --json
+      slider-resonator bench
+      slider-resonator bench my.fmu --repeats 11 --json
     """
     with progress_bar() as progress, open_fmu(default_fmu(fmu)) as opened:
         if not opened.runs_without_python:
-            raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host is without")
+            raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host lacks")
         costs = measure_steps(opened.path, repeats, progress)
     ratio = short_step_ratio(costs)
     if as_json:

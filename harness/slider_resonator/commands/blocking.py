@@ -32,9 +32,9 @@ def blocking_command(
 
     \b
     Examples:
-      python -m harness blocking my.fmu
-      python -m harness blocking my.fmu --set phase=0.4 friction_faces=1 --json
-      python -m harness blocking my.fmu --set friction_law=1 bristle_stiffness=1e4
+      slider-resonator blocking my.fmu
+      slider-resonator blocking my.fmu --set phase=0.4 friction_faces=1 --json
+      slider-resonator blocking my.fmu --set friction_law=1 bristle_stiffness=1e4
     """
     search = partial(find_blocking, values=settings, max_denominator=max_denominator)
     with IsolatedFmu(fmu, time_limit) as isolated:

@@ -1,4 +1,4 @@
-"""`choose`: find the cheapest model that meets a scene's needs, confirmed by a short probe."""
+"""`choose`: find the cheapest model that meets a scene's needs, confirmed by a short run."""
 
 from __future__ import annotations
 
@@ -59,9 +59,9 @@ def choose_command(
 
     \b
     Examples:
-      python -m harness choose feed_forward
-      python -m harness choose scenes/mine.toml --json
-      python -m harness choose feed_forward --set friction_law=1 bristle_stiffness=1e6
+      slider-resonator choose feed_forward
+      slider-resonator choose scenes/mine.toml --json
+      slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
     check_left_to_choose(settings)
     read = read_scene(find_scene(scene), settings)

@@ -72,8 +72,8 @@ def closed_loop_command(
 
     \b
     Examples:
-      python -m harness closed-loop --out closed_loop
-      python -m harness closed-loop --out closed_loop --host fmpy --host libcosimpy --json
+      slider-resonator closed-loop --out closed_loop
+      slider-resonator closed-loop --out closed_loop --host fmpy --host libcosimpy --json
     """
     package, duty = package or _built(), Duty()
     if not package.is_file():

@@ -57,8 +57,8 @@ def extremes_command(
 
     \b
     Examples:
-      python -m harness extremes --out extremes
-      python -m harness extremes my.fmu --out extremes --json
+      slider-resonator extremes --out extremes
+      slider-resonator extremes my.fmu --out extremes --json
     """
     chosen = fmus or default_fmus()
     for path in chosen:

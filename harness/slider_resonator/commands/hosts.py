@@ -73,9 +73,9 @@ def hosts_command(
 
     \b
     Examples:
-      python -m harness hosts
-      python -m harness hosts my.fmu --host "C driver" --json
-      python -m harness hosts --out README.md
+      slider-resonator hosts
+      slider-resonator hosts my.fmu --host "C driver" --json
+      slider-resonator hosts --out README.md
     """
     everyone = hosts(own_environment)
     selected = [host for host in everyone if host.name in (chosen or NAMES)]

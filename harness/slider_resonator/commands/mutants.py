@@ -108,10 +108,10 @@ def mutants_command(
 
     \b
     Examples:
-      python -m harness mutants --list --file coulomb.py
-      python -m harness mutants --sample 200 --seed 1 --html mutants.html
-      python -m harness mutants --kind event --kind input --kind parameter --kind unit
-      python -m harness mutants --file coulomb.py --json > mutants.json
+      slider-resonator mutants --list --file coulomb.py
+      slider-resonator mutants --sample 200 --seed 1 --html mutants.html
+      slider-resonator mutants --kind event --kind input --kind parameter --kind unit
+      slider-resonator mutants --file coulomb.py --json > mutants.json
     """
     path = fmu or _python_fmu()
     distinct({"--html": html}, {f"the FMU {path}": path})

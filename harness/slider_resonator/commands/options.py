@@ -72,7 +72,7 @@ def _each_with_its_option(arguments: Sequence[str]) -> list[str]:
 
 
 class Target(click.ParamType[Path]):
-    """A file to write, checked before anything runs; `suffixes`, if any, are those allowed."""
+    """A file to write, checked before anything runs; `suffixes`, if any, are the allowed ones."""
 
     name = "FILE"
 

@@ -40,8 +40,8 @@ def paper_command(
 
     \b
     Examples:
-      python -m harness paper --out paper
-      python -m harness paper --out paper --only figure_8 --only claims --json
+      slider-resonator paper --out paper
+      slider-resonator paper --out paper --only figure_8 --only claims --json
     """
     with progress_bar() as progress:
         outcome = reproduce(default_fmu(fmu), out, only, progress)

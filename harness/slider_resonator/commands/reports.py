@@ -22,7 +22,7 @@ from slider_resonator.output.targets import distinct
 from slider_resonator.output.terminal import escaped
 
 PRINTED = Path("-")
-"""What `--json` without a file stands for."""
+"""The value of `--json` without a file."""
 
 
 class JsonTarget(Target):
@@ -75,7 +75,7 @@ class Reports:
         if self.junit is not None:
             write_junit(self.junit, validations, error, title=self.title)
         if self.html is not None:
-            # Here, for drawing takes longer to load than everything else.
+            # Imported here: drawing takes longer to load than everything else.
             from slider_resonator.checks.reports.html_report import write_html
 
             write_html(self.html, validations, error, title=self.title)
@@ -107,7 +107,7 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def print_verdicts(
     validations: Sequence[Validation], *, details: bool, as_json: bool, only_failed: bool = False
 ) -> None:
-    """Print the tables or one JSON document, and on standard error what could not run."""
+    """Print the tables or one JSON document, and the run failures on standard error."""
     if as_json:
         click.echo(validations_as_json(validations))
     for validation in validations:
@@ -117,7 +117,7 @@ def print_verdicts(
 
 
 def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:
-    """Print on standard error what could not run, and where."""
+    """Print the run failures on standard error."""
     for failure in run_failures:
         scene = f"{failure.scene}{place(failure.at, ' at ')}"
         where = f"{fmu}: scene {scene}: " if failure.scene else ""

@@ -13,7 +13,7 @@ from slider_resonator.output.terminal import escaped, rendered
 
 
 def print_result(result: Any, text: str, *, as_json: bool) -> None:
-    """Print the result as JSON or the text about it."""
+    """Print the result as JSON or as text."""
     click.echo(to_json(result) if as_json else escaped(text))
 
 

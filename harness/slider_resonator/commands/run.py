@@ -97,9 +97,9 @@ def run_command(
 
     \b
     Examples:
-      python -m harness run my.fmu table_1 --out table_1.csv --plot table_1.png
-      python -m harness run my.fmu feed_forward --auto
-      python -m harness run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
+      slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
+      slider-resonator run my.fmu feed_forward --auto
+      slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
     read = read_scene(find_scene(scene), settings)
     files = {f"the scene's file {file}": file for file in read.files}
@@ -110,7 +110,7 @@ def run_command(
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
             from slider_resonator.studies.choose.choosing import (
-                choose_with,  # here, for it loads scipy
+                choose_with,  # imported here: it loads scipy
             )
 
             read.schedule()
@@ -129,7 +129,7 @@ def run_command(
         if out is not None:
             write_csv(record, out)
         if plot is not None:
-            # Here, for drawing takes longer to load than the rest to run.
+            # Imported here: drawing takes longer to load than the rest to run.
             from slider_resonator.scenes.run_plot import plot_run, schedule_to_plot
 
             plot_run(run_in(schedule_to_plot(read)), read, plot)

@@ -22,9 +22,9 @@ def scenes_command(quantities: bool, as_json: bool) -> None:
 
     \b
     Examples:
-      python -m harness scenes
-      python -m harness scenes --json
-      python -m harness scenes --quantities
+      slider-resonator scenes
+      slider-resonator scenes --json
+      slider-resonator scenes --quantities
     """
     if quantities:
         _list_quantities(as_json)

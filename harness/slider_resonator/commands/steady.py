@@ -34,10 +34,10 @@ def steady_command(
 
     \b
     Examples:
-      python -m harness steady my.fmu
-      python -m harness steady my.fmu --set phase=0.4 load=0.05 --json
-      python -m harness steady my.fmu --set friction_law=1 bristle_stiffness=1e6 tolerance=1e-12
-      python -m harness steady my.fmu --set frequency_ratio=1.37 --max-denominator 100
+      slider-resonator steady my.fmu
+      slider-resonator steady my.fmu --set phase=0.4 load=0.05 --json
+      slider-resonator steady my.fmu --set friction_law=1 bristle_stiffness=1e6 tolerance=1e-12
+      slider-resonator steady my.fmu --set frequency_ratio=1.37 --max-denominator 100
     """
     search = partial(find_steady, values=settings, max_denominator=max_denominator)
     with IsolatedFmu(fmu, time_limit) as isolated:

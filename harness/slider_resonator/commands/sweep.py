@@ -59,9 +59,9 @@ def sweep_command(
 
     \b
     Examples:
-      python -m harness sweep grid.toml --out table.parquet --plot map.png
-      python -m harness sweep grid.toml --out table.csv --workers 4
-      python -m harness sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
+      slider-resonator sweep grid.toml --out table.parquet --plot map.png
+      slider-resonator sweep grid.toml --out table.csv --workers 4
+      slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
     distinct({"--out": out, "--plot": plot}, sources)

@@ -1,4 +1,4 @@
-"""`trade`: measure the cost of accuracy, of the FMUs' models and of other methods."""
+"""`trade`: measure error over cost of the FMUs' models and of other methods."""
 
 from __future__ import annotations
 
@@ -94,9 +94,9 @@ def trade_command(
 
     \b
     Examples:
-      python -m harness trade --out trade
-      python -m harness trade table_1 lugre detuned_beat --out trade --picture trade.png
-      python -m harness trade my.toml --out trade --fmu my.fmu --json
+      slider-resonator trade --out trade
+      slider-resonator trade table_1 lugre detuned_beat --out trade --picture trade.png
+      slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
     problems = _problems(scenes or ("table_1",), periods)
     trades: list[Trade] = []

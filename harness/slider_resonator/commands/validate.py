@@ -1,4 +1,4 @@
-"""`validate`: compare FMUs with the references, and report to people and CI servers."""
+"""`validate`: compare FMUs with the references, and write reports for terminals and CI servers."""
 
 from __future__ import annotations
 
@@ -52,10 +52,10 @@ def validate_command(
 
     \b
     Examples:
-      python -m harness validate
-      python -m harness validate my.fmu --scene table_1 --details
-      python -m harness validate my.fmu --scene scenes/mine.toml --json > report.json
-      python -m harness validate my.fmu --scene my_scenes --junit report.xml --html report.html
+      slider-resonator validate
+      slider-resonator validate my.fmu --scene table_1 --details
+      slider-resonator validate my.fmu --scene scenes/mine.toml --json > report.json
+      slider-resonator validate my.fmu --scene my_scenes --junit report.xml --html report.html
     """
     sources = {f"the FMU {path}": path for path in fmus}
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}

@@ -8,7 +8,7 @@ MAX_DENOMINATOR = 20
 """Largest number of drive periods that counts as a common period, by default."""
 
 MAX_DEVIATION = 1e-12
-"""Largest distance of a frequency ratio from p/q, relative to the larger of it and 1."""
+"""Largest distance of a frequency ratio from p/q, relative to max(ratio, 1)."""
 
 
 def common_period(frequency_ratio: float, max_denominator: int = MAX_DENOMINATOR) -> int | None:

@@ -1,4 +1,4 @@
-"""The interface that the harness asks of an FMU: names and SI units of inputs and outputs.
+"""The interface that the harness requires of an FMU: names and SI units of inputs and outputs.
 
 Repeated here on purpose: an FMU whose own table is wrong must not agree with itself.
 """

@@ -104,7 +104,7 @@ def communication_points(
 
 
 def step_count(stop: float, step: float) -> int:
-    """Return how many steps (s) it takes to reach `stop` (s), the last of them perhaps shorter.
+    """Return the number of steps of size `step` (s) up to `stop` (s); the last may be shorter.
 
     Raises ValueError for times that are not positive and for more than `MAX_STEPS` steps.
     """

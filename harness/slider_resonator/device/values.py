@@ -11,7 +11,7 @@ LARGEST_INTEGER = 2**31 - 1
 
 
 def check_value(name: str, value: float) -> None:
-    """Raise ValueError, with name, value and what is allowed; ranges are left to the FMU.
+    """Raise ValueError, with name, value and requirement; ranges are left to the FMU.
 
     The drive frequency is an exception: the harness needs it to count drive periods.
     """
@@ -24,7 +24,7 @@ def check_value(name: str, value: float) -> None:
 
 
 def check_integer(name: str, value: float) -> None:
-    """Raise ValueError, with name, value and what is allowed, unless it is an FMI Integer."""
+    """Raise ValueError, with name, value and requirement, unless the value is an FMI Integer."""
     if not float(value).is_integer():
         raise ValueError(f"{name} = {value!r}: must be an integer")
     if abs(value) > LARGEST_INTEGER:

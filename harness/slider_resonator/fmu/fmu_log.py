@@ -27,11 +27,11 @@ _collectors: dict[bytes, list[str]] = {}
 _PYTHON_EXCEPTION = re.compile(
     r"""\w+ py exception encountered: .*\n\w+\((?P<text>(['"]).*\2),?\)\Z""", re.DOTALL
 )
-"""What pythonfmu logs: where it was called, and the repr of the exception."""
+"""The form of pythonfmu's messages: the call, and the repr of the exception."""
 
 
 def plain_words(message: str) -> str:
-    """Return the text of an exception without what pythonfmu wraps it in, others as they are."""
+    """Return the text of an exception without pythonfmu's wrapping, others unchanged."""
     found = _PYTHON_EXCEPTION.search(message)
     if found is None:
         return message

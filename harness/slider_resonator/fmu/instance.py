@@ -24,7 +24,7 @@ from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.opening import Fmu
 
 EQUAL = 1e-6
-"""Relative difference up to which two communication steps are of one size."""
+"""Relative difference up to which two communication steps count as equal."""
 
 _numbers = count(1)
 
@@ -109,7 +109,7 @@ class Instance:
         self._create()
 
     def recreate(self) -> None:
-        """Free the instance and make a new one, as after a failure that may have left traces.
+        """Free the instance and create a new one, for instance after a failure.
 
         Blocks of the old one must not be used again. Raises FmuError as at first.
         """
@@ -127,7 +127,7 @@ class Instance:
                 unzipDirectory=str(self.fmu.folder),
             )
             self.slave.instantiate(callbacks=callbacks, loggingOn=True)
-        except Exception as error:  # fmpy raises bare Exception for all that goes wrong here
+        except Exception as error:  # fmpy raises bare Exception for every error here
             reason = "; ".join([str(error), *self.messages])
             fmu_log.forget(self._name)
             raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
@@ -171,7 +171,7 @@ class Instance:
         steps = np.diff(times, prepend=self.time)
         if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * np.max(steps):
             raise FmuError(
-                f"{self.fmu.path.name} says canHandleVariableCommunicationStepSize = false, but "
+                f"{self.fmu.path.name} has canHandleVariableCommunicationStepSize = false, but "
                 f"this needs steps from {np.min(steps):.6g} s to {np.max(steps):.6g} s; must be "
                 "one size for the whole run"
             )

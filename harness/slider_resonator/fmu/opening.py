@@ -1,4 +1,4 @@
-"""Opening an FMU: the archive, its description, and whether it has the interface."""
+"""Open an FMU: unpack the archive, read its description and check its interface."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Fmu:
 
     @property
     def runs_without_python(self) -> bool:
-        """Whether a host without Python can load it: it carries no Python sources to run."""
+        """Whether a host without Python can load it: it contains no Python sources."""
         return not any((self.folder / "resources").glob("*.py"))
 
     @property
@@ -92,7 +92,7 @@ def _read_description(path: Path) -> ModelDescription:
 
 
 def _fmi_version(path: Path) -> str:
-    """Return the version that the description claims, before anything else in it is believed."""
+    """Return the FMI version of the description, before the rest is read."""
     with zipfile.ZipFile(path) as archive:
         if "modelDescription.xml" not in archive.namelist():
             raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml")

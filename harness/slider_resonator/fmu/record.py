@@ -1,4 +1,4 @@
-"""What an FMU did in a run."""
+"""The record of a run."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Record:
-    """What an FMU did at the communication points `times` (s), shape (n,).
+    """The inputs and outputs of an FMU at the communication points `times` (s), shape (n,).
 
     `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as held
     from each point on. `wall_time` (s) covers initialisation and stepping, `start_cpu` and

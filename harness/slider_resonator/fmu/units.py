@@ -31,11 +31,11 @@ _DISPLAYED: Mapping[str, Mapping[str, float]] = {
 }
 """Unit to names that it may be displayed in, with the factor; prefixes come on top of these."""
 _ROUNDED = 1e-5
-"""Relative error of a display factor that was rounded by whoever typed it."""
+"""Tolerated relative error of a display factor, which may have been rounded."""
 
 
 def unit_problems(unit: str, definitions: Sequence[Unit]) -> list[str]:
-    """Return what is wrong with the definition of a unit of the interface, nothing without one.
+    """Return the errors in the definition of a unit of the interface; none without a definition.
 
     Its base unit must have the exponents that the name stands for, factor 1 and offset 0, because
     the values of variables are taken as they are; display units must have the factor that goes
@@ -78,7 +78,7 @@ def _display_problems(unit: str, displayed: Sequence[DisplayUnit]) -> Iterator[s
 
 
 def _factor(unit: str, display: str) -> float | None:
-    """Return by what a value in `unit` is multiplied to be displayed, None for unknown names."""
+    """Return the factor from `unit` to a display unit, None for unknown names."""
     if display == unit:
         return 1.0
     named = _DISPLAYED.get(unit, {})

@@ -25,7 +25,7 @@ pre { background: #f6f6f6; padding: .6rem; overflow-x: auto; font-size: 12px }
 
 
 def escaped(text: str) -> str:
-    """Return the text shown as it is, in an element or in the quotes of an attribute."""
+    """Return the text escaped for an element or a quoted attribute."""
     return escape(printable(text))
 
 

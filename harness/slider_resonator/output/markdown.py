@@ -12,7 +12,7 @@ _MARKUP = re.compile(r"[\\`*|~$]|(?<![^\W_])_|_(?![^\W_])|(?<=\])\(")
 
 
 def escaped(text: str) -> str:
-    """Return the text shown as it is, on one line of Markdown that may be a cell of a table."""
+    """Return the text escaped for one line of Markdown or a cell of a table."""
     html = printable(text).replace("&", "&amp;").replace("<", "&lt;")
     return "<br>".join(_MARKUP.sub(r"\\\g<0>", html).splitlines())
 

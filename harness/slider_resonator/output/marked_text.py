@@ -1,4 +1,4 @@
-"""Write text between two marks of a file that people edit."""
+"""Write text between two marks of a file that is edited by hand."""
 
 from __future__ import annotations
 

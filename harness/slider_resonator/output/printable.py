@@ -1,4 +1,4 @@
-"""Text of foreign origin, such as what an FMU logs, made safe to show."""
+"""Make foreign text, such as the log of an FMU, safe to show."""
 
 from __future__ import annotations
 

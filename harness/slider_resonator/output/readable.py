@@ -1,9 +1,9 @@
-"""Format numbers for people."""
+"""Format numbers for tables and messages."""
 
 from __future__ import annotations
 
 NOISE = 1e-12
-"""Magnitude in SI units below which a number of such a device is rounding error."""
+"""Magnitude in SI units below which a result is rounding error."""
 
 
 def readable(value: float, digits: int) -> str:

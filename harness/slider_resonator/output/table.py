@@ -8,7 +8,7 @@ from enum import Enum
 
 
 class Style(Enum):
-    """What a cell means; each writer has its own look for it."""
+    """The meaning of a cell; each writer renders it in its own way."""
 
     PLAIN = "plain"
     PASS = "pass"
@@ -68,5 +68,5 @@ def numbers(*headings: str) -> list[Column]:
 
 
 def verdict(passed: bool) -> Cell:
-    """Return a cell that says whether something has passed."""
+    """Return the cell of a verdict."""
     return Cell("pass", Style.PASS) if passed else Cell("FAIL", Style.FAIL)

@@ -1,4 +1,4 @@
-"""Check output paths before anything runs, so that no run is lost and no file overwritten."""
+"""Check output paths before anything runs."""
 
 from __future__ import annotations
 

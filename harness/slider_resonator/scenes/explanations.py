@@ -1,4 +1,4 @@
-"""Explain the errors of a scene file: file, key, value, what is allowed."""
+"""Explain the errors of a scene file: file, key, value and requirement."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _REQUIREMENTS: Mapping[str, str] = {
 
 
 def explanations(source: str, error: ValidationError) -> list[str]:
-    """Return one line per error: file, key path, value, what is allowed."""
+    """Return one line per error: file, key path, value and requirement."""
     lines = []
     for problem in error.errors():
         location = tuple(part for part in problem["loc"] if part != "constant")

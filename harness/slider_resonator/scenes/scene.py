@@ -1,4 +1,4 @@
-"""Scenes: what is run and what must come out, as data, and how they are read from TOML files."""
+"""Scenes as data: what is run and what is expected; read from TOML files."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ class Scene:
 
 @dataclass(frozen=True, eq=False)
 class ScenePoint:
-    """A scene at a point of its sweep: `at` is what is varied there, nothing without a sweep.
+    """A scene at a point of its sweep: `at` are the varied values, empty without a sweep.
 
     Points are equal only to themselves, and can be keys.
     """

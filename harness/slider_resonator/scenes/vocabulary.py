@@ -13,7 +13,7 @@ from typing import Literal
 Kind = Literal["number", "word", "signal"]
 
 MAX_TUBE = 0.25
-"""Share of a drive period that a tube stays below: at half a period it holds a reversed sign."""
+"""Upper bound of a tube, in drive periods: at 0.5 it would contain a signal of opposite sign."""
 
 RESOLVED = ("located_events", "taylor", "bristle_state")
 """References with the fast motion, known at any time; `bristle_state` is for LuGre friction."""
@@ -21,7 +21,7 @@ RESOLVED = ("located_events", "taylor", "bristle_state")
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number, word or signal that a scene can expect something of.
+    """A number, word or signal that a scene can expect.
 
     `references` are the names of those that it can be compared with, `tube_references` those that
     can have a tube. An `exact` quantity, a count or a word, needs no tolerance. A signal

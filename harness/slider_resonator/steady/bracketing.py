@@ -1,4 +1,4 @@
-"""A fixed point of a period map that Newton alone does not reach, found between two bounds.
+"""Find a fixed point of a period map between two bounds, where Newton's method alone fails.
 
 Friction opposes motion, so the slow state, entry 0, gains over a period when it is far below and
 loses when it is far above: between the two it repeats. The other entries are the resonator's,
@@ -16,10 +16,10 @@ from slider_resonator.steady.newton import Matrix, Vector, central_jacobian
 from slider_resonator.steady.shooting import PeriodMap
 
 DOUBLINGS = 6
-"""How often the bounds, first at the scale of the slow state, are doubled."""
+"""Maximum doublings of the bounds, which begin at the scale of the slow state."""
 INNER_ITERATIONS = 50
 SLOW = 0.5
-"""A change of the fast states that shrinks no more than to this share asks for a new Jacobian."""
+"""Largest ratio of successive changes of the fast states for which the Jacobian is kept."""
 INNER_TOLERANCE = 1e-13
 """Remaining change of the fast states over a period, in units of their scale."""
 

@@ -20,14 +20,13 @@ from slider_resonator.errors import FmuError
 Array = NDArray[np.float64]
 
 CLEAR = 0.01
-"""Smallest share of its full weight with which the deflection must enter friction to be read."""
+"""Minimum weight of the deflection in the friction force, as a share of full weight."""
 TOUCHING = 1e-6
 """Smallest normal force, in units of its largest, of a contact that counts as closed."""
 LEAD = 1.0 / 16.0
-"""Part of a turn that is read ahead of the end, or of the last lift-off before it."""
+"""Part of a turn that is read before the end, or before the last lift-off."""
 POINTS = 64
-"""Readings in a turn of whatever turns fastest: four of them give the position where the velocity
-vanishes in between to rounding."""
+"""Readings in a turn of the fastest oscillation: four give a reversal between them to rounding."""
 MAX_POINTS = 1024
 
 

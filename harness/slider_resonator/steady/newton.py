@@ -22,10 +22,10 @@ Ending = Literal["converged", "singular", "stalled", "limit"]
 SINGULAR = 1e-9
 """Smallest over largest singular value of a Jacobian that counts as singular."""
 KEEP = 0.05
-"""A correction that shrinks to this share or less shows that the Jacobian still serves."""
+"""Largest ratio of successive corrections for which the Jacobian is kept."""
 SMALLEST_DAMPING = 1.0 / 256.0
 ROUNDING = 100.0
-"""A correction this many tolerances small that shrinks no more has met rounding: good enough."""
+"""Correction, in tolerances, that is accepted when rounding stops its decrease."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def solve(
 
 
 def _inverse(jacobian: Matrix) -> Matrix | None:
-    """Return the inverse, or None where there is none worth the name."""
+    """Return the inverse, None for a singular matrix."""
     singular_values = np.linalg.svd(jacobian, compute_uv=False)
     if singular_values[-1] <= SINGULAR * singular_values[0]:
         return None

@@ -133,7 +133,7 @@ class _ReferencePeriodMap:
         return WarmedUp(states[-1], self._scale(np.abs(states).max(axis=0)), mean)
 
     def _scale(self, sizes: Vector) -> Vector:
-        """Return the scale of each state from the largest sizes that were seen, all (n,)."""
+        """Return the scale of each state from its largest magnitudes, all (n,)."""
         seen = dict(zip(self.names, sizes.tolist(), strict=True))
         floor = 1e-6 * max(seen["velocity"], seen.get("resonator_velocity", 0.0), 1e-3)
         scale = {name: max(size, floor) for name, size in seen.items()}

@@ -1,4 +1,4 @@
-"""Steady motion and blocking load of anything that can be run over a common period."""
+"""Find steady motion and blocking load of any period map."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ LoadedPeriodMap = Callable[[Vector, float], tuple[Vector, float]]
 """The same, with the load (N) that acts during the period."""
 
 NEUTRAL = 1e-7
-"""A multiplier this close to the unit circle counts as neutral: its error is of that size."""
+"""A multiplier this close to the unit circle counts as neutral, within its error."""
 FRESH = 1e-6
 """A Jacobian taken this close to the fixed point, in units of the scale, gives its multipliers."""
 
@@ -61,7 +61,7 @@ class FixedPoint:
 
 @dataclass(frozen=True)
 class NoFixedPoint:
-    """No repeating motion was found; `reason` says what was seen and what can be done."""
+    """No repeating motion was found; `reason` gives the cause and a remedy."""
 
     status: Literal["no_fixed_point", "not_unique", "not_converged"]
     reason: str

@@ -1,4 +1,4 @@
-"""Steady velocity of an FMU by shooting: the FMU alone, no long run."""
+"""Find the steady velocity of an FMU by shooting, without a long run."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from fmu_src.building.build_error import BuildError
 FILES = {"b/two": b"2", "a": b"1" * 1000}
 
 
-def test_what_goes_in_comes_out(tmp_path: Path) -> None:
+def test_universal_binary_contains_each_library(tmp_path: Path) -> None:
     fmu = write_archive(tmp_path / "new" / "folder", "Model", FILES)
     assert fmu == tmp_path / "new" / "folder" / "Model.fmu"
     with zipfile.ZipFile(fmu) as archive:

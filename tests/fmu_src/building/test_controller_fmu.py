@@ -38,7 +38,7 @@ def test_the_description_is_that_of_the_table(controller_fmu: Path) -> None:
         assert page.count(f"<td><code>{variable.name}</code></td>") == 1, variable.name
 
 
-def test_what_speaks_fmi_is_shared_and_the_model_is_not(controller_fmu: Path) -> None:
+def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> None:
     with zipfile.ZipFile(controller_fmu) as archive:
         inside = {
             name.removeprefix("sources/"): archive.read(name)

@@ -51,11 +51,11 @@ def code() -> dict[str, str]:
 def test_another_content_gets_another_guid(
     native_fmu: Path, tmp_path: Path, code: dict[str, str]
 ) -> None:
-    said: list[str] = []
+    messages: list[str] = []
     code["values.c"] += "/* one comment more */\n"
-    other = build_native(tmp_path, platforms=[HOST], code=code, progress=said.append)
+    other = build_native(tmp_path, platforms=[HOST], code=code, progress=messages.append)
     assert guid(other) != guid(native_fmu), "hosts and states must tell builds apart"
-    assert f"compiling for {host_platform().name} with ziglang" in said[0]
+    assert f"compiling for {host_platform().name} with ziglang" in messages[0]
 
 
 def test_the_guid_is_in_the_sources_and_in_the_binary(native_fmu: Path) -> None:
@@ -120,7 +120,7 @@ def test_a_compiler_for_another_platform_is_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "dist").exists()
 
 
-def test_what_the_compiler_says_is_passed_on(tmp_path: Path, code: dict[str, str]) -> None:
+def test_compiler_messages_are_passed_on(tmp_path: Path, code: dict[str, str]) -> None:
     code["values.c"] = "#error broken on purpose\n"
     with pytest.raises(BuildError, match="broken on purpose"):
         build_native(tmp_path / "dist", platforms=[HOST], code=code)

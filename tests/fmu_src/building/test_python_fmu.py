@@ -54,7 +54,7 @@ def test_names_are_made_of_the_content(python_fmu: Path) -> None:
         assert f"resources/{module}.py" in archive.namelist()
 
 
-def test_what_a_target_needs_is_inside(python_fmu: Path) -> None:
+def test_the_fmu_contains_all_that_a_target_needs(python_fmu: Path) -> None:
     with zipfile.ZipFile(python_fmu) as archive:
         assert set(archive.namelist()) >= {
             "binaries/linux64/SliderResonatorPy.so",

@@ -13,7 +13,7 @@ def library(processor: int, size: int) -> bytes:
     return struct.pack("<III", 0xFEEDFACF, processor, 3).ljust(size, b"x")
 
 
-def test_every_library_is_found_where_the_header_says() -> None:
+def test_every_library_is_at_its_offset_in_the_header() -> None:
     libraries = [library(X86_64, 20_000), library(ARM64, 70_001)]
     data = universal_binary(libraries)
     magic, count = struct.unpack_from(">II", data)
@@ -26,6 +26,6 @@ def test_every_library_is_found_where_the_header_says() -> None:
         assert offset % (1 << alignment) == 0, "a library begins on a page"
 
 
-def test_what_is_no_library_of_macos_is_refused() -> None:
+def test_other_libraries_than_those_of_macos_are_refused() -> None:
     with pytest.raises(ValueError, match="begins with 0x464c457f: must be 0xfeedfacf"):
         universal_binary([b"\x7fELF" + bytes(60)])

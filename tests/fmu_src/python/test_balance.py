@@ -1,4 +1,4 @@
-"""The angle of balance against plain bisection, which it promises to equal."""
+"""The angle of balance equals that of plain bisection."""
 
 from __future__ import annotations
 

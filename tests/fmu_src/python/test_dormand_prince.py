@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from fmu_src.python.slider_component.dormand_prince import Passage, integrate
+from fmu_src.python.slider_component.dormand_prince import Reached, integrate
 
 MOST = 10_000
 
@@ -20,7 +20,7 @@ def passed(
     tolerance: float,
 ) -> tuple[float, float]:
     """Velocity and displacement at the end."""
-    end = integrate(acceleration, Passage(0.0, velocity, 0.0, step), duration, tolerance, MOST)
+    end = integrate(acceleration, Reached(0.0, velocity, 0.0, step), duration, tolerance, MOST)
     assert end.t == duration
     return end.velocity, end.moved
 
@@ -60,7 +60,7 @@ def test_goes_on_from_where_it_was() -> None:
     def acceleration(t: float, v: float) -> float:
         return math.cos(t) - v
 
-    now = Passage(0.0, 0.0, 0.0, 0.01)
+    now = Reached(0.0, 0.0, 0.0, 0.01)
     while now.t < 5.0:
         now = integrate(acceleration, now, 5.0, 1e-10, 3)
     exact = 0.5 * (math.cos(5.0) + math.sin(5.0) - math.exp(-5.0))
@@ -75,6 +75,6 @@ def test_work_is_bounded() -> None:
         calls.append(t)
         return -1e9 * v
 
-    now = integrate(stiff, Passage(0.0, 1.0, 0.0, 1e-9), 1e3, 1e-9, 100)
+    now = integrate(stiff, Reached(0.0, 1.0, 0.0, 1e-9), 1e3, 1e-9, 100)
     assert 0.0 < now.t < 1e3
     assert len(calls) <= 1 + 6 * 100, "six evaluations for each step, and the first"

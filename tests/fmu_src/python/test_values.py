@@ -27,7 +27,7 @@ def test_the_table_is_the_interface() -> None:
 
 @pytest.mark.parametrize("name", [v.name for v in SETTABLE])
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, "1", True, None])
-def test_what_is_no_finite_number_is_refused(name: str, value: object) -> None:
+def test_values_that_are_not_finite_are_refused(name: str, value: object) -> None:
     with pytest.raises(Refusal, match=rf"{name} = .* refused: must be (a finite|an integer)"):
         checked(BY_NAME[name], value)
 

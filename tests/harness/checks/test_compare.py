@@ -74,7 +74,7 @@ def test_with_a_tolerance_of_0_only_equality_passes() -> None:
 
 
 @pytest.mark.parametrize("velocity", [float("nan"), float("inf"), None])
-def test_what_is_no_number_fails(velocity: float | None) -> None:
+def test_nan_fails(velocity: float | None) -> None:
     verdict = judge(steady(velocity), quantity="steady_velocity", value=0.1, relative=1e9)
     assert not verdict.passed
     assert verdict.severity == float("inf")
@@ -109,7 +109,7 @@ def test_bounds_are_one_sided() -> None:
 
 
 @pytest.mark.parametrize("bound", ["at_most", "at_least"])
-def test_what_is_no_number_is_within_no_bound(bound: str) -> None:
+def test_nan_is_within_no_bound(bound: str) -> None:
     expect: dict[str, Any] = {"quantity": "steady_velocity", bound: 0.1}
     assert not judge(steady(float("nan")), **expect).passed
 
@@ -166,7 +166,7 @@ def judge_position(signal: np.ndarray, expected: np.ndarray, **expect: Any) -> C
     )
 
 
-def test_a_failed_signal_says_from_where_on_and_where_most() -> None:
+def test_a_failed_signal_reports_its_first_and_worst_time() -> None:
     signal = WAVE.copy()
     signal[300] += 1e-6
     signal[700] += 1e-3
@@ -186,7 +186,7 @@ def test_near_a_reference_of_zero_the_absolute_tolerance_counts(noise: float, pa
         assert np.isfinite(verdict.deviation), "a share of next to nothing means nothing"
 
 
-def test_what_does_not_oscillate_has_no_frequency_and_fails() -> None:
+def test_a_signal_without_oscillation_has_no_frequency_and_fails() -> None:
     for still in (np.ones(1000), np.full(1000, np.nan)):
         verdict = judge(
             fmu(record=RecordOf(velocity=still)),
@@ -287,5 +287,5 @@ def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) 
     if not passed:
         assert verdict.first_time == 0.6
     if shift == 2e-3:
-        said = "off by 0.002 drive periods, 2 times the allowed 0.001; from 0.6 s on"
-        assert sentence(verdict).startswith(said)
+        message = "off by 0.002 drive periods, 2 times the allowed 0.001; from 0.6 s on"
+        assert sentence(verdict).startswith(message)

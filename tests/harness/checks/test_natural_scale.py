@@ -1,4 +1,4 @@
-"""What counts as near zero follows from the device."""
+"""The size that counts as near zero follows from the device."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def test_the_vibration_does_not_depend_on_friction() -> None:
         assert scale("velocity", replace(TABLE_1, **change)) == scale("velocity")
 
 
-def test_what_has_no_scale_has_none() -> None:
+def test_quantities_without_a_scale_have_none() -> None:
     assert scale("velocity", replace(TABLE_1, base_amplitude=0.0)) == 0.0
     assert scale("beat_frequency") == 0.0, "a beat may be as slow as it likes"
     undamped = replace(TABLE_1, damping_ratio=0.0, resonator_frequency=3500.0 * (1 / 1.1) ** 0.5)

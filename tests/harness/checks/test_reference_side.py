@@ -95,7 +95,7 @@ def test_averaged_motion_is_at_the_communication_points() -> None:
     assert averaged.position == pytest.approx(resolved, abs=0.1 * np.abs(resolved).max())
 
 
-def test_a_tube_holds_what_is_early_or_late_by_less_than_its_width() -> None:
+def test_a_tube_contains_signals_shifted_by_less_than_its_width() -> None:
     reference = side(RUN)
     tube = reference.tube("located_events", "velocity", 0.02)
     velocity = reference.signal("located_events", "velocity")

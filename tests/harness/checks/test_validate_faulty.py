@@ -48,7 +48,7 @@ def test_a_crash_or_an_endless_loop_elsewhere(
     assert reason in run_failure.reason
 
 
-def test_an_fmu_that_does_nothing_fails_and_what_it_prints_harms_nothing(
+def test_an_fmu_that_does_nothing_fails_and_its_output_does_no_harm(
     native_fmu: Path, tmp_path: Path, scene: Path
 ) -> None:
     validation = judged(compiled(native_fmu, tmp_path / "still.fmu", "IN_STEP=PRINT"), scene)
@@ -59,7 +59,7 @@ def test_an_fmu_that_does_nothing_fails_and_what_it_prints_harms_nothing(
     assert not curves.fmu.any(), "it never moves"
 
 
-def test_what_lies_in_the_present_folder_is_not_imported(
+def test_modules_in_the_present_folder_are_not_imported(
     native_fmu: Path, tmp_path: Path, scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "numpy.py").write_text("raise RuntimeError('a script of the user')")

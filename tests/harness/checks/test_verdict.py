@@ -8,17 +8,17 @@ from tests.harness.verdicts import BOUND, NONE, SIGNAL, SLOWER, WORD
 
 def test_a_number_is_off_by_so_much() -> None:
     assert sentence(SLOWER) == (
-        "the FMU gives 0.12 m/s, expected is 0.126667 m/s: off by 0.0067 m/s, "
+        "the FMU gives 0.12 m/s, expected 0.126667 m/s: off by 0.0067 m/s, "
         "6.67e+04 times the allowed 1e-07"
     )
     assert title(SLOWER) == "steady_velocity against located_events at phase 0.4"
 
 
-def test_a_bound_says_which_side() -> None:
-    assert sentence(BOUND) == ("the FMU gives 120, expected is at most 100: off by 20, must be 0")
+def test_the_sentence_of_a_bound_names_its_side() -> None:
+    assert sentence(BOUND) == ("the FMU gives 120, expected at most 100: off by 20, must be 0")
 
 
-def test_a_signal_says_where() -> None:
+def test_the_sentence_of_a_signal_names_the_times() -> None:
     assert sentence(SIGNAL) == (
         "off by 0.0003 of the peak, which is 0.0001 m, 3e+04 times the allowed 1e-08; "
         "from 0.0125 s on, most at 0.05 s"
@@ -30,9 +30,9 @@ def test_a_contact_mode_differs_at_points() -> None:
     assert sentence(mode).startswith("differs at 25.00% of the points, must be 0; from 0.0125 s")
 
 
-def test_what_there_is_none_of() -> None:
+def test_the_sentence_of_a_value_that_does_not_exist() -> None:
     assert "gives none" in sentence(NONE)
     assert "no steady motion" in sentence(NONE)
     without = replace(SLOWER, reference=None, deviation=None, allowed=None)
     assert sentence(without) == "the FMU gives 0.12 m/s, the reference has none"
-    assert sentence(WORD) == "the FMU gives 'steady', expected is 'stuck'"
+    assert sentence(WORD) == "the FMU gives 'steady', expected 'stuck'"

@@ -141,7 +141,7 @@ def test_what_cannot_run_exits_with_2(native_fmu: Path, baseline: Path, tmp_path
     assert not content(tmp_path / "new")
 
 
-def test_what_is_not_recorded_is_named(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
+def test_missing_records_are_named(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
     result = call("check", native_fmu, baseline, "--scene", "table_1")
     assert result.exit_code == 2
     assert "unknown recorded scene 'table_1'" in result.stderr
@@ -187,7 +187,7 @@ def test_a_folder_that_cannot_be_made_is_refused(native_fmu: Path, scenes: Path)
     assert "cannot be made a folder" in result.stderr
 
 
-def test_what_cannot_be_kept_is_shown_even_so(other_fmu: Path, baseline: Path) -> None:
+def test_changes_that_cannot_be_kept_are_shown(other_fmu: Path, baseline: Path) -> None:
     (baseline / ".changed").write_text("in the way of what accept takes over")
     result = call("check", other_fmu, baseline)
     assert result.exit_code == 2

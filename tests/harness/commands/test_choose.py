@@ -1,4 +1,4 @@
-"""What `choose` and `run --auto` print, and their exit codes."""
+"""Output and exit codes of `choose` and `run --auto`."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_json_holds_the_answer(native_fmu: Path, tmp_path: Path) -> None:
     assert all(other["why"] for other in answer["ruled_out"])
 
 
-def test_sentences_say_what_was_chosen_and_why_not_the_others(
+def test_the_choice_and_the_reasons_against_the_others_are_printed(
     native_fmu: Path, tmp_path: Path
 ) -> None:
     result = call("choose", written(tmp_path, LOOSE), "--fmu", native_fmu)
@@ -80,7 +80,7 @@ def test_the_built_in_example_needs_averaged_motion_only(native_fmu: Path) -> No
     assert (answer["meets"], answer["fidelity"]) == (True, 0)
 
 
-def test_a_run_takes_what_is_chosen_and_says_so(native_fmu: Path, tmp_path: Path) -> None:
+def test_a_run_uses_the_choice_and_reports_it(native_fmu: Path, tmp_path: Path) -> None:
     scene = written(tmp_path, LOOSE)
     result = call("run", native_fmu, scene, "--auto", "--json")
     assert result.exit_code == 0
@@ -105,7 +105,7 @@ def test_nothing_is_run_where_nothing_suffices(native_fmu: Path, tmp_path: Path)
 
 
 @pytest.mark.parametrize("setting", ["fidelity=1", "tolerance=1e-6"])
-def test_what_is_chosen_cannot_be_set_too(native_fmu: Path, tmp_path: Path, setting: str) -> None:
+def test_chosen_parameters_cannot_be_set(native_fmu: Path, tmp_path: Path, setting: str) -> None:
     scene = written(tmp_path, LOOSE)
     for arguments in (["run", native_fmu, scene, "--auto"], ["choose", scene]):
         result = call(*arguments, "--set", setting)

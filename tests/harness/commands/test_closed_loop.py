@@ -1,4 +1,4 @@
-"""The loop in fmpy: what it shows, and that a loop that fails is rejected."""
+"""The loop in fmpy: its output, and the rejection of a loop that fails."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
 
 @pytest.fixture
 def brief(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Fewer predictions, where they do not matter."""
+    """Make fewer predictions, where they do not matter."""
     monkeypatch.setattr(prediction, "FIRST", 1)
 
 
@@ -114,7 +114,7 @@ def test_a_package_that_cannot_be_run_is_no_verdict(
     assert list(temporary.iterdir()) == [], "nothing that was unpacked is left behind"
 
 
-def test_what_is_no_package_is_reported(tmp_path: Path) -> None:
+def test_a_file_that_is_no_package_is_reported(tmp_path: Path) -> None:
     done = closed_loop(tmp_path / "none.ssp", "--out", tmp_path)
     assert done.exit_code == 2
     assert "none.ssp: no such file; build it with: python build_fmu.py" in done.stderr

@@ -8,17 +8,19 @@ from click.testing import CliRunner
 
 from slider_resonator.cli import main
 from slider_resonator.commands import extremes
-from slider_resonator.trials.extremes.cell import Cell, Hold, Limit, Model
+from slider_resonator.trials.extremes.cell import Hold, Limit, MatrixCell, Model
 from tests.harness.public_json import assert_public_keys
 
 HOLDS = (Hold(1e-4, 20),)
-GOOD = Cell("steps", "few", Model(2, 0), {}, HOLDS)
-REFUSED = Cell("mu", "0", Model(2, 1), {"friction_coefficient": 0.0}, HOLDS)
+GOOD = MatrixCell("steps", "few", Model(2, 0), {}, HOLDS)
+REFUSED = MatrixCell("mu", "0", Model(2, 1), {"friction_coefficient": 0.0}, HOLDS)
 FLIES = Limit("position", 1.0, 1e-9, "it flies")
-WRONG = Cell("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
+WRONG = MatrixCell("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
 
 
-def invoke(monkeypatch: pytest.MonkeyPatch, cells: list[Cell], *arguments: str) -> tuple[int, str]:
+def invoke(
+    monkeypatch: pytest.MonkeyPatch, cells: list[MatrixCell], *arguments: str
+) -> tuple[int, str]:
     monkeypatch.setattr(extremes, "all_cells", lambda *, long: cells)
     result = CliRunner().invoke(main, ["extremes", *arguments])
     return result.exit_code, result.output

@@ -51,7 +51,7 @@ def test_rejected_mutants_pass_the_command(python_fmu: Path, tmp_path: Path) -> 
     assert "<h1>Mutants</h1>" in page.read_text()
 
 
-def test_what_cannot_be_tried_is_refused(python_fmu: Path, tmp_path: Path) -> None:
+def test_mutation_runs_that_cannot_start_are_refused(python_fmu: Path, tmp_path: Path) -> None:
     for arguments, reason in (
         ([str(tmp_path / "no.fmu")], "no such file"),
         ([str(python_fmu), "--file", "clok.py"], "did you mean 'clock.py'"),

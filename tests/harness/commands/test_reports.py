@@ -9,7 +9,7 @@ from slider_resonator.commands.reports import Reports, print_run_failures
 from slider_resonator.errors import HarnessError
 
 
-def test_what_could_not_run_is_reported_with_its_place(capsys: pytest.CaptureFixture[str]) -> None:
+def test_run_failures_are_reported_with_their_place(capsys: pytest.CaptureFixture[str]) -> None:
     run_failures = [
         RunFailure("swept", "crashed", {"phase": 0.4}),
         RunFailure("", "my.fmu: corrupt", {}),
@@ -21,7 +21,7 @@ def test_what_could_not_run_is_reported_with_its_place(capsys: pytest.CaptureFix
     ]
 
 
-def test_what_an_fmu_prints_commands_neither_terminal_nor_ci(
+def test_output_of_an_fmu_commands_neither_terminal_nor_ci(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     print_run_failures("my.fmu", [RunFailure("", "crashed\x1b[2J\n::stop-commands::all", {})])

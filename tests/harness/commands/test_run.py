@@ -1,4 +1,4 @@
-"""What `run` refuses before it runs, and that what it reads and writes stays whole."""
+"""Refusals of `run` before it runs, and the files that it reads and writes."""
 
 from __future__ import annotations
 

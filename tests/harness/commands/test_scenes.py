@@ -9,7 +9,7 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness.public_json import assert_public_keys
 
 
-def test_the_list_says_which_scenes_can_be_run() -> None:
+def test_the_list_shows_which_scenes_can_be_run() -> None:
     printed = CliRunner().invoke(main, ["scenes", "--json"]).stdout
     assert_public_keys("scenes", printed)
     scenes = json.loads(printed)
@@ -23,7 +23,7 @@ def test_the_list_says_which_scenes_can_be_run() -> None:
     assert " - " in row, "it has no run"
 
 
-def test_what_scenes_can_expect_is_listed() -> None:
+def test_the_vocabulary_is_listed() -> None:
     printed = CliRunner().invoke(main, ["scenes", "--quantities", "--json"]).stdout
     assert_public_keys("scenes --quantities", printed)
     listed = json.loads(printed)

@@ -1,4 +1,4 @@
-"""What `trade` writes, and its exit codes."""
+"""Files and exit codes of `trade`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tests.harness.studies.trade.test_needs import TRADE
 
 
 @pytest.mark.slow
-def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
+def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     native_fmu: Path, tmp_path: Path
 ) -> None:
     scene = tmp_path / "mine.toml"
@@ -78,7 +78,7 @@ def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
         (["table_1", "--fmu", "missing.fmu"], "missing.fmu: no such file"),
     ],
 )
-def test_what_does_not_exist_is_reported_and_nothing_written(
+def test_missing_inputs_are_reported_and_nothing_is_written(
     tmp_path: Path, arguments: list[str], reported: str
 ) -> None:
     out = tmp_path / "out"
@@ -88,7 +88,7 @@ def test_what_does_not_exist_is_reported_and_nothing_written(
     assert not out.exists()
 
 
-def test_what_was_measured_before_a_scene_that_fails_is_kept(
+def test_measurements_before_a_failing_scene_are_kept(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def measure(problem: Problem, *_: object, **__: object) -> Trade:

@@ -20,7 +20,7 @@ def call(*arguments: object, summary: Path | None = None) -> Result:
 
 
 def reported(folder: Path, *arguments: object) -> tuple[Result, dict[str, object], ET.Element]:
-    """Run with all reports and return what came of it, the JSON and the JUnit document."""
+    """Run with all reports and return the result, the JSON and the JUnit document."""
     names = ("report.json", "report.xml", "report.html", "summary.md")
     files = [folder / name for name in names]
     options = [*("--json", files[0]), *("--junit", files[1]), *("--html", files[2])]
@@ -50,7 +50,7 @@ def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("fault", faulty_fmus.BROKEN)
-def test_what_could_not_run_exits_with_2_and_all_reports(
+def test_run_failures_exit_with_2_and_all_reports(
     native_fmu: Path, tmp_path: Path, fault: str
 ) -> None:
     broken, cause = faulty_fmus.BROKEN[fault]

@@ -16,7 +16,7 @@ def test_messages_go_to_the_collector_of_their_instance() -> None:
 
 
 @pytest.mark.parametrize("text", ["load = nan refused", "it's", "both ' and \"", "two\nlines"])
-def test_an_exception_is_told_in_its_own_words(text: str) -> None:
+def test_the_text_of_a_python_exception_is_extracted(text: str) -> None:
     wrapped = f"Fatal py exception encountered: [setReal] PyObject_CallMethod\n{ValueError(text)!r}"
     assert fmu_log.plain_words(wrapped) == text
 
@@ -30,7 +30,7 @@ def test_an_exception_is_told_in_its_own_words(text: str) -> None:
         "",
     ],
 )
-def test_what_is_no_such_exception_stays_as_it_is(message: str) -> None:
+def test_other_messages_are_unchanged(message: str) -> None:
     assert fmu_log.plain_words(message) == message
 
 

@@ -36,7 +36,7 @@ def test_variables_of_both_types_are_read_together(instance: Instance) -> None:
     assert read["blocking_force"] == instance.value("blocking_force") > 0.0
 
 
-def test_what_has_been_read_can_be_set_no_more_than_before(instance: Instance) -> None:
+def test_reading_a_variable_does_not_make_it_settable(instance: Instance) -> None:
     instance.start({})
     instance.read(["position"])
     with pytest.raises(FmuError, match="position"):
@@ -49,7 +49,7 @@ def test_a_refusal_carries_the_words_of_the_fmu(instance: Instance) -> None:
     message = str(caught.value)
     assert "slider_mass = -1.0" in message
     assert "t = 0 s" in message
-    assert message.count("slider_mass") == 1, "said once"
+    assert message.count("slider_mass") == 1, "reported once"
     assert "Refusal" not in message, "without pythonfmu's wrapping"
     assert "fmi2" not in message
     instance.start({})
@@ -78,7 +78,7 @@ def test_two_instances_do_not_disturb_each_other(fmu: Fmu, instance: Instance) -
         assert other.value("position") != alone.final("position")
 
 
-def test_an_fmu_that_cannot_be_instantiated_says_so(fmu: Fmu, tmp_path: Path) -> None:
+def test_an_fmu_that_cannot_be_instantiated_is_reported(fmu: Fmu, tmp_path: Path) -> None:
     gutted = replace(fmu, folder=tmp_path)
     with (
         pytest.raises(FmuError, match=r"cannot be instantiated.*shared library"),

@@ -57,8 +57,8 @@ def test_a_directory_is_named_as_one(tmp_path: Path) -> None:
 def test_another_version_of_fmi_is_named(tmp_path: Path, version: str) -> None:
     with zipfile.ZipFile(tmp_path / "other.fmu", "w") as archive:
         archive.writestr(XML, f'<fmiModelDescription fmiVersion="{version}" modelName="x"/>')
-    said = rf"FMI version {version}; must be 2\.0"
-    with pytest.raises(FmuError, match=said), open_fmu(tmp_path / "other.fmu"):
+    message = rf"FMI version {version}; must be 2\.0"
+    with pytest.raises(FmuError, match=message), open_fmu(tmp_path / "other.fmu"):
         pass
 
 

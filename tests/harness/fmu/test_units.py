@@ -1,4 +1,4 @@
-"""A unit that is not what its name says would scale every result unseen."""
+"""A unit that differs from its name would scale every result unnoticed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def test_every_unit_of_the_interface_has_a_dimension() -> None:
     assert {*INPUTS.values(), *PARAMETERS.values(), *OUTPUTS.values()} <= set(DIMENSIONS)
 
 
-def test_si_units_are_what_they_are() -> None:
+def test_si_units_are_accepted() -> None:
     assert problems("N", **NEWTON) == []
     assert problems("m/s", m=1, s=-1) == []
     assert unit_problems("N", []) == [], "without a definition the name counts"
@@ -35,7 +35,7 @@ def test_the_radian_may_count_as_a_unit_or_as_1(base: dict[str, int]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("unit", "base", "said"),
+    ("unit", "base", "message"),
     [
         ("N", {**NEWTON, "factor": 1000.0}, "unit N is defined with factor 1000.0, must be 1"),
         ("m", {"m": 1, "factor": 1e-3}, "unit m is defined with factor 0.001, must be 1"),
@@ -46,12 +46,12 @@ def test_the_radian_may_count_as_a_unit_or_as_1(base: dict[str, int]) -> None:
         ("1", {"K": 1}, "unit 1 is defined as K, must be 1"),
     ],
 )
-def test_another_definition_is_named(unit: str, base: dict[str, float], said: str) -> None:
+def test_another_definition_is_named(unit: str, base: dict[str, float], message: str) -> None:
     (problem,) = problems(unit, **base)
-    assert problem.startswith(said)
+    assert problem.startswith(message)
 
 
-def test_display_units_must_be_what_their_names_say() -> None:
+def test_display_units_must_agree_with_their_names() -> None:
     rounded = DisplayUnit("deg", 57.29578)
     assert problems("rad", rounded, rad=1) == []
     assert problems("m", DisplayUnit("mm", 1e3), DisplayUnit("furlong", 7.0), m=1) == []

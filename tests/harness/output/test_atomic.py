@@ -19,7 +19,7 @@ def test_the_file_appears_whole_with_usual_rights(tmp_path: Path) -> None:
     assert [p.name for p in path.parent.iterdir()] == ["out.csv"], "no temporary file stays behind"
 
 
-def test_a_failure_keeps_what_was_there(tmp_path: Path) -> None:
+def test_a_failure_keeps_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / "out.csv"
     path.write_text("old")
     with pytest.raises(ZeroDivisionError), replacing(path) as temporary:

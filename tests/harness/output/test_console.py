@@ -5,7 +5,7 @@ import pytest
 from slider_resonator.output.console import output, progress_bar
 
 
-def test_progress_stays_silent_where_nobody_watches(capsys: pytest.CaptureFixture[str]) -> None:
+def test_progress_is_silent_without_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     with progress_bar() as progress:
         progress("scene", 0.5)
     captured = capsys.readouterr()

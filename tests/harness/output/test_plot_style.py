@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from slider_resonator.output.plot_style import shade_directions
 
 
-def test_each_stretch_of_one_contact_mode_is_shaded_once() -> None:
+def test_each_interval_of_one_contact_mode_is_shaded_once() -> None:
     axes = Figure().subplots()
     modes = np.array([1.0, 1.0, -1.0, -1.0, -1.0, 2.0])
     entries = shade_directions(axes, np.arange(6.0), modes)

@@ -110,7 +110,7 @@ class Cells(HTMLParser):
         self.text += data
 
 
-def test_html_marks_numbers_and_styles_and_shows_foreign_text_as_it_is() -> None:
+def test_html_marks_numbers_and_styles_and_escapes_foreign_text() -> None:
     page = html_page.rendered(TABLE)
     assert '<th class="n">off by [m]</th>' in page
     assert '<td class="n">1e-9</td>' in page

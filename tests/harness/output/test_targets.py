@@ -17,7 +17,7 @@ def test_a_new_file_and_a_regular_one_are_allowed(tmp_path: Path) -> None:
     assert path.read_text() == "old", "judging must not touch it"
 
 
-def test_what_is_no_regular_file_is_refused_by_its_kind(tmp_path: Path) -> None:
+def test_targets_that_are_not_regular_files_are_refused_by_kind(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "link").symlink_to(tmp_path / "elsewhere")
     for target, kind in (

@@ -21,7 +21,7 @@ def test_a_run_written_by_the_harness_can_be_read_back_as_an_input(tmp_path: Pat
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("", "first column must be 'time'"),
         ("t,load\n0,1\n", "first column must be 'time'"),
@@ -30,9 +30,9 @@ def test_a_run_written_by_the_harness_can_be_read_back_as_an_input(tmp_path: Pat
         ("time,load\n0\n", "line 2"),
     ],
 )
-def test_a_csv_that_cannot_be_used_is_named(tmp_path: Path, text: str, said: str) -> None:
+def test_a_csv_that_cannot_be_used_is_named(tmp_path: Path, text: str, message: str) -> None:
     path = tmp_path / "in.csv"
     path.write_text(text)
-    with pytest.raises(ValueError, match=said) as caught:
+    with pytest.raises(ValueError, match=message) as caught:
         csv_points(path, "load")
     assert str(path) in str(caught.value)

@@ -117,7 +117,7 @@ def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Pa
         ("name = 3\n", ["not TOML"]),
     ],
 )
-def test_a_mistake_is_named_with_its_key_its_value_and_what_is_allowed(
+def test_a_mistake_is_named_with_key_value_and_requirement(
     tmp_path: Path, text: str, parts: list[str]
 ) -> None:
     message = refusal(tmp_path, HEAD + text)
@@ -234,7 +234,7 @@ def test_a_scene_knows_the_files_it_was_read_from(tmp_path: Path) -> None:
     assert read_scene(path).files == (path, tmp_path / "load.csv")
 
 
-def test_a_scene_without_a_run_says_where_to_find_one(tmp_path: Path) -> None:
+def test_the_refusal_of_a_scene_without_a_run_names_the_command_scenes(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"no \[run\].*the command scenes"):
         read_scene(write(tmp_path, HEAD)).schedule()
 
@@ -317,11 +317,11 @@ def test_a_need_that_cannot_be_judged_is_refused(
 
 
 def test_needs_are_measured_in_a_run_or_under_constant_inputs(tmp_path: Path) -> None:
-    said = refusal(tmp_path, HEAD + "[need]\nbeat = { rel = 0.1 }\n")
-    assert "need.beat is measured in a run: [run] is missing" in said
+    message = refusal(tmp_path, HEAD + "[need]\nbeat = { rel = 0.1 }\n")
+    assert "need.beat is measured in a run: [run] is missing" in message
     inputs = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
-    said = refusal(tmp_path, HEAD + inputs + "[need]\nblocking_force = { rel = 0.1 }\n")
-    assert "need.blocking_force needs constant inputs" in said
+    message = refusal(tmp_path, HEAD + inputs + "[need]\nblocking_force = { rel = 0.1 }\n")
+    assert "need.blocking_force needs constant inputs" in message
 
 
 def test_an_allowed_error_has_an_absolute_and_a_relative_part(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Steady motion on bristles by shooting with the Taylor reference, and what averages say of it."""
+"""Steady motion on bristles by shooting with the Taylor reference, against averages."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def test_load_above_all_friction_has_no_steady_motion() -> None:
 
 @pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
 def test_soft_bristles_are_on_the_slow_manifold(amplitude_ratio: float) -> None:
-    """kappa = 0.01: what the paper's averages say, also of a contact that lifts."""
+    """kappa = 0.01: the paper's averages, also for a contact that lifts."""
     device = unit_device(0.01, 4000.0, amplitude_ratio)
     case = LugreCase(amplitude_ratio=amplitude_ratio, phase=1.0)
     velocity = averaged_lugre.steady_velocity(case)

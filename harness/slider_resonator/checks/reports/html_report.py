@@ -15,7 +15,7 @@ from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_PICTURES = 40
-"""Pictures for each FMU, of the worst point of a sweep only: a hopeless FMU fails everywhere."""
+"""Maximum pictures for each FMU, one per sweep: a very faulty FMU fails everywhere."""
 COLUMNS = (
     *texts("scene", "quantity"),
     *numbers("FMU", "reference", "off by", "allowed"),

@@ -1,4 +1,4 @@
-"""Verdicts for people: a table on a terminal or in a log."""
+"""Verdicts as a table on a terminal or in a log."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def _summary(validation: Validation) -> Text:
 
 
 def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
-    """Return a line for each scene, with its check of the largest share of what is allowed."""
+    """Return a line for each scene, with the check nearest to its limit or farthest beyond it."""
     rows = []
     for scene, checks in scenes.items():
         passed = sum(check.passed for check in checks)
@@ -79,7 +79,7 @@ def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
 
 
 def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
-    """Return a line for each check, which stands for that number of points of a sweep."""
+    """Return a line for each check, with the number of points of a sweep that it covers."""
     swept = any(check.at for check, _ in checks)
     where = texts("at" if details else "worst at") if swept else []
     columns = (

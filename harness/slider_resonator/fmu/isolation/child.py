@@ -1,4 +1,4 @@
-"""The process of an isolated FMU: runs tasks on one instance, whatever the FMU does to it.
+"""The process of an isolated FMU, which runs tasks on one instance.
 
 `python -m slider_resonator.fmu.isolation.child FMU SECONDS` reads requests from its standard input
 and writes messages to its standard output, both pickled. The FMU itself sees an empty standard
@@ -44,7 +44,7 @@ def main() -> None:
 
 
 def _take_standard_streams() -> tuple[BinaryIO, BinaryIO]:
-    """Return standard input and output under other descriptors, out of the FMU's way."""
+    """Return standard input and output, moved to descriptors that the FMU does not know."""
     requests, messages = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
@@ -83,7 +83,7 @@ def _send(messages: BinaryIO, message: Message) -> None:
 
 
 def _internal(trace: str) -> Failure:
-    """Return the failure of a task that raised what only a programming error can raise."""
+    """Return the failure of a task that raised an unexpected exception, a programming error."""
     return Failure(RuntimeError(f"a task failed in the process of the FMU:\n{trace}"))
 
 

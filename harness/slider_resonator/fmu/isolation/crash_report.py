@@ -7,7 +7,7 @@ import signal
 from collections.abc import Mapping
 
 MAX_PRINTED = 500
-"""Characters of the FMU's own output that are repeated."""
+"""Maximum characters of the FMU's own output in the report."""
 
 _CALLS: Mapping[str, str] = {
     "step_to": "fmi2DoStep",

@@ -1,4 +1,4 @@
-"""What an isolated FMU and the process that started it send each other, pickled."""
+"""The messages between an isolated FMU and the process that started it, pickled."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ class Progress:
 
 @dataclass(frozen=True)
 class Result:
-    """What a task returned; the first message is an empty result: the FMU is instantiated."""
+    """The return value of a task; an empty first result means that the FMU is instantiated."""
 
     value: Any = None
 
 
 @dataclass(frozen=True)
 class Failure:
-    """What a task raised instead."""
+    """The exception that a task raised."""
 
     error: Exception
 
 
 Message = Progress | Result | Failure
-"""What the process of the FMU sends."""
+"""A message from the process of the FMU."""

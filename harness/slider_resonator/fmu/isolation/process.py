@@ -28,7 +28,7 @@ GRACE = 60.0
 """Seconds beyond the time limit after which a process that did not end itself is killed: Python
 and the modules of a task must be loaded in them, also on a busy machine."""
 POLL_INTERVAL = 0.5
-"""Seconds between looks at whether the process still runs."""
+"""Interval (s) at which the process is polled."""
 
 Task = Callable[..., Any]
 """A picklable function, called as `task(instance)` in the process of the FMU; one that reports
@@ -104,7 +104,7 @@ class IsolatedFmu:
         return self.result(progress)
 
     def submit(self, task: Task, *, reports_progress: bool = False) -> None:
-        """Start a task and do not wait; FmuDied when the process has ended already."""
+        """Send a task without waiting; FmuDied when the process has ended already."""
         if self._killed:
             raise FmuDied("the process of the FMU has been ended")
         request = pickle.dumps(Request(task, reports_progress))
@@ -149,7 +149,7 @@ class IsolatedFmu:
         self._killed = True
         end_group(self._process)
         assert self._process.stdin is not None
-        with suppress(OSError):  # nobody reads what cannot be flushed
+        with suppress(OSError):  # the process has closed its end of the pipe
             self._process.stdin.close()
         self._reader.join(POLL_INTERVAL)
         self._folder.cleanup()

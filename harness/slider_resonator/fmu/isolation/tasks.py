@@ -1,4 +1,4 @@
-"""Many tasks on an isolated FMU, whose process is replaced when a task ends or breaks it."""
+"""Many tasks on an isolated FMU, whose process is replaced after a crash or a missed time limit."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def run_tasks(
     meanwhile: Callable[[Item], None] = lambda item: None,
     max_crashes: int | None = MAX_CRASHES,
 ) -> Generator[Finished[Item], None, None]:
-    """Run a task for each item, one after the other, and yield what came of each.
+    """Run a task for each item, one after the other, and yield each outcome.
 
     `meanwhile` is called for an item while the FMU is at work on it. After a crash or a missed
     `time_limit` (s) the other items of that `name` are left out, and after `max_crashes` all.

@@ -1,4 +1,4 @@
-"""The normal load over a turn of the drive, which is never less than 0: a contact cannot pull.
+"""The normal load over a turn of the drive; it is never negative.
 
 The load is ``max(0, 1 + amplitude_ratio sin(ratio theta + phase))`` in units of the preload, theta
 the angle of the drive. Angles are in rad.
@@ -24,7 +24,7 @@ def mean_load(amplitude_ratio: float) -> float:
 
 
 def turns_until_repeat(amplitude_ratio: float, ratio: float, share: float = 1e-12) -> int:
-    """Return after how many turns of the drive a load repeats, as far as averages notice; else 0.
+    """Return the turns of the drive after which a load repeats, as far as averages show; else 0.
 
     A load that never lifts is a sine, which averages out over several turns: 1 for ratios next to
     an integer, else 0. The clipped load has harmonics, and that of as many waves as turns keeps

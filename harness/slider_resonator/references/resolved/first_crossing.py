@@ -43,7 +43,7 @@ def first_crossing(
 def _crossing_between(left: float, right: float, value: Callable[[float], float]) -> float:
     if value(left) > 0.0:
         return _root(value, left, right)
-    # The interval begins on a root: look for the positive stretch behind it.
+    # The interval begins on a root: look for the positive interval behind it.
     width = right - left
     for _ in range(_HALVINGS):
         width *= 0.5

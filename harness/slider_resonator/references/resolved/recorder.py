@@ -1,4 +1,4 @@
-"""The samples and counts of a run, kept alike by every integrator."""
+"""The samples and counts of a run, for every integrator."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Recorder:
             self._deflections.append(deflection)
 
     def trajectory(self) -> Trajectory:
-        """Return all that has been kept."""
+        """Return the trajectory of all samples."""
         signals = np.concatenate([np.empty((0, 7)), *self._signals])
         return Trajectory(
             time=self.times,
@@ -70,6 +70,6 @@ class Recorder:
         )
 
     def lugre_trajectory(self) -> LugreTrajectory:
-        """Return all that has been kept, the bristle too."""
+        """Return the trajectory of all samples, with the bristle."""
         deflection = np.concatenate([np.empty(0), *self._deflections])
         return LugreTrajectory(**vars(self.trajectory()), bristle_deflection=deflection)

@@ -1,4 +1,4 @@
-"""The solvers of scipy that references are run with, by name."""
+"""The solvers of scipy for references, by name."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Dense = Callable[[float | Array], Array]
 
 
 class Solver(Protocol):
-    """What is used of a solver. The stubs of scipy refuse an array of absolute tolerances."""
+    """The used part of a solver; scipy's stubs refuse an array of absolute tolerances."""
 
     @property
     def status(self) -> str:

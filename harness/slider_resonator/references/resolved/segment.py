@@ -1,4 +1,4 @@
-"""A segment of motion in one contact mode: what an integrator gets and returns."""
+"""A segment of motion in one contact mode: argument and result of an integrator."""
 
 from __future__ import annotations
 

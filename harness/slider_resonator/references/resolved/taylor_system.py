@@ -49,7 +49,7 @@ def taylor_integrator(friction: Friction, tolerance: float) -> Any:
         heyoka = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
-            "the Taylor reference needs heyoka: pip install 'slider-resonator[referee]'"
+            "the Taylor reference needs heyoka: pip install 'slider-resonator[taylor]'"
         ) from error
     path, velocity, displacement, resonator_velocity, stretch = heyoka.make_vars(
         "x", "v", "y", "u", "w"

@@ -1,4 +1,4 @@
-"""What can be chosen: fidelity, friction law, tolerance and communication step."""
+"""The candidates: fidelity, friction law, tolerance and communication step."""
 
 from __future__ import annotations
 

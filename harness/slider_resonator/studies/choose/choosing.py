@@ -1,4 +1,4 @@
-"""Choose the cheapest model for a scene: by the laws of the errors, confirmed by a probe."""
+"""Choose the cheapest model for a scene: by error estimates, confirmed by a short resolved run."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ from slider_resonator.studies.choose.evaluation import Evaluation
 from slider_resonator.studies.choose.ladder import step_ladder
 from slider_resonator.studies.choose.probe import FINEST_TOLERANCE, Probe
 from slider_resonator.studies.choose.search import coarsest
-from slider_resonator.studies.choose.steady_need import Found, find, steady_error
+from slider_resonator.studies.choose.steady_need import SteadyValue, find, steady_error
 
 HOPELESS = 1000.0
-"""Factor by which the law of averaging must exceed the allowed error to skip the probe."""
+"""Ratio of predicted to allowed averaging error above which no probe is needed."""
 FIRST_TOLERANCE = 1e-6
 """Tolerance at which communication steps are judged and the search for a tolerance starts."""
 MIN_PERIODS = 40
@@ -85,7 +85,7 @@ class _Choosing:
         self.law = scene.device.friction_law
         self.periods = 0
         self._evaluations: dict[Candidate, Evaluation] = {}
-        self._steady: dict[tuple[str, Candidate], Found] = {}
+        self._steady: dict[tuple[str, Candidate], SteadyValue] = {}
 
     def answer(self) -> Choice:
         """Try the models from the cheapest on."""
@@ -118,7 +118,7 @@ class _Choosing:
         return self._choice(best, ruled_out)
 
     def _impossible(self) -> str:
-        """Return why not even the resolved device has what is needed, empty where it does."""
+        """Return why the resolved device itself lacks a needed quantity, empty if it does not."""
         if self.probe.no_beat:
             return f"beat: {self.probe.no_beat}"
         finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
@@ -135,7 +135,7 @@ class _Choosing:
         return [Model(fidelity, law) for fidelity in (0, 1, 2) for law in laws]
 
     def _excluded(self, model: Model) -> str | None:
-        """Return why a model needs no probe, None where it does."""
+        """Return the reason against a model that needs no probe, None where it needs one."""
         if model.fidelity > 0:
             return None
         if "event_times" in self.needs:
@@ -148,7 +148,7 @@ class _Choosing:
         return None
 
     def _law_of(self, model: Model) -> str:
-        """Return what the laws of the errors predict for a model, empty without prediction."""
+        """Return the error estimates of a model by theory, empty without any."""
         scales = self.scales
         if model.friction_law != self.law and scales.kappa:
             share = scales.bristle_share
@@ -166,7 +166,7 @@ class _Choosing:
         return self.cost(Candidate(model, model.tolerances[0], self.ladder[0]), MIN_PERIODS)
 
     def cost(self, candidate: Candidate, periods: int) -> float:
-        """Return the cost of the run and of searches that took so many drive periods."""
+        """Return the cost of the run and of searches over that number of drive periods."""
         cost = 0.0
         if candidate.step is not None:
             duration = self.probe.duration
@@ -228,7 +228,7 @@ class _Choosing:
             self._evaluations[candidate] = Evaluation(candidate, estimates, allowed, cost)
         return self._evaluations[candidate]
 
-    def _find(self, name: str, candidate: Candidate) -> Found:
+    def _find(self, name: str, candidate: Candidate) -> SteadyValue:
         key = name, replace(candidate, step=None)
         if key not in self._steady:
             self._steady[key] = find(self.instance, self.scene.values, name, candidate)

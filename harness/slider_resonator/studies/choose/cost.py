@@ -1,4 +1,4 @@
-"""What a run costs, from counts alone, so that the same scene always has the same answer.
+"""The cost of a run, from counts alone, so that the same scene always has the same answer.
 
 The counts are communication steps, drive periods, and for averaged motion beats and relaxation
 times; their weights were fitted to the CPU time of the native FMU behind fmpy. A model of cost
@@ -13,7 +13,7 @@ from slider_resonator.studies.choose.candidate import LUGRE, Candidate, Model
 from slider_resonator.studies.choose.scales import Scales
 
 RUN = 40e-6
-"""Seconds of a run beside its start and its steps."""
+"""Seconds of a run besides its start and its steps."""
 START = 10e-6
 """Seconds to initialise the FMU."""
 STEP = 3.1e-6
@@ -21,7 +21,7 @@ STEP = 3.1e-6
 COULOMB_PERIOD = {1: 0.5e-6, 2: 0.6e-6}
 """Seconds of a drive period by fidelity: two reversals, each between closed forms."""
 LUGRE_PERIOD = {1: 0.8, 2: 1.0}
-"""The share of resolved LuGre friction that a fidelity costs."""
+"""Cost of LuGre friction by fidelity, relative to the full device."""
 LUGRE_FIXED, LUGRE_PER_DIGIT = 1.3e-6, 0.55e-6
 """Seconds of a drive period: those for any tolerance and those for each digit of it."""
 BRISTLE_TURN = 3.5e-6
@@ -39,7 +39,7 @@ LIFTED_BRISTLE = {"step": 60e-6, "start": 0.7e-3, "beat": 2.2e-3}
 
 
 def period_cost(model: Model, tolerance: float, scales: Scales) -> float:
-    """Return the seconds that a drive period costs at fidelity 1 or 2."""
+    """Return the cost (s) of a drive period at fidelity 1 or 2."""
     if model.friction_law == LUGRE:
         digits = -log10(tolerance)
         sliding = LUGRE_PERIOD[model.fidelity] * (LUGRE_FIXED + LUGRE_PER_DIGIT * digits)
@@ -48,7 +48,7 @@ def period_cost(model: Model, tolerance: float, scales: Scales) -> float:
 
 
 def run_cost(candidate: Candidate, scales: Scales, duration: float, steps: int) -> float:
-    """Return the seconds that a run of `duration` (s) in so many steps costs."""
+    """Return the cost (s) of a run of `duration` (s) in that number of steps."""
     cost = RUN + START + STEP * steps
     model = candidate.model
     if model.fidelity > 0:
@@ -62,7 +62,7 @@ def run_cost(candidate: Candidate, scales: Scales, duration: float, steps: int) 
 
 
 def search_cost(model: Model, tolerance: float, periods: int, scales: Scales) -> float:
-    """Return the seconds of a search by shooting over so many drive periods in total.
+    """Return the cost (s) of a search by shooting over that number of drive periods in total.
 
     At fidelity 0 it is one initialisation: the outputs are the averaged theory.
     """

@@ -1,4 +1,4 @@
-"""Errors of a run in what the scene needs."""
+"""Errors of a run in the needed quantities."""
 
 from __future__ import annotations
 

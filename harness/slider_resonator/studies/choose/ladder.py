@@ -1,4 +1,4 @@
-"""The communication steps that a scene leaves to choose from."""
+"""The candidate communication steps of a scene."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ SHORT, LONG = 3000.0, 30_000.0
 HEAD_PERIODS, MIN_PERIODS = 1000.0, 100.0
 """Drive periods that are resolved at the beginning of a longer scene."""
 CHEAP_PERIOD = 3e-6
-"""Seconds of a drive period up to which those numbers hold; expensive ones are fewer."""
+"""Cost (s) of a drive period up to which these numbers hold; more expensive ones are fewer."""
 CAUTION = 3.0
 """Safety factor on errors extrapolated from the beginning, besides their growth with time."""
 MAX_SLOWNESS = 0.05
@@ -94,7 +94,7 @@ class Probe:
 
     @cached_property
     def covers(self) -> str:
-        """How much of the scene is resolved."""
+        """The resolved part of the scene: whole, windows or beginning."""
         periods = self._weight * self.duration / self.scales.period
         points = self.duration / (self.scene.step_size or inf) if self._steps_often else 0.0
         if periods <= SHORT and points <= MAX_STEPS:
@@ -113,13 +113,13 @@ class Probe:
 
     @property
     def _weight(self) -> float:
-        """What a resolved drive period costs, in those of cheap devices."""
+        """Cost of a resolved drive period, in drive periods of a cheap device."""
         cost = period_cost(self.reference_model, FINEST_TOLERANCE, self.scales)
         return max(1.0, cost / CHEAP_PERIOD)
 
     @property
     def _steps_often(self) -> bool:
-        """Whether every step of the scene's own must be taken, as its inputs vary."""
+        """Whether the candidate must take every step of the scene, as inputs vary."""
         return self.varying and bool(SIGNAL_NEEDS & set(self.run_needs))
 
     def resolve(self, step: float) -> None:
@@ -186,7 +186,7 @@ class Probe:
     def _grown(self, candidate: Candidate, seen: Estimates) -> Estimates:
         """Return the errors of the resolved model itself, extrapolated to the end of the scene."""
         if candidate.model != self.reference_model:
-            reason = "the scene is too long, and changes too often, for a short probe to confirm it"
+            reason = "the scene is too long, with too many changes of inputs, for a short probe"
             return {name: replace(e, error=inf, reason=reason) for name, e in seen.items()}
         growth = CAUTION * self.duration / self.probed_duration
         return {
@@ -195,7 +195,7 @@ class Probe:
         }
 
     def _shows_in_windows(self) -> bool:
-        """Whether windows at some places show all that happens in the scene."""
+        """Whether windows represent the whole scene."""
         signals = [self.scene.signals[name] for name in INPUTS]
         corners = sum(0.0 < time < self.duration for s in signals for time in s.times)
         beats = self.scales.beat * self.duration / WINDOWS
@@ -208,7 +208,7 @@ class Probe:
 
     @cached_property
     def no_beat(self) -> str:
-        """Why there is no beat that a run could show, empty where it is not needed or there is."""
+        """The reason why a run shows no beat; empty where it shows one or none is needed."""
         if "beat" not in self.run_needs:
             return ""
         ratio = self.scene.signals["frequency_ratio"]
@@ -217,7 +217,7 @@ class Probe:
         if self.scales.beat == 0.0:
             where = f"no beat at frequency_ratio = {ratio.values[0]:.9g}"
             if self.scales.detuning == 0.0:
-                return f"{where}: at an integer the two phases stand still to each other"
+                return f"{where}: at an integer the difference of the two phases is constant"
             return f"{where}: it is farther than {NEAR_AN_INTEGER:g} from an integer"
         beats = 0.5 * self.duration * self.scales.beat
         if beats < MIN_BEATS:

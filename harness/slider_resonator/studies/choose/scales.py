@@ -12,7 +12,7 @@ from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene
 
 LONG_MEMORY = 100.0
-"""Drive periods beyond which memory does not indicate how near a resonator is to resonance."""
+"""Drive periods beyond which memory does not indicate the distance from resonance."""
 BREAKS_LOOSE = 0.3
 """Friction over vibration below which the slider slides nearly all the time."""
 NEAR_AN_INTEGER = 0.1

@@ -13,13 +13,13 @@ from slider_resonator.studies.choose.candidate import Candidate
 from slider_resonator.studies.choose.errors import ROUNDING, ErrorEstimate
 
 EXISTS = {"steady_velocity": ("steady", "stuck"), "blocking_force": ("blocked",)}
-"""Outcomes of a search that a device settles at."""
+"""Outcomes of a search at which a device settles."""
 SOLVED = 1e-10
 """Accuracy of a solution by shooting, as a share of its size, but for that of the integration."""
 
 
 @dataclass(frozen=True)
-class Found:
+class SteadyValue:
     """A steady quantity (m/s or N), None with the reason, and the drive periods that it took."""
 
     value: float | None
@@ -27,7 +27,9 @@ class Found:
     periods: int
 
 
-def find(instance: Instance, values: Mapping[str, float], name: str, candidate: Candidate) -> Found:
+def find(
+    instance: Instance, values: Mapping[str, float], name: str, candidate: Candidate
+) -> SteadyValue:
     """Return a steady quantity as a candidate gives it: at fidelity 0 the FMU's own output.
 
     `values` are the parameters and inputs of the scene. Raises FmuError where the FMU refuses.
@@ -36,7 +38,7 @@ def find(instance: Instance, values: Mapping[str, float], name: str, candidate: 
     if candidate.model.fidelity == 0:
         instance.start(given)
         with instance.explained():
-            return Found(instance.value(name), "", 0)
+            return SteadyValue(instance.value(name), "", 0)
     if name == "steady_velocity":
         motion: SteadyMotion | Blocking = find_steady(instance, given)
         value = motion.steady_velocity if isinstance(motion, SteadyMotion) else None
@@ -44,10 +46,12 @@ def find(instance: Instance, values: Mapping[str, float], name: str, candidate: 
         motion = find_blocking(instance, {k: v for k, v in given.items() if k != "load"})
         value = motion.blocking_force
     settles = motion.status in EXISTS[name]
-    return Found(value if settles else None, f"{motion.status}: {motion.reason}", motion.periods)
+    return SteadyValue(
+        value if settles else None, f"{motion.status}: {motion.reason}", motion.periods
+    )
 
 
-def steady_error(found: Found, reference: Found, law: int) -> ErrorEstimate:
+def steady_error(found: SteadyValue, reference: SteadyValue, law: int) -> ErrorEstimate:
     """Return the error against the resolved quantity; `law` is the friction law of that."""
     if reference.value is None:
         return ErrorEstimate(inf, 0.0, reference.reason)

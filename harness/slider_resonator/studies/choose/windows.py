@@ -34,13 +34,13 @@ CHECKPOINTS = 24
 MEMORIES = 6.0
 """Memories of the resonator after which its own start is forgotten."""
 MAX_SETTLING = 0.5
-"""Largest share of a window for that."""
+"""Largest share of a window that this may take."""
 SLOW_STEPS = 1000
 """Steps in which averaged motion is followed through the scene, and u is integrated."""
 NUDGE = 1e-3
 """Perturbation of the slow velocity, in fast velocities, from which its decay is measured."""
 FORGOTTEN = 1e-6
-"""Share of a nudge that counts as none."""
+"""Share of the perturbation that counts as zero."""
 SIZE_POINTS = 400
 SAFETY = 1.2
 """Safety factor on errors extrapolated between windows."""

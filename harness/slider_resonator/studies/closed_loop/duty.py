@@ -1,4 +1,4 @@
-"""What the loop is asked to do: a velocity to hold while the load steps."""
+"""The task of the loop: a velocity to hold while the load steps."""
 
 from __future__ import annotations
 

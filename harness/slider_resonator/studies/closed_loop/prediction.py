@@ -77,7 +77,7 @@ def _scene(design: LoopRecord, duty: Duty, device: Mapping[str, float], stop: in
     }
     content = {
         "name": "loop",
-        "title": "What the controller did at fidelity 0",
+        "title": "The controller's inputs at fidelity 0",
         "device": device,
         "inputs": {name: {"steps": points[:stop]} for name, points in inputs.items()},
         "run": {"stop_time": stop * duty.step, "step_size": duty.step},

@@ -1,4 +1,4 @@
-"""One statement of the paper and what was measured about it."""
+"""One statement of the paper and its measurement."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DISAGREES = "disagrees"
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement, in our words, where the paper makes it, and what was found.
+    """A statement, in our words, its place in the paper, and its verdict.
 
     ``verdict`` is what is known about the statement, ``confirmed`` whether this measurement shows
     it: an FMU for which a verdict is not confirmed is not the device of the paper.

@@ -1,4 +1,4 @@
-"""What a figure of the report is, and how its panels look."""
+"""A figure of the report and the style of its panels."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from slider_resonator.fmu.instance import Instance
 
 Array = NDArray[np.float64]
 Data = dict[str, Any]
-"""What was measured, as JSON holds it."""
+"""Measurements as plain data for JSON."""
 
 SHADES = ("#c8553d", "#1f5f8b", "#6a994e", "#8a6fae", "#b8860b")
 """Colours of cases within a panel; a line and the markers of a case share one."""
@@ -52,7 +52,7 @@ def markers(
     shade: str,
     label: str,
 ) -> None:
-    """Draw what the FMU gave; None, where it has no steady motion, is left out."""
+    """Draw the FMU's results; None, where there is no steady motion, is left out."""
     axes.plot(
         x,
         np.array(y, dtype=np.float64),
@@ -100,7 +100,7 @@ class SweptPanel:
         return curve(self.points, [velocity(self.case(value)) for value in self.points])
 
     def draw(self, axes: Axes, data: Data, lines: Sequence[Line], count: int) -> None:
-        """Draw ``lines``, each over ``count`` points, and what the FMU gave."""
+        """Draw ``lines``, each over ``count`` points, and the FMU's results."""
         fine = np.linspace(self.points[0], self.points[-1], count).tolist()
         for line in lines:
             velocities = [line.velocity(self.case(x)) for x in fine]

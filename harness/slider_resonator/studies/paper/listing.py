@@ -1,4 +1,4 @@
-"""What the report says in words: the captions of the figures, the tables, and the claims."""
+"""The texts of the report: captions of the figures, tables and claims."""
 
 from __future__ import annotations
 

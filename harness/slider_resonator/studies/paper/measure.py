@@ -1,4 +1,4 @@
-"""What the report asks of an FMU: records of short runs, and velocities and forces by shooting."""
+"""Measurements for the report: records of short runs, velocities and forces by shooting."""
 
 from __future__ import annotations
 

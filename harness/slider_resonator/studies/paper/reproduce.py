@@ -81,7 +81,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What was done: names run, tables and claims as judged, and seconds taken."""
+    """The names that were run, the judged tables and claims, and the wall time in s."""
 
     out: str
     fmu: str
@@ -93,7 +93,7 @@ class Outcome:
 
     @property
     def confirmed(self) -> bool:
-        """Whether every table and claim was found as it is known to be."""
+        """Whether every table and claim has its known verdict."""
         tables = all(table.confirmed for table in self.tables)
         return tables and all(claim["confirmed"] for claim in self.claims)
 

@@ -1,4 +1,4 @@
-"""What a table of the report is."""
+"""A table of the report."""
 
 from __future__ import annotations
 

@@ -15,11 +15,11 @@ Points = tuple[tuple[str, ...], tuple[tuple[float, ...], ...]]
 
 SPACINGS = ("linear", "log")
 MAX_POINTS = 10_000_000
-"""More would not fit beside each other in the memory of the process that writes the table."""
+"""More would not fit into the memory of the process that writes the table."""
 
 
 class AxisError(ValueError):
-    """A description of points that makes no sense; the message is meant for the user."""
+    """An invalid description of points; the message is shown to the user."""
 
 
 def grid_points(table: Mapping[str, Any]) -> Points:
@@ -120,7 +120,7 @@ def _between(first: float, last: float, spacing: str, share: float) -> float:
 def whole_number(key: str, value: object, minimum: int) -> int:
     """Return a whole number of at least `minimum`; AxisError for anything else."""
     if isinstance(value, bool) or not isinstance(value, int) or value < minimum:
-        raise AxisError(f"{_given(key, value)}: must be a whole number from {minimum} on")
+        raise AxisError(f"{_given(key, value)}: must be a whole number of at least {minimum}")
     return value
 
 

@@ -20,11 +20,11 @@ from slider_resonator.studies.sweep.worker import ChunkRunner, Point, Rows, fail
 CONNECT_SECONDS = 30
 
 _runners: dict[str, ChunkRunner] = {}
-"""Digest of an FMU to what runs it, on a worker."""
+"""Digest of an FMU to its runner, on a worker."""
 
 
 class FmuPlugin(WorkerPlugin):
-    """Gives the FMU to every worker, also to one that joins later.
+    """Copy the FMU to every worker, also to one that joins later.
 
     Raises HarnessError on a worker with another version of this package: its rows could differ.
     """
@@ -63,7 +63,7 @@ def run_chunk(task: Task, digest: str, points: Sequence[Point]) -> Rows:
 
 
 class DaskWorkers:
-    """The workers of a cluster; it computes the chunks of a dead one again by itself."""
+    """The workers of a cluster, which itself recomputes the chunks of a dead worker."""
 
     losses: tuple[type[BaseException], ...] = (
         KilledWorker,
@@ -95,7 +95,7 @@ class DaskWorkers:
         """Check that the cluster is still there: it replaces its workers itself."""
         if self.client.status != "running":
             raise HarnessError(
-                f"{self.address}: the cluster is gone; the same command goes on where this ended"
+                f"{self.address}: the cluster is lost; the same command continues the sweep"
             )
 
 

@@ -30,7 +30,7 @@ RUN_DEFAULTS = {"drive_periods": 100, "steps_per_period": 16, "skip_periods": 0}
 
 @dataclass(frozen=True)
 class Sweep:
-    """A sweep that has been read and found sound.
+    """A valid sweep.
 
     `points` are the values of `task.names`, one tuple each, in the order of the rows of the table.
     `is_grid` says that they are a full product of axes and nothing else.
@@ -43,7 +43,7 @@ class Sweep:
 
 
 def read_grid(path: Path) -> Sweep:
-    """Read a grid file; raises HarnessError with file, key, value and what is allowed."""
+    """Read a grid file; raises HarnessError with file, key, value and requirement."""
     try:
         with path.open("rb") as file:
             content = tomllib.load(file)

@@ -51,7 +51,7 @@ class Journal:
             raise HarnessError(f"{path}: cannot be written: {error.strerror}") from error
 
     def add(self, rows: Iterable[Row]) -> None:
-        """Keep rows; they are out of this process's hands when this returns."""
+        """Keep rows; they survive the end of this process."""
         lines = []
         for row in rows:
             self.rows[row[0]] = row
@@ -125,7 +125,7 @@ def _line(entry: object) -> str:
 
 
 def _entry(line: bytes) -> Any:
-    """Return what a line holds, None for one that is not whole."""
+    """Return the content of a line, None for an incomplete one."""
     if not line.endswith(b"\n"):
         return None
     try:

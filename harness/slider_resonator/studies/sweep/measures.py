@@ -1,4 +1,4 @@
-"""What a sweep can measure at a point: shooting results, and statistics of a trajectory."""
+"""The measures of a sweep at a point: shooting results, and statistics of a run."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Task:
-    """What is done at every point: variables that vary, values that do not, and measures."""
+    """The work at every point: varied variables, fixed values and measures."""
 
     names: tuple[str, ...]
     fixed: tuple[tuple[str, float], ...]
@@ -95,7 +95,7 @@ def measure(instance: Instance, task: Task, point: tuple[float, ...]) -> list[Ce
     """Return the cells of the measures at a point, in the order of the columns.
 
     Depends on nothing but its arguments: not on the points before, so that neither the order of
-    the points nor who computes them shows in the result. Raises what the FMU and the search raise.
+    the points nor the worker shows in the result. Raises what the FMU and the search raise.
     """
     values = {**dict(task.fixed), **dict(zip(task.names, point, strict=True))}
     statistics = _statistics(instance, task, values)

@@ -11,19 +11,19 @@ from slider_resonator.studies.sweep.measures import Task
 from slider_resonator.studies.sweep.worker import Point, Row, Rows, failed_row
 
 CHUNK_SECONDS = 0.2
-"""Work in a chunk: much more than passing it costs, and all that a kill can lose of a worker's."""
+"""Work in a chunk: much more than it costs to send, and the most that a killed worker loses."""
 LARGEST_CHUNK = 200
 CHUNKS_EACH = 2
-"""Chunks that a worker has before it, so that it never waits for the next."""
+"""Chunks queued for each worker, so that it never waits."""
 
 
 class Workers(Protocol):
     """Processes, here or elsewhere, that compute chunks."""
 
     losses: tuple[type[BaseException], ...]
-    """What the result of a chunk raises when its worker died."""
+    """The errors that the result of a chunk raises when its worker died."""
     attempts: int
-    """How many workers a point may cost before it counts as what kills them."""
+    """Workers that may die at a point before it counts as the cause."""
 
     @property
     def count(self) -> int:

@@ -49,7 +49,7 @@ def run_sweep(
     """
     check_writer(out)
     with open_fmu(fmu):
-        pass  # what is wrong with the file is said once, not at every point
+        pass  # the file is checked once, not at every point
     fmu_digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
     with Journal(journal_path(out), _digest(sweep, fmu_digest), restart=restart) as journal:
         found = len(journal.rows)

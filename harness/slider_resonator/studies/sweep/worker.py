@@ -14,7 +14,7 @@ from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.studies.sweep.measures import Cell, Task, measure
 
 TIME_LIMIT = 600.0
-"""Time limit of a chunk, s, which is meant to take a fraction of a second."""
+"""Time limit of a chunk, s; a chunk is sized to take a fraction of a second."""
 
 Point = tuple[int, tuple[float, ...]]
 """Number of a point and its values."""
@@ -85,12 +85,12 @@ def failed_row(task: Task, number: int, error: str) -> Row:
 def _row(instance: Instance, task: Task, number: int, values: tuple[float, ...]) -> Row:
     try:
         return number, measure(instance, task, values), None
-    except Exception as error:  # whatever goes wrong is the result of this point
+    except Exception as error:  # any error is the result of this point
         instance.recreate()
         return failed_row(task, number, _text(error, instance.fmu.path))
 
 
 def _text(error: Exception, fmu: Path) -> str:
-    """Return a message that does not depend on where this process has the FMU."""
+    """Return a message without the folder of the FMU in this process."""
     text = str(error).replace(str(fmu), fmu.name)
     return text if isinstance(error, HarnessError) else f"{type(error).__name__}: {text}"

@@ -27,7 +27,7 @@ def write_rows(path: Path, trades: Sequence[Trade]) -> None:
 
 
 def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
-    """Write what is missing, and why; HarnessError when that is impossible."""
+    """Write the omissions with their reasons; HarnessError when that is impossible."""
     lines = [
         (omission.scene, omission.method, omission.quantity, omission.reason)
         for trade in trades

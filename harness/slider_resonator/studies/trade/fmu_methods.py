@@ -11,7 +11,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.studies.trade.method import Answer, Found, Label, Method
+from slider_resonator.studies.trade.method import Label, Method, SteadyAnswer, SteadyMethod
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import AVERAGED, RESOLVED
 from slider_resonator.studies.trade.solution import Solution
@@ -50,7 +50,7 @@ class FmuMethods:
             for tolerance in TOLERANCES if own == 1 and fidelity else ():
                 yield self._method(fidelity, own, USUAL_STEP, tolerance)
 
-    def answers(self) -> Iterator[Answer]:
+    def answers(self) -> Iterator[SteadyMethod]:
         """Yield the searches for steady motion and blocking force, and the outputs of theory."""
         own = self.problem.device.friction_law
         for quantity in ("steady_velocity", "blocking_force"):
@@ -119,27 +119,27 @@ class FmuMethods:
             start_cpu=record.start_cpu,
         )
 
-    def _search(self, quantity: str, fidelity: int, law: int) -> Answer:
+    def _search(self, quantity: str, fidelity: int, law: int) -> SteadyMethod:
         values = {**self._values(fidelity, law, USUAL_TOLERANCE), **self.problem.inputs}
 
-        def find(_: float) -> Found:
+        def find(_: float) -> SteadyAnswer:
             if quantity == "steady_velocity":
                 steady = find_steady(self.instance, values)
-                return Found(steady.steady_velocity, steady.reason, steady.periods)
+                return SteadyAnswer(steady.steady_velocity, steady.reason, steady.periods)
             free = {name: value for name, value in values.items() if name != "load"}
             blocking = find_blocking(self.instance, free)
-            return Found(blocking.blocking_force, blocking.reason, blocking.periods)
+            return SteadyAnswer(blocking.blocking_force, blocking.reason, blocking.periods)
 
-        return Answer(self._label(fidelity, law, USUAL_TOLERANCE, None), quantity, find)
+        return SteadyMethod(self._label(fidelity, law, USUAL_TOLERANCE, None), quantity, find)
 
-    def _prediction(self, quantity: str) -> Answer:
+    def _prediction(self, quantity: str) -> SteadyMethod:
         """Return the value of an output that holds averaged theory, at the start of a run."""
         law = self.problem.device.friction_law
         values = {**self._values(2, law, USUAL_TOLERANCE), **self.problem.inputs}
         family = f"{self.build} FMU, output {quantity}"
 
-        def find(_: float) -> Found:
+        def find(_: float) -> SteadyAnswer:
             self.instance.start(values)
-            return Found(self.instance.value(quantity), "", 0)
+            return SteadyAnswer(self.instance.value(quantity), "", 0)
 
-        return Answer(Label(AVERAGED, family, family, law), quantity, find)
+        return SteadyMethod(Label(AVERAGED, family, family, law), quantity, find)

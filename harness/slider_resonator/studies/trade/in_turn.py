@@ -1,4 +1,4 @@
-"""Timing several things in turn, so that a busy moment of the machine hits all of them alike."""
+"""Time several things in turn, so that a busy moment of the machine affects all of them."""
 
 from __future__ import annotations
 

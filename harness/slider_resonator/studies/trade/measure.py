@@ -1,4 +1,4 @@
-"""Measure a problem: how far each method gets on its budget, its errors, and its time."""
+"""Measure the errors and the time of each method on a problem, within its budget."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.trade.fmu_methods import FmuMethods
 from slider_resonator.studies.trade.in_turn import Progress, Timed, in_turn
-from slider_resonator.studies.trade.method import Answer, Label, Method, cpu_seconds
+from slider_resonator.studies.trade.method import Label, Method, SteadyMethod, cpu_seconds
 from slider_resonator.studies.trade.peer_methods import peer_answers, peer_methods
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.reference import Reference, find_reference
@@ -198,7 +198,9 @@ def _timed_run(method: Method, periods: int) -> tuple[float, Solution]:
     return process_time() - began, solution
 
 
-def _answer(reference: Reference, answer: Answer, budget: float, notes: _Notes) -> list[_Candidate]:
+def _answer(
+    reference: Reference, answer: SteadyMethod, budget: float, notes: _Notes
+) -> list[_Candidate]:
     """Find an answer once; empty where there is none."""
     expected: float | None = getattr(reference, answer.quantity)
     if not expected:

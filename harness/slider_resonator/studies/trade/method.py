@@ -1,4 +1,4 @@
-"""What is measured: ways to follow a motion, and ways to an answer without following one."""
+"""The measured methods: those that follow a motion, and those that find an answer without."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Label:
 
 @dataclass(frozen=True)
 class Method:
-    """A way to follow a motion.
+    """A method to follow a motion.
 
     `run` follows it over a number of drive periods; `seconds` does so without the readings and
     returns the CPU time (s), without initialisation. A run has at least `min_periods`; a method
@@ -41,7 +41,7 @@ class Method:
 
 
 @dataclass(frozen=True)
-class Found:
+class SteadyAnswer:
     """An answer, None with a `reason` where there is none, and the drive periods simulated."""
 
     value: float | None
@@ -50,15 +50,15 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Answer:
-    """A way to a steady velocity (m/s) or a blocking force (N), named by `quantity`.
+class SteadyMethod:
+    """A method to find a steady velocity (m/s) or a blocking force (N), named by `quantity`.
 
     `find` takes its budget of CPU time (s) and raises RuntimeError where that is exceeded.
     """
 
     label: Label
     quantity: str
-    find: Callable[[float], Found]
+    find: Callable[[float], SteadyAnswer]
 
 
 def cpu_seconds(work: Callable[[], object]) -> float:

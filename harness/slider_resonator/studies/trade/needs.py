@@ -29,7 +29,7 @@ NEEDS = (
     ("position", 1e-9),
     ("event_times", 1e-6),
 )
-"""Quantity and error; those that a scene does not have are left out of its part of the table."""
+"""Quantity and error; a scene without the quantity has no such row."""
 COLUMNS = (
     *(*texts("need"), *numbers("within"), *texts("model"), *numbers("error")),
     *texts("native FMU", "Python FMU", "cheapest peer"),
@@ -37,7 +37,7 @@ COLUMNS = (
 
 
 @dataclass(frozen=True)
-class Choice:
+class CheapestRows:
     """The cheapest rows that meet a need, None where no method does.
 
     `python` is the same model in the Python FMU.
@@ -50,7 +50,7 @@ class Choice:
     peer: Row | None
 
 
-def choices(trade: Trade) -> list[Choice]:
+def choices(trade: Trade) -> list[CheapestRows]:
     """Return the cheapest method for every need of a scene; the native FMU decides the model."""
     found = []
     for quantity, error in NEEDS:
@@ -64,7 +64,7 @@ def choices(trade: Trade) -> list[Choice]:
             if native is not None and row.method == native.method.replace("native", "Python", 1)
         ]
         peer = cheapest([row for row in rows if row.kind == PEER], quantity, error)
-        found.append(Choice(quantity, error, native, twins[0] if twins else None, peer))
+        found.append(CheapestRows(quantity, error, native, twins[0] if twins else None, peer))
     return found
 
 
@@ -81,11 +81,11 @@ def write_choices(path: Path, trades: Sequence[Trade]) -> None:
 
 
 def title(trade: Trade) -> str:
-    """Return what a table is about."""
+    """Return the title of a table."""
     return f"{trade.title} (scene {trade.scene}, {LAWS[trade.friction_law]} friction)"
 
 
-def cells(choice: Choice) -> tuple[str, ...]:
+def cells(choice: CheapestRows) -> tuple[str, ...]:
     """Return a row of the table, in the order of `COLUMNS`."""
     rows = (choice.native, choice.python, choice.peer)
     native, python, peer = ("not reached" if row is None else _cost(row) for row in rows)

@@ -1,4 +1,4 @@
-"""The page to look at: ratios, plots, all rows and what is missing, in one file of HTML."""
+"""The HTML page: ratios, plots, all rows and the omissions."""
 
 from __future__ import annotations
 

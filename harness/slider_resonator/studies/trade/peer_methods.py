@@ -9,7 +9,7 @@ from time import process_time
 
 import numpy as np
 
-from slider_resonator.studies.trade.method import Answer, Label, Method
+from slider_resonator.studies.trade.method import Label, Method, SteadyMethod
 from slider_resonator.studies.trade.peers.peer import Peer
 from slider_resonator.studies.trade.peers.registry import peers
 from slider_resonator.studies.trade.problem import Problem
@@ -30,13 +30,13 @@ def peer_methods(problem: Problem) -> Iterator[Method]:
         )
 
 
-def peer_answers(problem: Problem) -> Iterator[Answer]:
+def peer_answers(problem: Problem) -> Iterator[SteadyMethod]:
     """Yield the searches for steady velocity and blocking force, of peers that support shooting."""
     for quantity in ("steady_velocity", "blocking_force"):
         for peer in peers(problem):
             if peer.simulate is not None:
                 find = partial(shoot, problem, quantity, peer.simulate, peer.shooting)
-                yield Answer(_label(problem, peer), quantity, find)
+                yield SteadyMethod(_label(problem, peer), quantity, find)
 
 
 def _label(problem: Problem, peer: Peer) -> Label:

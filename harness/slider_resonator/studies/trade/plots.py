@@ -15,9 +15,9 @@ from slider_resonator.studies.trade.result import AVERAGED, PEER, Row, Trade, fa
 from slider_resonator.studies.trade.solution import QUANTITIES
 
 FLOOR = 1e-16
-"""Errors below this are drawn here: double precision resolves no less."""
+"""Errors below this, the resolution of double precision, are drawn at it."""
 PANELS = ("position", "mean_velocity")
-"""What the picture shows."""
+"""The quantities in the picture."""
 OURS = {"native": "#1f5f8b", "Python": "#6fa8d0"}
 FIDELITY_MARKERS = {2: "o", 1: "s", 0: "^"}
 PEER_MARKERS = "DvPX*<>ph8dH"
@@ -114,7 +114,7 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
 
 
 def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
-    """Write beside our FMUs what they are."""
+    """Label our FMUs."""
     for family in families([row for row in rows if row.kind != PEER]):
         cheapest = min((row for row in rows if row.family == family), key=lambda row: row.cost)
         axes.annotate(
@@ -132,7 +132,7 @@ def _shown(row: Row, quantity: str) -> float:
 
 
 def _looks(trade: Trade) -> dict[str, _Look]:
-    """Return how each family looks; that of a family is the same in all plots of a trade."""
+    """Return colour and marker of each family, the same in all plots of a trade."""
     looks = {}
     peers = families([row for row in trade.rows if row.kind == PEER])
     for index, family in enumerate(peers):

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 MIN_PERIODS = 1000
 """Minimum drive periods of a run under constant inputs: the longest communication step."""
 HALVINGS = 5
-"""The motion is read in a window that ends with the run, with half of it, and so on."""
+"""The motion is read in windows that end at the end of the run, at half of it, and so on."""
 POINTS = 16
 """Readings in a window, which is a drive period long."""
 REFERENCE_STEPS = 16

@@ -16,7 +16,7 @@ from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.studies.trade.peers.peer import solution_of
 from slider_resonator.studies.trade.problem import REFERENCE_STEPS, Problem
 from slider_resonator.studies.trade.shooting import shoot
-from slider_resonator.studies.trade.solution import Windows, windows
+from slider_resonator.studies.trade.solution import WindowReadings, windows
 
 SHOOTING = 1e-10
 """Accuracy of the steady state in units of its scale."""
@@ -32,7 +32,7 @@ class Reference:
     blocking force (N) are None where there is none.
     """
 
-    windows: Windows
+    windows: WindowReadings
     sticks: bool
     uncertainty: float
     steady_velocity: float | None

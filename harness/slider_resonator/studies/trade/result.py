@@ -1,4 +1,4 @@
-"""The data of a trade: rows, omissions, and who is cheapest at an error."""
+"""The data of a trade: rows, omissions, and the cheapest method at an error."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Omission:
-    """What is not among the rows: a method, or a quantity of it, and why."""
+    """A method, or a quantity of it, that is not among the rows, and the reason."""
 
     scene: str
     method: str
@@ -105,7 +105,7 @@ def cheapest(rows: Iterable[Row], quantity: str, error: float) -> Row | None:
 
 
 def paired_ratio(row: Row, against: Row) -> tuple[float, float, float]:
-    """Return median, least and greatest ratio of the costs of two rows, repeat by repeat."""
+    """Return median, minimum and maximum ratio of the costs of two rows, repeat by repeat."""
     ratios = [ours / theirs for ours, theirs in zip(row.cpu, against.cpu, strict=False)]
     return median(ratios), min(ratios), max(ratios)
 

@@ -16,7 +16,7 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-from slider_resonator.studies.trade.method import Found
+from slider_resonator.studies.trade.method import SteadyAnswer
 from slider_resonator.studies.trade.problem import Problem
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 def shoot(
     problem: Problem, quantity: str, simulate: Simulate, tolerance: float, budget: float
-) -> Found:
+) -> SteadyAnswer:
     """Return a steady velocity or blocking force by shooting with any integrator.
 
     Raises RuntimeError when that takes more CPU time (s) than its budget.
@@ -49,4 +49,4 @@ def shoot(
         value = reference_blocking_force(
             problem.device, phase, ratio, simulate=counted, tolerance=tolerance
         )
-    return Found(value, "the search by shooting has found none", round(sum(turns)))
+    return SteadyAnswer(value, "the search by shooting found none", round(sum(turns)))

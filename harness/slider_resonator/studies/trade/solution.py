@@ -25,7 +25,7 @@ QUANTITIES: Mapping[str, str] = {
     "steady_velocity": "steady velocity by shooting, share of it",
     "blocking_force": "blocking force by shooting, share of it",
 }
-"""Every error that is measured, and what it is the error of."""
+"""Every measured error and its quantity."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ class Solution:
 
 
 @dataclass(frozen=True)
-class Windows:
-    """What is compared, one row for each window of a problem.
+class WindowReadings:
+    """The compared readings, one row for each window of a problem.
 
     `position` and `velocity` have the shape (w, POINTS + 1), the others (w,).
     """
@@ -64,7 +64,7 @@ class Windows:
     last_event: Array | None
 
 
-def windows(problem: Problem, solution: Solution, periods: int) -> Windows:
+def windows(problem: Problem, solution: Solution, periods: int) -> WindowReadings:
     """Return the readings of a solution over `periods` drive periods, window by window."""
     places = [_places(solution.times, problem.window(end)) for end in problem.windows(periods)]
     position = np.array([solution.position[at] for at in places])
@@ -73,7 +73,7 @@ def windows(problem: Problem, solution: Solution, periods: int) -> Windows:
     if solution.mean_velocity is not None:
         mean = solution.mean_velocity[last]
     slow = [slow_displacement(problem.window(1), row, problem.period)[-1] for row in position]
-    return Windows(
+    return WindowReadings(
         position=position,
         velocity=np.array([solution.velocity[at] for at in places]),
         mean_velocity=mean,
@@ -89,7 +89,7 @@ def last_events(event_times: Array, times: Array) -> Array:
 
 
 def errors(
-    problem: Problem, solution: Solution, reference: Windows, periods: int
+    problem: Problem, solution: Solution, reference: WindowReadings, periods: int
 ) -> dict[str, float]:
     """Return the error of each quantity of a solution, infinite where it is not finite."""
     found = windows(problem, solution, periods)

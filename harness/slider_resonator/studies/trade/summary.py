@@ -1,4 +1,4 @@
-"""The figures at the top: what averaged motion, resolved motion and peers cost at an error."""
+"""The figures at the top: the cost of averaged motion, resolved motion and peers at an error."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from slider_resonator.studies.trade.result import (
 TARGETS = (("mean_velocity", 1e-2), ("position", 1e-9))
 """Quantity, and the error at which costs are compared."""
 ROUNDS_UP = 0.9995
-"""Share of a unit that three digits show as all of it."""
+"""Share of a unit that three digits round to the whole unit."""
 CLASSES = {AVERAGED: "averaged", RESOLVED: "resolved", PEER: "peers"}
 
 
@@ -53,11 +53,11 @@ def standings(trade: Trade) -> list[Standing]:
 
 def sentence(standing: Standing) -> str:
     """Return a standing in words."""
-    who = CLASSES[standing.kind]
+    name = CLASSES[standing.kind]
     if standing.row is None:
-        return f"{who}: not reached"
+        return f"{name}: not reached"
     row = standing.row
-    words = f"{who}: {duration(row.cost)} a simulated second ({row.method})"
+    words = f"{name}: {duration(row.cost)} a simulated second ({row.method})"
     if standing.ratio is None or standing.kind == RESOLVED:
         return words
     middle, least, most = standing.ratio
@@ -68,7 +68,7 @@ def sentence(standing: Standing) -> str:
 
 
 def comparisons(trade: Trade) -> list[tuple[str, list[str]]]:
-    """Return the standings in words: what is compared, and a sentence for each class."""
+    """Return the standings in words: the target, and a sentence for each class."""
     by_target: dict[str, list[str]] = {}
     for standing in standings(trade):
         words = heading(standing.quantity, standing.error)
@@ -83,7 +83,7 @@ def heading(quantity: str, error: float) -> str:
 
 
 def duration(seconds: float) -> str:
-    """Return a CPU time for people, in three digits."""
+    """Return a CPU time in three digits, with a unit."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
         if seconds >= ROUNDS_UP * size:
             return f"{seconds / size:.3g} {unit}"

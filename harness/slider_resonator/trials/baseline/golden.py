@@ -30,7 +30,7 @@ OF_CONSTANT_INPUTS = (
 )
 """Numbers and words found by shooting, and predicted by the FMU."""
 NUMBERS_AND_WORDS = (*OF_CONSTANT_INPUTS, *OF_A_RUN)
-"""All that is kept besides the signals, in the order of the files."""
+"""All recorded quantities besides the signals, in the order of the files."""
 
 Golden = Mapping[str, Measurement]
 """Quantity to its measurement; signals at few points."""

@@ -1,4 +1,4 @@
-"""What has changed since golden results were recorded, as checks like those of `validate`."""
+"""The changes since golden results were recorded, as checks like those of `validate`."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 from slider_resonator.trials.baseline.golden import SIGNALS, Golden, order
 
 TOLERANCE = 1e-8
-"""Relative change that counts as none: other platforms and compilers round differently."""
+"""Relative change that passes: other platforms and compilers round differently."""
 AGAINST = "baseline"
 
 
 def compare_golden(
     point: ScenePoint, golden: Golden, now: Golden, tolerance: float
 ) -> Iterator[tuple[Check, Curves | None]]:
-    """Compare every quantity that was recorded, or is there now; yield checks and their curves.
+    """Compare every quantity that was recorded or exists now; yield checks and their curves.
 
     Numbers may change by `tolerance` times their size, signals by that share of their peak, times
     of events by that share of a drive period; counts, words and contact modes must be equal. Raises
@@ -32,7 +32,7 @@ def compare_golden(
     """
     for name in sorted({*golden, *now}, key=order):
         recorded = golden.get(name, Measurement(None, "it was not recorded"))
-        measured = now.get(name, Measurement(None, "the scene does not allow it any more"))
+        measured = now.get(name, Measurement(None, "the scene no longer allows it"))
         if name in SIGNALS and not _same_points(recorded, measured):
             raise SceneError(
                 f"{point.scene.source}: the run of {point.scene.name} has other points than when "
@@ -51,7 +51,7 @@ def _comparison(name: str, share: float) -> Comparison:
         tolerance = Tolerance()
     elif quantity.in_periods:
         tolerance = Tolerance(tube=share)
-    return Comparison(name, AGAINST, tolerance, "it was so when it was recorded")
+    return Comparison(name, AGAINST, tolerance, "the recorded result")
 
 
 def _same_points(one: Measurement, other: Measurement) -> bool:

@@ -24,7 +24,7 @@ BUILT_IN = "built in"
 """In place of the file of a built-in scene."""
 
 Provenance = Mapping[str, str]
-"""What is recorded beside the results, in the order of the file."""
+"""The recorded provenance, in the order of the file."""
 
 
 def provenance(fmu: Fmu, scene: Scene, folder: Path) -> dict[str, str]:
@@ -56,7 +56,7 @@ def file_digest(file: Path) -> str:
 
 
 def scene_digest(scene: Scene) -> str:
-    """Return the SHA-256 of what a scene runs, without its names and expectations."""
+    """Return the SHA-256 of a scene without its names and expectations."""
     swept = (scene.sweep.variable, scene.sweep.values) if scene.sweep else None
     signals = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.signals.items())]
     runs = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size, swept)

@@ -21,7 +21,7 @@ from slider_resonator.trials.baseline.provenance import Provenance
 
 NUMBERS, TRAJECTORY, PROVENANCE = "numbers.csv", "trajectory.csv", "provenance.csv"
 DIGITS = 13
-"""Significant digits in the files: more depend on the sine of the platform."""
+"""Significant digits in the files: further digits depend on the sine of the platform."""
 NONE = "none"
 """Written for a quantity that does not exist, such as the velocity of a slow beat."""
 HEADERS: Mapping[str, Sequence[str]] = {

@@ -47,7 +47,7 @@ def record(
     replace: bool = False,
     time_limit: float = TIME_LIMIT,
 ) -> tuple[tuple[str, ...], tuple[RunFailure, ...]]:
-    """Record scenes; return the names of those written and what could not be run.
+    """Record scenes; return the names of those written and the run failures.
 
     Raises HarnessError, before anything is run, where a scene is recorded already and `replace` is
     not set, where two scenes have one name, and for a folder that cannot be made; FmuError for a
@@ -61,8 +61,8 @@ def record(
     there = [name for name in names if (folder / name).exists()]
     if there and not replace:
         raise HarnessError(
-            f"{folder}: recorded already: {', '.join(there)}; check and accept show and take over "
-            "what has changed, --replace records anew"
+            f"{folder}: recorded already: {', '.join(there)}; must be "
+            "new scenes, or --replace to record them again"
         )
     with open_fmu(fmu):
         pass  # nothing is made in `folder` for a file that is no FMU
@@ -111,7 +111,7 @@ def check(
             try:
                 _keep(folder, scene.name, now)
             except HarnessError as error:
-                reason = f"what has changed could not be kept for accept: {error}"
+                reason = f"the changes could not be kept for accept: {error}"
                 run_failures.append(RunFailure(scene.name, reason, {}))
     return Validation(
         str(fmu),
@@ -131,12 +131,12 @@ def accept(fmu: Path, folder: Path, names: Sequence[str] = ()) -> tuple[str, ...
     waiting = {path.name: path for path in recorded_scenes(folder / CHANGED)}
     for name in names:
         if name not in waiting:
-            said = (
+            reason = (
                 unknown_name("changed scene", name, waiting)
                 if waiting
                 else (f"{name}: nothing has changed since the last check, or there was none")
             )
-            raise HarnessError(f"{folder}: {said}")
+            raise HarnessError(f"{folder}: {reason}")
     chosen = tuple(dict.fromkeys(names)) or tuple(waiting)
     if not chosen:
         return ()
@@ -192,7 +192,7 @@ def _compare(
 ) -> list[tuple[Check, Curves | None]]:
     if golden.provenance.get(SCENE_DIGEST) != scene_digest(scene):
         raise SceneError(
-            f"{scene.source}: does not run what was recorded of {scene.name}; record it again "
+            f"{scene.source}: no longer runs the recorded content of {scene.name}; record it again "
             "with --replace"
         )
     return [

@@ -1,4 +1,4 @@
-"""Comparing averaged motion with the averaged reference, which computes the means differently."""
+"""Compare averaged motion with the averaged reference, which computes the means differently."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.trials.extremes.cell import MIN_DIVISIBLE, Cell
+from slider_resonator.trials.extremes.cell import MIN_DIVISIBLE, MatrixCell
 from slider_resonator.trials.extremes.observe import Observation
 from slider_resonator.trials.extremes.verdict import REFERENCE, BoundCheck
 
@@ -21,8 +21,8 @@ MAX_RELAXATIONS = 5000.0
 the quadratures of the reference in stiff steps take longer than all other cells together."""
 
 
-def covers(cell: Cell) -> bool:
-    """Return whether the reference covers a cell of averaged motion at a bearable cost.
+def covers(cell: MatrixCell) -> bool:
+    """Return whether the reference covers a cell of averaged motion at an acceptable cost.
 
     It needs friction under a mean load, and a vibration.
     """
@@ -40,7 +40,7 @@ def covers(cell: Cell) -> bool:
 
 
 def compare(
-    cell: Cell,
+    cell: MatrixCell,
     seen: Observation,
     held: Sequence[HeldInputs],
     times: NDArray[np.float64],

@@ -1,4 +1,4 @@
-"""A cell of the stability matrix: what is run, and its place."""
+"""A cell of the stability matrix: its run and its place."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Model:
 
 @dataclass(frozen=True)
 class Limit:
-    """A limit case: the value that an output must have at the end, and why."""
+    """A limit case: the value that an output must have at the end, and the reason."""
 
     output: str
     value: float
@@ -55,7 +55,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Cell:
+class MatrixCell:
     """One run: the value `value` on the axis `axis`, by one model.
 
     `parameters` are those that differ from table 1. `from_zero` asks for the same motion when the

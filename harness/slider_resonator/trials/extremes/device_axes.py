@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from math import nextafter, sqrt, tau
 
-from slider_resonator.trials.extremes.cell import LUGRE, MODELS, RESOLVED, Cell, Hold, Model
+from slider_resonator.trials.extremes.cell import LUGRE, MODELS, RESOLVED, Hold, MatrixCell, Model
 
 W = 3500.0
 AMPLITUDE = 1e-4
@@ -17,7 +17,7 @@ NEAR_ONE = 1e-12
 Values = Sequence[tuple[str, Mapping[str, float]]]
 
 
-def device_cells() -> Iterator[Cell]:
+def device_cells() -> Iterator[MatrixCell]:
     """Yield the cells of all axes that are parameters of the device."""
     for axis, values, models in (
         ("Omega", _frequencies(), MODELS),
@@ -35,7 +35,7 @@ def device_cells() -> Iterator[Cell]:
     ):  # fmt: skip
         for value, parameters in values:
             for model in models:
-                yield Cell(axis, value, model, parameters, usual_holds(model, parameters))
+                yield MatrixCell(axis, value, model, parameters, usual_holds(model, parameters))
 
 
 def usual_holds(model: Model, parameters: Mapping[str, float]) -> tuple[Hold, ...]:

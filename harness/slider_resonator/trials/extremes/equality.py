@@ -1,4 +1,4 @@
-"""Motions that must be equal: in other steps, from another start time, by the reference."""
+"""Runs that must agree: in other steps, from another start time, with the reference."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from slider_resonator.references.resolved.lugre_trajectory import LugreTrajector
 from slider_resonator.references.resolved.taylor import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trials.extremes import averaged_reference
-from slider_resonator.trials.extremes.cell import Cell
+from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.observe import NAMES, Observation
 from slider_resonator.trials.extremes.verdict import NO_REFERENCE, REFERENCE, BoundCheck
 
@@ -25,16 +25,16 @@ SIGNALS = ("position", "velocity", "resonator_displacement", "resonator_velocity
 EXACT = 1e-10
 """Deviation of resolved motion by rounding, as a fraction of peaks, where events are the same."""
 AVERAGED = 1e-7
-"""The same of averaged motion: the errors, 1e-9 each, of a hundred steps of its own."""
+"""The same of averaged motion: the errors, 1e-9 each, of a hundred internal steps."""
 MAX_TURNS = 600.0
-"""Turns of the fastest oscillation that the reference is run for."""
+"""Turns of the fastest oscillation up to which the reference is run."""
 MAX_HOLDS = 400
-"""Changes of inputs that the reference is run for."""
+"""Changes of inputs up to which the reference is run."""
 MAX_DECAY = 30.0
-"""Fastest decay, in drive frequencies, that the reference is run for."""
+"""Fastest decay, in drive frequencies, up to which the reference is run."""
 
 
-def equalities(cell: Cell, seen: Observation) -> Iterator[BoundCheck]:
+def equalities(cell: MatrixCell, seen: Observation) -> Iterator[BoundCheck]:
     """Yield the checks against other runs of the same motion."""
     yield _compare_last("other steps", cell, seen, seen.other)
     if seen.from_zero is not None:
@@ -50,7 +50,7 @@ def equalities(cell: Cell, seen: Observation) -> Iterator[BoundCheck]:
         yield _compare_with_reference(cell, seen)
 
 
-def allowed_deviation(cell: Cell, seen: Observation) -> float:
+def allowed_deviation(cell: MatrixCell, seen: Observation) -> float:
     """Return the deviation between two runs of a motion, as a fraction of peaks.
 
     It is rounding, of the drive angle too, or the steps of averaged motion, and `tolerance` where
@@ -65,8 +65,8 @@ def allowed_deviation(cell: Cell, seen: Observation) -> float:
     return EXACT + rounding + device.tolerance * device.friction_law
 
 
-def has_reference(cell: Cell) -> bool:
-    """Return whether a reference covers the cell at a bearable cost."""
+def has_reference(cell: MatrixCell) -> bool:
+    """Return whether a reference covers the cell at an acceptable cost."""
     device = cell.device
     if device.fidelity == 0:
         return averaged_reference.covers(cell)
@@ -88,7 +88,7 @@ def has_reference(cell: Cell) -> bool:
     return duration * fastest <= math.tau * MAX_TURNS
 
 
-def _compare_with_reference(cell: Cell, seen: Observation) -> BoundCheck:
+def _compare_with_reference(cell: MatrixCell, seen: Observation) -> BoundCheck:
     ends = np.cumsum([0, *(hold.count for hold in cell.holds)])
     times = np.concatenate([[0.0], np.cumsum(seen.sizes)])
     held = [
@@ -109,12 +109,12 @@ def _compare_with_reference(cell: Cell, seen: Observation) -> BoundCheck:
     return _compare(REFERENCE, cell, seen, [getattr(motion, name) for name in SIGNALS])
 
 
-def _compare_last(name: str, cell: Cell, seen: Observation, other: Array) -> BoundCheck:
+def _compare_last(name: str, cell: MatrixCell, seen: Observation, other: Array) -> BoundCheck:
     last = [np.append(seen.signal(signal)[:-1], other[NAMES.index(signal)]) for signal in SIGNALS]
     return _compare(name, cell, seen, last)
 
 
-def _compare(name: str, cell: Cell, seen: Observation, other: Sequence[Array]) -> BoundCheck:
+def _compare(name: str, cell: MatrixCell, seen: Observation, other: Sequence[Array]) -> BoundCheck:
     """Compare four signals, each with its own scale."""
     scales = _scales(cell, seen)
     worst, words = 0.0, ""
@@ -130,7 +130,7 @@ def _compare(name: str, cell: Cell, seen: Observation, other: Sequence[Array]) -
     return BoundCheck(name, worst, words)
 
 
-def _scales(cell: Cell, seen: Observation) -> tuple[float, float, float, float]:
+def _scales(cell: MatrixCell, seen: Observation) -> tuple[float, float, float, float]:
     """Peaks, with the resonator's share in the slider; steps may always meet the same phase.
 
     The tolerance of LuGre friction refers to what friction does in a turn as well.
@@ -146,7 +146,7 @@ def _scales(cell: Cell, seen: Observation) -> tuple[float, float, float, float]:
     return max(position, velocity / w), velocity, swing + slip / w, w * swing + slip
 
 
-def _rounding(cell: Cell, seen: Observation) -> tuple[float, float, float, float]:
+def _rounding(cell: MatrixCell, seen: Observation) -> tuple[float, float, float, float]:
     """Return the effect of rounding in the forces on the four signals over the run.
 
     With LuGre friction the error `tolerance` of the velocity accumulates in the position.

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import nextafter, pi
 
-from slider_resonator.trials.extremes.cell import COULOMB_RESOLVED, MODELS, Cell, Limit, Model
+from slider_resonator.trials.extremes.cell import COULOMB_RESOLVED, MODELS, Limit, MatrixCell, Model
 from slider_resonator.trials.extremes.device_axes import usual_holds
 
 LIMIT = 2 * 0.1 * 1.0
@@ -17,7 +17,7 @@ ONE_ULP_LESS = nextafter(LIMIT, 0.0)
 Parameters = Mapping[str, float]
 
 
-def event_cells() -> Iterator[Cell]:
+def event_cells() -> Iterator[MatrixCell]:
     """Yield the cells at limits of events, by all models."""
     for model in MODELS:
         yield from _grazing(model)
@@ -25,7 +25,7 @@ def event_cells() -> Iterator[Cell]:
         yield from _free(model)
 
 
-def _grazing(model: Model) -> Iterator[Cell]:
+def _grazing(model: Model) -> Iterator[MatrixCell]:
     """A direct drive whose peak just reaches what friction holds, at a constant load."""
     for text, force in (("below", ONE_ULP_LESS), ("at", LIMIT), ("above", ONE_ULP_MORE)):
         parameters = {"base_amplitude": 0.0, "normal_amplitude": 0.0, "tangential_force": force}
@@ -37,7 +37,7 @@ def _grazing(model: Model) -> Iterator[Cell]:
     yield _cell("grazing release", "load lifts in a point", model, {}, -pi / 2.0)
 
 
-def _simultaneous(model: Model) -> Iterator[Cell]:
+def _simultaneous(model: Model) -> Iterator[MatrixCell]:
     """Drive and friction limit rise together from a touchdown; lift-off meets release."""
     for text, force in (("below", ONE_ULP_LESS), ("at", LIMIT), ("above", ONE_ULP_MORE)):
         parameters = {"base_amplitude": 0.0, "normal_preload": 0.0, "tangential_force": force}
@@ -50,7 +50,7 @@ def _simultaneous(model: Model) -> Iterator[Cell]:
     yield _cell("simultaneous", "no force at all", model, still, 0.0)
 
 
-def _free(model: Model) -> Iterator[Cell]:
+def _free(model: Model) -> Iterator[MatrixCell]:
     """No drive: the energy of the ringing resonator and the slider can only fall."""
     ringing = {"base_amplitude": 0.0, "initial_resonator_displacement": 1e-4}
     yield _cell("free ringing", "xi 0.05", model, ringing, 0.0)
@@ -69,6 +69,6 @@ def _cell(
     parameters: Parameters,
     phase: float,
     limits: tuple[Limit, ...] = (),
-) -> Cell:
+) -> MatrixCell:
     holds = tuple(replace(h, phase=phase) for h in usual_holds(model, parameters))
-    return Cell(axis, value, model, parameters, holds, limits=limits)
+    return MatrixCell(axis, value, model, parameters, holds, limits=limits)

@@ -9,7 +9,14 @@ from math import pi, sqrt, tau
 
 from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import device_blocking_force
-from slider_resonator.trials.extremes.cell import COULOMB_RESOLVED, MODELS, Cell, Hold, Limit, Model
+from slider_resonator.trials.extremes.cell import (
+    COULOMB_RESOLVED,
+    MODELS,
+    Hold,
+    Limit,
+    MatrixCell,
+    Model,
+)
 from slider_resonator.trials.extremes.device_axes import NEAR_ONE, W, usual_holds
 
 PERIOD = tau / W
@@ -18,7 +25,7 @@ STEPS = 150
 """Steps of a run whose inputs change at each of them."""
 
 
-def input_cells() -> Iterator[Cell]:
+def input_cells() -> Iterator[MatrixCell]:
     """Yield the cells of all axes that are inputs."""
     for model in MODELS:
         yield from _ratios(model)
@@ -27,7 +34,7 @@ def input_cells() -> Iterator[Cell]:
         yield from _jumps(model)
 
 
-def _ratios(model: Model) -> Iterator[Cell]:
+def _ratios(model: Model) -> Iterator[MatrixCell]:
     ratios = (
         ("0", 0.0),
         ("1e-6", 1e-6),
@@ -40,14 +47,14 @@ def _ratios(model: Model) -> Iterator[Cell]:
     )
     for text, ratio in ratios:
         holds = tuple(replace(h, frequency_ratio=ratio) for h in usual_holds(model, {}))
-        yield Cell("frequency ratio", text, model, {}, holds)
+        yield MatrixCell("frequency ratio", text, model, {}, holds)
     draw = random.Random(1)
     size = _size(model)
     changing = tuple(Hold(size, frequency_ratio=draw.uniform(-3.0, 3.0)) for _ in range(STEPS))
-    yield Cell("frequency ratio", "changes every step", model, {}, changing)
+    yield MatrixCell("frequency ratio", "changes every step", model, {}, changing)
 
 
-def _blocking_loads(model: Model) -> Iterator[Cell]:
+def _blocking_loads(model: Model) -> Iterator[MatrixCell]:
     blocking = device_blocking_force(Device(), PHASE)
     limits: tuple[Limit, ...] = ()
     if model == Model(0, 0):
@@ -55,10 +62,10 @@ def _blocking_loads(model: Model) -> Iterator[Cell]:
     for text, share in (("- 1e-12", 1.0 - NEAR_ONE), ("", 1.0), ("+ 1e-12", 1.0 + NEAR_ONE)):
         usual = (Hold(500.0 * PERIOD, 100),) if limits else usual_holds(model, {})
         holds = tuple(replace(h, load=blocking * share) for h in usual)
-        yield Cell("blocking load", f"1 {text}".strip(), model, {}, holds, limits=limits)
+        yield MatrixCell("blocking load", f"1 {text}".strip(), model, {}, holds, limits=limits)
 
 
-def _full_friction(model: Model) -> Iterator[Cell]:
+def _full_friction(model: Model) -> Iterator[MatrixCell]:
     """A load as great as the friction of a slider without drive: it must not move below that."""
     parameters = {"base_amplitude": 0.0, "normal_amplitude": 0.0}
     device = Device()
@@ -75,10 +82,12 @@ def _full_friction(model: Model) -> Iterator[Cell]:
             limits.append(Limit("velocity", 0.0, allowed, "excess force times time over mass"))
         holds = tuple(replace(h, load=-limit * share) for h in usual_holds(model, {}))
         name = f"1 {text}".strip()
-        yield Cell("load at full friction", name, model, parameters, holds, limits=tuple(limits))
+        yield MatrixCell(
+            "load at full friction", name, model, parameters, holds, limits=tuple(limits)
+        )
 
 
-def _jumps(model: Model) -> Iterator[Cell]:
+def _jumps(model: Model) -> Iterator[MatrixCell]:
     for seed in (1, 2):
         draw = random.Random(seed)
         holds = tuple(
@@ -90,7 +99,7 @@ def _jumps(model: Model) -> Iterator[Cell]:
             )
             for _ in range(STEPS)
         )
-        yield Cell("inputs jump every step", f"seed {seed}", model, {}, holds)
+        yield MatrixCell("inputs jump every step", f"seed {seed}", model, {}, holds)
 
 
 def _size(model: Model) -> float:

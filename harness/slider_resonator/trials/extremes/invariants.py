@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.trials.extremes.cell import Cell
+from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.observe import NAMES, Observation
 from slider_resonator.trials.extremes.verdict import BoundCheck
 
@@ -21,7 +21,7 @@ BOUND = 1e-9
 """Rounding allowed in a bound, as a fraction of the quantities in it."""
 
 
-def invariants(cell: Cell, seen: Observation) -> Iterator[BoundCheck]:
+def invariants(cell: MatrixCell, seen: Observation) -> Iterator[BoundCheck]:
     """Yield the checks of everything that must hold by the equations (26)-(27) alone."""
     yield _finite(seen)
     theta, psi = _angles(cell, seen)
@@ -43,7 +43,7 @@ def _finite(seen: Observation) -> BoundCheck:
     return BoundCheck("finite", 2.0 if wrong else 0.0, f"not finite: {', '.join(wrong)}")
 
 
-def _angles(cell: Cell, seen: Observation) -> tuple[Exact, Exact]:
+def _angles(cell: MatrixCell, seen: Observation) -> tuple[Exact, Exact]:
     """Return theta and psi (rad) after each step, in extended precision, from 0."""
     w = np.longdouble(cell.device.drive_frequency)
     turns = w * np.concatenate([[0.0], seen.sizes]).astype(np.longdouble)
@@ -51,7 +51,7 @@ def _angles(cell: Cell, seen: Observation) -> tuple[Exact, Exact]:
     return np.cumsum(turns), np.cumsum(ratios * turns)
 
 
-def _phase(cell: Cell, seen: Observation, psi: Exact) -> BoundCheck:
+def _phase(cell: MatrixCell, seen: Observation, psi: Exact) -> BoundCheck:
     """The normal load is max(0, N0 + dN sin(psi + phase)) at all times: no phase drifts."""
     device = cell.device
     held = np.concatenate([seen.inputs[:1, 0], seen.inputs[:, 0]])
@@ -63,7 +63,7 @@ def _phase(cell: Cell, seen: Observation, psi: Exact) -> BoundCheck:
     return _largest("phase of the normal load", seen.signal("normal_force") - expected, allowed)
 
 
-def _friction_bound(cell: Cell, seen: Observation) -> BoundCheck:
+def _friction_bound(cell: MatrixCell, seen: Observation) -> BoundCheck:
     """|F| <= faces mu N, and with LuGre friction what the damping of the bristle adds.
 
     By (8) |s0 z| <= mu and |z'| <= 2 |v|. An averaged motion is judged with the largest N.
@@ -93,7 +93,7 @@ def _vibration(device: Device) -> float:
     return abs(force) / (device.total_mass * device.drive_frequency)
 
 
-def _momentum(cell: Cell, seen: Observation, theta: Exact) -> BoundCheck:
+def _momentum(cell: MatrixCell, seen: Observation, theta: Exact) -> BoundCheck:
     """Momentum changes by the drive, the load, and friction of at most faces mu max(N).
 
     The averaged motion has the momentum (M+m) V - D cos(theta) with D the impulse of the drive; at
@@ -124,13 +124,13 @@ def _momentum(cell: Cell, seen: Observation, theta: Exact) -> BoundCheck:
     return _largest("momentum", np.maximum(0.0, change - friction - slack), rounding)
 
 
-def _undriven(cell: Cell) -> bool:
+def _undriven(cell: MatrixCell) -> bool:
     device = cell.device
     forced = device.base_amplitude or device.tangential_force or device.fidelity != 2
     return not forced and not any(hold.load for hold in cell.holds)
 
 
-def _energy(cell: Cell, seen: Observation) -> BoundCheck:
+def _energy(cell: MatrixCell, seen: Observation) -> BoundCheck:
     """Without drive and load, kinetic and spring energy never grow, and never fall undamped."""
     device = cell.device
     velocity, rate = seen.signal("velocity"), seen.signal("resonator_velocity")
@@ -169,7 +169,7 @@ def _share(seen: Observation) -> BoundCheck:
 def _largest(
     name: str, deviation: NDArray[np.float64], allowed: float | NDArray[np.float64]
 ) -> BoundCheck:
-    """Return a check of the largest deviation; nothing may deviate where nothing is allowed."""
+    """Return a check of the largest deviation; where 0 is allowed, the deviation must be 0."""
     deviation = np.abs(np.asarray(deviation, dtype=float))
     floor = np.finfo(float).tiny
     found = float(np.max(deviation / np.maximum(allowed, floor)))

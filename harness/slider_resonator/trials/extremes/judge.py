@@ -1,11 +1,11 @@
-"""Judging a cell by what was observed."""
+"""Judge a cell by its observation."""
 
 from __future__ import annotations
 
 import re
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.trials.extremes.cell import Cell
+from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.equality import equalities
 from slider_resonator.trials.extremes.invariants import invariants
 from slider_resonator.trials.extremes.observe import Observation
@@ -25,7 +25,7 @@ MAX_RELATIVE_COST = 1000.0
 A step may have to tabulate friction, or to find events that nearly coincide."""
 
 
-def judge(cell: Cell, seen: Observation) -> CellVerdict:
+def judge(cell: MatrixCell, seen: Observation) -> CellVerdict:
     """Return the verdict on a cell that ran to its end or was refused."""
     if seen.refusal is not None:
         named = refused_by_name(cell, seen.refusal)
@@ -41,8 +41,8 @@ def judge(cell: Cell, seen: Observation) -> CellVerdict:
     return _verdict(cell, PASSED, "", tuple(checks), seen)
 
 
-def refused_by_name(cell: Cell, text: str) -> bool:
-    """Return whether a refusal names a variable or the step, its value, and what is allowed."""
+def refused_by_name(cell: MatrixCell, text: str) -> bool:
+    """Return whether a refusal names a variable or the step, its value and the requirement."""
     found = NAMED.search(text)
     if found is None:
         return False
@@ -65,13 +65,13 @@ def _cost(seen: Observation) -> BoundCheck:
     return BoundCheck("cost of a step", ratio / MAX_RELATIVE_COST, words, is_deviation=False)
 
 
-def broken(cell: Cell, reason: str) -> CellVerdict:
+def broken(cell: MatrixCell, reason: str) -> CellVerdict:
     """Return the verdict on a cell that crashed or exceeded its time limit."""
     return _verdict(cell, FAILED, reason)
 
 
 def _verdict(
-    cell: Cell,
+    cell: MatrixCell,
     verdict: str,
     reason: str,
     checks: tuple[BoundCheck, ...] = (),

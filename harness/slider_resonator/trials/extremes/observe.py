@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.trials.extremes.cell import Cell, Hold
+from slider_resonator.trials.extremes.cell import Hold, MatrixCell
 
 Array = NDArray[np.float64]
 NAMES = tuple(OUTPUTS)
@@ -23,7 +23,7 @@ BASELINE_STEPS = 5
 
 @dataclass(frozen=True)
 class Observation:
-    """What an FMU did in a cell.
+    """The outputs and costs of an FMU in a cell.
 
     `sizes` (n,) and `inputs` (n, 3) are those of each step, `outputs` (n + 1, 13) start with the
     first moment. `other` (13,) are the last outputs in the other partition, `from_zero` those of
@@ -50,7 +50,7 @@ class Observation:
         return column
 
 
-def observe(instance: Instance, cell: Cell) -> Observation:
+def observe(instance: Instance, cell: MatrixCell) -> Observation:
     """Run a cell; a refusal is part of the observation. Raises FmuError for an unusable FMU."""
     try:
         return _observe(instance, cell)
@@ -59,7 +59,7 @@ def observe(instance: Instance, cell: Cell) -> Observation:
         return Observation(np.empty(0), np.empty((0, 3)), none, np.empty(0), refusal=str(refusal))
 
 
-def _observe(instance: Instance, cell: Cell) -> Observation:
+def _observe(instance: Instance, cell: MatrixCell) -> Observation:
     begin(instance, cell, cell.start_time)
     outputs, costs = _follow(instance, cell.holds)
     begin(instance, cell, cell.start_time)
@@ -91,7 +91,7 @@ def _observe(instance: Instance, cell: Cell) -> Observation:
     )
 
 
-def begin(instance: Instance, cell: Cell, start_time: float) -> None:
+def begin(instance: Instance, cell: MatrixCell, start_time: float) -> None:
     """Initialise the FMU for a cell; Refusal when it does not take the parameters."""
     first = dict(zip(INPUTS, cell.holds[0].inputs, strict=True))
     instance.start({**cell.settings, **first}, start_time=start_time)
@@ -114,7 +114,7 @@ def _follow(instance: Instance, holds: Sequence[Hold]) -> tuple[Array, list[tupl
     return np.array(rows), costs
 
 
-def _replayed(instance: Instance, cell: Cell) -> bool:
+def _replayed(instance: Instance, cell: MatrixCell) -> bool:
     """Return whether every second step, repeated from a stored state, gives the same outputs."""
     begin(instance, cell, 0.0)
     block = instance.block(NAMES)

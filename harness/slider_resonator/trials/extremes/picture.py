@@ -71,7 +71,7 @@ def _height(group: Sequence[CellVerdict]) -> float:
 
 
 def _blocks(groups: Groups) -> list[Groups]:
-    """Share the groups out in their order: a block ends where it has its part of the height."""
+    """Distribute the groups in their order over blocks of about equal height."""
     total = sum(_height(group) for group in groups.values())
     blocks: list[Groups] = [{} for _ in range(BLOCKS)]
     passed = 0.0

@@ -12,7 +12,7 @@ from pathlib import Path
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_tasks
-from slider_resonator.trials.extremes.cell import Cell
+from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, broken, judge
 from slider_resonator.trials.extremes.observe import observe
 from slider_resonator.trials.extremes.verdict import (
@@ -85,7 +85,7 @@ class Matrix:
 
 def run_matrix(
     fmu: Path,
-    cells: Sequence[Cell],
+    cells: Sequence[MatrixCell],
     progress: Callable[[str, float], None],
     time_limit: float = TIME_LIMIT,
 ) -> Matrix:
@@ -96,7 +96,7 @@ def run_matrix(
     began = time.perf_counter()
     verdicts: list[CellVerdict] = []
 
-    def report(cell: Cell) -> None:
+    def report(cell: MatrixCell) -> None:
         progress(f"{fmu.name}: {cell.axis}", len(verdicts) / len(cells))
 
     tasks = [(cell, partial(observe, cell=cell)) for cell in cells]

@@ -1,4 +1,4 @@
-"""CoFmuPy: couples FMUs by a configuration; needs an environment of its own."""
+"""CoFmuPy: couples FMUs by a configuration; runs in a separate environment."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The C driver: a process that holds nothing but the driver and the FMU's binary."""
+"""The C driver: a process with the driver and the FMU's binary only."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ def hosts(own_environment: Path = OWN_ENVIRONMENT) -> tuple[Host, ...]:
             "fmuloader",
             "fmuloader_host",
             lambda: package_version("fmuloader"),
-            loads_python=False,  # it wants the model-exchange functions, which pythonfmu lacks
+            loads_python=False,  # it needs the model-exchange functions, which pythonfmu lacks
         ),
         Host(
             "fmu_manipulation_toolbox",

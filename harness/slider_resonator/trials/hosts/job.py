@@ -1,4 +1,4 @@
-"""What a host is asked to run and what it answers, as files that any Python environment reads."""
+"""Jobs and answers of a host, as files that any Python environment reads."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ class Job:
 
 
 @dataclass(frozen=True)
-class Answer:
-    """What a host made of a job: rows, or what went wrong."""
+class HostAnswer:
+    """The answer to a job: rows, or an error message."""
 
     rows: Rows
     error: str | None = None
@@ -50,7 +50,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Description:
-    """What a host must know of an FMU to call it: value references by name, and two texts."""
+    """What a host needs of a model description: value references by name, and two texts."""
 
     guid: str
     identifier: str
@@ -78,16 +78,16 @@ def write_jobs(path: Path, jobs: Sequence[Job]) -> None:
     path.write_text(json.dumps([asdict(job) for job in jobs]), encoding="utf-8")
 
 
-def read_answers(path: Path) -> list[Answer]:
-    """Read the answers that there are: fewer than jobs when the host died on the way."""
+def read_answers(path: Path) -> list[HostAnswer]:
+    """Read the answers; there are fewer than jobs when the host died."""
     if not path.is_file():
         return []
     lines = path.read_text(encoding="utf-8").splitlines()
-    return [Answer(**json.loads(line)) for line in lines]
+    return [HostAnswer(**json.loads(line)) for line in lines]
 
 
 def serve(run: Callable[[Job], Rows]) -> None:
-    """Answer the jobs of the file named first on the command line in that named second.
+    """Answer the jobs in the file of the first argument, into the file of the second.
 
     Each answer is written at once, so that a host that crashes leaves those before it.
     """
@@ -95,8 +95,8 @@ def serve(run: Callable[[Job], Rows]) -> None:
     with open(answers, "w", encoding="utf-8") as file:
         for entry in json.loads(Path(jobs).read_text(encoding="utf-8")):
             try:
-                answer = Answer(run(Job(**entry)))
+                answer = HostAnswer(run(Job(**entry)))
             except Exception as error:  # each host raises its own
-                answer = Answer([], f"{type(error).__name__}: {error}")
+                answer = HostAnswer([], f"{type(error).__name__}: {error}")
             file.write(json.dumps(asdict(answer)) + "\n")
             file.flush()

@@ -15,7 +15,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.child_environment import child_environment
 from slider_resonator.fmu.isolation.process_group import end_group
 from slider_resonator.trials.hosts.hosts import Host
-from slider_resonator.trials.hosts.job import Answer, Job, Rows, read_answers, write_jobs
+from slider_resonator.trials.hosts.job import HostAnswer, Job, Rows, read_answers, write_jobs
 
 STEP, STEPS = 1e-3, 40
 
@@ -23,7 +23,7 @@ TIME_LIMIT = 600.0
 """Time limit of all cases in a host, s: the first cross-compilation builds a C library."""
 
 MAX_PRINTED = 1000
-"""Characters of a crashed host's output that are repeated."""
+"""Maximum characters of a crashed host's output in the message."""
 
 ALLOWED = 1e-11
 """Largest allowed deviation from fmpy, relative to each signal's peak: hosts round communication
@@ -32,7 +32,7 @@ points differently, other platforms also sine and exponential."""
 
 @dataclass(frozen=True)
 class Case:
-    """What the hosts run: a friction law at a fidelity."""
+    """A case that the hosts run: a friction law at a fidelity."""
 
     friction_law: int
     fidelity: int
@@ -47,8 +47,8 @@ CASES = tuple(Case(law, fidelity) for law in (0, 1) for fidelity in (2, 1, 0))
 
 
 @dataclass(frozen=True)
-class Comparison:
-    """A host's run against fmpy's: largest deviation in shares of peak, or what went wrong."""
+class HostComparison:
+    """A host's run against fmpy's: largest deviation in shares of peak, or an error."""
 
     deviation: float | None
     error: str | None = None
@@ -66,7 +66,7 @@ class HostResult:
     host: str
     version: str
     fmu: str
-    comparisons: Mapping[Case, Comparison]
+    comparisons: Mapping[Case, HostComparison]
 
     @property
     def passed(self) -> bool:
@@ -94,7 +94,7 @@ def table_1_jobs(fmu: Path) -> list[Job]:
     ]
 
 
-def run_jobs(host: Host, jobs: Sequence[Job]) -> list[Answer]:
+def run_jobs(host: Host, jobs: Sequence[Job]) -> list[HostAnswer]:
     """Run jobs in a host, in a process of its own, and return one answer for each.
 
     Where the host crashed or exceeded `TIME_LIMIT` (s), the missing answers are errors that say so.
@@ -110,7 +110,7 @@ def run_jobs(host: Host, jobs: Sequence[Job]) -> list[Answer]:
         end = f"ended after {TIME_LIMIT:g} s" if code is None else f"ended with {code}"
         printed = log.read_text(errors="replace").strip()[-MAX_PRINTED:]
     missing = len(jobs) - len(answers)
-    return answers + [Answer([], f"the host {end}: {printed}")] * missing
+    return answers + [HostAnswer([], f"the host {end}: {printed}")] * missing
 
 
 def _run(command: Sequence[str], log: Path) -> int | None:
@@ -145,16 +145,16 @@ def coupled(jobs: Sequence[Job], leaders: Sequence[Rows]) -> list[Job]:
     ]
 
 
-def compare(ours: Rows, theirs: Answer) -> Comparison:
+def compare(ours: Rows, theirs: HostAnswer) -> HostComparison:
     """Compare a host's answer with fmpy's rows, `ours`."""
     if theirs.error is not None:
-        return Comparison(None, theirs.error)
+        return HostComparison(None, theirs.error)
     expected, found = np.asarray(ours), np.asarray(theirs.rows)
     if expected.shape != found.shape:
-        return Comparison(None, f"{found.shape} values, not {expected.shape}")
+        return HostComparison(None, f"{found.shape} values, not {expected.shape}")
     peaks = np.abs(expected).max(axis=0)
     deviations = np.abs(found - expected).max(axis=0) / np.where(peaks > 0.0, peaks, 1.0)
-    return Comparison(float(np.max(deviations)))
+    return HostComparison(float(np.max(deviations)))
 
 
 def run_host(host: Host, reference: Host, native: Path, python: Path) -> list[HostResult]:
@@ -178,7 +178,7 @@ def run_host(host: Host, reference: Host, native: Path, python: Path) -> list[Ho
     return results
 
 
-def by_case(ours: Sequence[Rows], theirs: Sequence[Answer]) -> dict[Case, Comparison]:
+def by_case(ours: Sequence[Rows], theirs: Sequence[HostAnswer]) -> dict[Case, HostComparison]:
     """Compare answers to the jobs of all cases with fmpy's rows."""
     pairs = zip(ours, theirs, strict=True)
     return dict(zip(CASES, (compare(*pair) for pair in pairs), strict=True))

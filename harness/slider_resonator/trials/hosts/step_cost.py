@@ -1,4 +1,4 @@
-"""What a communication step costs a host in C: set an input, step, get outputs."""
+"""The cost of a communication step in a C host: set an input, step, get outputs."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class StepCost:
 def measure_steps(
     fmu: Path, repeats: int, progress: Callable[[str, float], None]
 ) -> tuple[StepCost, ...]:
-    """Time every kind of step in the C driver, in turn; RuntimeError with what it complains of.
+    """Time every kind of step in the C driver, in turn; RuntimeError with its message.
 
     The input that is set is the load, to a new value each time.
     """

@@ -8,7 +8,7 @@ from pathlib import Path
 from slider_resonator.output import markdown
 from slider_resonator.output.marked_text import write_marked
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
-from slider_resonator.trials.hosts.runs import CASES, Comparison, HostResult
+from slider_resonator.trials.hosts.runs import CASES, HostComparison, HostResult
 
 BEGIN, END = "<!-- hosts -->", "<!-- end of hosts -->"
 COLUMNS = (*texts("host", "version", "FMU"), *numbers(*(case.title for case in CASES)))
@@ -28,7 +28,7 @@ def write_table(path: Path, table: Table) -> None:
     write_marked(path, markdown.rendered(table), BEGIN, END)
 
 
-def _cell(comparison: Comparison) -> Cell:
+def _cell(comparison: HostComparison) -> Cell:
     text = "failed"
     if comparison.deviation is not None:
         text = f"{comparison.deviation:.0e}" if comparison.deviation else "0"

@@ -11,7 +11,7 @@ from slider_resonator.trials.hosts.driver_host import BINARY, drive, temporary_f
 from slider_resonator.trials.hosts.job import Job, Rows, serve
 
 LIKE_THE_FMU = ("-g0", "-s")
-"""As the FMU is built: with other options ziglang would first build another C library."""
+"""The options of the FMU's build: with others ziglang would first build another C library."""
 
 
 def run(job: Job) -> Rows:

@@ -21,7 +21,7 @@ def fmu_mutants(fmu: PythonFmu, files: Sequence[str] = ()) -> list[Mutant]:
     """
     missing = missing_names(fmu.modules)
     if missing:
-        raise FmuError(f"the component lacks what faults are made with: {', '.join(missing)}")
+        raise FmuError(f"the component lacks names that faults need: {', '.join(missing)}")
     known = [*fmu.modules, DESCRIPTION]
     for file in files:
         if file not in known:

@@ -1,4 +1,4 @@
-"""Faults of the kind that events and inputs suffer from, as code appended to a module.
+"""Typical faults of events and inputs, as code appended to a module.
 
 What is appended takes the place of a function or method of the module when it is loaded, so these
 mutants hang on a few names and not on how things are done.
@@ -117,14 +117,14 @@ _REPLACE = "from dataclasses import replace\n"
 
 
 def _events() -> Iterator[Fault]:
-    every = "each 50th stop or release that is found is passed over"
-    late = "each stop or release comes a millionth of the way to it late"
+    every = "each 50th stop or release is skipped"
+    late = "each stop or release is late by a millionth of the time to it"
     yield Fault("leg.py", "event", every, ("first_zero",), _EVERY_50TH)
     yield Fault("leg.py", "event", late, ("first_zero",), _LATE)
     never = "\nStick.watches = lambda self, horizon: ()\n"
     yield Fault("stick.py", "event", "a stick is never released", ("Stick",), never)
     closed = "\ntime_to_switch = lambda *arguments: inf\n"
-    change = "lift-off and touchdown are noticed at the next step only"
+    change = "lift-off and touchdown happen at the next step only"
     yield Fault("contact.py", "event", change, ("time_to_switch", "inf"), closed)
     grounded = "\nis_lifted = lambda *arguments: False\n"
     yield Fault("contact.py", "event", "the contact never lifts", ("is_lifted",), grounded)
@@ -146,7 +146,7 @@ def _inputs() -> Iterator[Fault]:
     change = "changed inputs act one communication step late"
     yield Fault("component.py", "input", change, needs, _STEP_LATE)
     for name in INPUTS:
-        change = f"{name} is not heard after the start"
+        change = f"{name} is ignored after the start"
         yield Fault("component.py", "input", change, needs, _IGNORED.format(name=name))
 
 

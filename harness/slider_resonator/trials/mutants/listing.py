@@ -1,4 +1,4 @@
-"""A mutation run as text for people and as plain data for JSON."""
+"""A mutation run as text and as plain data for JSON."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAX_REJECTIONS = 12
 
 
 def print_run(console: Console, run: MutationRun) -> None:
-    """Print counts by kind and by file, what rejects most, the survivors and the rate."""
+    """Print counts by kind and file, the most frequent rejections, the survivors and the rate."""
     console.print(rendered(_kinds(run)))
     console.print(rendered(tally("file", run)))
     console.print(rendered(_rejections(run)))
@@ -53,7 +53,7 @@ def print_mutants(console: Console, mutants: list[Mutant]) -> None:
 
 
 def run_as_plain(run: MutationRun) -> dict[str, Any]:
-    """Return everything about a run but a verdict, which depends on the rate that is required."""
+    """Return a run without a verdict, which depends on the required rate."""
     return {
         "fmu": run.fmu,
         "made": run.made,
@@ -70,7 +70,7 @@ def run_as_plain(run: MutationRun) -> dict[str, Any]:
 
 
 def mutant_as_plain(mutant: Mutant) -> dict[str, Any]:
-    """Return what identifies a mutant, and its diff."""
+    """Return the identity of a mutant and its diff."""
     return {
         "name": mutant.name,
         "file": mutant.file,

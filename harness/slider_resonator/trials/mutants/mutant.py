@@ -1,4 +1,4 @@
-"""A faulty FMU: what is changed, and where."""
+"""A faulty FMU: the change and its place."""
 
 from __future__ import annotations
 

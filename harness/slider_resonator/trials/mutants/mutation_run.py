@@ -1,4 +1,4 @@
-"""Trying mutants: which scenes execute them, whether they are rejected, and if not, why."""
+"""Try mutants: find the scenes that execute them, and whether and why they are rejected."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from slider_resonator.trials.mutants.mutant import Mutant
 from slider_resonator.trials.mutants.points import probe_points, scene_points
 from slider_resonator.trials.mutants.probes import probe_scenes
 from slider_resonator.trials.mutants.reach import Reach, reaches
-from slider_resonator.trials.mutants.trial import Passed, Point, Rejection, trial
+from slider_resonator.trials.mutants.trial import ExpectedPoint, Passed, Rejection, trial
 from slider_resonator.trials.mutants.verdict import (
     EQUIVALENT,
     NOT_REACHED,
@@ -35,18 +35,18 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True)
 class OrderedPoints:
-    """Points, the cheapest first, and what each executes."""
+    """Points, the cheapest first, and the statements that each executes."""
 
-    points: tuple[Point, ...]
+    points: tuple[ExpectedPoint, ...]
     reach: tuple[Reach, ...]
 
     @classmethod
-    def of(cls, points: Sequence[Point], reach: Sequence[Reach]) -> OrderedPoints:
+    def of(cls, points: Sequence[ExpectedPoint], reach: Sequence[Reach]) -> OrderedPoints:
         """Sort points by their cost."""
         pairs = sorted(zip(points, reach, strict=True), key=lambda pair: pair[1].cost)
         return cls(tuple(p for p, _ in pairs), tuple(r for _, r in pairs))
 
-    def through(self, mutant: Mutant) -> list[Point]:
+    def through(self, mutant: Mutant) -> list[ExpectedPoint]:
         """Return the points at which a mutant can make a difference."""
         if mutant.statement is None:
             return list(self.points)
@@ -57,7 +57,7 @@ class OrderedPoints:
 
 @dataclass(frozen=True)
 class _Bench:
-    """What every mutant is tried with."""
+    """The points, probes and limits that all mutants share."""
 
     fmu: PythonFmu
     scenes: OrderedPoints
@@ -102,7 +102,7 @@ def run_mutants(
     return MutationRun(str(path), made, len(probing), verdicts, time.perf_counter() - began)
 
 
-def _check_original(path: Path, points: Sequence[Point], time_limit: float) -> None:
+def _check_original(path: Path, points: Sequence[ExpectedPoint], time_limit: float) -> None:
     """Raise FmuError unless the unchanged FMU passes: else a rejection would prove nothing."""
     outcome = trial(path, points, time_limit)
     if isinstance(outcome, Rejection):
@@ -152,7 +152,7 @@ def _verdict(bench: _Bench, mutant: Mutant, number: int) -> MutantVerdict:
     return MutantVerdict(mutant, EQUIVALENT, _equivalence(len(scenes), len(probes), seen, probed))
 
 
-def _survival(scenes: Sequence[Point], seen: Passed, probed: Rejection) -> str:
+def _survival(scenes: Sequence[ExpectedPoint], seen: Passed, probed: Rejection) -> str:
     """Describe which probe differs, and what the scenes measured of it."""
     what = f"{probed.quantity}: " if probed.quantity else "cannot be run: "
     if not scenes:

@@ -1,4 +1,4 @@
-"""A mutation run as one HTML file that needs nothing beside it."""
+"""A mutation run as one self-contained HTML file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What mutants are tried on: built-in scenes against references, probes against the original."""
+"""The points of a mutation run: built-in scenes against references, probes against the original."""
 
 from __future__ import annotations
 
@@ -12,11 +12,13 @@ from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
 from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
-from slider_resonator.trials.mutants.trial import Point, observe
+from slider_resonator.trials.mutants.trial import ExpectedPoint, observe
 
 
-def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) -> list[Point]:
-    """Return every scene and point of a sweep, with what its references give.
+def scene_points(
+    files: Sequence[Path], progress: Callable[[str, float], None]
+) -> list[ExpectedPoint]:
+    """Return every scene and point of a sweep, with the values of its references.
 
     Raises SceneError for a scene that cannot be read, referred to or expects nothing.
     """
@@ -27,16 +29,16 @@ def scene_points(files: Sequence[Path], progress: Callable[[str, float], None]) 
         for point in points_to_check(scene):
             references = ReferenceSide(point.scene)
             expected = tuple(expected_value(expect, references) for expect in scene.expect)
-            points.append(Point(point.scene, point.at, expected))
+            points.append(ExpectedPoint(point.scene, point.at, expected))
     return points
 
 
-def probe_points(fmu: Path, probes: Sequence[Scene], time_limit: float) -> list[Point]:
-    """Return the probes with what the original FMU gives.
+def probe_points(fmu: Path, probes: Sequence[Scene], time_limit: float) -> list[ExpectedPoint]:
+    """Return the probes with the results of the original FMU.
 
     Those that it refuses are left out: no mutant can differ from it there.
     """
-    points = [Point(probe) for probe in probes]
+    points = [ExpectedPoint(probe) for probe in probes]
     return [
         replace(
             one.item,

@@ -51,7 +51,7 @@ def probe_scenes(count: int, seed: int) -> list[Scene]:
 
 
 def allowed_share(device: Device) -> float:
-    """Return by which share of its peak a signal of such a device may change."""
+    """Return the allowed change of a signal of such a device, as a share of its peak."""
     return _allowed_share(device.fidelity, device.friction_law)
 
 
@@ -169,7 +169,7 @@ def _expectations(fidelity: int, law: int, *, steady: bool) -> list[dict[str, An
 
 
 def _expectation(quantity: str, relative: float = 0.0, absolute: float = 0.0) -> dict[str, Any]:
-    """Return an expectation; what the original gives replaces its reference or value."""
+    """Return an expectation; the result of the original replaces its reference or value."""
     against = {"reference": "located_events"}
     if quantity.endswith("_status"):
         against = {"value": "steady"}

@@ -1,4 +1,4 @@
-"""Which statements of the component a scene executes, so that no mutant is run in vain.
+"""The statements of the component that a scene executes, so that no mutant is run in vain.
 
 A copy of the FMU notes each statement as it comes by.
 """
@@ -20,7 +20,7 @@ from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measuring import measure_all
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.enumerate_source import Function, blocks
-from slider_resonator.trials.mutants.trial import Point
+from slider_resonator.trials.mutants.trial import ExpectedPoint
 
 Place = tuple[str, int]
 """Module and line in which a statement begins."""
@@ -28,7 +28,7 @@ Place = tuple[str, int]
 _NOTED = "_noted_lines"
 _LOADING = "_lines_noted_at_loading"
 _SHELL = "slave.py"
-"""The module whose caches are no results: they say what is to be done when the process ends."""
+"""The module whose caches hold no results: they are callbacks for the end of the process."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,10 @@ class Reach:
     cost: float
 
 
-def reaches(fmu: PythonFmu, points: Sequence[Point], time_limit: float, jobs: int) -> list[Reach]:
-    """Return what each scene, or point of a sweep, executes; `jobs` processes share the work.
+def reaches(
+    fmu: PythonFmu, points: Sequence[ExpectedPoint], time_limit: float, jobs: int
+) -> list[Reach]:
+    """Return the reach of each scene or point of a sweep; `jobs` processes share the work.
 
     Raises FmuError when the FMU cannot run one of them.
     """
@@ -77,13 +79,13 @@ def _note(body: list[ast.stmt]) -> None:
     for index in range(len(body) - 1, -1, -1):
         statement = body[index]
         if isinstance(statement, Function):
-            continue  # its own body is noted on its own
+            continue  # its body is noted separately
         for block in blocks(statement):
             _note(block)
         body[index:index] = ast.parse(f"{_NOTED}.add({statement.lineno})").body
 
 
-def _observe(noting: Path, time_limit: float, points: Sequence[Point]) -> list[Reach]:
+def _observe(noting: Path, time_limit: float, points: Sequence[ExpectedPoint]) -> list[Reach]:
     found = []
     for one in measure_points(noting, points, noted_while_measuring, time_limit):
         if one.error is not None:
@@ -111,7 +113,7 @@ def noted_while_measuring(side: FmuSide) -> Reach:
 
 
 def _forget_results(namespace: Mapping[str, object]) -> None:
-    """Empty the caches of pure functions: what they skip would look as if it were not reached."""
+    """Empty the caches of pure functions, which would hide statements that are reached."""
     for thing in namespace.values():
         clear = getattr(thing, "cache_clear", None)
         if clear is not None:

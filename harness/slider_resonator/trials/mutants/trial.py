@@ -1,4 +1,4 @@
-"""Running an FMU over scenes up to the first check that rejects it."""
+"""Run an FMU over scenes up to the first check that rejects it."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Point(ScenePoint):
+class ExpectedPoint(ScenePoint):
     """A scene point with an expected value for each of its expectations.
 
     Where there are `outputs`, they are expected as well: at each communication point, up to
@@ -52,13 +52,13 @@ class Point(ScenePoint):
 
     @property
     def name(self) -> str:
-        """The scene, and where in its sweep it is."""
+        """The scene and the point of its sweep."""
         return f"{self.scene.name}{place(self.at, ' at ')}"
 
 
 @dataclass(frozen=True)
 class Observed:
-    """What an FMU gives at a point: a measurement for each expectation, and outputs if asked."""
+    """The results of an FMU at a point: a measurement for each expectation, other outputs."""
 
     measured: tuple[Measurement, ...]
     outputs: Outputs
@@ -66,7 +66,7 @@ class Observed:
 
 @dataclass(frozen=True)
 class Rejection:
-    """Why an FMU was rejected: by which scene and quantity, in a sentence.
+    """The rejection of an FMU: scene, quantity and reason in a sentence.
 
     Without a quantity it could not be run there; without a scene, nowhere.
     """
@@ -78,12 +78,12 @@ class Rejection:
 
 @dataclass(frozen=True)
 class Passed:
-    """All checks have passed; `nearest` is the one that came nearest to its limit, if any did."""
+    """All checks have passed; `nearest` is the one nearest to its limit, if any."""
 
     nearest: Check | None
 
 
-def trial(fmu: Path, points: Sequence[Point], time_limit: float) -> Rejection | Passed:
+def trial(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> Rejection | Passed:
     """Judge the points one after the other, in a process that may take `time_limit` (s) for each.
 
     Where the FMU crashes, hangs or refuses, that is a rejection as well.
@@ -113,8 +113,8 @@ def _observe_expected(fmu: FmuSide) -> Observed:
     return Observed(measure_all(fmu), {})
 
 
-def _checks(point: Point, seen: Observed) -> Iterator[Check]:
-    """Yield the verdicts on what exists in the FMU, or should."""
+def _checks(point: ExpectedPoint, seen: Observed) -> Iterator[Check]:
+    """Yield the checks of all values that exist in the FMU, or should."""
     for expect, measured, expected in zip(
         point.scene.expect, seen.measured, point.expected, strict=True
     ):

@@ -1,4 +1,4 @@
-"""The result of trying a mutant, and of trying all of them."""
+"""The verdict on a mutant, and on all mutants of a run."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def page(folder: Path, *validations: object, error: str = "") -> tuple[str, Tags
     return text, tags
 
 
-def test_what_differs_is_drawn_and_nothing_is_loaded(tmp_path: Path) -> None:
+def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None:
     text, tags = page(tmp_path, GOOD, BAD)
     (source,) = tags.loaded
     head, _, data = source.partition(",")
@@ -44,7 +44,7 @@ def test_what_differs_is_drawn_and_nothing_is_loaded(tmp_path: Path) -> None:
     assert tags.tags.count("tr") == 2 + 4, "a head and all checks of both FMUs"
 
 
-def test_what_an_fmu_prints_is_no_markup(tmp_path: Path) -> None:
+def test_output_of_an_fmu_is_escaped_in_markup(tmp_path: Path) -> None:
     text, tags = page(tmp_path, BROKEN)
     assert "b" not in tags.tags
     assert "could not be run" in text

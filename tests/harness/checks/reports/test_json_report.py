@@ -16,7 +16,7 @@ def test_one_fmu_stands_alone_and_several_are_listed() -> None:
     assert "crashed" in several["fmus"][2]["errors"][0]["reason"]
 
 
-def test_a_check_says_by_how_much_and_where() -> None:
+def test_a_check_is_reported_with_size_and_place() -> None:
     passed, _, signal = json.loads(validations_as_json([BAD]))["checks"]
     assert passed["verdict"] == "pass"
     assert signal["first_time"] == 0.0125

@@ -25,7 +25,7 @@ def test_each_check_is_a_test_case(tmp_path: Path) -> None:
     assert "from 0.0125 s on" in str(root[1].findall("testcase/failure")[1].get("message"))
 
 
-def test_what_an_fmu_prints_cannot_break_the_file(tmp_path: Path) -> None:
+def test_output_of_an_fmu_cannot_break_the_file(tmp_path: Path) -> None:
     path = tmp_path / "report.xml"
     write_junit(path, [BROKEN])
     (error,) = ET.parse(path).getroot().iter("error")

@@ -57,7 +57,7 @@ def test_the_table_shows_units_and_the_summary() -> None:
     assert "FAIL" not in text
 
 
-def test_the_summary_is_one_line_with_the_file_as_it_is_called() -> None:
+def test_the_summary_is_one_line_with_the_file_name() -> None:
     fmu = f"a{'/very' * 40}/long/path[old].fmu"
     assert printed(GOOD, fmu=fmu).splitlines()[-1] == f"{fmu}: 1 of 1 checks passed in 1.5 s"
 
@@ -71,7 +71,7 @@ def test_the_longest_rows_fit_a_log_unwrapped() -> None:
     assert text.count("load_above_friction") == 2
 
 
-def test_what_an_fmu_gives_cannot_command_the_terminal() -> None:
+def test_output_of_an_fmu_cannot_command_the_terminal() -> None:
     text = printed(replace(GOOD, fmu="\x1b[2Jstuck", passed=False), fmu="\x1b[31m.fmu")
     assert "\x1b" not in text
     assert "\ufffd[2Jstuck" in text

@@ -16,7 +16,7 @@ def test_a_crash_names_the_call_and_the_signal() -> None:
     )
 
 
-def test_a_missed_time_limit_is_reported_whoever_ended_the_process() -> None:
+def test_a_missed_time_limit_is_reported_however_the_process_ended() -> None:
     stack = STACK.replace("Fatal Python error: Aborted", "Timeout (0:01:00)!")
     expected = "no answer within the time limit of 60 s in fmi2DoStep: the FMU was ended"
     assert crash_report(stack, 1, 60.0).startswith(expected)

@@ -45,7 +45,7 @@ def test_tasks_of_one_name_are_left_out_after_a_crash(native_fmu: Path) -> None:
     assert [(one.item, outcome(one)) for one in finished] == [("a", "died"), ("b", "done")]
 
 
-def test_an_fmu_that_keeps_crashing_is_given_up_unless_told_otherwise(native_fmu: Path) -> None:
+def test_an_fmu_that_keeps_crashing_is_given_up_by_default(native_fmu: Path) -> None:
     given = [(name, tasks.abort) for name in "abc"]
     *_, last = run_tasks(native_fmu, given, 60.0, name=str, max_crashes=2)
     assert last.item is None

@@ -127,7 +127,7 @@ def test_fast_displacement_is_the_integral_of_the_fast_velocity() -> None:
 def test_full_equations_match_the_slow_manifold() -> None:
     """A bristle far slower than the vibration, kappa = 0.025: (17) holds.
 
-    Departures decay geometrically, so three means at equal distances tell where they lead.
+    Departures decay geometrically, so three means at equal distances give their limit.
     """
     frequency, stiffness = 1000.0, 10.0
     period = 2.0 * math.pi / frequency

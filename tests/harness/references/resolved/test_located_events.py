@@ -32,7 +32,7 @@ def until(stop: float, **inputs: float) -> list[HeldInputs]:
 
 
 def deviation(first: Trajectory, second: Trajectory) -> float:
-    """Greatest deviation of any signal, in fractions of its peak."""
+    """Largest deviation of any signal, in fractions of its peak."""
     pairs = [(getattr(first, name), getattr(second, name)) for name in SIGNALS]
     return max(float(abs(a - b).max() / abs(b).max()) for a, b in pairs)
 

@@ -162,8 +162,8 @@ def test_samples_at_starts_and_stops_are_kept() -> None:
     device, held = PROBLEMS["schedule"]
     edges = np.array([inputs.start for inputs in held] + [DURATION])
     motion = simulate_lugre(device, held, edges)
-    assert motion.position.shape == edges.shape, "one sample for each time wanted"
-    assert simulate_lugre(device, held, np.empty(0)).position.shape == (0,), "none wanted, none got"
+    assert motion.position.shape == edges.shape, "one sample for each requested time"
+    assert simulate_lugre(device, held, np.empty(0)).position.shape == (0,), "no times, no samples"
 
 
 def test_friction_coefficient_of_zero_is_refused() -> None:

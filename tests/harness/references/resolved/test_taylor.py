@@ -163,7 +163,7 @@ def _power(
 def test_long_run_approaches_the_measured_steady_velocity(
     inputs: dict[str, float], expected: float
 ) -> None:
-    """Departures decay geometrically, so three means at equal distances tell where they lead."""
+    """Departures decay geometrically, so three means at equal distances give their limit."""
     start = Device(initial_velocity=1.005 * expected - slow_start(Device()))
     ends = np.array([230, 240, 710, 720, 1190, 1200]) * PERIOD
     motion = taylor.simulate(start, [HeldInputs(0.0, ends[-1], **inputs)], ends)
@@ -234,7 +234,7 @@ def test_missing_heyoka_is_named(
 ) -> None:
     monkeypatch.setitem(sys.modules, "heyoka", None)
     unused_tolerance = 1.5e-9  # the compiled system of the usual one is kept
-    with pytest.raises(ModuleNotFoundError, match=r"slider-resonator\[referee\]"):
+    with pytest.raises(ModuleNotFoundError, match=r"slider-resonator\[taylor\]"):
         simulate(Device(), [HeldInputs(0.0, 0.1)], np.empty(0), tolerance=unused_tolerance)
     monkeypatch.undo()
     assert importlib.import_module("heyoka"), "the import works again"

@@ -1,4 +1,4 @@
-"""Judging a choice by whole runs: does it meet the needs, and what is the cheapest that does?
+"""Judge a choice by full runs: whether it meets the needs, and the cheapest choice that does.
 
 Nothing of the chooser's own probe is used here but the list of candidates and their costs.
 """
@@ -37,7 +37,7 @@ MAX_POINTS = 25_000
 
 @dataclass(frozen=True)
 class Verdict:
-    """Errors over what is allowed of the choice, and what cheaper candidate would have done."""
+    """Errors over allowed errors of the choice, and the cheapest candidate that meets the needs."""
 
     choice: Choice
     excess: Mapping[str, float]
@@ -46,7 +46,7 @@ class Verdict:
 
     @property
     def met(self) -> bool:
-        """Whether the choice meets every need, or says rightly that nothing does."""
+        """Whether the choice meets every need, or reports rightly that none can."""
         if not self.choice.meets:
             return self.cheaper is None
         return max(self.excess.values()) <= 1.0
@@ -86,7 +86,7 @@ class Judge:
                 return inf
             return _over(abs(found - resolved), self.needs[name].at(resolved))
         assert candidate.step is not None
-        record, true = self._record(candidate), self.true_record(candidate.step)
+        record, true = self._record(candidate), self.reference_record(candidate.step)
         error, size = self._error(name, record, true, candidate.step)
         return _over(error, self.needs[name].at(size))
 
@@ -121,7 +121,7 @@ class Judge:
             self._records[candidate] = run(self.instance, values, own, outputs=SHOWN)
         return self._records[candidate]
 
-    def true_record(self, step: float) -> Record:
+    def reference_record(self, step: float) -> Record:
         """Return the resolved run with inputs nearly as they vary, at the points of a run too."""
         if step not in self._true_records:
             own = self.scene.with_step(step).schedule()

@@ -1,4 +1,4 @@
-"""What is chosen for scenes whose answer physics gives away."""
+"""Choices for scenes whose answer follows from physics."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_events_rule_averaged_motion_out_unprobed(instance: Instance) -> None:
 def test_a_need_below_rounding_is_not_met(instance: Instance) -> None:
     choice = choose_with(instance, table_1("position = { rel = 1e-15 }", periods=20.0))
     assert not choice.meets
-    assert choice.fidelity == 2, "the nearest is told"
+    assert choice.fidelity == 2, "the nearest is reported"
     assert len(choice.ruled_out) == 3
 
 
@@ -113,7 +113,7 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("[inputs]\nload = 1.0\n[need]\nsteady_velocity = { rel = 0.1 }\n", "load_above_friction"),
         (
@@ -132,10 +132,12 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
         ),
     ],
 )
-def test_what_does_not_exist_is_met_by_nothing(instance: Instance, text: str, said: str) -> None:
+def test_a_quantity_that_does_not_exist_is_met_by_no_model(
+    instance: Instance, text: str, message: str
+) -> None:
     choice = choose_with(instance, scene_of(text))
     assert not choice.meets
-    assert said in choice.reason
+    assert message in choice.reason
     assert len(choice.ruled_out) == 3
 
 
@@ -180,7 +182,7 @@ def test_without_friction_or_vibration_averaged_motion_serves_but_not_in_undampe
         assert "damping_ratio = 0.0 refused" in choice.ruled_out[0].why
 
 
-def test_a_scene_without_needs_says_so(instance: Instance) -> None:
+def test_a_scene_without_needs_is_refused(instance: Instance) -> None:
     with pytest.raises(SceneError, match=r"no \[need\].*mean_velocity = \{ rel = 0.01 \}"):
         choose_with(instance, scene_of(""))
 

@@ -8,7 +8,7 @@ from slider_resonator.studies.choose.scales import scales_of
 from tests.harness.scene_text import scene_of
 
 
-def test_what_is_more_exact_costs_more() -> None:
+def test_higher_accuracy_costs_more() -> None:
     scales = scales_of(scene_of(""))
     models = [Model(fidelity, law) for law in (0, 1) for fidelity in (0, 1, 2)]
     costs = [run_cost(Candidate(model, 1e-8, 1.0), scales, 10.0, 10) for model in models]

@@ -19,7 +19,7 @@ REFEREED = (46, 50)
 
 
 def verdicts(instance: Instance, seeds: range) -> list[Verdict]:
-    """Choose and judge, and print what the table of a run shows: share met, share cheap, time."""
+    """Choose and judge; print the shares that meet the needs and that are cheap, and the time."""
     found, longest = [], 0.0
     for seed in seeds:
         scene = generated_scene(seed)
@@ -47,11 +47,11 @@ def described(verdict: Verdict, seed: int) -> str:
 
 def judged(instance: Instance, seeds: range) -> None:
     found = verdicts(instance, seeds)
-    told = [described(verdict, seed) for verdict, seed in zip(found, seeds, strict=True)]
-    estimate = [text for verdict, text in zip(found, told, strict=True) if not verdict.met]
-    dear = [text for verdict, text in zip(found, told, strict=True) if not verdict.cheap]
-    assert not estimate, "\n".join(["chosen, but does not meet the needs:", *estimate])
-    assert len(dear) <= 0.1 * len(found), "\n".join(["more than 1.5 of the cheapest:", *dear])
+    lines = [described(verdict, seed) for verdict, seed in zip(found, seeds, strict=True)]
+    missed = [text for verdict, text in zip(found, lines, strict=True) if not verdict.met]
+    expensive = [text for verdict, text in zip(found, lines, strict=True) if not verdict.cheap]
+    assert not missed, "\n".join(["chosen, but does not meet the needs:", *missed])
+    assert len(expensive) <= 0.1 * len(found), "\n".join(["more than 1.5 of cheapest:", *expensive])
 
 
 def test_choices_for_the_first_scenes_meet_the_needs_at_little_cost(
@@ -66,7 +66,7 @@ def test_choices_meet_the_needs_at_little_cost(instance: Instance, first: int) -
     judged(instance, range(first, first + CHUNK))
 
 
-def test_the_scenes_span_what_averaging_suits_and_what_it_does_not() -> None:
+def test_some_scenes_suit_averaging_and_some_do_not() -> None:
     scenes = [generated_scene(seed) for seed in range(COUNT)]
     devices = [scene.device for scene in scenes]
     assert 0.3 < np.mean([device.friction_law for device in devices]) < 0.6
@@ -82,12 +82,12 @@ def test_the_scenes_span_what_averaging_suits_and_what_it_does_not() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", REFEREED)
-def test_the_judge_agrees_with_a_referee_that_shares_no_code(instance: Instance, seed: int) -> None:
+def test_the_judge_agrees_with_an_independent_reference(instance: Instance, seed: int) -> None:
     scene = generated_scene(seed)
     assert scene.step_size is not None
     assert scene.device.friction_law == 0
     assert all(signal.hold for signal in scene.signals.values())
-    record = Judge(instance, scene).true_record(scene.step_size)
+    record = Judge(instance, scene).reference_record(scene.step_size)
     schedule = scene.schedule()
     at = np.searchsorted(record.times, schedule.times)
     true = located_events.simulate(scene.device, schedule.held(), schedule.times)

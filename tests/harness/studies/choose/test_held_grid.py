@@ -20,7 +20,7 @@ def scene() -> Scene:
     return scene_of(RAMP)
 
 
-def test_a_run_holds_what_the_schedule_of_the_scene_samples(scene: Scene) -> None:
+def test_a_run_holds_the_samples_of_the_schedule(scene: Scene) -> None:
     held, schedule = sampled_inputs(scene, 0.1, 0.007), scene.schedule()
     assert np.array_equal(held.times, schedule.times)
     assert np.array_equal(held.values, schedule.sampled())
@@ -46,7 +46,7 @@ def test_a_stretch_carries_the_turns_before_it_in_its_phase(scene: Scene) -> Non
     assert stretch.load.at(0.0201) == pytest.approx(0.3 * 2.0 / 7.0, abs=0.003)
 
 
-def test_only_what_changes_within_the_run_other_than_by_jumps_varies() -> None:
+def test_only_inputs_that_change_other_than_by_jumps_vary() -> None:
     run = "[run]\nstop_time = 0.1\nstep_size = 0.01\n"
     for text, varies in (
         ("load = 1.0", False),

@@ -21,7 +21,7 @@ def ladder(instance: Instance, text: str) -> tuple[float, ...]:
 @pytest.mark.parametrize(
     ("need", "step"), [("mean_velocity", 0.1), ("position", 0.003), ("event_times", 0.003)]
 )
-def test_steady_inputs_leave_one_step_the_longest_that_shows_what_is_needed(
+def test_steady_inputs_leave_one_step_the_longest_that_resolves_the_needs(
     instance: Instance, need: str, step: float
 ) -> None:
     run = f"[run]\nstop_time = 0.1\nstep_size = 0.003\n[need]\n{need} = {{ rel = 0.1 }}\n"

@@ -1,4 +1,4 @@
-"""How much of a scene is resolved to confirm a choice."""
+"""The part of a scene that is resolved to confirm a choice."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.1\n[need]\n{} = {{ rel = 
         (20_000, "", "friction_law = 1\ndamping_ratio = 1e-3", "beginning"),
     ],
 )
-def test_a_scene_is_resolved_in_windows_where_averaged_motion_can_tell_what_lies_between(
+def test_a_scene_is_resolved_in_windows_where_averaged_motion_connects_them(
     instance: Instance, periods: float, inputs: str, device: str, covers: str
 ) -> None:
     """Not beats that are faster than the windows lie, a long memory, nor friction that sticks."""

@@ -25,7 +25,7 @@ def test_where_the_law_holds_the_coarsest_is_found_in_a_few_trials(
 
 
 @given(st.lists(st.floats(0.0, 100.0), min_size=1, max_size=20), st.integers(0, 19))
-def test_whatever_the_errors_what_is_found_is_good_and_the_next_coarser_is_not(
+def test_the_index_found_meets_the_need_and_the_next_coarser_does_not(
     errors: list[float], first: int
 ) -> None:
     found = coarsest(errors.__getitem__, len(errors), 2.0, min(first, len(errors) - 1))
@@ -45,5 +45,5 @@ def test_an_error_that_does_not_fall_is_given_up_at_once() -> None:
     assert len(evaluation) == 3
 
 
-def test_what_cannot_be_run_coarsely_is_tried_finer() -> None:
+def test_a_candidate_that_cannot_run_is_refined() -> None:
     assert coarsest(lambda index: inf if index < 4 else 0.5, 10, 2.0) == 4

@@ -6,7 +6,7 @@ import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.choose.candidate import Candidate, Model
-from slider_resonator.studies.choose.steady_need import Found, find, steady_error
+from slider_resonator.studies.choose.steady_need import SteadyValue, find, steady_error
 
 
 @pytest.mark.parametrize(
@@ -24,7 +24,7 @@ def test_table_1_by_theory_and_by_shooting(
         assert (found.periods > 0) == (fidelity == 2)
 
 
-def test_what_does_not_settle_has_no_value_and_a_reason(instance: Instance) -> None:
+def test_a_device_that_does_not_settle_has_no_value_and_a_reason(instance: Instance) -> None:
     candidate = Candidate(Model(2, 0), 1e-8, None)
     found = find(instance, {"frequency_ratio": 1.0001}, "steady_velocity", candidate)
     assert found.value is None
@@ -32,7 +32,11 @@ def test_what_does_not_settle_has_no_value_and_a_reason(instance: Instance) -> N
 
 
 def test_the_error_of_a_value_is_at_least_that_of_the_search() -> None:
-    reference, near, none = Found(2.0, "", 9), Found(2.5, "", 0), Found(None, "stuck: why", 0)
+    reference, near, none = (
+        SteadyValue(2.0, "", 9),
+        SteadyValue(2.5, "", 0),
+        SteadyValue(None, "stuck: why", 0),
+    )
     assert steady_error(near, reference, 0).error == 0.5
     assert steady_error(reference, reference, 0).error == pytest.approx(2e-10)
     assert steady_error(none, reference, 0).error == inf

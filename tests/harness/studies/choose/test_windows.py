@@ -1,4 +1,4 @@
-"""Windows say what the whole scene would: held against whole runs of it."""
+"""Errors extrapolated from windows against runs of the whole scene."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LONG = (
 
 
 def errors_of_the_whole(instance: Instance, scene: Scene, model: Model) -> dict[str, float]:
-    """Return what averaged motion errs in the whole scene, which is resolved for once."""
+    """Return the errors of averaged motion in the whole scene, which is resolved here."""
     duration = scene.stop_time or 0.0
     held = averaged_inputs(scene, duration, 0.01)
     stretch = Stretch(0.0, duration, scene.schedule().times[1:])
@@ -49,11 +49,11 @@ def test_errors_are_carried_through_a_long_scene(
     assert probe.covers == "windows"
     model = Model(0, scene.device.friction_law)
     step = scene.step_size or 0.0
-    told = probe.run_errors(Candidate(model, 1e-8, step / 64.0 if probe.varying else step))
+    estimates = probe.run_errors(Candidate(model, 1e-8, step / 64.0 if probe.varying else step))
     true = errors_of_the_whole(instance, scene, model)
     for name, error in true.items():
-        assert told[name].error > 0.9 * error, f"{name} is worse than told"
-        assert told[name].error < 2.0 * SAFETY * error, f"{name} is much better than told"
+        assert estimates[name].error > 0.9 * error, f"{name} is worse than estimated"
+        assert estimates[name].error < 2.0 * SAFETY * error, f"{name} is much better than estimated"
 
 
 def test_holding_an_input_errs_in_proportion_to_the_step(instance: Instance) -> None:

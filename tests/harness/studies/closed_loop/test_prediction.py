@@ -16,11 +16,11 @@ DUTY = Duty(loads=((0.0, 0.0), (0.8, 0.03)), end=1.6, settling=0.5)
 
 @pytest.fixture
 def brief(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Fewer predictions, where one tells as much."""
+    """Make fewer predictions, where one suffices."""
     monkeypatch.setattr(prediction, "FIRST", 1)
 
 
-def test_the_error_is_of_the_order_of_what_friction_does_in_a_radian_of_the_drive(
+def test_the_error_is_of_the_order_of_the_effect_of_friction_in_a_radian_of_the_drive(
     closed_loop_package: Path,
 ) -> None:
     design, _ = run_loop(closed_loop_package, HOSTS[0], DUTY)

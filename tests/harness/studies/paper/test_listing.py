@@ -17,7 +17,7 @@ from slider_resonator.studies.paper.table import PaperTable
 CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, AGREES, "it | does", True)
 
 
-def test_claims_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
+def test_claims_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     wrong = replace(CLAIM, name="other", verdict=DISAGREES, confirmed=False)
     write_claims(tmp_path, [("All", [CLAIM.plain(), wrong.plain()])], "a.fmu", "guid")
     claims = json.loads((tmp_path / "claims.json").read_text(encoding="utf-8"))["claims"]
@@ -46,7 +46,7 @@ def test_near_is_relative() -> None:
     assert not near(1.03, 1.0, 0.02)
 
 
-def test_tables_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
+def test_tables_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     columns = {"kappa": "kappa", "error": "theory / FMU - 1"}
     table = PaperTable("forces", "Forces", "In N.", columns, {"error": 0.1}, lambda i: {})
     right = {"rows": [{"kappa": 1.0, "error": -0.05}, {"kappa": 10.0, "error": 0.02}]}

@@ -93,7 +93,7 @@ def test_a_seed_gives_the_same_sample_and_another_seed_another(tmp_path: Path) -
         ("[grid", "not TOML"),
     ],
 )
-def test_a_grid_that_makes_no_sense_is_refused_with_name_value_and_what_is_allowed(
+def test_an_invalid_grid_is_refused_with_name_value_and_requirement(
     text: str, words: str, tmp_path: Path
 ) -> None:
     with pytest.raises(HarnessError, match=words) as refusal:

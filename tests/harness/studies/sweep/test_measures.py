@@ -40,7 +40,7 @@ def test_measures_by_shooting_are_those_of_the_commands(instance: Instance) -> N
     assert status == "blocked"
 
 
-def test_what_does_not_repeat_has_a_status_and_no_value(instance: Instance) -> None:
+def test_a_motion_that_does_not_repeat_has_a_status_and_no_value(instance: Instance) -> None:
     task = _task("steady_velocity", names=("frequency_ratio",))
     assert measure(instance, task, (1.37,)) == [None, "no_common_period"]
 

@@ -1,4 +1,4 @@
-"""Whole sweeps: the table does not show who computed it, in what order, or how often it ended."""
+"""Whole sweeps: the table does not depend on workers, order or interruptions."""
 
 from __future__ import annotations
 
@@ -75,7 +75,9 @@ def test_points_of_another_grid_are_refused_unless_discarded(
     assert run_sweep(sweep, native_fmu, out, workers=1, restart=True).found == 0
 
 
-def test_what_is_no_fmu_is_said_before_anything_is_kept(grid: Path, tmp_path: Path) -> None:
+def test_an_invalid_fmu_is_refused_before_the_journal_is_written(
+    grid: Path, tmp_path: Path
+) -> None:
     with pytest.raises(HarnessError, match=r"none\.fmu: no such file"):
         run_sweep(read_grid(grid), tmp_path / "none.fmu", tmp_path / "a.csv", workers=1)
     assert not journal_path(tmp_path / "a.csv").exists()
@@ -115,7 +117,7 @@ def undisturbed(
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:
-    """Kill a sweep, and wait for its workers, which nobody told."""
+    """Kill a sweep and wait for its workers to end."""
     workers = _children(process)
     os.kill(process.pid, signal.SIGKILL)
     process.wait(DEADLINE)

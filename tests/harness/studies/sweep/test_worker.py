@@ -79,12 +79,12 @@ def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(
     assert sound[1][1] == "steady"
 
 
-def test_the_error_of_a_missing_file_does_not_show_where_this_worker_has_it(tmp_path: Path) -> None:
+def test_the_error_of_a_missing_file_hides_the_folder_of_the_worker(tmp_path: Path) -> None:
     ((_, cells, error),), _ = ChunkRunner(tmp_path / "my.fmu").run(TASK, SOUND)
     assert cells == [None, None]
     assert error == "my.fmu: no such file"
 
 
-def test_a_worker_without_the_fmu_says_so() -> None:
+def test_a_worker_without_the_fmu_is_reported() -> None:
     ((_, _, error),), _ = cluster.run_chunk(TASK, "unheard of", SOUND)
     assert error == "this worker has not been given the FMU"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from slider_resonator.studies.trade.in_turn import Timed, in_turn
 
 
-def test_everybody_has_a_turn_in_each_round() -> None:
+def test_each_work_is_timed_once_in_each_round() -> None:
     order: list[str] = []
 
     def timed(name: str, repeats: int) -> Timed:

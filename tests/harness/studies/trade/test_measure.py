@@ -1,4 +1,4 @@
-"""Measuring: everybody is in a row or among the omissions, whatever happens."""
+"""Every method is a row or an omission, whatever happens."""
 
 from __future__ import annotations
 

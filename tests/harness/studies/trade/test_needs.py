@@ -63,7 +63,7 @@ def test_the_native_fmu_decides_the_model() -> None:
     assert {quantity for quantity, _ in found} == {"position"}, "the scene has nothing else"
 
 
-def test_a_need_that_nobody_meets_is_said(tmp_path: Path) -> None:
+def test_a_need_that_no_method_meets_is_shown(tmp_path: Path) -> None:
     rough = replace(TRADE, rows=TRADE.rows[:1])
     (_, _, exact) = choices(rough)
     assert cells(exact)[2:] == ("none", "", "not reached", "not reached", "not reached")
@@ -95,9 +95,9 @@ def tables(path: Path) -> list[list[str]]:
     return [row for row in rows if tuple(row) != HEAD and row[0] != "---"]
 
 
-def test_what_is_committed_was_written_by_this_code() -> None:
+def test_committed_tables_were_written_by_this_code() -> None:
     rows = tables(PAGE)
-    assert rows == tables(DOCUMENTATION), "the page and the FMU's documentation tell the same"
+    assert rows == tables(DOCUMENTATION), "the page and the FMU's documentation agree"
     needs = {(quantity.replace("_", " "), f"{error:.0e}") for quantity, error in NEEDS}
     assert needs == {(row[0], row[1]) for row in rows}, "each need is met in some scene, or not"
     assert all(len(row) == len(HEAD) for row in rows)

@@ -1,4 +1,4 @@
-"""The page: self-contained, with the ratios at its top and what is missing at its end."""
+"""The page: self-contained, with the ratios at its top and the omissions at its end."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def test_a_page_stands_alone(tmp_path: Path) -> None:
     assert "averaged: not reached" in text
 
 
-def test_a_quantity_that_nobody_has_gets_no_plot(tmp_path: Path) -> None:
+def test_a_quantity_without_rows_has_no_plot(tmp_path: Path) -> None:
     write_trades(tmp_path / "index.html", [TRADE])
     assert (tmp_path / "index.html").read_text(encoding="utf-8").count("<img") == 1
 

@@ -1,4 +1,4 @@
-"""Peers as methods: their names, their inputs, and who can be shot with."""
+"""Peers as methods: their names, their inputs, and which of them support shooting."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def test_peers_hold_inputs_over_the_step_of_the_scene(tmp_path: Path) -> None:
     assert lengths == pytest.approx(ramp.period / 8)
 
 
-def test_who_starts_anywhere_is_shot_with(tmp_path: Path) -> None:
+def test_peers_that_start_in_any_state_support_shooting(tmp_path: Path) -> None:
     answers = {answer.label.family for answer in peer_answers(problem(tmp_path, TABLE_1))}
     assert "Moreau-Jean" in answers
     assert not any("at its fastest" in family for family in answers)

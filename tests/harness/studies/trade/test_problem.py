@@ -49,8 +49,8 @@ def test_inputs_that_vary_allow_no_steady_motion(tmp_path: Path) -> None:
     found = problem(tmp_path, RAMP)
     assert not found.constant
     assert not found.steady
-    assert found.periods == 16, "the scene says how long its inputs are meant for"
-    assert found.lengths == (16,), "who stops earlier has not seen all of them"
+    assert found.periods == 16, "the scene sets the duration of its inputs"
+    assert found.lengths == (16,), "a method that stops earlier has not seen all of them"
 
 
 @pytest.mark.parametrize(
@@ -62,7 +62,7 @@ def test_nothing_draws_a_slider_without_friction_into_a_steady_motion(
     assert not problem(tmp_path, f"[device]\n{device}\n").steady
 
 
-def test_jumps_are_exact_for_everybody(tmp_path: Path) -> None:
+def test_jumps_are_exact_for_every_method(tmp_path: Path) -> None:
     found = problem(tmp_path, JUMPS)
     assert [inputs.start for inputs in found.reference_inputs(16)] == [0.0, 0.0101]
     assert found.held(16) == found.reference_inputs(16)

@@ -46,7 +46,7 @@ sizes = st.floats(1e-11, 1e3)
 
 
 @given(st.lists(st.tuples(sizes, sizes), min_size=1, max_size=12))
-def test_nobody_beats_the_front(points: list[tuple[float, float]]) -> None:
+def test_no_row_beats_the_front(points: list[tuple[float, float]]) -> None:
     rows = [row(*point) for point in points]
     best = front(rows, "position")
     for one in rows:
@@ -70,7 +70,7 @@ def test_the_cheapest_that_is_exact_enough() -> None:
     rows = [row(1.0, 1e-2), row(3.0, 1e-9), row(9.0, 1e-12)]
     assert cheapest(rows, "position", 1e-9) is rows[1]
     assert cheapest(rows, "position", 1e-13) is None
-    assert cheapest(rows, "velocity", 1.0) is None, "none of them tells a velocity"
+    assert cheapest(rows, "velocity", 1.0) is None, "none of them has a velocity"
 
 
 def test_ratios_are_taken_repeat_by_repeat() -> None:

@@ -71,10 +71,10 @@ def test_a_shorter_run_is_compared_where_it_has_been(short: Problem) -> None:
     half = Solution(solution.times[early], solution.position[early], solution.velocity[early])
     found = errors(short, half, windows(short, solution, 4), 2)
     assert found["position"] == 0.0
-    assert "event_times" not in found, "who locates no events has no error of them"
+    assert "event_times" not in found, "a method that locates no events has no error of them"
 
 
-def test_what_is_not_finite_is_infinitely_wrong(short: Problem) -> None:
+def test_values_that_are_not_finite_have_infinite_error(short: Problem) -> None:
     solution = drifting(short)
     broken = replace(solution, velocity=np.full_like(solution.velocity, nan))
     assert errors(short, broken, windows(short, solution, 4), 4)["velocity"] == inf

@@ -1,4 +1,4 @@
-"""What counts as a change."""
+"""Comparing results with recorded ones."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def judged(point: ScenePoint, name: str, golden: Any, now: Any, tolerance: float
         ("event_times", 557.0 * TIMES, 557.0 * TIMES + 2e-8, False),
     ],
 )
-def test_what_counts_as_a_change(
+def test_changes_above_the_tolerance_are_reported(
     point: ScenePoint, name: str, golden: Any, now: Any, passed: bool
 ) -> None:
     verdict = judged(point, name, golden, now)
@@ -64,7 +64,7 @@ def test_what_counts_as_a_change(
     assert verdict.against == "baseline"
 
 
-def test_a_change_says_by_how_much_and_where(point: ScenePoint) -> None:
+def test_a_change_is_reported_with_size_and_place(point: ScenePoint) -> None:
     now = WAVE.copy()
     now[20:] += 1e-6
     verdict = judged(point, "position", WAVE, now)
@@ -77,7 +77,7 @@ def test_other_points_are_no_change_but_another_run(point: ScenePoint) -> None:
         judged(point, "position", WAVE, WAVE[:20])
 
 
-def test_what_is_new_or_gone_has_changed(point: ScenePoint) -> None:
+def test_new_and_missing_quantities_are_changes(point: ScenePoint) -> None:
     golden = {"reversals": Measurement(199.0)}
     ((new, _),) = compare_golden(point, {}, golden, 1e-8)
     ((gone, _),) = compare_golden(point, golden, {}, 1e-8)

@@ -1,4 +1,4 @@
-"""Golden results in files: what is written is what is read, in an order that diffs well."""
+"""Golden results in files: written and read back, in an order that diffs well."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ RECORDED = Recorded(
 )
 
 
-def test_what_is_written_is_read(tmp_path: Path) -> None:
+def test_written_results_are_read_back(tmp_path: Path) -> None:
     write_recorded(tmp_path / "mine", RECORDED)
     read = read_recorded(tmp_path / "mine")
     assert read.provenance == RECORDED.provenance

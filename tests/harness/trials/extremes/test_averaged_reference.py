@@ -10,13 +10,13 @@ import pytest
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.trials.extremes.averaged_reference import REFERENCE_ERROR, covers
-from slider_resonator.trials.extremes.cell import Cell, Hold, Model
+from slider_resonator.trials.extremes.cell import Hold, MatrixCell, Model
 from slider_resonator.trials.extremes.judge import judge
 from slider_resonator.trials.extremes.matrix import all_cells
 from slider_resonator.trials.extremes.observe import NAMES, Observation, observe
 from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFERENCE
 
-CELL = Cell("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0.02),))
+CELL = MatrixCell("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0.02),))
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,7 @@ def test_most_averaged_cells_are_covered() -> None:
         {"resonator_mass": 0.0},
     ],
 )
-def test_what_the_reference_has_no_average_for_is_left_to_the_other_bounds(
+def test_cells_without_an_average_are_left_to_the_other_bounds(
     parameters: dict[str, float],
 ) -> None:
     assert not covers(replace(CELL, parameters=parameters))

@@ -8,12 +8,12 @@ import pytest
 
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.trials.extremes.cell import Cell, Hold, Model
+from slider_resonator.trials.extremes.cell import Hold, MatrixCell, Model
 from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, judge
 from slider_resonator.trials.extremes.observe import NAMES, Observation, observe
 from slider_resonator.trials.extremes.verdict import FAILED, PASSED, REFUSED
 
-TABLE_1 = Cell("table 1", "as it is", Model(2, 0), {}, (Hold(1e-4, 60),))
+TABLE_1 = MatrixCell("table 1", "as it is", Model(2, 0), {}, (Hold(1e-4, 60),))
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +58,7 @@ def test_a_wrong_motion_fails(seen: Observation, name: str, change: float, check
 def test_energy_must_not_grow(native_fmu: Path) -> None:
     free = {"base_amplitude": 0.0, "damping_ratio": 0.0, "friction_coefficient": 0.0}
     parameters = {**free, "initial_resonator_displacement": 1e-4}
-    cell = Cell("free", "ringing", Model(2, 0), parameters, (Hold(1e-4, 60),))
+    cell = MatrixCell("free", "ringing", Model(2, 0), parameters, (Hold(1e-4, 60),))
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
         rung = observe(instance, cell)
     assert judge(cell, rung).verdict == PASSED, "an undamped resonator keeps its energy"
@@ -78,7 +78,7 @@ def test_a_replay_that_differs_fails(seen: Observation) -> None:
         "doStep: communicationStepSize = 0.0001 refused: it takes more than 9; must be less",
     ],
 )
-def test_a_refusal_names_thing_value_and_what_is_allowed(seen: Observation, words: str) -> None:
+def test_a_refusal_names_thing_value_and_requirement(seen: Observation, words: str) -> None:
     assert judge(TABLE_1, replace(seen, refusal=words)).verdict == REFUSED
 
 
@@ -105,7 +105,7 @@ def test_a_step_that_costs_too_much_fails(seen: Observation) -> None:
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
 def test_a_tolerance_is_a_bound(native_fmu: Path, tolerance: float) -> None:
     parameters = {"tolerance": tolerance}
-    cell = Cell("tolerance", "as it is", Model(2, 1), parameters, (Hold(1e-4, 60),))
+    cell = MatrixCell("tolerance", "as it is", Model(2, 1), parameters, (Hold(1e-4, 60),))
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
         rung = observe(instance, cell)
     assert judge(cell, rung).verdict == PASSED
@@ -116,7 +116,7 @@ def test_a_tolerance_is_a_bound(native_fmu: Path, tolerance: float) -> None:
 
 def test_the_phase_is_followed_through_changes_of_ratio(native_fmu: Path) -> None:
     holds = (Hold(1e-4, 7, 0.4, 0.0, 3.0), Hold(1e-4, 7, 1.0, 0.0, -0.5), Hold(1e-4, 7))
-    cell = Cell("ratio", "changes", Model(1, 0), {}, holds)
+    cell = MatrixCell("ratio", "changes", Model(1, 0), {}, holds)
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
         verdict = judge(cell, observe(instance, cell))
     assert verdict.verdict == PASSED, verdict.reason

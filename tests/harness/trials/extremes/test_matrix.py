@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from slider_resonator.trials.extremes.cell import MODELS, Cell, Hold, Model
+from slider_resonator.trials.extremes.cell import MODELS, Hold, MatrixCell, Model
 from slider_resonator.trials.extremes.matrix import all_cells
 
 AXES = {
@@ -53,7 +53,7 @@ def test_every_value_is_there(axis: str) -> None:
     assert {cell.value for cell in all_cells() if cell.axis == axis} >= AXES[axis]
 
 
-def test_what_a_device_can_be_is_run_by_every_model_that_knows_it() -> None:
+def test_every_device_is_run_by_every_model_that_covers_it() -> None:
     for axis in ("Omega", "q", "alpha", "mu", "r_m", "xi", "resonance", "communication step"):
         counts = Counter(cell.value for cell in all_cells() if cell.axis == axis)
         assert set(counts.values()) == {len(MODELS)}, axis
@@ -81,5 +81,5 @@ def test_other_steps_cover_the_same_times() -> None:
 
 
 def test_steps_that_cannot_be_cut_are_kept() -> None:
-    cell = Cell("step", "denormal", Model(2, 0), {}, (Hold(5e-324), Hold(1e-3)))
+    cell = MatrixCell("step", "denormal", Model(2, 0), {}, (Hold(5e-324), Hold(1e-3)))
     assert [hold.count for hold in cell.other_holds] == [1, 3]

@@ -5,13 +5,13 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import FmuError
-from slider_resonator.trials.extremes.cell import Cell, Hold, Model
+from slider_resonator.trials.extremes.cell import Hold, MatrixCell, Model
 from slider_resonator.trials.extremes.run import run_matrix
 from slider_resonator.trials.extremes.verdict import FAILED, PASSED
 from tests.harness.faulty_fmus import compiled
 
-QUICK = Cell("steps", "few", Model(2, 0), {}, (Hold(1e-4, 20),))
-ENDLESS = Cell("steps", "far too many", Model(2, 0), {}, (Hold(1.0, 100_000),))
+QUICK = MatrixCell("steps", "few", Model(2, 0), {}, (Hold(1e-4, 20),))
+ENDLESS = MatrixCell("steps", "far too many", Model(2, 0), {}, (Hold(1.0, 100_000),))
 
 
 def test_a_hang_costs_one_cell(native_fmu: Path) -> None:
@@ -25,7 +25,7 @@ def test_a_hang_costs_one_cell(native_fmu: Path) -> None:
 
 def test_an_fmu_that_crashes_in_every_cell_fails_each(native_fmu: Path, tmp_path: Path) -> None:
     crash = compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
-    cells = [Cell("steps", str(n), Model(2, 0), {}, (Hold(1e-4, 20),)) for n in range(4)]
+    cells = [MatrixCell("steps", str(n), Model(2, 0), {}, (Hold(1e-4, 20),)) for n in range(4)]
     matrix = run_matrix(crash, cells, lambda *_: None, 20.0)
     assert [one.verdict for one in matrix.verdicts] == [FAILED] * 4
     assert all("crashed in fmi2DoStep" in one.reason for one in matrix.verdicts)

@@ -1,4 +1,4 @@
-"""Every cell of the matrix: it passes, or is refused with name, value and what is allowed."""
+"""Every cell of the matrix: it passes, or is refused with name, value and requirement."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.trials.extremes.cell import Cell
+from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST
 from slider_resonator.trials.extremes.matrix import all_cells
 from slider_resonator.trials.extremes.run import Matrix, run_matrix
@@ -30,7 +30,7 @@ WITHOUT_MEANING = {
 }
 
 
-def judged(fmu: Path, cells: list[Cell]) -> Matrix:
+def judged(fmu: Path, cells: list[MatrixCell]) -> Matrix:
     matrix = run_matrix(fmu, cells, lambda _name, _share: None)
     failed = [f"{one.name}: {one.reason}" for one in matrix.verdicts if one.verdict == FAILED]
     assert failed == []

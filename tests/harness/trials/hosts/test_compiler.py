@@ -15,7 +15,7 @@ from slider_resonator.trials.hosts.compiler import (
 )
 
 
-def test_the_driver_compiles_without_warnings_and_says_how_to_use_it(tmp_path: Path) -> None:
+def test_the_driver_compiles_without_warnings_and_prints_its_usage(tmp_path: Path) -> None:
     driver = compile_program(native_compiler(), SOURCES / "driver.c", tmp_path / "driver")
     done = subprocess.run([driver], capture_output=True, text=True, check=False)
     assert done.returncode == 2
@@ -35,7 +35,7 @@ def test_ziglang_stands_in_where_there_is_no_compiler(
     assert native_compiler() == zig_compiler()
 
 
-def test_versions_are_told() -> None:
+def test_versions_are_reported() -> None:
     assert compiler_version(zig_compiler()).startswith("zig 0.")
 
 

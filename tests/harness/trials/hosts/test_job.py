@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.trials.hosts.job import (
-    Answer,
+    HostAnswer,
     Job,
     Rows,
     describe,
@@ -32,7 +32,7 @@ def test_start_values_are_parameters_and_the_first_inputs() -> None:
 
 def served(
     run: object, jobs: list[Job], folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> list[Answer]:
+) -> list[HostAnswer]:
     asked, answered = folder / "jobs.json", folder / "answers.jsonl"
     write_jobs(asked, jobs)
     monkeypatch.setattr(sys, "argv", ["host", str(asked), str(answered)])
@@ -49,7 +49,9 @@ def test_jobs_and_answers_survive_the_files(
         seen.append(job)
         return [[0.1 + 0.2, -1e-300]]
 
-    assert served(run, [JOB, JOB], tmp_path, monkeypatch) == [Answer([[0.1 + 0.2, -1e-300]])] * 2
+    assert (
+        served(run, [JOB, JOB], tmp_path, monkeypatch) == [HostAnswer([[0.1 + 0.2, -1e-300]])] * 2
+    )
     assert seen == [JOB, JOB]
     assert isinstance(seen[0].start["fidelity"], int), "Integers stay integers"
 
@@ -63,8 +65,8 @@ def test_an_error_answers_its_own_job_only(tmp_path: Path, monkeypatch: pytest.M
         return [[1.0]]
 
     assert served(run, [JOB, JOB], tmp_path, monkeypatch) == [
-        Answer([], "ValueError: load = nan refused"),
-        Answer([[1.0]]),
+        HostAnswer([], "ValueError: load = nan refused"),
+        HostAnswer([[1.0]]),
     ]
 
 

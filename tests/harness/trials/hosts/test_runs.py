@@ -9,7 +9,7 @@ import pytest
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.trials.hosts import runs
 from slider_resonator.trials.hosts.hosts import Host
-from slider_resonator.trials.hosts.job import Answer
+from slider_resonator.trials.hosts.job import HostAnswer
 from slider_resonator.trials.hosts.runs import (
     ALLOWED,
     CASES,
@@ -48,7 +48,7 @@ def test_a_host_that_dies_leaves_the_answers_before(tmp_path: Path) -> None:
     broken = host(tmp_path, f"echo '{answer}' > \"$5\"; echo 'cannot go on' >&2; exit 3")
     first, second, *_ = answers = run_jobs(broken, table_1_jobs(FMU))
     assert len(answers) == len(CASES)
-    assert first == Answer([[1.0]])
+    assert first == HostAnswer([[1.0]])
     assert second.error == "the host ended with 3: cannot go on"
 
 
@@ -65,27 +65,27 @@ def test_a_host_that_hangs_is_ended_with_all_it_started(
 
 def test_deviations_count_in_shares_of_each_peak() -> None:
     ours = [[2.0, 0.0], [-4.0, 0.0]]
-    assert compare(ours, Answer(ours)).deviation == 0.0
-    other = compare(ours, Answer([[2.0, 0.0], [-4.0, 1e-12]]))
+    assert compare(ours, HostAnswer(ours)).deviation == 0.0
+    other = compare(ours, HostAnswer([[2.0, 0.0], [-4.0, 1e-12]]))
     assert other.deviation == 1e-12, "a signal without peak counts as it is"
     assert other.passed
-    wrong = compare(ours, Answer([[2.0 + 1e-9, 0.0], [-4.0, 0.0]]))
+    wrong = compare(ours, HostAnswer([[2.0 + 1e-9, 0.0], [-4.0, 0.0]]))
     assert wrong.deviation == pytest.approx(2.5e-10)
     assert not wrong.passed
     assert ALLOWED == 1e-11
 
 
 def test_an_answer_that_cannot_be_compared_fails() -> None:
-    refused = compare([[1.0]], Answer([], "load = nan refused"))
+    refused = compare([[1.0]], HostAnswer([], "load = nan refused"))
     assert refused.error == "load = nan refused"
-    short = compare([[1.0], [2.0]], Answer([[1.0]]))
+    short = compare([[1.0], [2.0]], HostAnswer([[1.0]]))
     assert short.error == "(1, 1) values, not (2, 1)"
-    not_a_number = compare([[1.0]], Answer([[math.nan]]))
+    not_a_number = compare([[1.0]], HostAnswer([[math.nan]]))
     assert not any(found.passed for found in (refused, short, not_a_number))
 
 
 def test_cases_keep_their_order() -> None:
-    theirs = [Answer([[1.0]])] * (len(CASES) - 1) + [Answer([], "last")]
+    theirs = [HostAnswer([[1.0]])] * (len(CASES) - 1) + [HostAnswer([], "last")]
     compared = by_case([[[1.0]]] * len(CASES), theirs)
     assert [case for case, comparison in compared.items() if comparison.error] == [CASES[-1]]
 

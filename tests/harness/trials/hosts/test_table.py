@@ -5,12 +5,15 @@ from pathlib import Path
 
 from slider_resonator.output import markdown
 from slider_resonator.trials.hosts.hosts import hosts
-from slider_resonator.trials.hosts.runs import CASES, Comparison, HostResult
+from slider_resonator.trials.hosts.runs import CASES, HostComparison, HostResult
 from slider_resonator.trials.hosts.table import BEGIN, COLUMNS, END, host_table, write_table
 
 README = Path(__file__).parents[4] / "README.md"
 RESULT = HostResult(
-    "a host", "1.2", "native", dict.fromkeys(CASES, Comparison(0.0)) | {CASES[1]: Comparison(3e-14)}
+    "a host",
+    "1.2",
+    "native",
+    dict.fromkeys(CASES, HostComparison(0.0)) | {CASES[1]: HostComparison(3e-14)},
 )
 
 
@@ -24,7 +27,7 @@ def test_a_row_says_host_version_fmu_and_each_deviation() -> None:
 
 
 def test_what_fails_stands_out() -> None:
-    failed = {CASES[0]: Comparison(None, "refused"), CASES[2]: Comparison(0.5)}
+    failed = {CASES[0]: HostComparison(None, "refused"), CASES[2]: HostComparison(0.5)}
     result = HostResult("a host", "1.2", "native", {**RESULT.comparisons, **failed})
     assert "| **failed** | 3e-14 | **5e-01** |" in markdown.rendered(host_table([result]))
 

@@ -16,9 +16,9 @@ from tests.harness import faulty_fmus
 SCENES = ("changing_inputs", "input_jumps", "initial_state", "stick_slip", "lugre", "lift_off")
 
 HARMFUL = (
-    ("leg.py", "each 50th stop or release that is found is passed over"),
+    ("leg.py", "each 50th stop or release is skipped"),
     ("moment.py", "reversals are not counted"),
-    ("contact.py", "lift-off and touchdown are noticed at the next step only"),
+    ("contact.py", "lift-off and touchdown happen at the next step only"),
     ("stick.py", "a stick is never released"),
     ("component.py", "the normal phase jumps by 0.01 rad when phase changes"),
     ("component.py", "changed inputs act one communication step late"),
@@ -35,9 +35,9 @@ def fmu(python_fmu: Path) -> PythonFmu:
     return read_python_fmu(python_fmu)
 
 
-def chosen(fmu: PythonFmu, wanted: list[tuple[str, str]]) -> list[Mutant]:
+def chosen(fmu: PythonFmu, keys: list[tuple[str, str]]) -> list[Mutant]:
     made = {(m.file, m.change): m for m in fmu_mutants(fmu)}
-    return [made[key] for key in wanted]
+    return [made[key] for key in keys]
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ from pathlib import Path
 from slider_resonator.scenes.scene import read_scene
 from slider_resonator.trials.mutants.archive import read_python_fmu
 from slider_resonator.trials.mutants.reach import noting_source, reaches
-from slider_resonator.trials.mutants.trial import Point
+from slider_resonator.trials.mutants.trial import ExpectedPoint
 from tests.harness import faulty_fmus
 
 MODULE = '''"""A module."""
@@ -41,7 +41,7 @@ def test_a_scene_reaches_what_its_device_asks_for(python_fmu: Path, tmp_path: Pa
     sticking.write_text(text.replace("[run]", "[device]\nbase_amplitude = 0.0\n\n[run]"))
     lugre = {"friction_law": 1.0}
     points = [
-        Point(read_scene(file, at), at)
+        ExpectedPoint(read_scene(file, at), at)
         for file, at in ((slipping, {}), (sticking, {}), (slipping, lugre))
     ]
     reached = reaches(read_python_fmu(python_fmu), points, 60.0, jobs=1)

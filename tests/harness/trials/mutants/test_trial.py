@@ -8,14 +8,14 @@ import pytest
 from slider_resonator.scenes.scene import scene_from
 from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
 from slider_resonator.trials.mutants.points import probe_points, scene_points
-from slider_resonator.trials.mutants.trial import Passed, Point, Rejection, trial
+from slider_resonator.trials.mutants.trial import ExpectedPoint, Passed, Rejection, trial
 from tests.harness import faulty_fmus
 
 Faulty = Callable[[str, str, str], Path]
 
 
 @pytest.fixture(scope="module")
-def points(tmp_path_factory: pytest.TempPathFactory) -> list[Point]:
+def points(tmp_path_factory: pytest.TempPathFactory) -> list[ExpectedPoint]:
     scene = faulty_fmus.scene(tmp_path_factory.mktemp("scene"))
     return scene_points([scene], lambda label, share: None)
 
@@ -33,14 +33,14 @@ def faulty(python_fmu: Path, tmp_path: Path) -> Faulty:
     return make
 
 
-def test_the_original_passes(python_fmu: Path, points: list[Point]) -> None:
+def test_the_original_passes(python_fmu: Path, points: list[ExpectedPoint]) -> None:
     outcome = trial(python_fmu, points, 60.0)
     assert isinstance(outcome, Passed), outcome
     assert outcome.nearest is not None
     assert outcome.nearest.severity < 1.0
 
 
-def test_a_failed_check_rejects(faulty: Faulty, points: list[Point]) -> None:
+def test_a_failed_check_rejects(faulty: Faulty, points: list[ExpectedPoint]) -> None:
     fmu = faulty("plant.py", "drive=force / total", "drive=1.01 * force / total")
     outcome = trial(fmu, points, 60.0)
     assert isinstance(outcome, Rejection)
@@ -57,7 +57,7 @@ def test_a_failed_check_rejects(faulty: Faulty, points: list[Point]) -> None:
     ],
 )
 def test_a_hang_a_crash_and_an_error_reject(
-    faulty: Faulty, points: list[Point], new: str, reason: str
+    faulty: Faulty, points: list[ExpectedPoint], new: str, reason: str
 ) -> None:
     first = "    plant, turn = held.plant, tau / LONGEST_ARC * held.arc\n"
     outcome = trial(faulty("events.py", first, f"{first}    {new}\n"), points, 3.0)
@@ -66,7 +66,9 @@ def test_a_hang_a_crash_and_an_error_reject(
     assert not outcome.quantity
 
 
-def test_an_fmu_that_cannot_be_loaded_is_rejected(faulty: Faulty, points: list[Point]) -> None:
+def test_an_fmu_that_cannot_be_loaded_is_rejected(
+    faulty: Faulty, points: list[ExpectedPoint]
+) -> None:
     outcome = trial(faulty("clock.py", "class Clock", "1 / 0\nclass Clock"), points, 60.0)
     assert isinstance(outcome, Rejection)
     assert not outcome.scene

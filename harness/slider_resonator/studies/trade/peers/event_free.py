@@ -1,4 +1,4 @@
-"""Integration straight over the reversals of a slider, without events.
+"""Integration across the reversals of a slider, without events.
 
 On sgn, as the paper does, the solver loses its order at every reversal and shrinks its steps until
 the jump fits the tolerance; in a stick it chatters about zero velocity. On tanh(velocity / width),

@@ -1,4 +1,4 @@
-"""LuGre friction (8) by CVODE's BDF with the bristle as a state: what a stiff solver makes of it.
+"""LuGre friction (8) by CVODE's BDF with the bristle as a state: a stiff solver.
 
 No event is located; the solver steps over the kinks at the reversals. A peer for measurements of
 cost, not a reference.
@@ -31,7 +31,7 @@ def simulate_lugre_cvode(
     scikit-sundae.
     """
     if device.friction_law != 1 or device.fidelity != 2 or device.resonator_mass == 0.0:
-        raise ValueError("covered is LuGre friction (friction_law 1) on the full device")
+        raise ValueError("only LuGre friction (friction_law 1) on the full device is covered")
     w, mass, slider = device.drive_frequency, device.resonator_mass, device.slider_mass
     wn, mu = device.resonator_frequency, device.friction_coefficient
     spring, damper = mass * wn * wn, 2.0 * device.damping_ratio * mass * wn

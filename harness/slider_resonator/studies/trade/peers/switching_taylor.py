@@ -74,7 +74,7 @@ def simulate_sliding(
     if device.normal_amplitude > device.normal_preload:
         raise ValueError("normal_amplitude above normal_preload: the contact lifts")
     if device.initial_velocity == 0.0 or device.fidelity != 2 or device.resonator_mass == 0.0:
-        raise ValueError("covered are full devices that start in motion (initial_velocity not 0)")
+        raise ValueError("only full devices with initial_velocity not 0 are covered")
     form: Form = "coulomb" if device.friction_law == 0 else bristle
     run = _compiled(form, tolerance)
     integrator, counter = run.integrator, run.counter
@@ -114,7 +114,7 @@ def _compiled(form: Form, tolerance: float) -> _Compiled:
         hy = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
-            "the Taylor reference needs heyoka: pip install 'slider-resonator[referee]'"
+            "the Taylor reference needs heyoka: pip install 'slider-resonator[taylor]'"
         ) from error
     x, v, y, u, z = hy.make_vars("x", "v", "y", "u", "z")
     par = {name: hy.par[index] for name, index in _PLACE.items()}

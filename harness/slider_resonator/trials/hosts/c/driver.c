@@ -21,7 +21,7 @@
 
 #include "fmu_library.h"
 
-enum { LONGEST_LINE = 4096, MOST_REFERENCES = 64, REFUSED = 1, NOT_UNDERSTOOD = 2 };
+enum { LONGEST_LINE = 4096, MAX_REFERENCES = 64, REFUSED = 1, NOT_UNDERSTOOD = 2 };
 
 static size_t blocks_in_use = 0;
 
@@ -69,10 +69,10 @@ static void step(Host *host, double size) {
     host->time += size;
 }
 
-static size_t read_references(fmi2ValueReference references[MOST_REFERENCES]) {
+static size_t read_references(fmi2ValueReference references[MAX_REFERENCES]) {
     size_t count = 0;
     const char *word;
-    while (count < MOST_REFERENCES && (word = strtok(NULL, " \r\n")) != NULL)
+    while (count < MAX_REFERENCES && (word = strtok(NULL, " \r\n")) != NULL)
         references[count++] = (fmi2ValueReference)strtoul(word, NULL, 10);
     return count;
 }
@@ -89,8 +89,8 @@ static double read_number(void) {
 }
 
 static void get(const Host *host) {
-    fmi2ValueReference references[MOST_REFERENCES];
-    fmi2Real values[MOST_REFERENCES];
+    fmi2ValueReference references[MAX_REFERENCES];
+    fmi2Real values[MAX_REFERENCES];
     size_t i, count = read_references(references);
     check(host->fmu.GetReal(host->instance, references, count, values), "fmi2GetReal");
     for (i = 0; i < count; i++) printf("%s%.17g", i ? " " : "", values[i]);
@@ -98,8 +98,8 @@ static void get(const Host *host) {
 }
 
 static void time_steps(Host *host) {
-    fmi2ValueReference references[MOST_REFERENCES], input = 0;
-    fmi2Real first = 0.0, value, values[MOST_REFERENCES];
+    fmi2ValueReference references[MAX_REFERENCES], input = 0;
+    fmi2Real first = 0.0, value, values[MAX_REFERENCES];
     long i, steps = (long)read_number();
     double size = read_number();
     size_t count = 0;

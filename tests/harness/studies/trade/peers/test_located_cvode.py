@@ -1,4 +1,4 @@
-"""CVODE with root finding against closed forms and the referee."""
+"""CVODE with root finding against closed forms and the Taylor reference."""
 
 from __future__ import annotations
 
@@ -45,16 +45,16 @@ def test_it_breaks_loose_when_friction_gives_way() -> None:
 
 
 @pytest.mark.parametrize("parameters", [{}, {"normal_amplitude": 2.0}, {"base_amplitude": 5e-8}])
-def test_it_agrees_with_the_referee(parameters: dict[str, float]) -> None:
+def test_it_agrees_with_the_taylor_reference(parameters: dict[str, float]) -> None:
     device = Device.from_mapping(parameters)
     middle, stop = 2.3 * PERIOD, 6 * PERIOD
     held = [HeldInputs(0.0, middle, phase=0.4), HeldInputs(middle, stop, load=0.03)]
     times = np.linspace(0.0, stop, 49)
     run = simulate(device, held, times, tolerance=TOLERANCE)
-    referee = taylor.simulate(device, held, times)
+    reference = taylor.simulate(device, held, times)
     for name in ("position", "velocity", "resonator_velocity"):
-        expected = getattr(referee, name)
+        expected = getattr(reference, name)
         error = np.abs(getattr(run, name) - expected).max()
         assert error < 1e-7 * np.abs(expected).max(), f"{name} off by {error}"
-    assert run.event_times == pytest.approx(referee.event_times, abs=1e-6 * PERIOD)
+    assert run.event_times == pytest.approx(reference.event_times, abs=1e-6 * PERIOD)
     assert run.evaluations > 0

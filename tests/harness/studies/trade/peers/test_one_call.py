@@ -1,4 +1,4 @@
-"""One call of heyoka: what it covers, and what it is charged for."""
+"""One call of heyoka: the devices that it covers, and its cost."""
 
 from __future__ import annotations
 

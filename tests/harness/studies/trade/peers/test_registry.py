@@ -31,7 +31,7 @@ def most_exact(problem: Problem) -> list[Peer]:
 
 
 @pytest.mark.parametrize("text", [TABLE_1, LUGRE])
-def test_the_last_setting_of_each_family_is_near_the_referee(tmp_path: Path, text: str) -> None:
+def test_the_last_setting_of_each_family_is_near_the_reference(tmp_path: Path, text: str) -> None:
     short = problem(tmp_path, text, max_periods=PERIODS)
     simulate = simulate_lugre if short.device.friction_law else taylor.simulate
     run = simulate(short.device, short.reference_inputs(PERIODS), short.readings(PERIODS))

@@ -29,7 +29,7 @@ def until(stop: float, **inputs: float) -> list[HeldInputs]:
 
 
 def deviation(first: Trajectory, second: Trajectory) -> float:
-    """Greatest deviation of any signal, in fractions of its peak."""
+    """Largest deviation of any signal, in fractions of its peak."""
     pairs = [(getattr(first, name), getattr(second, name)) for name in SIGNALS]
     return max(float(abs(a - b).max() / abs(b).max()) for a, b in pairs)
 
@@ -137,7 +137,7 @@ def test_samples_do_not_influence_the_motion() -> None:
         (TABLE_1, until(1.0), [-0.5], "must lie within"),
     ],
 )
-def test_what_cannot_be_simulated_is_refused(
+def test_devices_that_cannot_be_simulated_are_refused(
     device: Device, held: list[HeldInputs], times: list[float], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):

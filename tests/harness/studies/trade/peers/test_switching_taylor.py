@@ -47,7 +47,7 @@ def test_lugre_friction(bristle: str) -> None:
     assert end.samples[-1, 1] == pytest.approx(reference.velocity[-1], rel=1e-10)
 
 
-def test_what_it_does_not_cover_is_refused() -> None:
+def test_devices_that_it_does_not_cover_are_refused() -> None:
     held, times = HeldInputs(0.0, PERIOD), np.array([PERIOD])
     with pytest.raises(ValueError, match="start in motion"):
         simulate_sliding(Device(), held, times, tolerance=1e-10)
