@@ -7,16 +7,13 @@ from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.device.schedule import Schedule, Signal, schedule
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.scenes.scene import Scene
-
-Array = NDArray[np.float64]
 
 MIN_PERIODS = 1000
 """Minimum drive periods of a run under constant inputs: the longest communication step."""

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from slider_resonator.checks.measures.deviation import peak, share_of
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.device.held_inputs import Array
 from slider_resonator.studies.trade.problem import Problem
-
-Array = NDArray[np.float64]
 
 QUANTITIES: Mapping[str, str] = {
     "mean_velocity": "mean velocity over a drive period, share of its peak",

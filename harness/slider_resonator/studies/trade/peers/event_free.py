@@ -12,11 +12,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.references.resolved.scipy_methods import (
     Method,
     Solver,
@@ -25,8 +24,6 @@ from slider_resonator.references.resolved.scipy_methods import (
 )
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.studies.trade.peers.without_events import RunWithoutEvents
-
-Array = NDArray[np.float64]
 
 MAX_EVALUATIONS = 20_000_000
 

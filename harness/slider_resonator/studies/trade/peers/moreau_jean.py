@@ -13,15 +13,12 @@ from collections.abc import Sequence
 from math import ceil, pi, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.references.resolved.equations import Equations
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.studies.trade.peers.without_events import RunWithoutEvents
-
-Array = NDArray[np.float64]
 
 _SAME_INSTANT = 1e-9
 """Share of a step by which rounding may exceed a whole number of steps."""

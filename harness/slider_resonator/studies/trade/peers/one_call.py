@@ -9,17 +9,14 @@ from time import process_time
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
 from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
 from slider_resonator.studies.trade.peers.switching_taylor import SlidingRun, simulate_sliding
 from slider_resonator.studies.trade.solution import Solution
-
-Array = NDArray[np.float64]
 
 
 def heyoka_in_one_call(

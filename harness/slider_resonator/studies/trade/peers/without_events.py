@@ -6,16 +6,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.device.held_inputs import Array, HeldInputs, check_contiguous, check_times
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.trajectory import Trajectory
-
-Array = NDArray[np.float64]
 
 
 class RunWithoutEvents(ABC):
