@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -23,28 +24,22 @@ MOVING = Device(
 PERIOD = 2.0 * math.pi / MOVING.drive_frequency
 
 
-def test_coulomb_friction() -> None:
-    held = HeldInputs(0.0, 20 * PERIOD, phase=0.2, load=0.01, frequency_ratio=1.5)
+@pytest.mark.parametrize(
+    ("law", "bristle", "accuracy"), [(0, "path", 1e-11), (1, "path", 1e-10), (1, "state", 1e-10)]
+)
+def test_it_agrees_with_the_references(
+    law: int, bristle: Literal["path", "state"], accuracy: float
+) -> None:
+    device = replace(MOVING, friction_law=law, bristle_stiffness=1e4)
+    held = HeldInputs(0.0, (20 - 15 * law) * PERIOD, phase=0.2, load=0.01, frequency_ratio=1.5)
     times = np.array([0.0, held.stop])
-    reference = simulate(MOVING, [held], times)
+    reference = (simulate, simulate_lugre)[law](device, [held], times)
     assert reference.sticks == 0, "the peer covers no sticking"
-    end = simulate_sliding(MOVING, held, times, tolerance=1e-14)
+    end = simulate_sliding(device, held, times, tolerance=1e-14, bristle=bristle)
     assert end.reversals == reference.reversals
-    assert end.samples[-1, 0] == pytest.approx(reference.position[-1], rel=1e-11)
-    assert end.samples[-1, 1] == pytest.approx(reference.velocity[-1], rel=1e-11)
-    assert end.samples[-1, 2] == pytest.approx(reference.resonator_displacement[-1], rel=1e-11)
-
-
-@pytest.mark.parametrize("bristle", ["path", "state"])
-def test_lugre_friction(bristle: str) -> None:
-    device = replace(MOVING, friction_law=1, bristle_stiffness=1e4)
-    held = HeldInputs(0.0, 5 * PERIOD)
-    times = np.array([0.0, held.stop])
-    reference = simulate_lugre(device, [held], times)
-    end = simulate_sliding(device, held, times, tolerance=1e-14, bristle=bristle)  # type: ignore[arg-type]
-    assert end.reversals == reference.reversals
-    assert end.samples[-1, 0] == pytest.approx(reference.position[-1], rel=1e-10)
-    assert end.samples[-1, 1] == pytest.approx(reference.velocity[-1], rel=1e-10)
+    for column, name in enumerate(("position", "velocity", "resonator_displacement")):
+        expected = getattr(reference, name)[-1]
+        assert end.samples[-1, column] == pytest.approx(expected, rel=accuracy), name
 
 
 def test_what_it_does_not_cover_is_refused() -> None:
