@@ -59,3 +59,13 @@ def test_tables_are_written_for_people_and_for_machines(tmp_path: Path) -> None:
     wrong = {"rows": [{"kappa": 1.0, "error": -0.5}]}
     write_tables(tmp_path, [(table, wrong)], "a.fmu", "guid")
     assert "**NOT CONFIRMED**" in (tmp_path / "TABLES.md").read_text(encoding="utf-8")
+
+
+def test_one_deviation_too_large_of_either_sign_is_enough() -> None:
+    columns = {"kappa": "kappa", "error": "e", "other": "o"}
+    table = PaperTable("t", "T", "", columns, {"error": 0.1, "other": 1.0}, lambda i: {})
+    data = {"rows": [{"kappa": 9.0, "error": -0.1, "other": 0.0}, {"error": 0.05, "other": 1.0}]}
+    assert table.largest(data) == {"error": 0.1, "other": 1.0}
+    assert table.confirmed(data)
+    assert not table.confirmed({"rows": [{"error": -0.11, "other": 0.0}]})
+    assert not table.confirmed({"rows": [{"error": 0.0, "other": 0.0}, {"error": 0, "other": 2}]})
