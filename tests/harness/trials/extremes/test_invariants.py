@@ -67,30 +67,23 @@ def test_a_replay_that_differs_fails(seen: Observation) -> None:
 
 
 @pytest.mark.parametrize(
-    "words",
+    ("words", "verdict"),
     [
-        "x.fmu: load = 0.0 refused: must be a finite number",
-        "x.fmu: base_amplitude = 0.0001 refused: must be a finite number of at least 0 m",
-        "doStep: communicationStepSize = 0.0001 refused: it takes more than 9; must be less",
+        ("x.fmu: load = 0.0 refused: must be a finite number", REFUSED),
+        ("base_amplitude = 0.0001 refused: must be a finite number of at least 0 m", REFUSED),
+        ("doStep: communicationStepSize = 0.0001 refused: more than 9; must be less", REFUSED),
+        ("x.fmu: fmi2DoStep failed with status 3 (error).", FAILED),
+        ("the parameters are refused: must be smaller", FAILED),
+        ("base_amplitude = 0.0001 refused", FAILED),
+        ("base_amplitude = 1.0 refused: must be a finite number of at least 0 m", FAILED),
+        ("doStep: communicationStepSize = 7.0 refused: must be a finite number above 0", FAILED),
+        ("a finer fidelity refused: must be 1 or 2", FAILED),
     ],
 )
-def test_a_refusal_names_thing_value_and_what_is_allowed(seen: Observation, words: str) -> None:
-    assert judge(TABLE_1, replace(seen, refusal=words)).verdict == REFUSED
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        "x.fmu: fmi2DoStep failed with status 3 (error).",
-        "the parameters are refused: must be smaller",
-        "base_amplitude = 0.0001 refused",
-        "base_amplitude = 1.0 refused: must be a finite number of at least 0 m",
-        "doStep: communicationStepSize = 7.0 refused: must be a finite number above 0",
-        "a finer fidelity refused: must be 1 or 2",
-    ],
-)
-def test_any_other_refusal_fails(seen: Observation, words: str) -> None:
-    assert judge(TABLE_1, replace(seen, refusal=words)).verdict == FAILED
+def test_a_refusal_names_thing_value_and_what_is_allowed(
+    seen: Observation, words: str, verdict: str
+) -> None:
+    assert judge(TABLE_1, replace(seen, refusal=words)).verdict == verdict
 
 
 def test_a_step_that_costs_too_much_fails(seen: Observation) -> None:
