@@ -12,8 +12,8 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.studies.trade.peers.one_call import device_at
 from slider_resonator.studies.trade.peers.switching_taylor import simulate_sliding
 
 MOVING = Device(
@@ -57,15 +57,7 @@ def test_a_run_goes_on_from_within_its_inputs(law: int) -> None:
     times = np.linspace(0.0, held.stop, 25)
     reference = (simulate, simulate_lugre)[law](device, [held], times)
     begin = 8
-    bent = reference.bristle_deflection[begin] if isinstance(reference, LugreTrajectory) else 0.0
-    later = replace(
-        device,
-        initial_position=reference.position[begin],
-        initial_velocity=reference.velocity[begin],
-        initial_resonator_displacement=reference.resonator_displacement[begin],
-        initial_resonator_velocity=reference.resonator_velocity[begin],
-        initial_bristle_deflection=bent,
-    )
+    later = device_at(device, reference, begin)
     end = simulate_sliding(later, held, times[begin:], tolerance=1e-14, start=float(times[begin]))
     assert end.samples[:, 0] == pytest.approx(reference.position[begin:], rel=1e-9)
     assert end.samples[:, 1] == pytest.approx(reference.velocity[begin:], rel=1e-9)
