@@ -60,10 +60,10 @@ def _sentences(outcome: Outcome) -> str:
     if outcome.claims:
         lines.append(f"claims   {verdicts(outcome.claims)}")
     for claim in outcome.claims:
-        if not claim["confirmed"]:
-            numbers = ", ".join(f"{name} = {value}" for name, value in claim["numbers"].items())
+        if not claim.confirmed:
+            numbers = ", ".join(f"{name} = {value}" for name, value in claim.numbers.items())
             lines.append(
-                f"FAIL     {claim['name']}: {claim['statement']}: expected: {claim['verdict']}, "
-                f"{claim['why']}; measured: {numbers}"
+                f"FAIL     {claim.name}: {claim.statement}: expected: {claim.verdict}, "
+                f"{claim.why}; measured: {numbers}"
             )
     return "\n".join(lines)

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class HeldInputs:
@@ -37,7 +39,7 @@ def check_contiguous(held: Sequence[HeldInputs]) -> None:
             )
 
 
-def check_times(times: NDArray[np.float64], held: Sequence[HeldInputs]) -> None:
+def check_times(times: Array, held: Sequence[HeldInputs]) -> None:
     """Raise ValueError unless ``times`` (s) are one ascending row within the held inputs."""
     start, stop = held[0].start, held[-1].stop
     if times.ndim != 1 or not (np.diff(times) >= 0.0).all():

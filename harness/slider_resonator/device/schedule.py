@@ -123,10 +123,16 @@ def _merged(
     grid: NDArray[np.float64], fixed: NDArray[np.float64], distance: float
 ) -> NDArray[np.float64]:
     """Return the sorted `fixed` points and those of the grid that are farther from all of them."""
-    after = np.searchsorted(fixed, grid).clip(max=len(fixed) - 1)
+    far = np.abs(grid - fixed[nearest(fixed, grid)]) > distance
+    return np.union1d(grid[far], fixed)
+
+
+def nearest(points: NDArray[np.float64], targets: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Return the index of the nearest of the ascending points (n,) to each target (m,)."""
+    after = np.searchsorted(points, targets).clip(max=len(points) - 1)
     before = (after - 1).clip(min=0)
-    nearest = np.minimum(np.abs(grid - fixed[after]), np.abs(grid - fixed[before]))
-    return np.union1d(grid[nearest > distance], fixed)
+    nearer = np.abs(points[before] - targets) < np.abs(points[after] - targets)
+    return np.where(nearer, before, after)
 
 
 @dataclass(frozen=True)

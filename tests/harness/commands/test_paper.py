@@ -31,9 +31,9 @@ def test_an_unconfirmed_claim_exits_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from slider_resonator.studies.paper import reproduce
-    from slider_resonator.studies.paper.claim import AGREES, Claim, ClaimGroup
+    from slider_resonator.studies.paper.claim import Claim, ClaimGroup
 
-    claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, AGREES, "it does not", False)
+    claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, "agrees", "it does not", False)
     group = ClaimGroup("claims_x", "X", (lambda instance: [claim],))
     monkeypatch.setattr(reproduce, "GROUPS", (group,))
     arguments = ["--out", str(tmp_path), "--only", "claims", "--fmu", str(native_fmu)]

@@ -17,10 +17,9 @@ from slider_resonator.studies.choose.candidate import (
     Candidate,
     Model,
 )
-from slider_resonator.studies.choose.choice import Choice, RuledOut
+from slider_resonator.studies.choose.choice import Choice, Evaluation, RuledOut
 from slider_resonator.studies.choose.cost import run_cost, search_cost
 from slider_resonator.studies.choose.errors import Estimates
-from slider_resonator.studies.choose.evaluation import Evaluation
 from slider_resonator.studies.choose.ladder import step_ladder
 from slider_resonator.studies.choose.probe import FINEST_TOLERANCE, Probe
 from slider_resonator.studies.choose.search import coarsest
@@ -92,10 +91,7 @@ class _Choosing:
         impossible = self._impossible()
         if impossible:
             self._evaluate(Candidate(self.probe.reference_model, START_TOLERANCE, self.ladder[0]))
-            models = self.models()
-            return self._choice(
-                None, [RuledOut(m.fidelity, m.friction_law, impossible) for m in models]
-            )
+            return self._choice(None, [_ruled_out(model, impossible) for model in self.models()])
         if self.ladder[0] is not None:
             self.probe.resolve(self.ladder[0])
         ruled_out: list[RuledOut] = []
@@ -104,17 +100,16 @@ class _Choosing:
             why = self._excluded(model)
             if why is None and best is not None and self._min_cost(model) >= best.cost:
                 why = f"costs at least {self._min_cost(model):.3g} s, the chosen {best.cost:.3g} s"
+            found: Evaluation | None = None
             if why is None:
-                evaluation, why = self._cheapest_of(model)
-                if evaluation is not None and (best is None or evaluation.cost < best.cost):
-                    if best is not None:
-                        ruled_out.append(_more_expensive(best, evaluation))
-                    best = evaluation
-                    continue
-                if evaluation is not None and best is not None:
-                    ruled_out.append(_more_expensive(evaluation, best))
-                    continue
-            ruled_out.append(RuledOut(model.fidelity, model.friction_law, why))
+                found, why = self._cheapest_of(model)
+            if found is None:
+                ruled_out.append(_ruled_out(model, why))
+            elif best is None:
+                best = found
+            else:
+                best, other = sorted((best, found), key=lambda one: one.cost)
+                ruled_out.append(_more_expensive(other, best))
         return self._choice(best, ruled_out)
 
     def _impossible(self) -> str:
@@ -260,6 +255,9 @@ class _Choosing:
 
 
 def _more_expensive(evaluation: Evaluation, best: Evaluation) -> RuledOut:
-    model = evaluation.candidate.model
     why = f"meets the needs too, at {evaluation.cost:.3g} s instead of {best.cost:.3g} s"
+    return _ruled_out(evaluation.candidate.model, why)
+
+
+def _ruled_out(model: Model, why: str) -> RuledOut:
     return RuledOut(model.fidelity, model.friction_law, why)

@@ -10,6 +10,7 @@ import numpy as np
 
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.measures.frequency import dominant_frequency
+from slider_resonator.device.schedule import nearest
 from slider_resonator.studies.choose.candidate import COULOMB
 from slider_resonator.studies.choose.stretch import Samples
 
@@ -73,10 +74,7 @@ def _events(samples: Samples, reference: Samples, period: float) -> ErrorEstimat
         )
         return ErrorEstimate(inf, period, counts)
     shown, true = np.unique(samples["last_event_time"]), np.unique(reference["last_event_time"])
-    after = np.searchsorted(true, shown).clip(max=len(true) - 1)
-    before = (after - 1).clip(min=0)
-    nearest = np.minimum(np.abs(shown - true[after]), np.abs(shown - true[before]))
-    return ErrorEstimate(peak(nearest), period)
+    return ErrorEstimate(peak(shown - true[nearest(true, shown)]), period)
 
 
 def _beat(samples: Samples, reference: Samples) -> ErrorEstimate:

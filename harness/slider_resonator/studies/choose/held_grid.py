@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from math import tau
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.device.held_inputs import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule, Signal, communication_points, steps
 from slider_resonator.scenes.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

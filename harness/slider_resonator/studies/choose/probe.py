@@ -7,8 +7,8 @@ from functools import cached_property
 from math import inf
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.device.held_inputs import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
@@ -36,8 +36,6 @@ from slider_resonator.studies.choose.windows import (
     settling,
     with_holding,
 )
-
-Array = NDArray[np.float64]
 
 FINEST_TOLERANCE = 1e-13
 """Tolerance of the resolved LuGre device, the reference of all candidates."""

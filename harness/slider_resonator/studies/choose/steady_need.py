@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from math import inf
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.blocking_force import Blocking, find_blocking
-from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
+from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.search_result import SearchResult
+from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.choose.candidate import Candidate
 from slider_resonator.studies.choose.errors import ROUNDING, ErrorEstimate
 
@@ -39,16 +40,13 @@ def find(
         instance.start(given)
         with instance.explained():
             return SteadyValue(instance.value(name), "", 0)
+    search: SearchResult
     if name == "steady_velocity":
-        motion: SteadyMotion | Blocking = find_steady(instance, given)
-        value = motion.steady_velocity if isinstance(motion, SteadyMotion) else None
+        search = find_steady(instance, given)
     else:
-        motion = find_blocking(instance, {k: v for k, v in given.items() if k != "load"})
-        value = motion.blocking_force
-    settles = motion.status in EXISTS[name]
-    return SteadyValue(
-        value if settles else None, f"{motion.status}: {motion.reason}", motion.periods
-    )
+        search = find_blocking(instance, {k: v for k, v in given.items() if k != "load"})
+    value: float | None = getattr(search, name) if search.status in EXISTS[name] else None
+    return SteadyValue(value, f"{search.status}: {search.reason}", search.periods)
 
 
 def steady_error(found: SteadyValue, reference: SteadyValue, law: int) -> ErrorEstimate:

@@ -6,15 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.device.held_inputs import Array
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.held_grid import HeldGrid
-
-Array = NDArray[np.float64]
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 MAX_CHECKPOINTS = 2000

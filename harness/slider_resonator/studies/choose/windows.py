@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 from math import ceil, log
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.fmu.instance import Instance
@@ -24,8 +23,6 @@ from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates
 from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.scales import Scales
 from slider_resonator.studies.choose.stretch import Samples, Stretch, follow
-
-Array = NDArray[np.float64]
 
 WINDOWS = 6
 WINDOW_PERIODS = 240

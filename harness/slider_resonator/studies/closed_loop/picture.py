@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,7 @@ from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import COLOURS, save, style
 from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.studies.closed_loop.judge import Agreement
-from slider_resonator.studies.closed_loop.loop import LoopRecord
+from slider_resonator.studies.closed_loop.loop import Array, LoopRecord
 
 DESIGN_COLOUR, PROOF_COLOUR = COLOURS["theory"], COLOURS["slow"]
 BAND_COLOUR = "#d8e6ee"
@@ -57,24 +57,22 @@ def _draw_velocity(axes: Axes, design: LoopRecord, proof: LoopRecord, duty: Duty
         since = [interval.start + duty.settling, interval.end]
         axes.fill_between(since, low, high, color=BAND_COLOUR, linewidth=0.0, label=label)
         label = ""
-    axes.plot(
-        proof.times, 1e3 * proof.velocity, color=PROOF_COLOUR, label=f"fidelity {proof.fidelity}"
-    )
-    axes.plot(
-        design.times,
-        1e3 * design.velocity,
-        color=DESIGN_COLOUR,
-        linestyle="--",
-        label=f"fidelity {design.fidelity}",
-    )
+    _plot_both(axes, design, proof, lambda record: 1e3 * record.velocity)
     axes.set(ylabel="mean velocity [mm/s]", ylim=(0.86 * reference, 1.12 * reference))
     axes.legend(loc="lower right", ncols=3)
 
 
 def _draw_phase(axes: Axes, design: LoopRecord, proof: LoopRecord) -> None:
-    axes.plot(proof.times, proof.phase, color=PROOF_COLOUR)
-    axes.plot(design.times, design.phase, color=DESIGN_COLOUR, linestyle="--")
+    _plot_both(axes, design, proof, lambda record: record.phase)
     axes.set_ylabel("phase [rad]")
+
+
+def _plot_both(
+    axes: Axes, design: LoopRecord, proof: LoopRecord, signal: Callable[[LoopRecord], Array]
+) -> None:
+    for record, colour, dash in ((proof, PROOF_COLOUR, "-"), (design, DESIGN_COLOUR, "--")):
+        label = f"fidelity {record.fidelity}"
+        axes.plot(record.times, signal(record), dash, color=colour, label=label)
 
 
 def _draw_difference(

@@ -1,16 +1,14 @@
-"""One statement of the paper and its measurement."""
+"""Statements of the paper, from claims.toml, and the measurements of each."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
-from typing import Any
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
 
 from slider_resonator.fmu.instance import Instance
-
-AGREES = "agrees"
-PARTLY = "agrees in part"
-DISAGREES = "disagrees"
 
 
 @dataclass(frozen=True)
@@ -29,13 +27,6 @@ class Claim:
     why: str
     confirmed: bool
 
-    def plain(self) -> dict[str, Any]:
-        """Return the claim as JSON holds it."""
-        return asdict(self) | {
-            "numbers": {name: float(value) for name, value in self.numbers.items()},
-            "confirmed": bool(self.confirmed),
-        }
-
 
 @dataclass(frozen=True)
 class ClaimGroup:
@@ -43,11 +34,29 @@ class ClaimGroup:
 
     name: str
     title: str
-    measures: tuple[Callable[[Instance], list[Claim]], ...]
+    measures: tuple[Callable[[Instance], Iterable[Claim]], ...]
 
     def measure(self, instance: Instance) -> list[Claim]:
         """Return all claims as measured."""
         return [claim for measure in self.measures for claim in measure(instance)]
+
+
+@cache
+def statements() -> Mapping[str, Mapping[str, str]]:
+    """Return the statements by name: where, statement, verdict and why."""
+    file = resources.files("slider_resonator.studies.paper") / "claims.toml"
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def claim(name: str, confirmed: bool, numbers: Mapping[str, float]) -> Claim:
+    """Return the statement of this name with what was measured about it."""
+    plain = {label: float(number) for label, number in numbers.items()}
+    return Claim(name=name, numbers=plain, confirmed=bool(confirmed), **statements()[name])
+
+
+def labelled(label: str, numbers: Mapping[float, float]) -> dict[str, float]:
+    """Return numbers by what was varied under names: the label and the varied number."""
+    return {f"{label}_{varied:g}": number for varied, number in numbers.items()}
 
 
 def near(found: float, expected: float, share: float) -> bool:

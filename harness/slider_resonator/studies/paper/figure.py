@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,8 @@ from numpy.typing import NDArray
 from slider_resonator.fmu.instance import Instance
 
 Array = NDArray[np.float64]
+LINE_POINTS = 121
+"""Points of a line over a panel."""
 Data = dict[str, Any]
 """Measurements as plain data for JSON."""
 
@@ -99,12 +102,35 @@ class SweptPanel:
         """Return the velocities at all points."""
         return curve(self.points, [velocity(self.case(value)) for value in self.points])
 
-    def draw(self, axes: Axes, data: Data, lines: Sequence[Line], count: int) -> None:
-        """Draw ``lines``, each over ``count`` points, and the FMU's results."""
-        fine = np.linspace(self.points[0], self.points[-1], count).tolist()
+    def draw(self, axes: Axes, data: Data, lines: Sequence[Line]) -> None:
+        """Draw ``lines`` and the FMU's results."""
+        fine = np.linspace(self.points[0], self.points[-1], LINE_POINTS).tolist()
         for line in lines:
             velocities = [line.velocity(self.case(x)) for x in fine]
             axes.plot(fine, velocities, line.dash, color=line.shade, label=line.label)
         markers(axes, data["x"], data["v"], SHADES[1], "FMU")
         axes.set(xlabel=self.label, ylabel="steady velocity $V$")
         axes.legend(fontsize=8)
+
+
+def swept_figure(
+    name: str,
+    title: str,
+    caption: str,
+    velocity: Callable[[Instance, dict[str, float]], float],
+    swept: Sequence[SweptPanel],
+    lines: Sequence[Line],
+    height: float = 3.4,
+) -> PaperFigure:
+    """Return the figure with a panel for each parameter that is swept, over which `lines` lie."""
+
+    def measure(instance: Instance) -> Data:
+        return {panel.swept: panel.measure(partial(velocity, instance)) for panel in swept}
+
+    def draw(data: Data) -> Drawing:
+        drawing, axes = panels(len(swept), height)
+        for axis, panel in zip(axes, swept, strict=True):
+            panel.draw(axis, data[panel.swept], lines)
+        return drawing
+
+    return PaperFigure(name, title, caption, measure, draw)

@@ -28,6 +28,11 @@ STRENGTH = 1.0
 FREQUENCIES = (10.0, 1000.0)
 STIFFNESS = 100.0
 POINTS = {10.0: 320, 1000.0: 64}
+SHOWN = {
+    10.0: (5, 1, "average + fast part"),
+    1000.0: (2, 16, "average, no fast part drawn"),
+}
+"""By frequency every how many points have a marker, the line's points, and what the line is."""
 LAWS = ("Coulomb", "LuGre")
 
 
@@ -76,21 +81,11 @@ def _panel(axis: Axes, law: str, data: Data) -> None:
     times = np.linspace(0.0, STOP, 1601)
     for frequency, shade, dash in zip(FREQUENCIES, SHADES, ("-", "--"), strict=False):
         run = data[f"{law} {frequency:g}"]
-        if frequency == 1000.0:
-            label = "average, no fast part drawn"
-            shown = averaged_position(law, frequency, times[::16])
-            axis.plot(times[::16], shown, dash, color=shade, label=f"$\\Omega$ = 1000, {label}")
-        else:
-            shown = averaged_position(law, frequency, times)
-            axis.plot(times, shown, dash, color=shade, label="$\\Omega$ = 10, average + fast part")
-        every = 5 if frequency == 10.0 else 2
-        markers(
-            axis,
-            run["time"][::every],
-            run["position"][::every],
-            shade,
-            f"$\\Omega$ = {frequency:g}, FMU",
-        )
+        every, coarse, label = SHOWN[frequency]
+        drawn, name = times[::coarse], f"$\\Omega$ = {frequency:g}"
+        average = averaged_position(law, frequency, drawn)
+        axis.plot(drawn, average, dash, color=shade, label=f"{name}, {label}")
+        markers(axis, run["time"][::every], run["position"][::every], shade, f"{name}, FMU")
     axis.set(xlabel="time $\\tau$", ylabel="displacement $X$", xlim=(0.0, STOP))
     axis.legend(fontsize=8)
 

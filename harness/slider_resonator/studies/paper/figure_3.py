@@ -5,22 +5,18 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
-from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
-from slider_resonator.studies.paper.figure import (
-    SHADES,
-    Data,
-    Line,
-    PaperFigure,
-    SweptPanel,
-    panels,
-)
+from slider_resonator.studies.paper.figure import SHADES, Line, SweptPanel, swept_figure
 from slider_resonator.studies.paper.mapping import coulomb_case
 from slider_resonator.studies.paper.measure import steady_velocity
 
 FREQUENCY = 1000.0
+
+
+def _velocity(instance: Instance, case: dict[str, float]) -> float:
+    return steady_velocity(instance, coulomb_case(frequency=FREQUENCY, **case))
 
 
 PANELS = (
@@ -43,33 +39,16 @@ PANELS = (
         {"amplitude_ratio": 1.0, "phase": 1.57},
     ),
 )
-
-
 LINES = (
     Line("(5)", "-", SHADES[0], lambda case: closed_forms.steady_velocity(**case)),
     Line("(7), small velocities", ":", "0.5", lambda case: closed_forms.linear_velocity(**case)),
 )
-
-
-def _measure(instance: Instance) -> Data:
-    def velocity(case: dict[str, float]) -> float:
-        return steady_velocity(instance, coulomb_case(frequency=FREQUENCY, **case))
-
-    return {panel.swept: panel.measure(velocity) for panel in PANELS}
-
-
-def _draw(data: Data) -> Drawing:
-    drawing, axes = panels(3)
-    for axis, panel in zip(axes, PANELS, strict=True):
-        panel.draw(axis, data[panel.swept], LINES, 201)
-    return drawing
-
-
-FIGURE = PaperFigure(
+FIGURE = swept_figure(
     "figure_3",
     "Steady velocity with Coulomb friction",
     "(a) alpha = 1, q = 1; (b) phi = 0.5, q = 1; (c) phi = 1.57, alpha = 1. Markers: FMU by "
     "shooting, Omega = 1000. Lines: (5), dotted (7).",
-    _measure,
-    _draw,
+    _velocity,
+    PANELS,
+    LINES,
 )

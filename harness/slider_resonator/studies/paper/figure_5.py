@@ -5,41 +5,32 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
-from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper.figure import (
-    SHADES,
-    Data,
-    Line,
-    PaperFigure,
-    SweptPanel,
-    panels,
-)
+from slider_resonator.studies.paper.figure import SHADES, Line, SweptPanel, swept_figure
 from slider_resonator.studies.paper.mapping import lugre_case
 from slider_resonator.studies.paper.measure import steady_velocity
 
 FREQUENCY = 1000.0
 STIFFNESS = 100.0
-
-
 FIXED = {"phase": 1.57}
 """The others are sigma_1 = 1, mu = 0.4, alpha = q = 1."""
+MU = (0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0)
 PANELS = tuple(
     SweptPanel(swept, label, tuple(points), FIXED)
     for swept, label, points in (
         ("phase", "phase $\\phi$ [rad]", np.linspace(0.0, pi, 11).tolist()),
         ("strength", "strength $q$", np.linspace(0.25, 2.5, 10).tolist()),
         ("amplitude_ratio", "amplitude ratio $\\alpha$", np.linspace(0.0, 1.0, 9).tolist()),
-        (
-            "friction_coefficient",
-            "friction coefficient $\\mu$",
-            (0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0),
-        ),
+        ("friction_coefficient", "friction coefficient $\\mu$", MU),
     )
 )
+
+
+def _velocity(instance: Instance, case: dict[str, float]) -> float:
+    return steady_velocity(instance, lugre_case(LugreCase(**case), FREQUENCY, STIFFNESS))
 
 
 def _uniform(case: dict[str, float]) -> float:
@@ -50,27 +41,13 @@ LINES = (
     Line("(17)", "-", SHADES[0], lambda case: averaged_lugre.steady_velocity(LugreCase(**case))),
     Line("uniform average", ":", SHADES[2], _uniform),
 )
-
-
-def _measure(instance: Instance) -> Data:
-    def velocity(case: dict[str, float]) -> float:
-        return steady_velocity(instance, lugre_case(LugreCase(**case), FREQUENCY, STIFFNESS))
-
-    return {panel.swept: panel.measure(velocity) for panel in PANELS}
-
-
-def _draw(data: Data) -> Drawing:
-    drawing, axes = panels(4, height=3.0)
-    for axis, panel in zip(axes, PANELS, strict=True):
-        panel.draw(axis, data[panel.swept], LINES, 61)
-    return drawing
-
-
-FIGURE = PaperFigure(
+FIGURE = swept_figure(
     "figure_5",
     "Steady velocity with LuGre friction",
     "sigma_1 = 1 and, where not swept, mu = 0.4, alpha = 1, q = 1, phi = 1.57. Markers: FMU, "
     "sigma_0 = 100, Omega = 1000, by shooting. Lines: (17), dotted the uniform average.",
-    _measure,
-    _draw,
+    _velocity,
+    PANELS,
+    LINES,
+    height=3.0,
 )

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
 from slider_resonator.output import markdown
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
+from slider_resonator.studies.paper.claim import Claim
 from slider_resonator.studies.paper.figure import Data, PaperFigure
 from slider_resonator.studies.paper.table import PaperTable
 
@@ -25,7 +26,7 @@ def write_figures(folder: Path, figures: Iterable[PaperFigure], fmu: str, guid: 
     for figure in figures:
         lines += [f"## {figure.name}: {figure.title}", "", f"![{figure.title}]({figure.name}.png)"]
         lines += ["", f"{figure.caption} ([SVG]({figure.name}.svg))", ""]
-    _write(folder / "FIGURES.md", "\n".join(lines))
+    write_text(folder / "FIGURES.md", "\n".join(lines))
 
 
 def write_tables(
@@ -47,7 +48,7 @@ def write_tables(
             "allowed": table.bounds,
             "rows": data["rows"],
         }
-        _write(folder / f"{table.name}.json", to_json(content) + "\n")
+        write_text(folder / f"{table.name}.json", to_json(content) + "\n")
         lines += [f"## {table.name}: {table.title}", "", table.caption, ""]
         rows = [[_number(row[name]) for name in table.columns] for row in data["rows"]]
         lines += [markdown.rendered(Table(numbers(*table.columns.values()), rows)), ""]
@@ -56,54 +57,42 @@ def write_tables(
             meaning = table.columns[name]
             lines.append(f"Largest {meaning}: {size:.2g}, allowed {table.bounds[name]:g}{verdict}.")
         lines.append("")
-    _write(folder / "TABLES.md", "\n".join(lines))
+    write_text(folder / "TABLES.md", "\n".join(lines))
 
 
 def write_claims(
-    folder: Path,
-    groups: Sequence[tuple[str, Sequence[Mapping[str, Any]]]],
-    fmu: str,
-    guid: str,
+    folder: Path, groups: Sequence[tuple[str, Sequence[Claim]]], fmu: str, guid: str
 ) -> None:
     """Write claims.json and claims.md from (title, claims) of every group.
 
     Raises HarnessError when they cannot be written.
     """
     claims = [claim for _, group in groups for claim in group]
-    _write(folder / "claims.json", to_json({"fmu": fmu, "guid": guid, "claims": claims}) + "\n")
+    content = {"fmu": fmu, "guid": guid, "claims": claims}
+    write_text(folder / "claims.json", to_json(content) + "\n")
     lines = ["# Statements of the paper, and what was measured", "", f"FMU {fmu}, GUID {guid}."]
     lines += [verdicts(claims), ""]
     for title, group in groups:
         columns = texts("statement", "where", "measured", "verdict", "why")
         table = Table(columns, [_claim_row(claim) for claim in group])
         lines += [f"## {title}", "", markdown.rendered(table), ""]
-    _write(folder / "claims.md", "\n".join(lines))
+    write_text(folder / "claims.md", "\n".join(lines))
 
 
-def verdicts(claims: Sequence[Mapping[str, Any]]) -> str:
+def verdicts(claims: Sequence[Claim]) -> str:
     """Return a sentence that counts the verdicts."""
-    counts: dict[str, int] = {}
-    for claim in claims:
-        name = claim["verdict"] if claim["confirmed"] else "not confirmed"
-        counts[name] = counts.get(name, 0) + 1
+    counts = Counter(c.verdict if c.confirmed else "not confirmed" for c in claims)
     listed = ", ".join(f"{count} {name}" for name, count in counts.items())
     return f"{len(claims)} statements: {listed}."
 
 
-def _claim_row(claim: Mapping[str, Any]) -> Row:
+def _claim_row(claim: Claim) -> Row:
     measured = "\n".join(
-        f"{name.replace('_', ' ')} {_number(value)}" for name, value in claim["numbers"].items()
+        f"{name.replace('_', ' ')} {_number(value)}" for name, value in claim.numbers.items()
     )
-    verdict = Cell("NOT CONFIRMED", Style.FAIL)
-    if claim["confirmed"]:
-        verdict = Cell(claim["verdict"])
-    return (claim["statement"], claim["where"], measured, verdict, claim["why"])
+    verdict = Cell(claim.verdict) if claim.confirmed else Cell("NOT CONFIRMED", Style.FAIL)
+    return (claim.statement, claim.where, measured, verdict, claim.why)
 
 
 def _number(value: float | None) -> str:
     return "none" if value is None else f"{value:.6g}"
-
-
-def _write(path: Path, text: str) -> None:
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")

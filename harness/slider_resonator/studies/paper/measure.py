@@ -10,6 +10,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
 
 INPUTS = {"phase", "load", "frequency_ratio"}
@@ -28,21 +29,28 @@ def plain(found: Record) -> dict[str, list[float]]:
     return {"time": found.times.tolist(), **{name: found[name].tolist() for name in SIGNALS}}
 
 
+def steady_motion(
+    instance: Instance, values: Mapping[str, float]
+) -> tuple[float, Mapping[str, float]]:
+    """Return the steady velocity in m/s by shooting, and the state; FmuError without one."""
+    steady = find_steady(instance, values)
+    return _found(steady.steady_velocity, steady, instance, values), steady.state
+
+
 def steady_velocity(instance: Instance, values: Mapping[str, float]) -> float:
     """Return the steady velocity in m/s by shooting; FmuError, with the reason, without one."""
-    steady = find_steady(instance, values)
-    return _found(steady.steady_velocity, steady.reason, instance, values)
+    return steady_motion(instance, values)[0]
 
 
 def blocking_force(instance: Instance, values: Mapping[str, float]) -> float:
     """Return the load in N that stops the device; FmuError, with the reason, without one."""
     blocking = find_blocking(instance, values)
-    return _found(blocking.blocking_force, blocking.reason, instance, values)
+    return _found(blocking.blocking_force, blocking, instance, values)
 
 
 def _found(
-    value: float | None, reason: str, instance: Instance, values: Mapping[str, float]
+    value: float | None, search: SearchResult, instance: Instance, values: Mapping[str, float]
 ) -> float:
     if value is None:
-        raise FmuError(f"{instance.fmu.path.name}: {dict(values)}: {reason}")
+        raise FmuError(f"{instance.fmu.path.name}: {dict(values)}: {search.reason}")
     return value

@@ -11,7 +11,7 @@ from typing import Any
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.atomic import replacing, write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.targets import make_folder
@@ -27,12 +27,11 @@ from slider_resonator.studies.paper import (
     figure_5,
     figure_7,
     figure_8,
-    lugre_blocking,
-    lugre_device,
+    lugre_tables,
     stiffness_validity,
     velocity_map,
 )
-from slider_resonator.studies.paper.claim import ClaimGroup
+from slider_resonator.studies.paper.claim import Claim, ClaimGroup
 from slider_resonator.studies.paper.figure import Data, PaperFigure
 from slider_resonator.studies.paper.listing import write_claims, write_figures, write_tables
 from slider_resonator.studies.paper.table import PaperTable
@@ -52,7 +51,7 @@ FIGURES: Mapping[str, PaperFigure] = {
     )
 }
 TABLES: Mapping[str, PaperTable] = {
-    module.TABLE.name: module.TABLE for module in (lugre_blocking, lugre_device)
+    table.name: table for table in (lugre_tables.BLOCKING, lugre_tables.DEVICE)
 }
 GROUPS: tuple[ClaimGroup, ...] = (
     claims_device.GROUP,
@@ -88,14 +87,14 @@ class Outcome:
     guid: str
     run: Sequence[str]
     tables: Sequence[Judged]
-    claims: Sequence[Mapping[str, Any]]
+    claims: Sequence[Claim]
     wall_time: float
 
     @property
     def confirmed(self) -> bool:
         """Whether every table and claim has its known verdict."""
         tables = all(table.confirmed for table in self.tables)
-        return tables and all(claim["confirmed"] for claim in self.claims)
+        return tables and all(claim.confirmed for claim in self.claims)
 
 
 def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress) -> Outcome:
@@ -119,10 +118,9 @@ def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress
         guid = str(fmu.description.guid)
         for index, job in enumerate(jobs):
             progress(job.name, index / len(jobs))
-            measured = job.measure(instance)
-            plain = measured if isinstance(measured, dict) else [c.plain() for c in measured]
-            found[job.name] = plain
-            _write_results(out, guid, job.name, found[job.name])
+            found[job.name] = job.measure(instance)
+            results = to_json({"guid": guid, "data": found[job.name]})
+            write_text(out / RESULTS / f"{job.name}.json", results + "\n")
             if isinstance(job, PaperFigure):
                 _draw(job, found[job.name], out)
     if figures:
@@ -141,11 +139,6 @@ def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress
         claims=[claim for _, group in claims for claim in group],
         wall_time=perf_counter() - began,
     )
-
-
-def _write_results(out: Path, guid: str, name: str, data: Any) -> None:
-    with replacing(out / RESULTS / f"{name}.json") as temporary:
-        temporary.write_text(to_json({"guid": guid, "data": data}) + "\n", encoding="utf-8")
 
 
 def _draw(figure: PaperFigure, data: Data, out: Path) -> None:

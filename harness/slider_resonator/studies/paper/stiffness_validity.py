@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import pi
 
 import numpy as np
@@ -11,7 +12,15 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, curve, markers, panels
+from slider_resonator.studies.paper.figure import (
+    SHADES,
+    Array,
+    Data,
+    PaperFigure,
+    curve,
+    markers,
+    panels,
+)
 from slider_resonator.studies.paper.mapping import lugre_case
 from slider_resonator.studies.paper.measure import blocking_force, steady_velocity
 
@@ -34,43 +43,40 @@ def _measure(instance: Instance) -> Data:
 
 
 def _draw(data: Data) -> Drawing:
-    drawing, axes = panels(3)
+    drawing, (velocity, error, blocking) = panels(3)
     fine = np.geomspace(KAPPAS[0], KAPPAS[-1], 81).tolist()
-    uniform = [uniform_average.steady_velocity(CASE, stiffness_of(k), FREQUENCY) for k in fine]
-    paper = averaged_lugre.steady_velocity(CASE)
     coulomb_strength = CASE.strength / CASE.friction_coefficient
     hard = CASE.friction_coefficient * closed_forms.steady_velocity(coulomb_strength, 1.0, pi / 2)
-    axes[0].plot(fine, uniform, color=SHADES[2], label="uniform average")
-    axes[0].axhline(paper, color=SHADES[0], linestyle="--", label="(17)")
-    axes[0].axhline(hard, color="0.4", linestyle=":", label="(5), Coulomb")
-    markers(axes[0], data["velocity"]["x"], data["velocity"]["v"], SHADES[1], "FMU")
-    axes[0].set(xscale="log", ylabel="steady velocity $V$")
+    paper = averaged_lugre.steady_velocity(CASE)
+    velocity.plot(fine, _uniform_velocity(fine), color=SHADES[2], label="uniform average")
+    velocity.axhline(paper, color=SHADES[0], linestyle="--", label="(17)")
+    velocity.axhline(hard, color="0.4", linestyle=":", label="(5), Coulomb")
+    markers(velocity, data["velocity"]["x"], data["velocity"]["v"], SHADES[1], "FMU")
+    velocity.set(ylabel="steady velocity $V$")
 
-    points, found = KAPPAS, np.array(data["velocity"]["v"])
-    averages = [uniform_average.steady_velocity(CASE, stiffness_of(k), FREQUENCY) for k in points]
-    axes[1].plot(points, np.abs(paper - found), "--", color=SHADES[0], label="(17) against FMU")
-    axes[1].plot(
-        points, np.abs(np.array(averages) - found), color=SHADES[2], label="uniform against FMU"
-    )
-    axes[1].set(xscale="log", yscale="log", ylabel="error of $V$")
+    found = np.array(data["velocity"]["v"])
+    uniform = np.abs(_uniform_velocity(KAPPAS) - found)
+    error.plot(KAPPAS, np.abs(paper - found), "--", color=SHADES[0], label="(17) against FMU")
+    error.plot(KAPPAS, uniform, color=SHADES[2], label="uniform against FMU")
+    error.set(yscale="log", ylabel="error of $V$")
 
     blocked = [uniform_average.blocking_load(CASE, stiffness_of(k), FREQUENCY) for k in fine]
-    axes[2].plot(fine, blocked, color=SHADES[2], label="uniform average")
-    axes[2].axhline(
-        averaged_lugre.blocking_load(CASE), color=SHADES[0], linestyle="--", label="(24)"
-    )
-    axes[2].axhline(
-        CASE.friction_coefficient * closed_forms.blocking_load(1.0, pi / 2),
-        color="0.4",
-        linestyle=":",
-        label="(21), Coulomb",
-    )
-    markers(axes[2], data["blocking"]["x"], data["blocking"]["v"], SHADES[1], "FMU")
-    axes[2].set(xscale="log", ylabel="blocking load $L_b$")
-    for axis in axes:
-        axis.set(xlabel="$\\kappa = \\sigma_0 q / (\\mu \\Omega)$")
+    paper = averaged_lugre.blocking_load(CASE)
+    hard = CASE.friction_coefficient * closed_forms.blocking_load(1.0, pi / 2)
+    blocking.plot(fine, blocked, color=SHADES[2], label="uniform average")
+    blocking.axhline(paper, color=SHADES[0], linestyle="--", label="(24)")
+    blocking.axhline(hard, color="0.4", linestyle=":", label="(21), Coulomb")
+    markers(blocking, data["blocking"]["x"], data["blocking"]["v"], SHADES[1], "FMU")
+    blocking.set(ylabel="blocking load $L_b$")
+    for axis in (velocity, error, blocking):
+        axis.set(xscale="log", xlabel="$\\kappa = \\sigma_0 q / (\\mu \\Omega)$")
         axis.legend(fontsize=8)
     return drawing
+
+
+def _uniform_velocity(kappas: Iterable[float]) -> Array:
+    stiffnesses = map(stiffness_of, kappas)
+    return np.array([uniform_average.steady_velocity(CASE, s, FREQUENCY) for s in stiffnesses])
 
 
 FIGURE = PaperFigure(

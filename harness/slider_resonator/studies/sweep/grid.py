@@ -5,6 +5,8 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import chain, product
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -59,12 +61,12 @@ def read_grid(path: Path) -> Sweep:
 
 def _sweep(content: Mapping[str, Any]) -> Sweep:
     _known("key", content, KEYS)
-    parts = [
-        ("grid", grid_points(_table(content, "grid"))),
-        ("list", list_points(_table(content, "list"))),
-        ("random", random_points(_table(content, "random"))),
-    ]
-    names = [name for _, (own, _) in parts for name in own]
+    parts = (
+        grid_points(_table(content, "grid")),
+        list_points(_table(content, "list")),
+        random_points(_table(content, "random")),
+    )
+    names = [name for own, _ in parts for name in own]
     if not names:
         raise AxisError("nothing is varied; must have any of [grid], [list] and [random]")
     fixed = _table(content, "fixed")
@@ -73,14 +75,9 @@ def _sweep(content: Mapping[str, Any]) -> Sweep:
             raise AxisError(unknown_name("parameter or input", name, [*PARAMETERS, *INPUTS]))
         if [*names, *fixed].count(name) > 1:
             raise AxisError(f"{name} is given more than once; must be in one place")
-    count = 1
-    for _, (own, rows) in parts:
-        count *= len(rows) if own else 1
-    check_count(count)
-    points: list[tuple[float, ...]] = [()]
-    for _, (own, rows) in parts:
-        if own:
-            points = [(*left, *right) for left in points for right in rows]
+    factors = [rows for own, rows in parts if own]
+    check_count(prod(map(len, factors)))
+    points = tuple(tuple(chain.from_iterable(rows)) for rows in product(*factors))
     for column, name in enumerate(names):
         _check(name, {point[column] for point in points})
     for name, value in fixed.items():
@@ -98,7 +95,7 @@ def _sweep(content: Mapping[str, Any]) -> Sweep:
     title = content.get("title", "")
     if not isinstance(title, str):
         raise AxisError(f"title = {title!r}: must be a text in quotes")
-    return Sweep(title, task, tuple(points), is_grid)
+    return Sweep(title, task, points, is_grid)
 
 
 def _measures(content: Mapping[str, Any]) -> tuple[str, ...]:

@@ -8,17 +8,14 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.studies.sweep.grid import Sweep
-from slider_resonator.studies.sweep.measures import unit
+from slider_resonator.studies.sweep.measures import Array, unit
 from slider_resonator.studies.sweep.table import Columns
-
-Array = NDArray[np.float64]
 
 MAX_LINES = 6
 """Values of a variable that are drawn as a line each; more of them make a map."""

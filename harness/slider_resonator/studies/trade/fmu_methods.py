@@ -10,6 +10,7 @@ import numpy as np
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.trade.method import Label, Method, SteadyAnswer, SteadyMethod
 from slider_resonator.studies.trade.problem import Problem
@@ -123,12 +124,13 @@ class FmuMethods:
         values = {**self._values(fidelity, law, USUAL_TOLERANCE), **self.problem.inputs}
 
         def find(_: float) -> SteadyAnswer:
+            search: SearchResult
             if quantity == "steady_velocity":
-                steady = find_steady(self.instance, values)
-                return SteadyAnswer(steady.steady_velocity, steady.reason, steady.periods)
-            free = {name: value for name, value in values.items() if name != "load"}
-            blocking = find_blocking(self.instance, free)
-            return SteadyAnswer(blocking.blocking_force, blocking.reason, blocking.periods)
+                search = find_steady(self.instance, values)
+            else:
+                free = {name: value for name, value in values.items() if name != "load"}
+                search = find_blocking(self.instance, free)
+            return SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
 
         return SteadyMethod(self._label(fidelity, law, USUAL_TOLERANCE, None), quantity, find)
 

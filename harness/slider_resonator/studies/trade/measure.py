@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from math import inf
 from time import process_time
+from typing import Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
@@ -33,14 +34,16 @@ class _Candidate:
     `estimate` (s) is the time of the first run, used where the budget allows no other.
     """
 
-    label: Label
-    answer: str
-    periods: int
-    per: float
+    row: Row
     seconds: Callable[[], float]
+    per: float
     estimate: float
-    solution: Solution | None
-    errors: Mapping[str, float]
+
+    def timed(self, seconds: Sequence[float]) -> Row:
+        """Return the row with its times."""
+        return replace(
+            self.row, cpu=tuple(second / self.per for second in seconds or [self.estimate])
+        )
 
 
 def measure_trade(
@@ -81,10 +84,10 @@ def _measured(
         candidates += _follow(problem, reference, method, budget, notes)
     for index, answer in enumerate(answers):
         progress(f"{problem.name}: {answer.label.name}", 0.4 + 0.2 * index / len(answers))
-        candidates += _answer(reference, answer, budget, notes)
+        candidates += _answer(problem, reference, answer, budget, notes)
     notes.answers_of(methods)
     timed = [
-        Timed(c.label.name, c.seconds, min(repeats, int(budget / max(c.estimate, 1e-9))))
+        Timed(c.row.method, c.seconds, min(repeats, int(budget / max(c.estimate, 1e-9))))
         for c in candidates
     ]
     seconds = in_turn(
@@ -97,7 +100,7 @@ def _measured(
         periods=problem.periods,
         simulated=problem.periods * problem.period,
         uncertainty=reference.uncertainty,
-        rows=tuple(_row(problem, *pair) for pair in zip(candidates, seconds, strict=True)),
+        rows=tuple(c.timed(taken) for c, taken in zip(candidates, seconds, strict=True)),
         omissions=tuple(notes.omissions),
     )
 
@@ -169,14 +172,10 @@ def _follow(
             notes.add(label, quantity, reason)
     return [
         _Candidate(
-            label=label,
-            answer="run",
-            periods=periods,
-            per=periods * problem.period,
+            _row(problem, label, "run", periods, found, solution),
             seconds=lambda: method.seconds(periods),
+            per=periods * problem.period,
             estimate=taken,
-            solution=solution,
-            errors=found,
         )
     ]
 
@@ -199,7 +198,11 @@ def _timed_run(method: Method, periods: int) -> tuple[float, Solution]:
 
 
 def _answer(
-    reference: Reference, answer: SteadyMethod, budget: float, notes: _Notes
+    problem: Problem,
+    reference: Reference,
+    answer: SteadyMethod,
+    budget: float,
+    notes: _Notes,
 ) -> list[_Candidate]:
     """Find an answer once; empty where there is none."""
     expected: float | None = getattr(reference, answer.quantity)
@@ -217,33 +220,31 @@ def _answer(
     if found.value is None:
         notes.add(answer.label, answer.quantity, found.reason)
         return []
-    return [
-        _Candidate(
-            label=answer.label,
-            answer=answer.quantity,
-            periods=found.periods,
-            per=1.0,
-            seconds=lambda: cpu_seconds(lambda: answer.find(inf)),
-            estimate=taken,
-            solution=None,
-            errors={answer.quantity: abs(found.value - expected) / abs(expected)},
-        )
-    ]
+    errors_found = {answer.quantity: abs(found.value - expected) / abs(expected)}
+    row = _row(problem, answer.label, answer.quantity, found.periods, errors_found)
+    return [_Candidate(row, lambda: cpu_seconds(lambda: answer.find(inf)), 1.0, taken)]
 
 
-def _row(problem: Problem, candidate: _Candidate, seconds: Sequence[float]) -> Row:
-    label, solution = candidate.label, candidate.solution
+def _row(
+    problem: Problem,
+    label: Label,
+    answer: str,
+    periods: int,
+    errors: Mapping[str, float],
+    solution: Solution | None = None,
+) -> Row:
     fields = asdict(label)
+    counts: dict[str, Any] = {
+        name: getattr(solution, name, None)
+        for name in ("start_cpu", "steps", "evaluations", "events")
+    }
     return Row(
         scene=problem.name,
-        answer=candidate.answer,
+        answer=answer,
         method=fields.pop("name"),
         **fields,
-        periods=candidate.periods,
-        cpu=tuple(second / candidate.per for second in seconds or [candidate.estimate]),
-        start_cpu=None if solution is None else solution.start_cpu,
-        steps=None if solution is None else solution.steps,
-        evaluations=None if solution is None else solution.evaluations,
-        events=None if solution is None else solution.events,
-        errors=candidate.errors,
+        periods=periods,
+        cpu=(),
+        **counts,
+        errors=errors,
     )

@@ -69,8 +69,7 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
         return
     best = front(drawn, quantity)
     axes.step(
-        [row.cost for row in best],
-        [_shown(row, quantity) for row in best],
+        *_points(best, quantity),
         where="post",
         color="0.8",
         linewidth=6.0,
@@ -84,20 +83,12 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
         # Where only the communication step of ours varies, that is one line, however exact.
         precise = own[0].kind == PEER or len({row.tolerance for row in own}) > 1
         curve = front(own, quantity) if precise else sorted(own, key=lambda row: row.cost)
-        axes.plot(
-            [row.cost for row in curve],
-            [_shown(row, quantity) for row in curve],
-            color=look.colour,
-            linewidth=look.weight,
-            zorder=2,
-        )
+        points = _points(curve, quantity)
+        axes.plot(*points, color=look.colour, linewidth=look.weight, zorder=2)
+        spread = [(row.cost - min(row.cpu), max(row.cpu) - row.cost) for row in own]
         axes.errorbar(
-            [row.cost for row in own],
-            [_shown(row, quantity) for row in own],
-            xerr=[
-                [row.cost - min(row.cpu) for row in own],
-                [max(row.cpu) - row.cost for row in own],
-            ],
+            *_points(own, quantity),
+            xerr=list(zip(*spread, strict=True)),
             linestyle="none",
             marker=look.marker,
             markersize=5.5,
@@ -123,12 +114,21 @@ def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
             xytext=(0, 7) if family.startswith("native") else (0, -16),
             textcoords="offset points",
             fontsize=8,
-            color=next((c for build, c in OURS.items() if family.startswith(build)), "black"),
+            color=_our_colour(family),
         )
 
 
 def _shown(row: Row, quantity: str) -> float:
     return max(row.errors[quantity], FLOOR)
+
+
+def _points(rows: Sequence[Row], quantity: str) -> tuple[list[float], list[float]]:
+    """Return costs and errors."""
+    return [row.cost for row in rows], [_shown(row, quantity) for row in rows]
+
+
+def _our_colour(family: str) -> str:
+    return next((colour for build, colour in OURS.items() if family.startswith(build)), "black")
 
 
 def _looks(trade: Trade) -> dict[str, _Look]:
@@ -140,7 +140,7 @@ def _looks(trade: Trade) -> dict[str, _Look]:
         looks[family] = _Look(colour, PEER_MARKERS[index % len(PEER_MARKERS)], 1.0)
     for row in trade.rows:
         if row.kind != PEER:
-            colour = next((c for build, c in OURS.items() if row.family.startswith(build)), "black")
+            colour = _our_colour(row.family)
             other = "instead" in row.family or "output" in row.family
             marker = "X" if other else FIDELITY_MARKERS[row.fidelity or 0]
             looks[row.family] = _Look(colour, marker, 0.8 if row.kind == AVERAGED else 2.0)

@@ -7,16 +7,13 @@ from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.device.schedule import Schedule, Signal, schedule
+from slider_resonator.device.held_inputs import Array, HeldInputs
+from slider_resonator.device.schedule import Schedule, Signal, communication_points, schedule
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.scenes.scene import Scene
-
-Array = NDArray[np.float64]
 
 MIN_PERIODS = 1000
 """Minimum drive periods of a run under constant inputs: the longest communication step."""
@@ -120,25 +117,14 @@ class Problem:
 
     def reference_inputs(self, periods: int, steps: int = REFERENCE_STEPS) -> list[HeldInputs]:
         """Return the inputs of the reference, with `steps` per drive period where they vary."""
-        fine = self.schedule(periods, self.period / steps)
         corners = [t for signal in self.signals.values() for t in signal.times]
-        stop = float(fine.times[-1])
-        inside = np.array([t for t in corners if 0.0 < t < stop])
-        times = np.union1d(fine.times, inside)
-        middles = 0.5 * (times[1:] + times[:-1])
-        rows = [
-            tuple(self.signals[name].at(float(middle)) for name in self.inputs)
-            for middle in middles
-        ]
-        held: list[HeldInputs] = []
-        for begin, end, row in zip(times[:-1].tolist(), times[1:].tolist(), rows, strict=True):
-            inputs = HeldInputs(begin, end, **dict(zip(self.inputs, row, strict=True)))
-            same = held and replace(held[-1], start=begin, stop=end) == inputs
-            if same:
-                held[-1] = replace(held[-1], stop=end)
-            else:
-                held.append(inputs)
-        return held
+        times = communication_points(periods * self.period, self.period / steps, corners)
+        begins, middles = tuple(times[:-1].tolist()), 0.5 * (times[1:] + times[:-1])
+        held = {
+            name: Signal(begins, tuple(signal.over(middles).tolist()))
+            for name, signal in self.signals.items()
+        }
+        return Schedule(times, **held).held()
 
 
 def problem_of(

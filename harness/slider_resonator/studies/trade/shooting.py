@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from time import process_time
 
-import numpy as np
-from numpy.typing import NDArray
-
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import (
     Simulate,
@@ -18,8 +15,6 @@ from slider_resonator.steady.reference_steady import (
 )
 from slider_resonator.studies.trade.method import SteadyAnswer
 from slider_resonator.studies.trade.problem import Problem
-
-Array = NDArray[np.float64]
 
 
 def shoot(

@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.checks.measures.deviation import peak, share_of
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.device.held_inputs import Array
+from slider_resonator.device.schedule import nearest
 from slider_resonator.studies.trade.problem import Problem
-
-Array = NDArray[np.float64]
 
 QUANTITIES: Mapping[str, str] = {
     "mean_velocity": "mean velocity over a drive period, share of its peak",
@@ -66,7 +65,7 @@ class WindowReadings:
 
 def windows(problem: Problem, solution: Solution, periods: int) -> WindowReadings:
     """Return the readings of a solution over `periods` drive periods, window by window."""
-    places = [_places(solution.times, problem.window(end)) for end in problem.windows(periods)]
+    places = [nearest(solution.times, problem.window(end)) for end in problem.windows(periods)]
     position = np.array([solution.position[at] for at in places])
     last = [at[-1] for at in places]
     mean = (position[:, -1] - position[:, 0]) / problem.period
@@ -125,11 +124,3 @@ def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
         return dominant_frequency(later, mean_velocity[half:])
     except NoOscillation:
         return np.inf
-
-
-def _places(times: Array, targets: Array) -> NDArray[np.intp]:
-    """Return the index of the time nearest to each target."""
-    after = np.searchsorted(times, targets).clip(max=len(times) - 1)
-    before = (after - 1).clip(min=0)
-    nearer = np.abs(times[before] - targets) < np.abs(times[after] - targets)
-    return np.where(nearer, before, after)

@@ -3,29 +3,34 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import closing
+from itertools import count
 from pathlib import Path
 from time import perf_counter
 
 from slider_resonator.checks.compare import Check
+from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.validate import Curves, RunFailure, Validation
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.targets import make_folder
-from slider_resonator.scenes.scene import Scene, built_in_scenes, read_scene
+from slider_resonator.scenes.scene import Scene, ScenePoint, built_in_scenes, read_scene
+from slider_resonator.trials.baseline.golden import Golden, measure_golden
 from slider_resonator.trials.baseline.judge import TOLERANCE, compare_golden
-from slider_resonator.trials.baseline.measuring import Progress, measure_scenes
 from slider_resonator.trials.baseline.provenance import (
     BUILT_IN,
     FMU_DIGEST,
     SCENE_DIGEST,
     SCENE_FILE,
     file_digest,
+    provenance,
     scene_digest,
 )
 from slider_resonator.trials.baseline.store import (
+    At,
     Recorded,
     key,
     read_recorded,
@@ -33,6 +38,8 @@ from slider_resonator.trials.baseline.store import (
     replace_folder,
     write_recorded,
 )
+
+Progress = Callable[[str, float], None]
 
 CHANGED = ".changed"
 """Folder beside the scenes with the changed results of the last check; git ignores it."""
@@ -67,12 +74,12 @@ def record(
     with open_fmu(fmu):
         pass  # nothing is made in `folder` for a file that is no FMU
     make_folder(folder)
-    measured = measure_scenes(fmu, scenes, folder, progress, time_limit)
-    whole = [scene for scene in scenes if scene.source in measured.scenes]
+    measured, run_failures = _measure(fmu, scenes, folder, progress, time_limit)
+    whole = [scene for scene in scenes if scene.source in measured]
     for scene in whole:
-        write_recorded(folder / scene.name, measured.scenes[scene.source])
+        write_recorded(folder / scene.name, measured[scene.source])
         shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
-    return tuple(scene.name for scene in whole), measured.run_failures
+    return tuple(scene.name for scene in whole), tuple(run_failures)
 
 
 def check(
@@ -93,12 +100,11 @@ def check(
     began = perf_counter()
     scenes = [read_scene(file) for file in dict.fromkeys(files or recorded_files(folder))]
     golden = [_recorded(folder, scene) for scene in scenes]
-    measured = measure_scenes(fmu, scenes, folder, progress, time_limit)
+    measured, run_failures = _measure(fmu, scenes, folder, progress, time_limit)
     compared: list[tuple[Check, Curves | None]] = []
-    run_failures = list(measured.run_failures)
     for scene, before in zip(scenes, golden, strict=True):
         shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
-        now = measured.scenes.get(scene.source)
+        now = measured.get(scene.source)
         if now is None:
             continue
         try:
@@ -163,6 +169,37 @@ def recorded_files(folder: Path) -> list[Path]:
     if not folders:
         raise HarnessError(f"{folder}: nothing is recorded here; record it first")
     return [_scene_file(path) for path in folders]
+
+
+def _measure(
+    fmu: Path, scenes: Sequence[Scene], folder: Path, progress: Progress, time_limit: float
+) -> tuple[dict[str, Recorded], list[RunFailure]]:
+    """Return the results by the source of the scene, and what could not be run.
+
+    A scene that fails at a point is left out. `folder` is where the results are to be kept. Raises
+    FmuError for a file that is no FMU.
+    """
+    points = {scene.source: scene.points() for scene in scenes}
+    all_points = [point for some in points.values() for point in some]
+    found: dict[str, dict[At, Golden]] = {source: {} for source in points}
+    run_failures: list[RunFailure] = []
+    number = count()
+
+    def meanwhile(point: ScenePoint) -> None:
+        progress(point.scene.name, next(number) / len(all_points))
+
+    with open_fmu(fmu) as opened:
+        origins = {scene.source: provenance(opened, scene, folder) for scene in scenes}
+        runs = measure_points(fmu, all_points, measure_golden, time_limit, meanwhile)
+        with closing(runs) as finished:
+            for one in finished:
+                if one.error is not None or one.item is None:
+                    run_failures.append(RunFailure.of(fmu, one.item, one.error))
+                else:
+                    found[one.item.scene.source][key(one.item.at)] = one.result
+    progress("", 1.0)
+    whole = [source for source in points if len(found[source]) == len(points[source])]
+    return {source: Recorded(found[source], origins[source]) for source in whole}, run_failures
 
 
 def _scene_file(path: Path) -> Path:

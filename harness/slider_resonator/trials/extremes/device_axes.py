@@ -70,19 +70,10 @@ def _amplitudes() -> Values:
 
 
 def _load_variations() -> Values:
-    values = (
-        ("0", 0.0),
-        ("1 - 1e-12", 1.0 - NEAR_ONE),
-        ("1", 1.0),
-        ("1 + 1e-12", 1.0 + NEAR_ONE),
-        ("1 + 1 ulp", nextafter(1.0, 2.0)),
-        ("2", 2.0),
-        ("100", 100.0),
-    )
-    return [
-        *((text, {"normal_amplitude": alpha}) for text, alpha in values),
-        ("infinite", {"normal_preload": 0.0}),
-    ]
+    one = {"1 - 1e-12": 1.0 - NEAR_ONE, "1": 1.0, "1 + 1e-12": 1.0 + NEAR_ONE}
+    alphas = {"0": 0.0, **one, "1 + 1 ulp": nextafter(1.0, 2.0), "2": 2.0, "100": 100.0}
+    values = [(text, {"normal_amplitude": alpha}) for text, alpha in alphas.items()]
+    return [*values, ("infinite", {"normal_preload": 0.0})]
 
 
 def _frictions() -> Values:
@@ -91,19 +82,13 @@ def _frictions() -> Values:
 
 def _mass_ratios() -> Values:
     """The total mass is kept."""
-    light = [(f"1e{n}", 10.0**n) for n in (-12, -9, -6, -3)]
-    heavy = [(f"1 - 1e{n}", 10.0**n) for n in (-1, -3, -6, -9)]
-    return [
-        *(
-            (text, {"resonator_mass": MASS * share, "slider_mass": MASS * (1.0 - share)})
-            for text, share in light
-        ),
-        *(
-            (text, {"resonator_mass": MASS * (1.0 - share), "slider_mass": MASS * share})
-            for text, share in heavy
-        ),
-        ("0", {"resonator_mass": 0.0}),
+    shares = {f"1e{n}": (10.0**n, 1.0 - 10.0**n) for n in (-12, -9, -6, -3)}
+    shares |= {f"1 - 1e{n}": (1.0 - 10.0**n, 10.0**n) for n in (-1, -3, -6, -9)}
+    values = [
+        (text, {"resonator_mass": MASS * resonator, "slider_mass": MASS * slider})
+        for text, (resonator, slider) in shares.items()
     ]
+    return [*values, ("0", {"resonator_mass": 0.0})]
 
 
 def _dampings() -> Values:

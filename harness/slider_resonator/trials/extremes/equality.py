@@ -6,10 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.taylor import simulate
@@ -18,8 +17,6 @@ from slider_resonator.trials.extremes import averaged_reference
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.observe import NAMES, Observation
 from slider_resonator.trials.extremes.verdict import NO_REFERENCE, REFERENCE, BoundCheck
-
-Array = NDArray[np.float64]
 
 SIGNALS = ("position", "velocity", "resonator_displacement", "resonator_velocity")
 EXACT = 1e-10

@@ -21,6 +21,11 @@ from slider_resonator.trials.extremes.device_axes import NEAR_ONE, W, usual_hold
 
 PERIOD = tau / W
 PHASE = 0.4
+AROUND_ONE = {"1 - 1e-12": 1.0 - NEAR_ONE, "1": 1.0, "1 + 1e-12": 1.0 + NEAR_ONE}
+RATIOS = {
+    **{"0": 0.0, "1e-6": 1e-6, "1 - 1e-12": 1.0 - NEAR_ONE, "1 + 1e-12": 1.0 + NEAR_ONE},
+    **{"100": 100.0, "-1": -1.0, "pi": pi, "2^(1/2)": sqrt(2.0)},
+}
 STEPS = 150
 """Steps of a run whose inputs change at each of them."""
 
@@ -35,17 +40,7 @@ def input_cells() -> Iterator[MatrixCell]:
 
 
 def _ratios(model: Model) -> Iterator[MatrixCell]:
-    ratios = (
-        ("0", 0.0),
-        ("1e-6", 1e-6),
-        ("1 - 1e-12", 1.0 - NEAR_ONE),
-        ("1 + 1e-12", 1.0 + NEAR_ONE),
-        ("100", 100.0),
-        ("-1", -1.0),
-        ("pi", pi),
-        ("2^(1/2)", sqrt(2.0)),
-    )
-    for text, ratio in ratios:
+    for text, ratio in RATIOS.items():
         holds = tuple(replace(h, frequency_ratio=ratio) for h in usual_holds(model, {}))
         yield MatrixCell("frequency ratio", text, model, {}, holds)
     draw = random.Random(1)
@@ -59,10 +54,10 @@ def _blocking_loads(model: Model) -> Iterator[MatrixCell]:
     limits: tuple[Limit, ...] = ()
     if model == Model(0, 0):
         limits = (Limit("mean_velocity", 0.0, 1e-7, "(22): the averaged slider stands"),)
-    for text, share in (("- 1e-12", 1.0 - NEAR_ONE), ("", 1.0), ("+ 1e-12", 1.0 + NEAR_ONE)):
+    for text, share in AROUND_ONE.items():
         usual = (Hold(500.0 * PERIOD, 100),) if limits else usual_holds(model, {})
         holds = tuple(replace(h, load=blocking * share) for h in usual)
-        yield MatrixCell("blocking load", f"1 {text}".strip(), model, {}, holds, limits=limits)
+        yield MatrixCell("blocking load", text, model, {}, holds, limits=limits)
 
 
 def _full_friction(model: Model) -> Iterator[MatrixCell]:
@@ -70,7 +65,7 @@ def _full_friction(model: Model) -> Iterator[MatrixCell]:
     parameters = {"base_amplitude": 0.0, "normal_amplitude": 0.0}
     device = Device()
     limit = device.friction_faces * device.friction_coefficient * device.normal_preload
-    for text, share in (("- 1e-12", 1.0 - NEAR_ONE), ("", 1.0), ("+ 1e-12", 1.0 + NEAR_ONE)):
+    for text, share in AROUND_ONE.items():
         limits = []
         if model in COULOMB_RESOLVED:
             mode = float(share > 1.0)
@@ -81,9 +76,8 @@ def _full_friction(model: Model) -> Iterator[MatrixCell]:
             allowed = 2.0 * impulse / device.slider_mass
             limits.append(Limit("velocity", 0.0, allowed, "excess force times time over mass"))
         holds = tuple(replace(h, load=-limit * share) for h in usual_holds(model, {}))
-        name = f"1 {text}".strip()
         yield MatrixCell(
-            "load at full friction", name, model, parameters, holds, limits=tuple(limits)
+            "load at full friction", text, model, parameters, holds, limits=tuple(limits)
         )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.trials.extremes.cell import MatrixCell
@@ -34,11 +35,13 @@ def judge(cell: MatrixCell, seen: Observation) -> CellVerdict:
     if checks[0].passed:
         checks.extend(equalities(cell, seen))
     checks.append(_cost(seen))
-    failed = [check for check in checks if not check.passed]
-    if failed:
-        reason = "; ".join(f"{check.name}: {check.words}" for check in failed)
-        return _verdict(cell, FAILED, reason, tuple(checks), seen)
-    return _verdict(cell, PASSED, "", tuple(checks), seen)
+    reason = "; ".join(f"{check.name}: {check.words}" for check in checks if not check.passed)
+    return replace(
+        _verdict(cell, FAILED if reason else PASSED, reason),
+        checks=tuple(checks),
+        worst_step=seen.worst_step,
+        period_cost=seen.period_cost,
+    )
 
 
 def refused_by_name(cell: MatrixCell, text: str) -> bool:
@@ -70,20 +73,5 @@ def broken(cell: MatrixCell, reason: str) -> CellVerdict:
     return _verdict(cell, FAILED, reason)
 
 
-def _verdict(
-    cell: MatrixCell,
-    verdict: str,
-    reason: str,
-    checks: tuple[BoundCheck, ...] = (),
-    seen: Observation | None = None,
-) -> CellVerdict:
-    return CellVerdict(
-        cell.axis,
-        cell.value,
-        cell.model.name,
-        verdict,
-        reason,
-        checks,
-        seen.worst_step if seen else 0.0,
-        seen.period_cost if seen else 0.0,
-    )
+def _verdict(cell: MatrixCell, verdict: str, reason: str) -> CellVerdict:
+    return CellVerdict(cell.axis, cell.value, cell.model.name, verdict, reason)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from pathlib import Path
 
 from slider_resonator.output import markdown
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.atomic import replacing, write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Column, Row, Table, texts
 from slider_resonator.output.targets import make_folder
@@ -27,11 +26,12 @@ def write_matrices(matrices: Sequence[Matrix], out: Path) -> None:
     Raises HarnessError when that is impossible.
     """
     make_folder(out)
-    _write(out / "extremes.json", lambda path: _text(path, to_json(as_plain(matrices))))
+    write_text(out / "extremes.json", to_json(as_plain(matrices)))
     for matrix in matrices:
-        _write(out / _picture(matrix), partial(draw_matrix, matrix))
+        with replacing(out / _picture(matrix)) as temporary:
+            draw_matrix(matrix, temporary)
     page = "\n\n".join(["# Stability at the extremes", *(_page(matrix) for matrix in matrices)])
-    _write(out / "extremes.md", lambda path: _text(path, page + "\n"))
+    write_text(out / "extremes.md", page + "\n")
 
 
 def as_plain(matrices: Sequence[Matrix]) -> dict[str, object]:
@@ -58,10 +58,7 @@ def as_plain(matrices: Sequence[Matrix]) -> dict[str, object]:
 def _page(matrix: Matrix) -> str:
     name = Path(matrix.fmu).name
     others = [one for one in matrix.verdicts if one.verdict != PASSED]
-    axes = [
-        _axis_row(axis, [one for one in matrix.verdicts if one.axis == axis])
-        for axis in dict.fromkeys(one.axis for one in matrix.verdicts)
-    ]
+    axes = [_axis_row(axis, verdicts) for axis, verdicts in matrix.by_axis().items()]
     parts = [
         f"## {name}",
         matrix.summary.replace("\n", "\n\n"),
@@ -86,12 +83,3 @@ def _axis_row(axis: str, verdicts: Sequence[CellVerdict]) -> Row:
 
 def _picture(matrix: Matrix) -> str:
     return f"extremes_{Path(matrix.fmu).stem}.png"
-
-
-def _write(path: Path, write: Callable[[Path], None]) -> None:
-    with replacing(path) as temporary:
-        write(temporary)
-
-
-def _text(path: Path, text: str) -> None:
-    path.write_text(text, encoding="utf-8")

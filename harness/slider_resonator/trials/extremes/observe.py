@@ -8,14 +8,13 @@ from dataclasses import dataclass
 from statistics import median
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.device.held_inputs import Array
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.trials.extremes.cell import Hold, MatrixCell
 
-Array = NDArray[np.float64]
 NAMES = tuple(OUTPUTS)
 BASELINE_STEPS = 5
 """Steps of a drive period, or of the whole run if that is shorter, that measure its cost."""

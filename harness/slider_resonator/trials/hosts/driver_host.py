@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import tempfile
 import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -24,18 +24,12 @@ BINARY = {
 
 def run(job: Job) -> Rows:
     """Step the FMU in a driver compiled for this machine."""
-    return drive(job, [str(native_driver())], *BINARY[platform.system()], str)
+    return run_natively(Path(job.fmu), commands(job))
 
 
-def drive(
-    job: Job,
-    command: Sequence[str],
-    folder: str,
-    suffix: str,
-    path_for_driver: Callable[[Path], str],
-) -> Rows:
-    """Run `command`, a driver, on the FMU's binary in binaries/`folder`: see `run_driver`."""
-    return run_driver(Path(job.fmu), commands(job), command, folder, suffix, path_for_driver)
+def run_natively(fmu: Path, script: str) -> Rows:
+    """Run a script in the driver for this machine, as `run_driver`."""
+    return run_driver(fmu, script, [str(native_driver())], *BINARY[platform.system()], str)
 
 
 def run_driver(
@@ -80,17 +74,22 @@ def run_driver(
 def commands(job: Job) -> str:
     """Return the job as a script for the driver."""
     references = describe(job.fmu).references
-    lines = [
-        f"{'integer' if isinstance(value, int) else 'real'} {references[name]} {value!r}"
-        for name, value in job.first().items()
-    ]
-    lines.append("initialize")
+    lines = initialised(references, job.first())
     get = " ".join(["get", *(str(references[name]) for name in job.outputs)])
     for index in range(job.steps):
         for name, values in job.inputs.items():
             lines.append(f"real {references[name]} {values[index]!r}")
         lines += [f"step {job.step!r} 1", get]
     return "\n".join(lines) + "\n"
+
+
+def initialised(references: Mapping[str, int], values: Mapping[str, float]) -> list[str]:
+    """Return the lines of a script that set values, by name, and initialise."""
+    lines = [
+        f"{'integer' if isinstance(value, int) else 'real'} {references[name]} {value!r}"
+        for name, value in values.items()
+    ]
+    return [*lines, "initialize"]
 
 
 @cache

@@ -8,17 +8,20 @@ from __future__ import annotations
 
 import tempfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 from fmpy.ssp.ssd import read_ssd
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
-from libcosimpy.CosimManipulator import CosimManipulator
-from libcosimpy.CosimObserver import CosimObserver
 
 from slider_resonator.trials.hosts.job import Description, Job, Rows, describe, serve
-from slider_resonator.trials.hosts.libcosim_host import NANOSECONDS, set_initial
+from slider_resonator.trials.hosts.libcosim_host import (
+    NANOSECONDS,
+    Variable,
+    set_initial,
+    stepped,
+)
 
 STRUCTURE = "ComponentsOnly.ssd"
 
@@ -32,7 +35,7 @@ class _Components:
             name: describe(str(folder / source)) for name, source in sources.items()
         }
 
-    def find(self, names: Sequence[str]) -> list[tuple[int, int]]:
+    def find(self, names: Iterable[str]) -> list[Variable]:
         """Return slave index and value reference of each "component.variable"."""
         pairs = [name.split(".", 1) for name in names]
         return [
@@ -43,8 +46,8 @@ class _Components:
 
 def run(job: Job) -> Rows:
     """Step the package `job.fmu`; starts and outputs are "component.variable"."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
+    with tempfile.TemporaryDirectory() as unpacked:
+        folder = Path(unpacked)
         with zipfile.ZipFile(job.fmu) as archive:
             archive.extractall(folder)
         system = read_ssd(job.fmu).system
@@ -58,29 +61,12 @@ def run(job: Job) -> Rows:
         )
         sources = {component.name: component.source for component in system.elements}
         components = _Components(execution, folder, sources)
-        for (slave, reference), (variable, value) in zip(
-            components.find(list(job.start)), job.start.items(), strict=True
+        for variable, (name, value) in zip(
+            components.find(job.start), job.start.items(), strict=True
         ):
-            set_initial(execution, slave, reference, variable, value)
-        return _steps(execution, job, components, entries)
-
-
-def _steps(
-    execution: CosimExecution, job: Job, components: _Components, entries: dict[str, str]
-) -> Rows:
-    observer, manipulator = CosimObserver.create_last_value(), CosimManipulator.create_override()
-    execution.add_observer(observer)
-    execution.add_manipulator(manipulator)
-    inputs = components.find([entries[name] for name in job.inputs])
-    outputs = components.find(job.outputs)
-    rows = []
-    for index in range(job.steps):
-        for (slave, reference), values in zip(inputs, job.inputs.values(), strict=True):
-            manipulator.slave_real_values(slave, [reference], [values[index]])
-        if not execution.step():
-            raise RuntimeError(f"libcosim could not take step {index + 1}")
-        rows.append([float(observer.last_real_values(s, [r])[0]) for s, r in outputs])
-    return rows
+            set_initial(execution, variable, name, value)
+        inputs = components.find(entries[name] for name in job.inputs)
+        return stepped(execution, job, inputs, components.find(job.outputs))
 
 
 if __name__ == "__main__":

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from math import tau
 from pathlib import Path
 from statistics import median
 
-from slider_resonator.trials.hosts.driver_host import BINARY, native_driver, run_driver
+from slider_resonator.trials.hosts.driver_host import initialised, run_natively
 from slider_resonator.trials.hosts.job import describe
 
 
@@ -72,10 +71,7 @@ def measure_steps(
     for repeat in range(repeats):
         for index, step in enumerate(STEPS):
             progress(f"C host: {step.name}", (repeat + index / len(STEPS)) / repeats)
-            folder, suffix = BINARY[platform.system()]
-            script = _commands(fmu, step)
-            rows = run_driver(fmu, script, [str(native_driver())], folder, suffix, str)
-            times[step.name].append(rows[-1][0])
+            times[step.name].append(run_natively(fmu, _commands(fmu, step))[-1][0])
     progress("", 1.0)
     return tuple(
         StepCost(s.name, len(s.outputs), median(t), min(t), max(t))
@@ -91,12 +87,7 @@ def short_step_ratio(costs: Iterable[StepCost]) -> float:
 
 def _commands(fmu: Path, step: Step) -> str:
     references = describe(str(fmu)).references
-    lines = [
-        f"{'integer' if isinstance(value, int) else 'real'} {references[name]} {value!r}"
-        for name, value in step.parameters.items()
-    ]
     outputs = " ".join(str(references[name]) for name in step.outputs)
-    lines += ["initialize", f"step {step.size!r} 10"]
     exchange = f"{references['load']} 0.01 {outputs}" if step.exchanges else ""
-    lines.append(f"time {step.count} {step.size!r} {exchange}")
-    return "\n".join(lines) + "\n"
+    lines = [f"step {step.size!r} 10", f"time {step.count} {step.size!r} {exchange}"]
+    return "\n".join([*initialised(references, step.parameters), *lines]) + "\n"

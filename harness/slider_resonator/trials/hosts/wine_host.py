@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path, PureWindowsPath
 
 from slider_resonator.trials.hosts.compiler import SOURCES, WINDOWS, compile_program, zig_compiler
-from slider_resonator.trials.hosts.driver_host import BINARY, drive, temporary_folder
+from slider_resonator.trials.hosts.driver_host import BINARY, commands, run_driver, temporary_folder
 from slider_resonator.trials.hosts.job import Job, Rows, serve
 
 LIKE_THE_FMU = ("-g0", "-s")
@@ -16,7 +16,9 @@ LIKE_THE_FMU = ("-g0", "-s")
 
 def run(job: Job) -> Rows:
     """Step the FMU's Windows binary."""
-    return drive(job, ["wine", str(windows_driver())], *BINARY["Windows"], seen_from_windows)
+    command = ["wine", str(windows_driver())]
+    fmu, script = Path(job.fmu), commands(job)
+    return run_driver(fmu, script, command, *BINARY["Windows"], seen_from_windows)
 
 
 def seen_from_windows(path: Path) -> str:

@@ -11,7 +11,7 @@ from rich.text import Text
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import STYLES, escaped, rendered
 from slider_resonator.trials.mutants.mutant import KINDS, Mutant
-from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutantVerdict, MutationRun
+from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutationRun
 
 MAX_REJECTIONS = 12
 """Rows of the table of rejecting checks; all are in the JSON document."""
@@ -21,7 +21,7 @@ def print_run(console: Console, run: MutationRun) -> None:
     """Print counts by kind and file, the most frequent rejections, the survivors and the rate."""
     console.print(rendered(_kinds(run)))
     console.print(rendered(tally("file", run)))
-    console.print(rendered(_rejections(run)))
+    console.print(rendered(rejections(run, MAX_REJECTIONS)))
     for verdict in run.having(SURVIVED):
         heading = Text.assemble(("SURVIVED ", STYLES[Style.FAIL]), verdict.mutant.name)
         reason = Text(escaped(f"     {verdict.reason}"))
@@ -61,45 +61,32 @@ def run_as_plain(run: MutationRun) -> dict[str, Any]:
         "probes": run.probes,
         "rate": run.rate,
         "counts": run.counts,
-        "kinds": dict(run.tally("kind")),
-        "files": dict(run.tally("file")),
+        "kinds": run.tally("kind"),
+        "files": run.tally("file"),
         "rejections": dict(run.rejections()),
         "wall_time": run.wall_time,
-        "mutants": [_plain(verdict) for verdict in run.verdicts],
+        "mutants": [
+            mutant_as_plain(verdict.mutant)
+            | {name: getattr(verdict, name) for name in ("status", "scene", "quantity", "reason")}
+            for verdict in run.verdicts
+        ],
     }
 
 
 def mutant_as_plain(mutant: Mutant) -> dict[str, Any]:
     """Return the identity of a mutant and its diff."""
-    return {
-        "name": mutant.name,
-        "file": mutant.file,
-        "line": mutant.line,
-        "column": mutant.column,
-        "kind": mutant.kind,
-        "change": mutant.change,
-        "diff": mutant.diff,
-    }
-
-
-def _plain(verdict: MutantVerdict) -> dict[str, Any]:
-    outcome = {
-        "status": verdict.status,
-        "scene": verdict.scene,
-        "quantity": verdict.quantity,
-        "reason": verdict.reason,
-    }
-    return mutant_as_plain(verdict.mutant) | outcome
+    names = ("name", "file", "line", "column", "kind", "change", "diff")
+    return {name: getattr(mutant, name) for name in names}
 
 
 def tally(key: str, run: MutationRun) -> Table:
     """Return the counts by status for each kind or file."""
-    rows = [_counts(name, counts) for name, counts in run.tally(key)]
+    rows = [_counts(name, counts) for name, counts in run.tally(key).items()]
     return Table([*texts(key), *numbers(*STATUSES)], rows)
 
 
 def _kinds(run: MutationRun) -> Table:
-    rows = [[*_counts(name, counts), KINDS[name]] for name, counts in run.tally("kind")]
+    rows = [[*_counts(name, counts), KINDS[name]] for name, counts in run.tally("kind").items()]
     return Table([*texts("kind"), *numbers(*STATUSES), *texts("what is changed")], rows)
 
 
@@ -107,10 +94,11 @@ def _counts(name: str, counts: Mapping[str, int]) -> Row:
     return [name, *(str(counts[status]) for status in STATUSES)]
 
 
-def _rejections(run: MutationRun) -> Table:
+def rejections(run: MutationRun, most: int | None = None) -> Table:
+    """Return what rejected mutants; beyond `most` rows the others are counted together."""
     found = run.rejections()
-    rows = [(what, str(count)) for what, count in found[:MAX_REJECTIONS]]
-    rest = sum(count for _, count in found[MAX_REJECTIONS:])
-    if rest:
-        rows.append((f"{len(found) - MAX_REJECTIONS} others", str(rest)))
+    shown, others = found[:most], found[most:] if most else []
+    rows = [(what, str(count)) for what, count in shown]
+    if others:
+        rows.append((f"{len(others)} others", str(sum(count for _, count in others))))
     return Table([*texts("rejected first by"), *numbers("mutants")], rows)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,26 +33,8 @@ PROBES = 39
 Progress = Callable[[str, float], None]
 
 
-@dataclass(frozen=True)
-class OrderedPoints:
-    """Points, the cheapest first, and the statements that each executes."""
-
-    points: tuple[ExpectedPoint, ...]
-    reach: tuple[Reach, ...]
-
-    @classmethod
-    def of(cls, points: Sequence[ExpectedPoint], reach: Sequence[Reach]) -> OrderedPoints:
-        """Sort points by their cost."""
-        pairs = sorted(zip(points, reach, strict=True), key=lambda pair: pair[1].cost)
-        return cls(tuple(p for p, _ in pairs), tuple(r for _, r in pairs))
-
-    def through(self, mutant: Mutant) -> list[ExpectedPoint]:
-        """Return the points at which a mutant can make a difference."""
-        if mutant.statement is None:
-            return list(self.points)
-        place = (mutant.file, mutant.statement)
-        pairs = zip(self.points, self.reach, strict=True)
-        return [point for point, reach in pairs if place in reach.places]
+Reached = Sequence[tuple[ExpectedPoint, Reach]]
+"""Points, the cheapest first, each with what it executes."""
 
 
 @dataclass(frozen=True)
@@ -60,8 +42,8 @@ class _Bench:
     """The points, probes and limits that all mutants share."""
 
     fmu: PythonFmu
-    scenes: OrderedPoints
-    probes: OrderedPoints
+    scenes: Reached
+    probes: Reached
     time_limit: float
     folder: Path
 
@@ -93,13 +75,23 @@ def run_mutants(
         reach = reaches(fmu, [*points, *probing], time_limit, jobs)
         bench = _Bench(
             fmu,
-            OrderedPoints.of(points, reach[: len(points)]),
-            OrderedPoints.of(probing, reach[len(points) :]),
+            _by_cost(points, reach[: len(points)]),
+            _by_cost(probing, reach[len(points) :]),
             time_limit,
             folder,
         )
         verdicts = _all(bench, mutants, jobs, progress)
     return MutationRun(str(path), made, len(probing), verdicts, time.perf_counter() - began)
+
+
+def _by_cost(points: Sequence[ExpectedPoint], reach: Sequence[Reach]) -> Reached:
+    return sorted(zip(points, reach, strict=True), key=lambda pair: pair[1].cost)
+
+
+def _through(reached: Reached, mutant: Mutant) -> list[ExpectedPoint]:
+    """Return the points at which a mutant can make a difference."""
+    place = (mutant.file, mutant.statement)
+    return [point for point, reach in reached if place[1] is None or place in reach.places]
 
 
 def _check_original(path: Path, points: Sequence[ExpectedPoint], time_limit: float) -> None:
@@ -116,24 +108,21 @@ def _check_original(path: Path, points: Sequence[ExpectedPoint], time_limit: flo
 def _all(
     bench: _Bench, mutants: Sequence[Mutant], jobs: int, progress: Progress
 ) -> tuple[MutantVerdict, ...]:
-    verdicts: dict[int, MutantVerdict] = {}
     with ThreadPoolExecutor(jobs) as pool:
-        futures: dict[Future[MutantVerdict], int] = {
-            pool.submit(_verdict, bench, mutant, index): index
-            for index, mutant in enumerate(mutants)
-        }
+        futures = [
+            pool.submit(_verdict, bench, mutant, number) for number, mutant in enumerate(mutants)
+        ]
         try:
-            for future in as_completed(futures):
+            for done, future in enumerate(as_completed(futures), start=1):
                 verdict = future.result()
-                verdicts[futures[future]] = verdict
-                progress(f"{verdict.status}: {verdict.mutant.name}", len(verdicts) / len(mutants))
+                progress(f"{verdict.status}: {verdict.mutant.name}", done / len(mutants))
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
-    return tuple(verdicts[index] for index in range(len(mutants)))
+    return tuple(future.result() for future in futures)
 
 
 def _verdict(bench: _Bench, mutant: Mutant, number: int) -> MutantVerdict:
-    scenes, probes = bench.scenes.through(mutant), bench.probes.through(mutant)
+    scenes, probes = _through(bench.scenes, mutant), _through(bench.probes, mutant)
     if not scenes and not probes:
         return MutantVerdict(mutant, NOT_REACHED, "no scene and no probe executes the statement")
     faulty = bench.folder / f"mutant_{number}.fmu"

@@ -23,18 +23,11 @@ ARITHMETIC: Mapping[type[ast.operator], tuple[str, str]] = {
 }
 """Operator to its sign and the one that takes its place."""
 
-BOUNDARY: Mapping[type[ast.cmpop], tuple[str, str]] = {
-    ast.Lt: ("<", "<="),
-    ast.LtE: ("<=", "<"),
-    ast.Gt: (">", ">="),
-    ast.GtE: (">=", ">"),
-}
-
-NEGATION: Mapping[type[ast.cmpop], tuple[str, str]] = {
-    ast.Lt: ("<", ">="),
-    ast.LtE: ("<=", ">"),
-    ast.Gt: (">", "<="),
-    ast.GtE: (">=", "<"),
+COMPARISONS: Mapping[type[ast.cmpop], tuple[str, ...]] = {
+    ast.Lt: ("<", "<=", ">="),
+    ast.LtE: ("<=", "<", ">"),
+    ast.Gt: (">", ">=", "<="),
+    ast.GtE: (">=", ">", "<"),
     ast.Eq: ("==", "!="),
     ast.NotEq: ("!=", "=="),
     ast.Is: ("is", "is not"),
@@ -42,6 +35,7 @@ NEGATION: Mapping[type[ast.cmpop], tuple[str, str]] = {
     ast.In: ("in", "not in"),
     ast.NotIn: ("not in", "in"),
 }
+"""Comparison to its sign, the one with the other boundary if any, and its negation."""
 
 FUNCTIONS: Mapping[str, str] = {
     "sin": "cos",
@@ -112,10 +106,9 @@ def edits(source: Source, node: ast.expr) -> Iterator[Edit]:
             yield _swap(*source.between(left, right, sign), sign, other, "operator")
         case ast.Compare(left=first, ops=ops, comparators=rest):
             for left, comparison, right in zip([first, *rest], ops, rest, strict=False):
-                for table in (BOUNDARY, NEGATION):
-                    if type(comparison) in table:
-                        sign, other = table[type(comparison)]
-                        yield _swap(*source.between(left, right, sign), sign, other, "condition")
+                sign, *others = COMPARISONS[type(comparison)]
+                for other in others:
+                    yield _swap(*source.between(left, right, sign), sign, other, "condition")
         case ast.BoolOp(op=junction, values=values):
             sign, other = ("and", "or") if isinstance(junction, ast.And) else ("or", "and")
             for left, right in pairwise(values):

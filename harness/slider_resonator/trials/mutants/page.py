@@ -7,7 +7,7 @@ from pathlib import Path
 
 from slider_resonator.output.html_page import escaped, rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.trials.mutants.listing import summary, tally
+from slider_resonator.trials.mutants.listing import rejections, summary, tally
 from slider_resonator.trials.mutants.verdict import (
     EQUIVALENT,
     NOT_REACHED,
@@ -28,7 +28,7 @@ def write_mutants(path: Path, run: MutationRun) -> None:
         rendered(_legend(run)),
         rendered(tally("kind", run)),
         rendered(tally("file", run)),
-        rendered(_rejections(run)),
+        rendered(rejections(run)),
         "<h2>Survivors</h2>",
         *(_mutant(verdict, opened=True) for verdict in run.having(SURVIVED)),
         *_group("Equivalent within the allowed deviation", run.having(EQUIVALENT)),
@@ -40,11 +40,6 @@ def write_mutants(path: Path, run: MutationRun) -> None:
 def _legend(run: MutationRun) -> Table:
     rows = [(status, str(run.counts[status]), meaning) for status, meaning in STATUSES.items()]
     return Table([*texts(""), *numbers("mutants"), *texts("")], rows)
-
-
-def _rejections(run: MutationRun) -> Table:
-    rows = [(what, str(count)) for what, count in run.rejections()]
-    return Table([*texts("rejected first by"), *numbers("mutants")], rows)
 
 
 def _group(heading: str, verdicts: Sequence[MutantVerdict]) -> list[str]:

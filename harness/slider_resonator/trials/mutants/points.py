@@ -12,7 +12,7 @@ from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
 from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
-from slider_resonator.trials.mutants.trial import ExpectedPoint, observe
+from slider_resonator.trials.mutants.trial import ExpectedPoint, Observed, observe
 
 
 def scene_points(
@@ -38,14 +38,19 @@ def probe_points(fmu: Path, probes: Sequence[Scene], time_limit: float) -> list[
 
     Those that it refuses are left out: no mutant can differ from it there.
     """
-    points = [ExpectedPoint(probe) for probe in probes]
+    finished = measure_points(fmu, [ExpectedPoint(probe) for probe in probes], observe, time_limit)
     return [
-        replace(
-            one.item,
-            expected=tuple(measurement.value for measurement in one.result.measured),
-            outputs=one.result.outputs,
-            share=allowed_share(one.item.scene.device),
-        )
-        for one in measure_points(fmu, points, observe, time_limit)
+        _expecting(one.item, one.result)
+        for one in finished
         if one.item is not None and one.error is None
     ]
+
+
+def _expecting(probe: ExpectedPoint, seen: Observed) -> ExpectedPoint:
+    device = probe.scene.device
+    return replace(
+        probe,
+        expected=tuple(measurement.value for measurement in seen.measured),
+        outputs=seen.outputs,
+        share=allowed_share(device.fidelity, device.friction_law),
+    )

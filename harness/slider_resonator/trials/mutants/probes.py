@@ -11,7 +11,6 @@ from math import pi, sqrt
 from random import Random
 from typing import Any
 
-from slider_resonator.device.device import Device
 from slider_resonator.scenes.scene import Scene, scene_from
 
 COULOMB_ALLOWED = 1e-8
@@ -50,12 +49,8 @@ def probe_scenes(count: int, seed: int) -> list[Scene]:
     ]
 
 
-def allowed_share(device: Device) -> float:
+def allowed_share(fidelity: int, law: int) -> float:
     """Return the allowed change of a signal of such a device, as a share of its peak."""
-    return _allowed_share(device.fidelity, device.friction_law)
-
-
-def _allowed_share(fidelity: int, law: int) -> float:
     return COULOMB_ALLOWED if fidelity > 0 and law == 0 else ALLOWED
 
 
@@ -152,7 +147,7 @@ def _inputs(draw: Random, device: Mapping[str, float], *, changing: bool) -> dic
 
 
 def _expectations(fidelity: int, law: int, *, steady: bool) -> list[dict[str, Any]]:
-    share = _allowed_share(fidelity, law)
+    share = allowed_share(fidelity, law)
     rough = 10.0 * share if law == 1 else share
     shares = {name: rough if name == "friction_force" else share for name in _SIGNALS}
     expect = [_expectation(name, relative) for name, relative in shares.items()]

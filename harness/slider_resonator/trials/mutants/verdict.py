@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from slider_resonator.trials.mutants.mutant import Mutant
@@ -63,23 +64,21 @@ class MutationRun:
         rejected, survived = self.counts[REJECTED], self.counts[SURVIVED]
         return rejected / (rejected + survived) if rejected + survived else None
 
-    def tally(self, key: str) -> list[tuple[str, dict[str, int]]]:
+    def tally(self, key: str) -> dict[str, dict[str, int]]:
         """Return the counts for each `kind` or `file` of mutants, in their order."""
-        names = dict.fromkeys(getattr(verdict.mutant, key) for verdict in self.verdicts)
-        return [
-            (name, _counts([v for v in self.verdicts if getattr(v.mutant, key) == name]))
-            for name in names
-        ]
+        found: dict[str, dict[str, int]] = {}
+        for verdict in self.verdicts:
+            counts = found.setdefault(getattr(verdict.mutant, key), dict.fromkeys(STATUSES, 0))
+            counts[verdict.status] += 1
+        return found
 
     def rejections(self) -> list[tuple[str, int]]:
         """Return scenes and quantities that rejected mutants with counts, largest first."""
-        found: dict[str, int] = {}
-        for verdict in self.having(REJECTED):
-            what = f"{verdict.scene.partition(' at ')[0]}: {verdict.quantity or 'cannot be run'}"
-            what = what if verdict.scene else "cannot be opened or freed"
-            found[what] = found.get(what, 0) + 1
+        found = Counter(map(_rejected_by, self.having(REJECTED)))
         return sorted(found.items(), key=lambda item: (-item[1], item[0]))
 
 
-def _counts(verdicts: Sequence[MutantVerdict]) -> dict[str, int]:
-    return {status: sum(v.status == status for v in verdicts) for status in STATUSES}
+def _rejected_by(verdict: MutantVerdict) -> str:
+    if not verdict.scene:
+        return "cannot be opened or freed"
+    return f"{verdict.scene.partition(' at ')[0]}: {verdict.quantity or 'cannot be run'}"

@@ -20,6 +20,7 @@ from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import STEADY_NEEDS
 from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.choice import Choice
@@ -167,14 +168,14 @@ class Judge:
         if parameters["fidelity"] == 0:
             self.instance.start(values)
             return self.instance.value(name), 0
+        search: SearchResult
         if name == "steady_velocity":
-            motion = find_steady(self.instance, values)
-            settles = motion.status in ("steady", "stuck")
-            return motion.steady_velocity if settles else None, motion.periods
-        del values["load"]
-        blocked = find_blocking(self.instance, values)
-        settles = blocked.status == "blocked"
-        return blocked.blocking_force if settles else None, blocked.periods
+            search = find_steady(self.instance, values)
+        else:
+            del values["load"]
+            search = find_blocking(self.instance, values)
+        settled = {"steady_velocity": ("steady", "stuck"), "blocking_force": ("blocked",)}[name]
+        return getattr(search, name) if search.status in settled else None, search.periods
 
 
 def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:

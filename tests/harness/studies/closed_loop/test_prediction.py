@@ -20,7 +20,15 @@ def brief(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(prediction, "FIRST", 1)
 
 
-def test_the_error_is_of_the_order_of_the_effect_of_friction_in_a_radian_of_the_drive(
+def changed(package: Path, out: Path, old: bytes, new: bytes) -> Path:
+    """Copy a package with something replaced in all its files."""
+    with zipfile.ZipFile(package) as archive, zipfile.ZipFile(out, "w") as copy:
+        for name in archive.namelist():
+            copy.writestr(name, archive.read(name).replace(old, new))
+    return out
+
+
+def test_error_is_of_the_order_of_friction_over_a_radian_of_the_drive(
     closed_loop_package: Path,
 ) -> None:
     design, _ = run_loop(closed_loop_package, HOSTS[0], DUTY)
@@ -35,14 +43,11 @@ def test_the_error_is_of_the_order_of_the_effect_of_friction_in_a_radian_of_the_
 @pytest.mark.usefixtures("brief")
 def test_the_device_is_that_of_the_package(closed_loop_package: Path, tmp_path: Path) -> None:
     design, _ = run_loop(closed_loop_package, HOSTS[0], DUTY)
-    slow = tmp_path / "slow.ssp"
     place = b'<ssv:Parameter name="slider.fidelity">'
     more = (
         b'<ssv:Parameter name="slider.friction_coefficient"><ssv:Real value="0.3"/></ssv:Parameter>'
     )
-    with zipfile.ZipFile(closed_loop_package) as archive, zipfile.ZipFile(slow, "w") as copy:
-        for name in archive.namelist():
-            copy.writestr(name, archive.read(name).replace(place, more + place))
+    slow = changed(closed_loop_package, tmp_path / "slow.ssp", place, more + place)
     (usual,) = predicted_errors(closed_loop_package, design, DUTY)
     (rough,) = predicted_errors(slow, design, DUTY)
     assert usual is not None
@@ -58,10 +63,6 @@ def test_averaged_motion_that_does_not_do_has_no_error(closed_loop_package: Path
 
 def test_a_package_without_slider_is_refused(closed_loop_package: Path, tmp_path: Path) -> None:
     design, _ = run_loop(closed_loop_package, HOSTS[0], DUTY)
-    other = tmp_path / "other.ssp"
-    with zipfile.ZipFile(closed_loop_package) as archive, zipfile.ZipFile(other, "w") as copy:
-        for name in archive.namelist():
-            data = archive.read(name)
-            copy.writestr(name, data.replace(b'"slider"', b'"motor"'))
+    other = changed(closed_loop_package, tmp_path / "other.ssp", b'"slider"', b'"motor"')
     with pytest.raises(HarnessError, match="no component slider, only controller, motor"):
         predicted_errors(other, design, DUTY)

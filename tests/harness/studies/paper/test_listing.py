@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from slider_resonator.studies.paper import figure_2
-from slider_resonator.studies.paper.claim import AGREES, DISAGREES, Claim, near
+from slider_resonator.studies.paper.claim import Claim, near
 from slider_resonator.studies.paper.listing import (
     verdicts,
     write_claims,
@@ -14,12 +14,12 @@ from slider_resonator.studies.paper.listing import (
 )
 from slider_resonator.studies.paper.table import PaperTable
 
-CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, AGREES, "it | does", True)
+CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, "agrees", "it | does", True)
 
 
 def test_claims_are_written_as_markdown_and_json(tmp_path: Path) -> None:
-    wrong = replace(CLAIM, name="other", verdict=DISAGREES, confirmed=False)
-    write_claims(tmp_path, [("All", [CLAIM.plain(), wrong.plain()])], "a.fmu", "guid")
+    wrong = replace(CLAIM, name="other", verdict="disagrees", confirmed=False)
+    write_claims(tmp_path, [("All", [CLAIM, wrong])], "a.fmu", "guid")
     claims = json.loads((tmp_path / "claims.json").read_text(encoding="utf-8"))["claims"]
     assert [claim["confirmed"] for claim in claims] == [True, False]
     table = (tmp_path / "claims.md").read_text(encoding="utf-8")
@@ -29,9 +29,7 @@ def test_claims_are_written_as_markdown_and_json(tmp_path: Path) -> None:
 
 def test_verdicts_are_counted() -> None:
     wrong = replace(CLAIM, confirmed=False)
-    assert verdicts([CLAIM.plain(), CLAIM.plain(), wrong.plain()]) == (
-        "3 statements: 2 agrees, 1 not confirmed."
-    )
+    assert verdicts([CLAIM, CLAIM, wrong]) == ("3 statements: 2 agrees, 1 not confirmed.")
 
 
 def test_figures_are_listed_with_their_captions(tmp_path: Path) -> None:
@@ -61,3 +59,13 @@ def test_tables_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     wrong = {"rows": [{"kappa": 1.0, "error": -0.5}]}
     write_tables(tmp_path, [(table, wrong)], "a.fmu", "guid")
     assert "**NOT CONFIRMED**" in (tmp_path / "TABLES.md").read_text(encoding="utf-8")
+
+
+def test_one_deviation_too_large_of_either_sign_is_enough() -> None:
+    columns = {"kappa": "kappa", "error": "e", "other": "o"}
+    table = PaperTable("t", "T", "", columns, {"error": 0.1, "other": 1.0}, lambda i: {})
+    data = {"rows": [{"kappa": 9.0, "error": -0.1, "other": 0.0}, {"error": 0.05, "other": 1.0}]}
+    assert table.largest(data) == {"error": 0.1, "other": 1.0}
+    assert table.confirmed(data)
+    assert not table.confirmed({"rows": [{"error": -0.11, "other": 0.0}]})
+    assert not table.confirmed({"rows": [{"error": 0.0, "other": 0.0}, {"error": 0, "other": 2}]})

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from slider_resonator.references.resolved import taylor
+from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.scenes.scene import read_scene
+from slider_resonator.steady.reference_steady import Simulate
+from slider_resonator.studies.trade.peers.peer import solution_of
 from slider_resonator.studies.trade.problem import Problem, problem_of
+from slider_resonator.studies.trade.solution import WindowReadings, windows
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 
@@ -14,6 +19,14 @@ def problem(folder: Path, text: str, max_periods: int | None = None) -> Problem:
     path = folder / "mine.toml"
     path.write_text(HEAD + text)
     return problem_of(read_scene(path), {}, max_periods)
+
+
+def reference_of(problem: Problem) -> WindowReadings:
+    """The readings of a problem by the Taylor references, over its whole run."""
+    periods = problem.periods
+    simulate: Simulate = simulate_lugre if problem.device.friction_law else taylor.simulate
+    run = simulate(problem.device, problem.reference_inputs(periods), problem.readings(periods))
+    return windows(problem, solution_of(run, located=True), periods)
 
 
 TABLE_1 = ""

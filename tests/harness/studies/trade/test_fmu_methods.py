@@ -2,38 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from math import inf
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.references.resolved import taylor
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.trade.fmu_methods import STEPS, FmuMethods
 from slider_resonator.studies.trade.method import Method
-from slider_resonator.studies.trade.peers.peer import solution_of
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import AVERAGED
-from slider_resonator.studies.trade.solution import errors, windows
-from tests.harness.studies.trade.problems import LUGRE, RAMP, TABLE_1, problem
-
-
-@pytest.fixture(scope="module")
-def instance(native_fmu: Path) -> Iterator[Instance]:
-    with open_fmu(native_fmu) as fmu, instantiate(fmu) as made:
-        yield made
+from slider_resonator.studies.trade.solution import errors
+from tests.harness.studies.trade.problems import LUGRE, RAMP, TABLE_1, problem, reference_of
 
 
 def followed(problem: Problem, method: Method) -> dict[str, float]:
-    run = taylor.simulate(
-        problem.device, problem.reference_inputs(problem.periods), problem.readings(problem.periods)
-    )
-    reference = windows(problem, solution_of(run, located=True), problem.periods)
     solution = method.run(problem.periods)
-    return errors(problem, solution, reference, problem.periods)
+    return errors(problem, solution, reference_of(problem), problem.periods)
 
 
 def pick(problem: Problem, instance: Instance, fidelity: int, step: float) -> Method:

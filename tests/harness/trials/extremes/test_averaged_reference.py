@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from slider_resonator.fmu.instance import instantiate
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.trials.extremes.averaged_reference import REFERENCE_ERROR, covers
 from slider_resonator.trials.extremes.cell import Hold, MatrixCell, Model
 from slider_resonator.trials.extremes.judge import judge
@@ -20,9 +18,8 @@ CELL = MatrixCell("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0
 
 
 @pytest.fixture(scope="module")
-def seen(native_fmu: Path) -> Observation:
-    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
-        return observe(instance, CELL)
+def seen(instance: Instance) -> Observation:
+    return observe(instance, CELL)
 
 
 def test_averaged_motion_agrees(seen: Observation) -> None:

@@ -12,14 +12,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
-from slider_resonator.references.resolved.contact import LIFTED
-from slider_resonator.references.resolved.equations import equations_of, initial_state
-from slider_resonator.references.resolved.recorder import Recorder
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.references.resolved.scipy_methods import (
     Method,
     Solver,
@@ -27,8 +23,7 @@ from slider_resonator.references.resolved.scipy_methods import (
     take_step,
 )
 from slider_resonator.references.resolved.trajectory import Trajectory
-
-Array = NDArray[np.float64]
+from slider_resonator.studies.trade.peers.without_events import RunWithoutEvents
 
 MAX_EVALUATIONS = 20_000_000
 
@@ -46,7 +41,7 @@ def simulate_sgn(
 
     ``atol`` is in fractions of a characteristic velocity and displacement; the cost of stepping
     over a jump depends on it. A chatter may take ``max_evaluations`` of the right hand side.
-    Counts, modes and errors raised are those of ``_Run.run``.
+    Counts, modes and errors raised are those of ``_Run``.
     """
     return _Run(device, times, DOP853, rtol, atol, max_evaluations=max_evaluations).run(held)
 
@@ -64,7 +59,7 @@ def simulate_tanh(
     """Return the trajectory with tanh(velocity / ``width``) at ``times`` (shape (n,), s).
 
     ``width`` is in m/s, ``method`` DOP853, LSODA or Radau, ``atol`` in fractions of a
-    characteristic velocity and displacement. Counts and modes are those of ``_Run.run``, and so are
+    characteristic velocity and displacement. Counts and modes are those of ``_Run``, and so are
     errors raised, besides ValueError for a width that is not above 0 and for another method.
     """
     if not 0.0 < width < np.inf:
@@ -72,8 +67,12 @@ def simulate_tanh(
     return _Run(device, times, scipy_method(method), rtol, atol, width).run(held)
 
 
-class _Run:
-    """A device followed by a solver of scipy's; ``width`` (m/s) is that of tanh, 0 for sgn."""
+class _Run(RunWithoutEvents):
+    """A solver of scipy's; ``width`` (m/s) is that of tanh, 0 for sgn.
+
+    There are no sticks; reversals are counted over the steps with contact, chatter included.
+    Raises RuntimeError if a step fails or the evaluations of the right hand side become too many.
+    """
 
     def __init__(
         self,
@@ -85,61 +84,42 @@ class _Run:
         width: float = 0.0,
         max_evaluations: int = MAX_EVALUATIONS,
     ) -> None:
+        super().__init__(device, times)
         self._method = method
         self._rtol = rtol
         self._atol = atol
         self._width = width
         self._max_evaluations = max_evaluations
-        self._recorder = Recorder(times)
-        self._equations = equations_of(device)
-        self._state = np.array(initial_state(device))
-        self._theta = 0.0
-        self._psi = 0.0
 
-    def run(self, held: Sequence[HeldInputs]) -> Trajectory:
-        """Return the motion through the held inputs.
-
-        ``contact_mode`` is the sign of the velocity (2 where the contact is open), ``reversals``
-        counts its changes of sign over the steps with contact, chatter included; there are no
-        sticks and no event times. Raises ValueError for inputs with gaps and times outside them,
-        RuntimeError if a step fails or the evaluations of the right hand side become too many.
-        """
-        check_contiguous(held)
-        check_times(self._recorder.times, held)
-        for inputs in held:
-            self._follow(inputs)
-        return self._recorder.trajectory()
-
-    def _follow(self, inputs: HeldInputs) -> None:
-        equations = self._equations
-        angle = self._psi + inputs.phase
+    def follow(self, inputs: HeldInputs) -> None:
+        equations, recorder = self.equations, self.recorder
+        angle = self.psi + inputs.phase
         solver = self._method(
             equations.slopes(
-                None, inputs.load, self._theta, angle, inputs.frequency_ratio, self._width
+                None, inputs.load, self.theta, angle, inputs.frequency_ratio, self._width
             ),
             0.0,
-            self._state,
+            self.state,
             inputs.stop - inputs.start,
             rtol=self._rtol,
             atol=self._atol * equations.state_scales(inputs.load),
         )
+        rate = inputs.frequency_ratio * equations.drive_frequency
         while solver.status == "running":
             take_step(solver, inputs.start, "use a greater atol")
             self._check_progress(solver, inputs.start)
-            self._recorder.steps += 1
-            self._count_reversal(angle + self._angle_rate(inputs) * solver.t, float(solver.y[1]))
+            recorder.steps += 1
+            self._count_reversal(angle + rate * solver.t, float(solver.y[1]))
             reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
-            local = self._recorder.pending(reached) - inputs.start
+            local = recorder.pending(reached) - inputs.start
             if local.size:
-                self._keep(inputs, angle, local, solver.dense_output()(local).T)
-        self._recorder.evaluations += solver.nfev
-        turned = equations.drive_frequency * (inputs.stop - inputs.start)
-        self._theta += turned
-        self._psi += inputs.frequency_ratio * turned
-        self._state = solver.y
+                states = solver.dense_output()(local).T
+                self.keep(inputs, local, states, self._friction(inputs, local, states[:, 1]))
+        recorder.evaluations += solver.nfev
+        self.state = solver.y
 
     def _check_progress(self, solver: Solver, start: float) -> None:
-        evaluations = self._recorder.evaluations + solver.nfev
+        evaluations = self.recorder.evaluations + solver.nfev
         if evaluations > self._max_evaluations:
             time = start + float(solver.t)
             raise RuntimeError(
@@ -149,25 +129,11 @@ class _Run:
             )
 
     def _count_reversal(self, angle: float, velocity: float) -> None:
-        equations = self._equations
-        if equations.normal_preload + equations.normal_amplitude * np.sin(angle) <= 0.0:
-            return
-        self._recorder.contact.slide((velocity > 0.0) - (velocity < 0.0))
+        equations = self.equations
+        if equations.normal_preload + equations.normal_amplitude * np.sin(angle) > 0.0:
+            self.recorder.contact.slide((velocity > 0.0) - (velocity < 0.0))
 
-    def _keep(self, inputs: HeldInputs, angle: float, time: Array, states: Array) -> None:
-        equations = self._equations
-        theta = self._theta + equations.drive_frequency * time
-        angles = angle + self._angle_rate(inputs) * time
-        load = equations.normal_preload + equations.normal_amplitude * np.sin(angles)
-        velocity = states[:, 1]
-        sign = np.sign(velocity)
-        share = np.tanh(velocity / self._width) if self._width else sign
-        self._recorder.keep(
-            states,
-            equations.resonator_motion(theta, states),
-            (np.maximum(0.0, load), share * np.maximum(0.0, equations.friction_limit(angles))),
-            np.where(load > 0.0, sign, float(LIFTED)),
-        )
-
-    def _angle_rate(self, inputs: HeldInputs) -> float:
-        return inputs.frequency_ratio * self._equations.drive_frequency
+    def _friction(self, inputs: HeldInputs, local: Array, velocity: Array) -> Array:
+        limit = np.maximum(0.0, self.equations.friction_limit(self.angles(inputs, local)))
+        share = np.tanh(velocity / self._width) if self._width else np.sign(velocity)
+        return np.asarray(share * limit)

@@ -10,14 +10,11 @@ from math import sin
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.studies.trade.peers.sundials import MAX_STEPS, cvode
 from slider_resonator.studies.trade.peers.switching_taylor import SlidingRun
-
-Array = NDArray[np.float64]
 
 
 def simulate_lugre_cvode(

@@ -8,22 +8,20 @@ Moreau (Unilateral contact and dry friction in finite freedom dynamics, 1988) an
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 from math import ceil, pi, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
-from slider_resonator.references.resolved.contact import LIFTED
-from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
+from slider_resonator.device.held_inputs import Array, HeldInputs
+from slider_resonator.references.resolved.equations import Equations
 from slider_resonator.references.resolved.trajectory import Trajectory
-
-Array = NDArray[np.float64]
+from slider_resonator.studies.trade.peers.without_events import RunWithoutEvents
 
 _SAME_INSTANT = 1e-9
-"""Samples closer to the end of a step than this share of it are taken there."""
+"""Share of a step by which rounding may exceed a whole number of steps."""
 
 
 def simulate(
@@ -39,62 +37,29 @@ def simulate(
     """
     if steps_per_period < 1:
         raise ValueError(f"steps_per_period = {steps_per_period!r}: must be at least 1")
-    check_contiguous(held)
-    check_times(times, held)
-    run = _Run(equations_of(device), initial_state(device), times)
-    for inputs in held:
-        run.follow(inputs, steps_per_period)
-    return Trajectory(
-        time=times,
-        position=run.signals[:, 0],
-        velocity=run.signals[:, 1],
-        resonator_displacement=run.signals[:, 2],
-        resonator_velocity=run.signals[:, 3],
-        normal_force=run.signals[:, 4],
-        friction_force=run.signals[:, 5],
-        contact_mode=run.signals[:, 6].astype(np.int64),
-        reversals=run.reversals,
-        sticks=run.sticks,
-        stick_time=run.stick_time,
-        event_times=np.empty(0),
-        steps=run.steps,
-        evaluations=run.steps,
-    )
+    return _Run(device, times, steps_per_period).run(held)
 
 
-class _Run:
-    """The state between steps, samples and counts."""
+class _Run(RunWithoutEvents):
+    """Time stepping; the friction of the last step goes on to the next."""
 
-    def __init__(
-        self, equations: Equations, state: tuple[float, float, float, float], times: Array
-    ) -> None:
-        self.signals = np.empty((len(times), 7))
-        self.reversals = 0
-        self.sticks = 0
-        self.stick_time = 0.0
-        self.steps = 0
-        self._equations = equations
-        self._state = state
-        self._times = times
-        self._kept = 0
-        self._theta = 0.0
-        self._psi = 0.0
-        self._slip = 0.0
+    def __init__(self, device: Device, times: Array, steps_per_period: int) -> None:
+        super().__init__(device, times)
+        self._steps_per_period = steps_per_period
         self._friction = 0.0
 
-    def follow(self, inputs: HeldInputs, steps_per_period: int) -> None:
-        """Step through held inputs."""
-        equations = self._equations
+    def follow(self, inputs: HeldInputs) -> None:
+        equations, contact = self.equations, self.recorder.contact
         rate = equations.drive_frequency
         angle_rate = inputs.frequency_ratio * rate
         span = inputs.stop - inputs.start
-        count = ceil(span * rate / (2.0 * pi) * steps_per_period * (1.0 - _SAME_INSTANT))
+        count = ceil(span * rate / (2.0 * pi) * self._steps_per_period * (1.0 - _SAME_INSTANT))
         step = span / count
         smooth = _SmoothStep(equations, step, inputs.load)
-        theta, angle = self._theta, self._psi + inputs.phase
-        x, v, y, u = self._state
-        friction = self._friction
+        theta, angle = self.theta, self.psi + inputs.phase
         limit_mean, limit_amplitude = equations.friction_mean, equations.friction_amplitude
+        x, v, y, u = self.state.tolist()
+        path = array("d", (x, v, y, u, self._friction))
         sticking = False
         for index in range(count):
             middle = (index + 0.5) * step
@@ -105,49 +70,23 @@ class _Run:
             stopped = abs(impulse) < limit
             next_v = 0.0 if stopped else free_v - smooth.mobility * impulse
             next_u = free_u - smooth.resonator_mobility * impulse
-            after = (x + 0.5 * step * (v + next_v), next_v, y + 0.5 * step * (u + next_u), next_u)
-            self._keep(inputs, (x, v, y, u, friction), (*after, impulse / step), index, step)
-            x, v, y, u = after
-            friction = impulse / step
-            self._count(v, stopped, sticking, step)
+            x += 0.5 * step * (v + next_v)
+            y += 0.5 * step * (u + next_u)
+            v, u = next_v, next_u
+            path.extend((x, v, y, u, impulse / step))
+            contact.slide((v > 0.0) - (v < 0.0))
+            if stopped:
+                contact.sticks += not sticking
+                contact.stick_time += step
             sticking = stopped
-        self.steps += count
-        self._state, self._friction = (x, v, y, u), friction
-        self._theta += rate * span
-        self._psi += angle_rate * span
-
-    def _count(self, velocity: float, stopped: bool, sticking: bool, step: float) -> None:
-        if stopped:
-            self.sticks += not sticking
-            self.stick_time += step
-        elif velocity:
-            self.reversals += velocity * self._slip < 0.0
-            self._slip = velocity
-
-    def _keep(
-        self,
-        inputs: HeldInputs,
-        before: tuple[float, ...],
-        after: tuple[float, ...],
-        index: int,
-        step: float,
-    ) -> None:
-        """Keep the samples within a step."""
-        last = inputs.start + (index + 1 + _SAME_INSTANT) * step
-        while self._kept < len(self._times) and (time := float(self._times[self._kept])) <= last:
-            local = time - inputs.start
-            share = min(1.0, max(0.0, local / step - index))
-            row = [b + share * (a - b) for b, a in zip(before, after, strict=True)]
-            equations = self._equations
-            theta = np.array([self._theta + equations.drive_frequency * local])
-            resonator = equations.resonator_motion(theta, np.array([row[:4]]))
-            angle = self._psi + inputs.phase
-            angle += inputs.frequency_ratio * equations.drive_frequency * local
-            load = equations.normal_preload + equations.normal_amplitude * sin(angle)
-            mode = float(np.sign(row[1])) if load > 0.0 else float(LIFTED)
-            moved = [float(signal[0]) for signal in resonator]
-            self.signals[self._kept] = (*row[:2], *moved, max(0.0, load), row[4], mode)
-            self._kept += 1
+        self.recorder.steps += count
+        self.recorder.evaluations += count
+        rows = np.array(path).reshape(-1, 5)
+        self.state, self._friction = rows[-1, :4], float(rows[-1, 4])
+        local = self.recorder.pending(inputs.stop) - inputs.start
+        ends = step * np.arange(count + 1)
+        samples = np.column_stack([np.interp(local, ends, column) for column in rows.T])
+        self.keep(inputs, local, samples[:, :4], samples[:, 4])
 
 
 class _SmoothStep:

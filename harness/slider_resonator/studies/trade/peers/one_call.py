@@ -6,20 +6,19 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from time import process_time
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
+from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
+from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
 from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
 from slider_resonator.studies.trade.peers.switching_taylor import SlidingRun, simulate_sliding
 from slider_resonator.studies.trade.solution import Solution
-
-Array = NDArray[np.float64]
 
 
 def heyoka_in_one_call(
@@ -46,14 +45,7 @@ def heyoka_in_one_call(
             )
         if start.contact_mode[-1] == 0:
             raise ValueError("the slider sticks after a drive period, which it does not cover")
-        moving = replace(
-            device,
-            initial_position=float(start.position[-1]),
-            initial_velocity=float(start.velocity[-1]),
-            initial_resonator_displacement=float(start.resonator_displacement[-1]),
-            initial_resonator_velocity=float(start.resonator_velocity[-1]),
-            initial_bristle_deflection=float(getattr(start, "bristle_deflection", [0.0])[-1]),
-        )
+        moving = device_at(device, start, -1)
         later = times[times > begin]
         rest = _motion(
             simulate_sliding(
@@ -72,6 +64,14 @@ def heyoka_in_one_call(
     missing = {"event_times": "the times of reversals are not reported", **NOT_SHOT}
     setting = f"tol {tolerance:.0e}"
     return Peer(family, setting, tolerance, follow, cannot_stick=True, missing=missing)
+
+
+def device_at(device: Device, run: Trajectory, index: int) -> Device:
+    """Return the device that starts in the state of a trajectory at one of its samples."""
+    names = ("position", "velocity", "resonator_displacement", "resonator_velocity")
+    state: dict[str, Any] = {f"initial_{name}": float(getattr(run, name)[index]) for name in names}
+    bent = run.bristle_deflection[index] if isinstance(run, LugreTrajectory) else 0.0
+    return replace(device, **state, initial_bristle_deflection=float(bent))
 
 
 def cvode_in_one_call(tolerance: float) -> Peer:

@@ -5,16 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.studies.trade.solution import Solution, last_events
 
-Array = NDArray[np.float64]
 Follow = Callable[[Device, Sequence[HeldInputs], Array], Solution]
 
 NO_EVENTS = {"event_times": "no event is located"}

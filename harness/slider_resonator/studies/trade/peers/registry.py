@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-import numpy as np
-from numpy.typing import NDArray
-
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
@@ -21,8 +18,6 @@ from slider_resonator.studies.trade.peers.one_call import cvode_in_one_call, hey
 from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.solution import Solution
-
-Array = NDArray[np.float64]
 
 MAX_EVALUATIONS = 1_000_000
 """Maximum evaluations of a method on sgn: one that chatters is stopped early."""

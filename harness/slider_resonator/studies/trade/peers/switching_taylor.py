@@ -14,12 +14,10 @@ from functools import cache
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import Array, HeldInputs
 
-Array = NDArray[np.float64]
 Form = Literal["coulomb", "path", "state"]
 
 _PARAMETERS = (

@@ -6,13 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.references.resolved import taylor
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.studies.trade.peers.peer import Peer, solution_of
+from slider_resonator.studies.trade.peers.peer import Peer
 from slider_resonator.studies.trade.peers.registry import peers
 from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.solution import errors, windows
-from tests.harness.studies.trade.problems import LUGRE, TABLE_1, problem
+from slider_resonator.studies.trade.solution import errors
+from tests.harness.studies.trade.problems import LUGRE, TABLE_1, problem, reference_of
 
 PERIODS = 4
 UNDAMPED_RESONANCE = """
@@ -33,9 +31,7 @@ def most_exact(problem: Problem) -> list[Peer]:
 @pytest.mark.parametrize("text", [TABLE_1, LUGRE])
 def test_the_last_setting_of_each_family_is_near_the_reference(tmp_path: Path, text: str) -> None:
     short = problem(tmp_path, text, max_periods=PERIODS)
-    simulate = simulate_lugre if short.device.friction_law else taylor.simulate
-    run = simulate(short.device, short.reference_inputs(PERIODS), short.readings(PERIODS))
-    reference = windows(short, solution_of(run, located=True), PERIODS)
+    reference = reference_of(short)
     for peer in most_exact(short):
         if peer.family.startswith("Radau"):
             continue

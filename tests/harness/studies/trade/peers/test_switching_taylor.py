@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -11,8 +12,8 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.studies.trade.peers.one_call import device_at
 from slider_resonator.studies.trade.peers.switching_taylor import simulate_sliding
 
 MOVING = Device(
@@ -23,28 +24,22 @@ MOVING = Device(
 PERIOD = 2.0 * math.pi / MOVING.drive_frequency
 
 
-def test_coulomb_friction() -> None:
-    held = HeldInputs(0.0, 20 * PERIOD, phase=0.2, load=0.01, frequency_ratio=1.5)
+@pytest.mark.parametrize(
+    ("law", "bristle", "accuracy"), [(0, "path", 1e-11), (1, "path", 1e-10), (1, "state", 1e-10)]
+)
+def test_it_agrees_with_the_references(
+    law: int, bristle: Literal["path", "state"], accuracy: float
+) -> None:
+    device = replace(MOVING, friction_law=law, bristle_stiffness=1e4)
+    held = HeldInputs(0.0, (20 - 15 * law) * PERIOD, phase=0.2, load=0.01, frequency_ratio=1.5)
     times = np.array([0.0, held.stop])
-    reference = simulate(MOVING, [held], times)
+    reference = (simulate, simulate_lugre)[law](device, [held], times)
     assert reference.sticks == 0, "the peer covers no sticking"
-    end = simulate_sliding(MOVING, held, times, tolerance=1e-14)
+    end = simulate_sliding(device, held, times, tolerance=1e-14, bristle=bristle)
     assert end.reversals == reference.reversals
-    assert end.samples[-1, 0] == pytest.approx(reference.position[-1], rel=1e-11)
-    assert end.samples[-1, 1] == pytest.approx(reference.velocity[-1], rel=1e-11)
-    assert end.samples[-1, 2] == pytest.approx(reference.resonator_displacement[-1], rel=1e-11)
-
-
-@pytest.mark.parametrize("bristle", ["path", "state"])
-def test_lugre_friction(bristle: str) -> None:
-    device = replace(MOVING, friction_law=1, bristle_stiffness=1e4)
-    held = HeldInputs(0.0, 5 * PERIOD)
-    times = np.array([0.0, held.stop])
-    reference = simulate_lugre(device, [held], times)
-    end = simulate_sliding(device, held, times, tolerance=1e-14, bristle=bristle)  # type: ignore[arg-type]
-    assert end.reversals == reference.reversals
-    assert end.samples[-1, 0] == pytest.approx(reference.position[-1], rel=1e-10)
-    assert end.samples[-1, 1] == pytest.approx(reference.velocity[-1], rel=1e-10)
+    for column, name in enumerate(("position", "velocity", "resonator_displacement")):
+        expected = getattr(reference, name)[-1]
+        assert end.samples[-1, column] == pytest.approx(expected, rel=accuracy), name
 
 
 def test_devices_that_it_does_not_cover_are_refused() -> None:
@@ -62,15 +57,7 @@ def test_a_run_goes_on_from_within_its_inputs(law: int) -> None:
     times = np.linspace(0.0, held.stop, 25)
     reference = (simulate, simulate_lugre)[law](device, [held], times)
     begin = 8
-    bent = reference.bristle_deflection[begin] if isinstance(reference, LugreTrajectory) else 0.0
-    later = replace(
-        device,
-        initial_position=reference.position[begin],
-        initial_velocity=reference.velocity[begin],
-        initial_resonator_displacement=reference.resonator_displacement[begin],
-        initial_resonator_velocity=reference.resonator_velocity[begin],
-        initial_bristle_deflection=bent,
-    )
+    later = device_at(device, reference, begin)
     end = simulate_sliding(later, held, times[begin:], tolerance=1e-14, start=float(times[begin]))
     assert end.samples[:, 0] == pytest.approx(reference.position[begin:], rel=1e-9)
     assert end.samples[:, 1] == pytest.approx(reference.velocity[begin:], rel=1e-9)

@@ -1,4 +1,4 @@
-"""Table: the device of table 1 on bristles from soft to hard, resolved and averaged."""
+"""Tables of LuGre friction from soft to hard bristles: the blocking force, and table 1's device."""
 
 from __future__ import annotations
 
@@ -6,16 +6,56 @@ import numpy as np
 
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import uniform_average
+from slider_resonator.references.averaged import averaged_lugre, uniform_average
+from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.studies.paper.mapping import lugre_case
 from slider_resonator.studies.paper.measure import blocking_force, steady_velocity
 from slider_resonator.studies.paper.table import PaperTable, rows_over
 
 KAPPAS = tuple(np.geomspace(0.01, 1000.0, 11).tolist())
+CASE = LugreCase()
+FREQUENCY = 1000.0
 TABLE_1 = Device(friction_law=1)
 
 
-def _row(instance: Instance, kappa: float) -> dict[str, float]:
+def _blocking_row(instance: Instance, kappa: float) -> dict[str, float]:
+    stiffness = kappa * CASE.friction_coefficient * FREQUENCY / CASE.strength
+    direct = blocking_force(instance, lugre_case(CASE, FREQUENCY, stiffness))
+    uniform = uniform_average.blocking_load(CASE, stiffness, FREQUENCY)
+    paper = averaged_lugre.blocking_load(CASE)
+    return {
+        "kappa": kappa,
+        "stiffness": stiffness,
+        "direct": direct,
+        "uniform": uniform,
+        "paper": paper,
+        "uniform_deviation": uniform / direct - 1.0,
+        "paper_deviation": paper / direct - 1.0,
+    }
+
+
+BLOCKING = PaperTable(
+    "lugre_blocking",
+    "Blocking force with LuGre friction",
+    "q = alpha = sigma_1 = 1, mu = 0.4, phi = pi/2, Omega = 1000; one degree of freedom; forces in "
+    "N0. (24) holds for kappa << 1. Coulomb friction, the limit of large kappa, has "
+    "2 mu / pi = 0.254648. Deviations are relative to the force of the FMU.",
+    {
+        "kappa": "sigma_0 q / (mu Omega)",
+        "stiffness": "sigma_0",
+        "direct": "FMU by shooting",
+        "uniform": "uniform average",
+        "paper": "(24)",
+        "uniform_deviation": "uniform / FMU - 1",
+        "paper_deviation": "(24) / FMU - 1",
+    },
+    {"uniform_deviation": 2e-3},
+    rows_over(KAPPAS, _blocking_row),
+)
+
+
+def _device_row(instance: Instance, kappa: float) -> dict[str, float]:
     fast = equivalent_force(TABLE_1).velocity_amplitude
     coefficient = TABLE_1.friction_coefficient
     stiffness = kappa * coefficient * TABLE_1.drive_frequency / fast
@@ -40,7 +80,7 @@ def _row(instance: Instance, kappa: float) -> dict[str, float]:
     }
 
 
-TABLE = PaperTable(
+DEVICE = PaperTable(
     "lugre_device",
     "The device of table 1 with LuGre friction",
     "Steady velocity and blocking force of the device with its resonator, sigma_1 = 10 s/m, phase "
@@ -59,5 +99,5 @@ TABLE = PaperTable(
         "force_deviation": "(uniform - FMU) / largest friction",
     },
     {"velocity_deviation": 2e-3, "force_deviation": 2e-3},
-    rows_over(KAPPAS, _row),
+    rows_over(KAPPAS, _device_row),
 )

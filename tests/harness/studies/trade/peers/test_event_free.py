@@ -1,3 +1,5 @@
+"""Friction by sgn, and by tanh: Coulomb in the limit of zero width, a creep for a stick."""
+
 from __future__ import annotations
 
 import math
@@ -9,7 +11,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import located_events
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.studies.trade.peers.event_free import simulate_sgn
+from slider_resonator.studies.trade.peers.event_free import simulate_sgn, simulate_tanh
 
 TABLE_1 = Device()
 PERIOD = 2.0 * math.pi / 3500.0
@@ -22,6 +24,7 @@ BLOCK = Device(
     drive_frequency=10.0,
     initial_velocity=0.3,
 )
+SLIDER = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
 
 
 def until(stop: float, **inputs: float) -> list[HeldInputs]:
@@ -32,16 +35,6 @@ def deviation(first: Trajectory, second: Trajectory) -> float:
     """Largest deviation of any signal, in fractions of its peak."""
     pairs = [(getattr(first, name), getattr(second, name)) for name in SIGNALS]
     return max(float(abs(a - b).max() / abs(b).max()) for a, b in pairs)
-
-
-def test_before_it_stops_a_sliding_block_slows_down_evenly() -> None:
-    deceleration = (0.2 + 0.05) / 1.1
-    times = np.linspace(0.0, 1.3, 51)
-    run = simulate_sgn(BLOCK, until(1.3, load=0.05), times)
-    assert run.velocity == pytest.approx(0.3 - deceleration * times, abs=1e-9)
-    assert run.position == pytest.approx(0.3 * times - 0.5 * deceleration * times**2, abs=1e-9)
-    assert (run.contact_mode == 1).all()
-    assert run.friction_force == pytest.approx(0.2), "full friction against the motion"
 
 
 def test_a_block_that_should_stick_chatters_about_rest_instead() -> None:
@@ -66,38 +59,36 @@ def test_at_exact_rest_friction_vanishes() -> None:
         assert not getattr(run, name).any(), f"{name}: sgn 0 is 0 and nothing drives"
 
 
-def test_without_normal_load_nothing_but_the_load_takes_momentum() -> None:
-    device = Device(normal_preload=0.0, normal_amplitude=0.0, initial_velocity=0.2)
-    times = np.linspace(0.0, 0.03, 101)
-    run = simulate_sgn(device, until(0.03, load=0.7), times)
-    momentum = 1.1 * run.velocity + 0.1 * run.resonator_velocity
-    drive = 0.1 * 1e-4 * 3500.0 * (1.0 - np.cos(3500.0 * times))
-    assert momentum == pytest.approx(0.22 - 0.7 * times + drive, abs=1e-5), "(26), no friction"
-    assert (run.contact_mode == 2).all(), "the contact never closes"
+CHANGING = [
+    HeldInputs(0.0, 3.3 * PERIOD),
+    HeldInputs(3.3 * PERIOD, 6.6 * PERIOD, phase=1.0, load=0.1, frequency_ratio=3.0),
+]
 
 
 @pytest.mark.parametrize(
-    ("device", "inputs"),
+    ("device", "held"),
     [
-        (TABLE_1, {}),
-        (TABLE_1, {"phase": 0.4, "load": 0.05}),
-        (TABLE_1, {"frequency_ratio": 3.0}),
-        (Device(normal_amplitude=1.5), {}),
-        (Device(fidelity=1), {"phase": 0.4}),
-        (Device(tangential_force=50.0), {}),
+        (TABLE_1, until(10 * PERIOD)),
+        (TABLE_1, until(10 * PERIOD, phase=0.4, load=0.05)),
+        (TABLE_1, until(10 * PERIOD, frequency_ratio=3.0)),
+        (TABLE_1, CHANGING),
+        (Device(normal_amplitude=1.5), until(10 * PERIOD)),
+        (Device(fidelity=1), until(10 * PERIOD, phase=0.4)),
+        (Device(tangential_force=50.0), until(10 * PERIOD)),
     ],
 )
-def test_it_agrees_with_located_events_to_its_own_accuracy(
-    device: Device, inputs: dict[str, float]
+def test_sgn_agrees_with_located_events_to_its_own_accuracy(
+    device: Device, held: list[HeldInputs]
 ) -> None:
-    times = np.linspace(0.0, 10 * PERIOD, 401)
-    held = until(10 * PERIOD, **inputs)
+    times = np.linspace(0.0, held[-1].stop, 401)
     exact = located_events.simulate(device, held, times, rtol=1e-10, atol=1e-12)
-    error = deviation(simulate_sgn(device, held, times, atol=ATOL), exact)
-    assert error < 2e-3, "rtol 1e-6, less what is lost in every jump"
+    run = simulate_sgn(device, held, times, atol=ATOL)
+    assert deviation(run, exact) < 2e-3, "rtol 1e-6, less what is lost in every jump"
+    assert run.normal_force == pytest.approx(exact.normal_force, abs=1e-12), "psi is continuous"
+    assert (run.contact_mode == exact.contact_mode).mean() > 0.95
 
 
-def test_its_error_falls_with_the_tolerance_and_its_cost_grows() -> None:
+def test_the_error_of_sgn_falls_with_the_tolerance_and_its_cost_grows() -> None:
     times = np.linspace(0.0, 5 * PERIOD, 201)
     held = until(5 * PERIOD)
     exact = located_events.simulate(TABLE_1, held, times)
@@ -106,27 +97,6 @@ def test_its_error_falls_with_the_tolerance_and_its_cost_grows() -> None:
     assert deviation(fine, exact) < 0.02 * deviation(coarse, exact)
     assert fine.evaluations > 2 * coarse.evaluations
     assert fine.evaluations >= 12 * fine.steps, "each step of DOP853 takes at least 12"
-
-
-def test_inputs_change_at_the_boundaries_and_angles_go_on() -> None:
-    cut = 3.3 * PERIOD
-    held = [
-        HeldInputs(0.0, cut),
-        HeldInputs(cut, 2 * cut, phase=1.0, load=0.1, frequency_ratio=3.0),
-    ]
-    times = np.linspace(0.0, 2 * cut, 301)
-    run = simulate_sgn(TABLE_1, held, times, atol=ATOL)
-    exact = located_events.simulate(TABLE_1, held, times)
-    assert deviation(run, exact) < 2e-3, "in every signal, across the change"
-    assert run.normal_force == pytest.approx(exact.normal_force, abs=1e-12), "psi is continuous"
-
-
-def test_samples_do_not_influence_the_motion() -> None:
-    few = simulate_sgn(TABLE_1, until(4 * PERIOD), np.array([0.0, 4 * PERIOD]), atol=ATOL)
-    many = simulate_sgn(TABLE_1, until(4 * PERIOD), np.linspace(0.0, 4 * PERIOD, 333), atol=ATOL)
-    for name in SIGNALS:
-        assert getattr(few, name)[-1] == getattr(many, name)[-1], f"{name} at the end"
-        assert getattr(few, name)[0] == 0.0, f"{name} at the start"
 
 
 @pytest.mark.parametrize(
@@ -142,3 +112,36 @@ def test_devices_that_cannot_be_simulated_are_refused(
 ) -> None:
     with pytest.raises(ValueError, match=message):
         simulate_sgn(device, held, np.array(times))
+
+
+def test_the_limit_of_zero_width_is_coulomb_friction() -> None:
+    held = until(6 * PERIOD, phase=0.4)
+    times = np.linspace(0.0, held[0].stop, 49)
+    exact = located_events.simulate(TABLE_1, held, times)
+    widths = np.array([1e-2, 1e-3, 1e-4, 1e-5])
+    runs = [simulate_tanh(TABLE_1, held, times, width=width) for width in widths]
+    errors = np.array([np.abs(run.position - exact.position).max() for run in runs])
+    assert (np.diff(errors) < 0.0).all(), f"a narrower tanh is nearer to sgn: {errors}"
+    order = np.polyfit(np.log(widths), np.log(errors), 1)[0]
+    assert order > 0.3, f"the error vanishes with a power of the width, not {order}"
+    assert errors[-1] < 1e-3 * np.abs(exact.position).max()
+
+
+@pytest.mark.parametrize("method", ["DOP853", "LSODA", "Radau"])
+def test_it_creeps_where_friction_should_hold(method: str) -> None:
+    width, stop = 1e-3, 0.1
+    run = simulate_tanh(SLIDER, until(stop, load=0.1), np.array([stop]), width=width, method=method)
+    creep = -width * math.atanh(0.1 / 0.2)
+    assert run.velocity[0] == pytest.approx(creep, rel=1e-5), "tanh(v / width) holds 0.1 of 0.2 N"
+    assert run.friction_force[0] == pytest.approx(-0.1, rel=1e-5)
+
+
+@pytest.mark.parametrize("width", [0.0, -1.0, math.nan, math.inf])
+def test_a_width_that_is_none_is_refused(width: float) -> None:
+    with pytest.raises(ValueError, match=r"width = .* m/s: must be a finite number above 0"):
+        simulate_tanh(SLIDER, until(1.0), np.empty(0), width=width)
+
+
+def test_an_unknown_method_is_refused() -> None:
+    with pytest.raises(ValueError, match="method = 'Euler': must be one of DOP853, LSODA, Radau"):
+        simulate_tanh(SLIDER, until(1.0), np.empty(0), width=1e-3, method="Euler")
