@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -159,3 +159,7 @@ class Instance:
         for fragment in fragments:
             assert fragment in self.log[-1], "the text names thing, value and requirement"
         assert self.state() == before, "a refused call leaves the state as it was, bit by bit"
+
+
+Instantiate = Callable[[], Instance]
+"""Makes an instance that is not initialized yet, as the fixture `instantiate` does."""

@@ -14,7 +14,7 @@ from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 
-from tests.fmu.host import Instance, Unpacked
+from tests.fmu.host import Instance, Instantiate, Unpacked
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -43,7 +43,7 @@ def maltreat(instance: Instance) -> None:
             call(instance)
 
 
-def test_the_run_goes_on_as_if_never_disturbed(instantiate: Callable[[], Instance]) -> None:
+def test_the_run_goes_on_as_if_never_disturbed(instantiate: Instantiate) -> None:
     quiet, disturbed = instantiate(), instantiate()
     for instance in (quiet, disturbed):
         instance.initialize(phase=0.4, load=0.05)
@@ -54,7 +54,7 @@ def test_the_run_goes_on_as_if_never_disturbed(instantiate: Callable[[], Instanc
     assert rows == quiet.run(20, STEP), "refused calls must leave no trace, to the last bit"
 
 
-def test_a_refused_initialization_can_be_mended(instantiate: Callable[[], Instance]) -> None:
+def test_a_refused_initialization_can_be_mended(instantiate: Instantiate) -> None:
     mended, plain = instantiate(), instantiate().initialize()
     with pytest.raises(FMICallException):
         mended.slave.exitInitializationMode()
@@ -68,7 +68,7 @@ def test_a_refused_initialization_can_be_mended(instantiate: Callable[[], Instan
     )
 
 
-def test_reset_after_refusals(instance: Instance, instantiate: Callable[[], Instance]) -> None:
+def test_reset_after_refusals(instance: Instance, instantiate: Instantiate) -> None:
     maltreat(instance)
     instance.slave.reset()
     instance.initialize()

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 from slider_resonator.checks.measures.frequency import dominant_frequency
-from tests.fmu.host import Instance
-
-Instantiate = Callable[[], Instance]
+from tests.fmu.host import Instantiate
 
 DRIVE = 3500.0 / math.tau
 """Drive frequency of table 1 in Hz."""

@@ -6,8 +6,6 @@ velocity and preload are 1; kappa = sigma_0 q / (mu Omega).
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 
 from slider_resonator.device.device import Device
@@ -16,9 +14,7 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-from tests.fmu.host import Instance
-
-Instantiate = Callable[[], Instance]
+from tests.fmu.host import Instantiate
 
 KAPPAS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 SLOW = pytest.mark.slow

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import pytest
 
-from tests.fmu.host import Instance
-
-Instantiate = Callable[[], Instance]
+from tests.fmu.host import Instantiate
 
 PERIOD = math.tau / 3500.0
 FAST = 0.2366097

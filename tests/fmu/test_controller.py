@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import asin, nan, pi
 from pathlib import Path
 
@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.fmu.host import Instance, unpack
+from tests.fmu.host import Instance, Instantiate, unpack
 
 GAIN, INTEGRAL, THETA, SAMPLE = 100.0, 400.0, 0.733313, 0.01
 
@@ -18,7 +18,7 @@ GAIN, INTEGRAL, THETA, SAMPLE = 100.0, 400.0, 0.733313, 0.01
 @pytest.fixture(scope="module")
 def controller(
     controller_fmu: Path, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Callable[[], Instance]]:
+) -> Iterator[Instantiate]:
     unpacked = unpack(controller_fmu, tmp_path_factory.mktemp("controller"))
     made: list[Instance] = []
 
@@ -45,9 +45,7 @@ class Law:
         return effort
 
 
-def test_at_the_start_the_vibration_gives_no_mean_force(
-    controller: Callable[[], Instance],
-) -> None:
+def test_at_the_start_the_vibration_gives_no_mean_force(controller: Instantiate) -> None:
     instance = controller().initialize()
     assert instance.get("effort", "phase") == (0.0, -THETA)
     instance.step(SAMPLE)
@@ -55,9 +53,7 @@ def test_at_the_start_the_vibration_gives_no_mean_force(
 
 
 @given(st.lists(st.floats(-0.05, 0.05), min_size=1, max_size=60))
-def test_effort_and_phase_follow_the_law(
-    controller: Callable[[], Instance], errors: list[float]
-) -> None:
+def test_effort_and_phase_follow_the_law(controller: Instantiate, errors: list[float]) -> None:
     law = Law()
     instance = controller()
     instance.initialize(velocity_reference=0.06)
@@ -71,7 +67,7 @@ def test_effort_and_phase_follow_the_law(
         assert phase == pytest.approx(asin(expected) - THETA, abs=1e-6)
 
 
-def test_the_integral_does_not_wind_up(controller: Callable[[], Instance]) -> None:
+def test_the_integral_does_not_wind_up(controller: Instantiate) -> None:
     instance = controller().initialize(velocity_reference=0.06)
     for _ in range(1000):
         instance.step(SAMPLE)
@@ -84,7 +80,7 @@ def test_the_integral_does_not_wind_up(controller: Callable[[], Instance]) -> No
 
 @pytest.mark.parametrize("parts", [1, 4, 10])
 def test_samples_do_not_depend_on_the_communication_step(
-    controller: Callable[[], Instance], parts: int
+    controller: Instantiate, parts: int
 ) -> None:
     instance = controller().initialize(velocity_reference=0.001)
     efforts: list[float] = []
@@ -96,14 +92,14 @@ def test_samples_do_not_depend_on_the_communication_step(
     assert efforts == pytest.approx([law.effort(0.001) for _ in range(20)], abs=1e-12)
 
 
-def test_a_step_takes_all_samples_that_fall_due_in_it(controller: Callable[[], Instance]) -> None:
+def test_a_step_takes_all_samples_that_fall_due_in_it(controller: Instantiate) -> None:
     instance = controller().initialize(start_time=3.0, velocity_reference=0.001)
     instance.step(20 * SAMPLE)
     law = Law()
     assert instance.get("effort")[0] == pytest.approx([law.effort(0.001) for _ in range(20)][-1])
 
 
-def test_a_replayed_state_gives_the_same_bits(controller: Callable[[], Instance]) -> None:
+def test_a_replayed_state_gives_the_same_bits(controller: Instantiate) -> None:
     first, other = controller().initialize(velocity_reference=0.03), controller().initialize()
     first.step(0.025)
     other.restore(first.state())
@@ -115,7 +111,7 @@ def test_a_replayed_state_gives_the_same_bits(controller: Callable[[], Instance]
     assert first.get("phase", "effort") == other.get("phase", "effort")
 
 
-def test_damaged_states_are_refused(controller: Callable[[], Instance]) -> None:
+def test_damaged_states_are_refused(controller: Instantiate) -> None:
     instance = controller().initialize()
     state = instance.state()
     for place in (0, 45, len(state) - 1):
@@ -126,9 +122,7 @@ def test_damaged_states_are_refused(controller: Callable[[], Instance]) -> None:
         instance.restore(state[:-8])
 
 
-def test_refused_values_and_steps_change_nothing(
-    controller: Callable[[], Instance],
-) -> None:
+def test_refused_values_and_steps_change_nothing(controller: Instantiate) -> None:
     instance = controller().initialize(velocity_reference=0.01)
     instance.step(SAMPLE)
     with instance.refuses("measured_velocity = nan refused: must be a finite number"):
@@ -149,7 +143,7 @@ def test_refused_values_and_steps_change_nothing(
         instance.step(1e6)
 
 
-def test_calls_out_of_order_are_refused(controller: Callable[[], Instance]) -> None:
+def test_calls_out_of_order_are_refused(controller: Instantiate) -> None:
     instance = controller()
     with instance.refuses("doStep refused in state 'instantiated'"):
         instance.step(SAMPLE)
@@ -161,7 +155,7 @@ def test_calls_out_of_order_are_refused(controller: Callable[[], Instance]) -> N
         instance.slave.setupExperiment(startTime=0.0, tolerance=-1.0)
 
 
-def test_huge_values_make_no_nan(controller: Callable[[], Instance]) -> None:
+def test_huge_values_make_no_nan(controller: Instantiate) -> None:
     instance = controller()
     instance.initialize(
         velocity_reference=1e308,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,7 +13,7 @@ from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
 from fmu_src.sources import C_SOURCES, PACKAGE
-from tests.fmu.host import OUTPUTS, Instance, Unpacked, unpack
+from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked, unpack
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -62,7 +61,7 @@ def other_build(unpacked: Unpacked, tmp_path_factory: pytest.TempPathFactory) ->
 
 
 def test_two_builds_in_one_process_stay_independent(
-    other_build: Path, instantiate: Callable[[], Instance], tmp_path: Path
+    other_build: Path, instantiate: Instantiate, tmp_path: Path
 ) -> None:
     golden = instantiate().initialize()
     candidate = Instance(unpack(other_build, tmp_path)).initialize()
@@ -84,7 +83,7 @@ def test_a_state_of_another_build_is_refused(
         instance.restore(foreign)
 
 
-def test_two_instances_do_not_share_anything(instantiate: Callable[[], Instance]) -> None:
+def test_two_instances_do_not_share_anything(instantiate: Instantiate) -> None:
     values: tuple[dict[str, float], ...] = ({"phase": 0.4}, {"load": 0.06, "fidelity": 1})
     together = [instantiate().initialize(**v) for v in values]
     rows: list[list[tuple[float, ...]]] = [[], []]
@@ -95,14 +94,14 @@ def test_two_instances_do_not_share_anything(instantiate: Callable[[], Instance]
     assert rows == alone, "two devices stepped in turn move as each does alone"
 
 
-def test_each_instance_logs_to_its_own_host(instantiate: Callable[[], Instance]) -> None:
+def test_each_instance_logs_to_its_own_host(instantiate: Instantiate) -> None:
     first, second = instantiate().initialize(), instantiate().initialize()
     with first.refuses("load"):
         first.set(load=float("nan"))
     assert second.log == [], "what one instance refuses is not told to the host of another"
 
 
-def test_reset_gives_back_a_new_instance(instantiate: Callable[[], Instance]) -> None:
+def test_reset_gives_back_a_new_instance(instantiate: Instantiate) -> None:
     used, fresh = instantiate(), instantiate().initialize()
     used.initialize(slider_mass=3.0, phase=1.0, friction_faces=1)
     used.run(10, STEP)
@@ -111,7 +110,7 @@ def test_reset_gives_back_a_new_instance(instantiate: Callable[[], Instance]) ->
     assert used.run(10, STEP) == fresh.run(10, STEP), "parameters, inputs and motion are forgotten"
 
 
-def test_reset_after_terminate(instance: Instance, instantiate: Callable[[], Instance]) -> None:
+def test_reset_after_terminate(instance: Instance, instantiate: Instantiate) -> None:
     first = instance.run(10, STEP)
     instance.slave.terminate()
     assert instance.get(*OUTPUTS) == first[-1], "results can be read after the end"
@@ -121,7 +120,7 @@ def test_reset_after_terminate(instance: Instance, instantiate: Callable[[], Ins
 
 
 def test_a_run_that_starts_later_is_the_same_motion(
-    instance: Instance, instantiate: Callable[[], Instance]
+    instance: Instance, instantiate: Instantiate
 ) -> None:
     later = instantiate().initialize(start_time=1000.0)
     velocity = OUTPUTS.index("velocity")

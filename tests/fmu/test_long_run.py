@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
-from tests.fmu.host import Instance
+from tests.fmu.host import Instance, Instantiate
 from tests.fmu.native_layout import LAYOUT, numbers
 from tests.fmus import both_fmus
 
@@ -39,7 +38,7 @@ def resident_kilobytes() -> int:
 
 @pytest.mark.slow
 @both_fmus
-def test_an_hour(instantiate: Callable[[], Instance]) -> None:
+def test_an_hour(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(frequency_ratio=RATIO)
     settled = 0
     for k in range(2 * HOUR):
@@ -54,7 +53,7 @@ def test_an_hour(instantiate: Callable[[], Instance]) -> None:
 
 
 @both_fmus
-def test_one_long_step_keeps_the_phase(instantiate: Callable[[], Instance]) -> None:
+def test_one_long_step_keeps_the_phase(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(frequency_ratio=RATIO)
     instance.step(20.0)
     theta, psi = phases(instance)

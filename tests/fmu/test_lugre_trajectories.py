@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -12,7 +11,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
-from tests.fmu.host import Instance
+from tests.fmu.host import Instantiate
 from tests.fmus import both_fmus
 from tests.problems import DURATION, SIGNALS
 
@@ -41,7 +40,7 @@ def referee_of(
 
 
 def deviations(
-    instantiate: Callable[[], Instance],
+    instantiate: Instantiate,
     parameters: dict[str, float],
     inputs: dict[str, float],
     duration: float,
@@ -65,7 +64,7 @@ def deviations(
 @pytest.mark.parametrize("damping", [0.0, 10.0])
 @pytest.mark.parametrize("case", CASES)
 def test_against_the_referee(
-    instantiate: Callable[[], Instance], stiffness: float, damping: float, case: str
+    instantiate: Instantiate, stiffness: float, damping: float, case: str
 ) -> None:
     parameters, inputs = CASES[case]
     lugre = {"friction_law": 1.0, "bristle_stiffness": stiffness, "bristle_damping": damping}
@@ -82,7 +81,7 @@ def test_against_the_referee(
 @pytest.mark.parametrize("stiffness", STIFFNESSES)
 @pytest.mark.parametrize("case", CASES)
 def test_against_the_referee_for_longer(
-    instantiate: Callable[[], Instance], stiffness: float, case: str
+    instantiate: Instantiate, stiffness: float, case: str
 ) -> None:
     parameters, inputs = CASES[case]
     lugre = {"friction_law": 1.0, "bristle_stiffness": stiffness, "tolerance": 1e-9}

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 
-from tests.fmu.host import Instance
+from tests.fmu.host import Instantiate
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -16,7 +14,7 @@ SIGNALS = ("resonator_displacement", "resonator_velocity")
 
 @pytest.mark.parametrize("initial_velocity", [0.0, 0.1])
 def test_it_swings_with_lugre_as_with_coulomb_friction(
-    instantiate: Callable[[], Instance], initial_velocity: float
+    instantiate: Instantiate, initial_velocity: float
 ) -> None:
     rows = []
     for law in (0, 1):

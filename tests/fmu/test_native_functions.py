@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,7 +17,7 @@ from fmpy.fmi2 import (
 )
 
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
-from tests.fmu.host import Instance, Unpacked
+from tests.fmu.host import Instance, Instantiate, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
 from tests.fmu.test_native_binaries import fmi_functions
 
@@ -229,17 +228,13 @@ def test_a_status_that_is_not_known_is_discarded(
         assert place.raw == b"\x07" * 8, "nothing was written"
 
 
-def test_time_overflow_is_refused(
-    instantiate: Callable[[], Instance],
-) -> None:
+def test_time_overflow_is_refused(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(start_time=1.7e308, fidelity=0, friction_coefficient=0.0)
     with instance.refuses("leaves the range of floating point numbers"):
         instance.slave.doStep(instance.time, 1e308)
 
 
-def test_masses_beyond_the_range_of_numbers_are_refused(
-    instantiate: Callable[[], Instance],
-) -> None:
+def test_masses_beyond_the_range_of_numbers_are_refused(instantiate: Instantiate) -> None:
     instance = instantiate()
     instance.slave.enterInitializationMode()
     instance.set(slider_mass=1e-12, resonator_mass=math.nextafter(math.inf, 0.0))

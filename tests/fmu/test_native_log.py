@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,7 +11,7 @@ from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 
 from fmu_src.model_description import LOG_CATEGORIES
-from tests.fmu.host import Instance, Unpacked
+from tests.fmu.host import Instance, Instantiate, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call
 
 pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
@@ -113,9 +112,7 @@ def test_fmpy_says_why_a_run_failed(fmu: Path, capfd: pytest.CaptureFixture[str]
     assert "load = nan refused: must be a finite number" in capfd.readouterr().out
 
 
-def test_status_category_and_name_go_with_the_text(
-    instantiate: Callable[[], Instance],
-) -> None:
+def test_status_category_and_name_go_with_the_text(instantiate: Instantiate) -> None:
     instance = instantiate()
     instance.initialize()
     provoke_error(instance)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import pytest
 
-from tests.fmu.host import Instance, Unpacked, unpack
+from tests.fmu.host import Instance, Instantiate, Unpacked, unpack
 from tests.fmu.native_calls import ERROR, OK, call
 from tests.fmu.native_layout import HEAD, LAYOUT, SETTABLE, checksum, numbers
 
@@ -44,9 +44,7 @@ def test_the_layout_is_that_of_any_platform(instance: Instance, unpacked: Unpack
         assert state[variable.name] == expected, variable.name
 
 
-def test_a_state_made_elsewhere_is_taken(
-    instance: Instance, instantiate: Callable[[], Instance]
-) -> None:
+def test_a_state_made_elsewhere_is_taken(instance: Instance, instantiate: Instantiate) -> None:
     instance.run(7, STEP)
     foreign = forged(instance.state(), position=0.25, load=0.03)
     other = instantiate()
@@ -125,7 +123,7 @@ def _terminated(instance: Instance) -> None:
 
 @pytest.mark.parametrize("reach", [_instantiated, _initializing, _stepping, _terminated])
 def test_every_state_of_life_comes_back(
-    instantiate: Callable[[], Instance], reach: Callable[[Instance], None]
+    instantiate: Instantiate, reach: Callable[[Instance], None]
 ) -> None:
     instance, other = instantiate(), instantiate().initialize(load=0.2)
     reach(instance)

@@ -10,7 +10,7 @@ import pytest
 
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
-from tests.fmu.host import Instance
+from tests.fmu.host import Instance, Instantiate
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -52,7 +52,7 @@ def in_initialization_mode(instance: Instance) -> Instance:
 @by_name([v for v in SETTABLE if v.type == "Real"])
 @pytest.mark.parametrize("value", [NAN, INF, -INF])
 def test_not_finite_before_the_run(
-    instantiate: Callable[[], Instance], variable: Variable, value: float
+    instantiate: Instantiate, variable: Variable, value: float
 ) -> None:
     instance = in_initialization_mode(instantiate())
     with instance.refuses(f"{variable.name} = {value!r} refused", variable.requirement):
@@ -68,9 +68,7 @@ def test_not_finite_during_the_run(instance: Instance, variable: Variable, value
 
 
 @by_name([v for v in SETTABLE if outside(v)])
-def test_out_of_bounds_before_the_run(
-    instantiate: Callable[[], Instance], variable: Variable
-) -> None:
+def test_out_of_bounds_before_the_run(instantiate: Instantiate, variable: Variable) -> None:
     instance = in_initialization_mode(instantiate())
     for value in outside(variable):
         shown = int(value) if variable.type == "Integer" else value
@@ -87,9 +85,7 @@ def test_out_of_bounds_during_the_run(instance: Instance, variable: Variable) ->
 
 
 @by_name([v for v in SETTABLE if v.minimum is not None or v.maximum is not None])
-def test_the_bounds_themselves_are_accepted(
-    instantiate: Callable[[], Instance], variable: Variable
-) -> None:
+def test_the_bounds_themselves_are_accepted(instantiate: Instantiate, variable: Variable) -> None:
     instance = in_initialization_mode(instantiate())
     for value in (variable.minimum, variable.maximum):
         if value is not None:
@@ -112,9 +108,7 @@ def test_output_set_from_outside(instance: Instance, variable: Variable) -> None
 
 @pytest.mark.parametrize("fidelity", [0, 1])
 @pytest.mark.parametrize("ulps", [-2, -1, 0, 1, 2])
-def test_undamped_resonance_to_rounding(
-    instantiate: Callable[[], Instance], fidelity: int, ulps: int
-) -> None:
+def test_undamped_resonance_to_rounding(instantiate: Instantiate, fidelity: int, ulps: int) -> None:
     """Steady force and velocity would be numbers without a correct digit."""
     frequency = 3500.0 * math.sqrt(1.0 / 1.1)
     for _ in range(abs(ulps)):
@@ -128,7 +122,7 @@ def test_undamped_resonance_to_rounding(
     instance.step(STEP)
 
 
-def test_values_that_do_not_fit_each_other(instantiate: Callable[[], Instance]) -> None:
+def test_values_that_do_not_fit_each_other(instantiate: Instantiate) -> None:
     instance = in_initialization_mode(instantiate())
     instance.set(friction_law=1, friction_coefficient=0.0)
     with instance.refuses("friction_coefficient = 0.0 refused: with LuGre friction it must be"):
@@ -166,14 +160,14 @@ def test_step_that_does_not_continue_from_the_present(instance: Instance, jump: 
         ("tolerance", NAN),
     ],
 )
-def test_experiment(instantiate: Callable[[], Instance], name: str, value: float) -> None:
+def test_experiment(instantiate: Instantiate, name: str, value: float) -> None:
     instance = instantiate()
     experiment = {"startTime": 5.0} | {name: value}
     with instance.refuses(f"{name} = {value!r} refused: must be"):
         instance.slave.setupExperiment(**experiment)
 
 
-def test_step_beyond_the_stop_time(instantiate: Callable[[], Instance]) -> None:
+def test_step_beyond_the_stop_time(instantiate: Instantiate) -> None:
     instance = instantiate()
     instance.slave.setupExperiment(startTime=0.0, stopTime=0.1)
     instance.slave.enterInitializationMode()
@@ -208,7 +202,7 @@ def test_unknown_value_reference(instance: Instance, reference: int, kind: str) 
     ],
 )
 def test_type_of_another_variable(
-    instantiate: Callable[[], Instance], name: str, kind: str, value: object
+    instantiate: Instantiate, name: str, kind: str, value: object
 ) -> None:
     instance = in_initialization_mode(instantiate())
     reference = [instance.reference(name)]
@@ -277,7 +271,7 @@ CALLS: dict[str, Callable[[Instance], object]] = {
     ],
 )
 def test_call_out_of_order(
-    instantiate: Callable[[], Instance], reach: Callable[[Instance], None], call: str
+    instantiate: Instantiate, reach: Callable[[Instance], None], call: str
 ) -> None:
     instance = instantiate()
     reach(instance)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from tests.fmu.host import Instance
+from tests.fmu.host import Instance, Instantiate
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -38,7 +37,7 @@ def bring_into(instance: Instance, mode: float) -> None:
 
 
 @pytest.fixture(params=SITUATIONS.values(), ids=list(SITUATIONS))
-def on_its_way(request: pytest.FixtureRequest, instantiate: Callable[[], Instance]) -> Instance:
+def on_its_way(request: pytest.FixtureRequest, instantiate: Instantiate) -> Instance:
     values, mode = request.param
     instance = instantiate().initialize(**values)
     bring_into(instance, mode)
@@ -68,9 +67,7 @@ def test_state_is_a_copy(on_its_way: Instance) -> None:
     on_its_way.slave.freeFMUstate(kept)
 
 
-def test_replay_in_another_instance(
-    on_its_way: Instance, instantiate: Callable[[], Instance]
-) -> None:
+def test_replay_in_another_instance(on_its_way: Instance, instantiate: Instantiate) -> None:
     other = instantiate()
     other.restore(on_its_way.state())
     other.time = on_its_way.time
@@ -104,7 +101,7 @@ def test_replay_in_a_new_process(fmu: Path, on_its_way: Instance, tmp_path: Path
     assert json.loads(done.stdout) == expected, "a new process replays the same bits"
 
 
-def test_state_of_an_initializing_instance(instantiate: Callable[[], Instance]) -> None:
+def test_state_of_an_initializing_instance(instantiate: Instantiate) -> None:
     instance, other = instantiate(), instantiate()
     instance.slave.setupExperiment(startTime=0.0)
     instance.slave.enterInitializationMode()

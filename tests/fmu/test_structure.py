@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 
-from tests.fmu.host import OUTPUTS, Instance, Unpacked
+from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -84,7 +82,7 @@ def test_every_settable_number_is_tried(unpacked: Unpacked) -> None:
 
 @pytest.mark.parametrize("situation", SITUATIONS)
 def test_outputs_declare_every_input_that_acts_at_once(
-    unpacked: Unpacked, instantiate: Callable[[], Instance], situation: str
+    unpacked: Unpacked, instantiate: Instantiate, situation: str
 ) -> None:
     declared = {
         u.variable.name: {v.name for v in u.dependencies} for u in unpacked.description.outputs

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.references.resolved.taylor import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
-from tests.fmu.host import Instance, Unpacked
+from tests.fmu.host import Instantiate, Unpacked
 from tests.fmu.native_layout import LAYOUT, numbers
 from tests.fmus import both_fmus
 from tests.problems import DURATION, PROBLEMS, SIGNALS, Problem
@@ -22,8 +21,6 @@ pytestmark = both_fmus
 
 ALLOWED = 1e-9
 """Deviation allowed, as a fraction of the peak of each signal."""
-
-Instantiate = Callable[[], Instance]
 
 
 def fmu_run(
