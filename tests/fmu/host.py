@@ -94,12 +94,15 @@ class Instance:
         """Texts of all messages so far."""
         return [entry.text for entry in self.entries]
 
-    def initialize(self, start_time: float = 0.0, **values: float) -> Instance:
+    def enter_initialization(self, start_time: float = 0.0, **values: float) -> Instance:
         self.slave.setupExperiment(startTime=start_time)
         self.slave.enterInitializationMode()
         self.set(**values)
-        self.slave.exitInitializationMode()
         self.time = start_time
+        return self
+
+    def initialize(self, start_time: float = 0.0, **values: float) -> Instance:
+        self.enter_initialization(start_time, **values).slave.exitInitializationMode()
         return self
 
     def reference(self, name: str) -> int:

@@ -68,6 +68,12 @@ def test_a_slider_too_light_for_its_bristles_is_refused(instantiate: Instantiate
     instance.step(1e-9)
 
 
+def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(initial_velocity=1e308)
+    with instance.refuses("leaves the range of floating point numbers"):
+        instance.step(10.0)
+
+
 @pytest.mark.parametrize(
     ("values", "named"),
     [
@@ -79,9 +85,6 @@ def test_a_slider_too_light_for_its_bristles_is_refused(instantiate: Instantiate
 def test_values_that_leave_the_range_are_named(
     instantiate: Instantiate, values: dict[str, float], named: str
 ) -> None:
-    instance = instantiate()
-    instance.slave.setupExperiment(startTime=0.0)
-    instance.slave.enterInitializationMode()
-    instance.set(**values)
+    instance = instantiate().enter_initialization(**values)
     with instance.refuses(named, "must be nearer to"):
         instance.slave.exitInitializationMode()

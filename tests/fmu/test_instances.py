@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
-from fmpy import simulate_fmu
 
 from fmu_src.building import native_fmu
 from fmu_src.building.native_fmu import build_native
@@ -14,6 +16,7 @@ from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
 from fmu_src.sources import C_SOURCES, PACKAGE
 from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked, unpack
+from tests.fmu.test_after_refusals import maltreat
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -101,32 +104,42 @@ def test_each_instance_logs_to_its_own_host(instantiate: Instantiate) -> None:
     assert second.log == [], "what one instance refuses is not told to the host of another"
 
 
-def test_reset_gives_back_a_new_instance(instantiate: Instantiate) -> None:
+def _stepped(instance: Instance) -> None:
+    instance.initialize(slider_mass=3.0, phase=1.0, friction_faces=1).run(10, STEP)
+
+
+def _terminated(instance: Instance) -> None:
+    (*_, last) = instance.initialize(load=0.1).run(10, STEP)
+    instance.slave.terminate()
+    assert instance.get(*OUTPUTS) == last, "results can be read after the end"
+
+
+@pytest.mark.parametrize("use", [_stepped, _terminated, lambda i: maltreat(i.initialize())])
+def test_reset_gives_back_a_new_instance(
+    instantiate: Instantiate, use: Callable[[Instance], None]
+) -> None:
     used, fresh = instantiate(), instantiate().initialize()
-    used.initialize(slider_mass=3.0, phase=1.0, friction_faces=1)
-    used.run(10, STEP)
+    use(used)
     used.slave.reset()
     used.initialize()
     assert used.run(10, STEP) == fresh.run(10, STEP), "parameters, inputs and motion are forgotten"
 
 
-def test_reset_after_terminate(instance: Instance, instantiate: Instantiate) -> None:
-    first = instance.run(10, STEP)
-    instance.slave.terminate()
-    assert instance.get(*OUTPUTS) == first[-1], "results can be read after the end"
-    instance.slave.reset()
-    instance.initialize()
-    assert instance.run(10, STEP) == first, "the same run again gives the same motion"
-
-
-def test_a_run_that_starts_later_is_the_same_motion(
-    instance: Instance, instantiate: Instantiate
+@pytest.mark.parametrize("start_time", [-5.0, 1000.0, 1e12])
+def test_the_start_time_does_not_matter(
+    instance: Instance, instantiate: Instantiate, start_time: float
 ) -> None:
-    later = instantiate().initialize(start_time=1000.0)
-    velocity = OUTPUTS.index("velocity")
-    assert [r[velocity] for r in later.run(10, 2.0**-10)] == [
-        r[velocity] for r in instance.run(10, 2.0**-10)
-    ], "phases start at zero at the start time, whatever it is"
+    later = instantiate().initialize(start_time=start_time)
+    assert later.get("last_event_time") == (start_time,)
+    signals = np.array([i.run(10, 2.0**-8) for i in (instance, later)])
+    event = OUTPUTS.index("last_event_time")
+    np.testing.assert_array_equal(*np.delete(signals, event, axis=2))
+    np.testing.assert_allclose(
+        signals[1, :, event] - start_time,
+        signals[0, :, event],
+        rtol=0.0,
+        atol=2.0 * math.ulp(start_time) + 1e-15,
+    )
 
 
 def test_the_folder_of_an_earlier_instance_may_be_gone(fmu: Path, tmp_path: Path) -> None:
@@ -137,8 +150,3 @@ def test_the_folder_of_an_earlier_instance_may_be_gone(fmu: Path, tmp_path: Path
         instance.free()
         shutil.rmtree(folder)
     assert rows[0] == rows[1], "the motion does not depend on the folder"
-
-
-def test_simulate_fmu_twice(fmu: Path) -> None:
-    first, second = (simulate_fmu(str(fmu), stop_time=0.05) for _ in range(2))
-    assert first.tolist() == second.tolist(), "a second run gives the same motion"

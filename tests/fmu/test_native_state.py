@@ -5,11 +5,11 @@ from __future__ import annotations
 import ctypes
 import math
 import struct
-from collections.abc import Callable
 
 import pytest
 
 from tests.fmu.host import Instance, Instantiate, Unpacked, unpack
+from tests.fmu.lifecycle import REACH
 from tests.fmu.native_calls import ERROR, OK, call
 from tests.fmu.native_layout import HEAD, LAYOUT, SETTABLE, checksum, numbers
 
@@ -104,29 +104,10 @@ def test_a_state_of_the_python_fmu_is_refused(
         instance.restore(foreign)
 
 
-def _instantiated(_: Instance) -> None:
-    pass
-
-
-def _initializing(instance: Instance) -> None:
-    instance.slave.setupExperiment(startTime=0.0, stopTime=1.0)
-    instance.slave.enterInitializationMode()
-
-
-def _stepping(instance: Instance) -> None:
-    instance.initialize().step(STEP)
-
-
-def _terminated(instance: Instance) -> None:
-    instance.initialize().slave.terminate()
-
-
-@pytest.mark.parametrize("reach", [_instantiated, _initializing, _stepping, _terminated])
-def test_every_state_of_life_comes_back(
-    instantiate: Instantiate, reach: Callable[[Instance], None]
-) -> None:
+@pytest.mark.parametrize("reached", REACH)
+def test_every_state_of_life_comes_back(instantiate: Instantiate, reached: str) -> None:
     instance, other = instantiate(), instantiate().initialize(load=0.2)
-    reach(instance)
+    REACH[reached](instance)
     other.restore(instance.state())
     assert other.state() == instance.state()
 
