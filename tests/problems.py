@@ -16,7 +16,7 @@ SIGNALS = (
     "normal_force",
     "friction_force",
 )
-"""What is compared with a referee."""
+"""What is compared with a reference."""
 
 DURATION = 0.2
 MASS_FRACTION = 0.1 / 1.1
@@ -32,6 +32,11 @@ class Problem:
     @property
     def device(self) -> Device:
         return Device.from_mapping(self.parameters)
+
+    @property
+    def start_values(self) -> dict[str, float]:
+        """Parameters and first inputs."""
+        return {**self.parameters, **self.pieces[0][1]}
 
     @property
     def held(self) -> list[HeldInputs]:

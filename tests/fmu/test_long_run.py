@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from fractions import Fraction
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.fmu.host import Instance, Instantiate
-from tests.fmu.native_layout import LAYOUT, numbers
+from tests.fmu.native_layout import moment_of
 from tests.fmus import both_fmus
 
 TWO_PI = Fraction("6.28318530717958647692528676655900576839433879875021")
@@ -20,10 +19,7 @@ RATIO = 1.37
 
 
 def phases(instance: Instance) -> tuple[float, float]:
-    state = instance.state()
-    if len(state) == LAYOUT.size and state.startswith(b"SLIDRES"):
-        return numbers(state)["theta"], numbers(state)["psi"]
-    moment = json.loads(state.partition(b"\n")[2])["moment"]
+    moment = moment_of(instance.state())
     return moment["theta"], moment["psi"]
 
 
