@@ -21,9 +21,8 @@ def test_no_invalid_operation_and_no_division_by_zero(
     died = {}
     for name, problem in PROBLEMS.items():
         for law, fidelity in ((law, fidelity) for law, fidelity in CHOICES if fidelity > 0):
-            done = run(
-                command, script(problem.start_values, law, fidelity), {"LD_PRELOAD": str(trap)}
-            )
+            commands = script(problem.start_values, law, fidelity)
+            done = run(command, commands, {"LD_PRELOAD": str(trap)})
             if done.returncode < 0:
                 died[name, law, fidelity] = done.returncode
     assert not died

@@ -15,7 +15,6 @@ from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import law_of
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
-from fmu_src.python.slider_component.refusal import Refusal
 from fmu_src.python.slider_component.taylor_slide import TaylorSlide
 
 TABLE_1 = Device(friction_law=1)
@@ -175,8 +174,3 @@ def test_mirror_symmetry(stiffness: float, damping: float, phase: float, load: f
     assume(abs(one.state.velocity) > 1e-6)
     assert other.state.velocity == pytest.approx(-one.state.velocity, rel=1e-6, abs=1e-9)
     assert other.position == pytest.approx(-one.position, rel=1e-6, abs=1e-12)
-
-
-def test_no_friction_coefficient_is_refused() -> None:
-    with pytest.raises(Refusal, match=r"friction_coefficient = 0\.0 refused: with LuGre friction"):
-        law_of(replace(TABLE_1, friction_coefficient=0.0), Inputs())
