@@ -13,8 +13,10 @@ from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import law_of
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
+from tests.fmu_src.python.motions import after
 
 TABLE_1 = Device(fidelity=0)
+BRISTLES = Device(fidelity=0, friction_law=1, bristle_stiffness=3e3, tolerance=1e-6)
 FAST_VELOCITY = 0.2366097
 
 
@@ -67,10 +69,7 @@ def test_against_the_resolved_device(parameters: dict[str, Any], inputs: Inputs)
 
 @pytest.mark.parametrize(
     ("device", "periods"),
-    [
-        (TABLE_1, 560),
-        (replace(TABLE_1, friction_law=1, bristle_stiffness=3e3, tolerance=1e-6), 140),
-    ],
+    [(TABLE_1, 560), (BRISTLES, 140)],
     ids=["Coulomb", "LuGre"],
 )
 def test_error_falls_with_the_drive_frequency(device: Device, periods: int) -> None:
@@ -110,12 +109,11 @@ def test_any_communication_step(steps: int) -> None:
 def test_a_tuned_drive_makes_no_jump() -> None:
     """The momentum of the pair goes on: with less drive the slow velocity changes by its share."""
     device, inputs = replace(TABLE_1, tangential_force=0.0), Inputs()
-    moment = law_of(device, inputs).advance(law_of(device, inputs).start(State(0.0, 0.0, 0.0), 0.0),
-                                            0.0123)  # fmt: skip
+    moment = after(0.0123, device, inputs)
     weaker = replace(device, base_amplitude=5e-5)
-    after = law_of(weaker, inputs).advance(moment, 1e-9)
+    tuned = law_of(weaker, inputs).advance(moment, 1e-9)
     share = device.mass_fraction
-    momentum = [m.state.velocity + share * m.state.rate for m in (moment, after)]
+    momentum = [m.state.velocity + share * m.state.rate for m in (moment, tuned)]
     assert momentum[1] == pytest.approx(momentum[0], abs=1e-6)
 
 
@@ -161,7 +159,7 @@ def test_a_block_without_vibration_slides_to_rest(law: int, normal_amplitude: fl
     ],
 )
 def test_lugre_against_the_resolved_device(parameters: dict[str, Any], inputs: Inputs) -> None:
-    device = replace(TABLE_1, friction_law=1, tolerance=1e-6, **parameters)
+    device = replace(BRISTLES, **parameters)
     slow, full = pair(device, inputs, 280)
     gap = slow.means.mean_velocity - full.means.mean_velocity
     assert abs(gap) <= 0.004 * FAST_VELOCITY, "within 0.4 % of v_q after half a second"
