@@ -9,11 +9,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.fmu.host import Instantiate
+from tests.fmus import controller_fmu_only
 
 GAIN, INTEGRAL, THETA, SAMPLE = 100.0, 400.0, 0.733313, 0.01
 
 
-pytestmark = pytest.mark.parametrize("fmu", ["controller"], indirect=True, scope="session")
+pytestmark = controller_fmu_only
 
 
 class Law:

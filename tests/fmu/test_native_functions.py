@@ -20,8 +20,9 @@ from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
 from tests.fmu.host import Instance, Instantiate, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
 from tests.fmu.test_native_binaries import fmi_functions
+from tests.fmus import native_fmu_only
 
-pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
+pytestmark = native_fmu_only
 
 NULL = ctypes.c_void_p()
 MODEL_EXCHANGE = (

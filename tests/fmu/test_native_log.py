@@ -13,8 +13,9 @@ from fmpy.fmi1 import FMICallException
 from fmu_src.model_description import LOG_CATEGORIES
 from tests.fmu.host import Instance, Instantiate, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call
+from tests.fmus import native_fmu_only
 
-pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
+pytestmark = native_fmu_only
 
 
 def debug_logging(instance: Instance, logging_on: bool, *categories: str | None) -> int:

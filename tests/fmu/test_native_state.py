@@ -12,8 +12,9 @@ from tests.fmu.host import Instance, Instantiate, Unpacked, unpack
 from tests.fmu.lifecycle import REACH
 from tests.fmu.native_calls import ERROR, OK, call
 from tests.fmu.native_layout import HEAD, LAYOUT, SETTABLE, checksum, numbers
+from tests.fmus import native_fmu_only
 
-pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
+pytestmark = native_fmu_only
 
 STEP = 3.1e-4
 
