@@ -83,6 +83,7 @@ PROBLEMS: dict[str, Problem] = {
     "critical while slipping": Problem({"damping_ratio": math.sqrt(1.0 - MASS_FRACTION)}),
     "damping ratio 1.7": Problem({"damping_ratio": 1.7}),
     "overdamped and sticking": Problem({"damping_ratio": 1.7, "base_amplitude": 2e-7}),
+    "massless resonator": Problem({"resonator_mass": 0.0}),
     "heavy resonator": Problem({"slider_mass": 0.1 / 9.0}),
     "direct drive": Problem({"tangential_force": -3.0, "base_amplitude": 0.0}, under(phase=0.5)),
     "one face": Problem({"friction_faces": 1, "friction_coefficient": 0.3}, under(phase=1.0)),

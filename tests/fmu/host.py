@@ -22,21 +22,9 @@ from fmpy.fmi2 import (
 )
 from fmpy.model_description import ModelDescription
 
-OUTPUTS = (
-    "position",
-    "velocity",
-    "mean_velocity",
-    "resonator_displacement",
-    "resonator_velocity",
-    "normal_force",
-    "friction_force",
-    "contact_mode",
-    "reversals",
-    "stick_fraction",
-    "last_event_time",
-    "steady_velocity",
-    "blocking_force",
-)
+from fmu_src.python.slider_component.variables import VARIABLES
+
+OUTPUTS = tuple(v.name for v in VARIABLES if v.causality == "output")
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
-from numpy.typing import NDArray
 
 from tests.fmu.host import Instance, Instantiate, Unpacked
 from tests.fmus import both_fmus
@@ -88,10 +87,10 @@ def test_the_host_outlives_thousands_of_refusals(fmu: Path, tmp_path: Path) -> N
     assert printed.startswith("alive"), "no crash, also when the process ends"
 
 
-def signal(**columns: list[float]) -> NDArray[np.void]:
-    return np.array(
-        list(zip(*columns.values(), strict=True)), dtype=[(name, float) for name in columns]
-    )
+def changing(name: str, before: float, after: float) -> dict[str, object]:
+    """A run in which a variable changes after 0.05 s."""
+    rows = [(0.0, before), (0.05, before), (0.05, after), (0.1, after)]
+    return {"input": np.array(rows, dtype=[("time", float), (name, float)])}
 
 
 REFUSED_RUNS: dict[str, dict[str, object]] = {
@@ -99,18 +98,10 @@ REFUSED_RUNS: dict[str, dict[str, object]] = {
     "start value out of bounds": {"start_values": {"slider_mass": 0.0}},
     "choice out of bounds": {"start_values": {"friction_faces": 3}},
     "values that do not fit": {"start_values": {"friction_law": 1, "friction_coefficient": 0.0}},
-    "input turns into nan": {
-        "input": signal(time=[0, 0.05, 0.05, 0.1], load=[0, 0, math.nan, math.nan])
-    },
-    "input turns infinite": {
-        "input": signal(time=[0, 0.05, 0.05, 0.1], phase=[0, 0, math.inf, math.inf])
-    },
-    "tunable leaves its bounds": {
-        "input": signal(time=[0, 0.05, 0.05, 0.1], normal_preload=[1, 1, -1, -1])
-    },
-    "tunable turns into nan": {
-        "input": signal(time=[0, 0.05, 0.05, 0.1], base_amplitude=[1e-4, 1e-4, math.nan, math.nan])
-    },
+    "input turns into nan": changing("load", 0.0, math.nan),
+    "input turns infinite": changing("phase", 0.0, math.inf),
+    "tunable leaves its bounds": changing("normal_preload", 1.0, -1.0),
+    "tunable turns into nan": changing("base_amplitude", 1e-4, math.nan),
     "step of zero": {"output_interval": 0.0, "stop_time": 0.1},
 }
 

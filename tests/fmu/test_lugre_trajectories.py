@@ -20,6 +20,7 @@ CASES = {
     "ratio 3": Problem({}, under(frequency_ratio=3.0, phase=0.4)),
     "presliding": Problem({"base_amplitude": 2e-8}),
     "lift-off": Problem({"normal_amplitude": 2.0}, under(load=0.02)),
+    "massless resonator": Problem({"resonator_mass": 0.0, "initial_velocity": 0.1}),
     "one degree of freedom": Problem({"fidelity": 1, "friction_faces": 1}, under(phase=0.3)),
 }
 

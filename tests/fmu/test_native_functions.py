@@ -236,9 +236,9 @@ def test_time_overflow_is_refused(instantiate: Instantiate) -> None:
 
 
 def test_masses_beyond_the_range_of_numbers_are_refused(instantiate: Instantiate) -> None:
-    instance = instantiate()
-    instance.slave.enterInitializationMode()
-    instance.set(slider_mass=1e-12, resonator_mass=math.nextafter(math.inf, 0.0))
+    instance = instantiate().enter_initialization(
+        slider_mass=1e-12, resonator_mass=math.nextafter(math.inf, 0.0)
+    )
     with instance.refuses("resonator_mass = 1.7976931348623157e+308 refused: together with"):
         instance.slave.exitInitializationMode()
     instance.set(slider_mass=1.0, resonator_mass=0.1)
