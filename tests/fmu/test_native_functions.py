@@ -17,7 +17,7 @@ from fmpy.fmi2 import (
 )
 
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
-from tests.fmu.host import Instance, Instantiate, Unpacked
+from tests.fmu.host import Instance, Instantiate
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
 from tests.fmu.test_native_binaries import fmi_functions
 from tests.fmus import native_fmu_only
@@ -78,16 +78,18 @@ class Host:
 
 
 def instantiate_as(
-    instance: Instance, guid: str, host: Host, name: bytes | None = b"slider", kind: int = 1
+    instance: Instance,
+    host: Host,
+    guid: str | None = None,
+    name: bytes | None = b"slider",
+    kind: int = 1,
 ) -> int | None:
-    """The component that fmi2Instantiate makes."""
+    """The component that fmi2Instantiate makes; its own GUID unless another is given."""
     function = instance.slave.dll.fmi2Instantiate
     function.restype = ctypes.c_void_p
-    callbacks = host.callbacks()
-    component: int | None = function(
-        name, ctypes.c_int(kind), guid.encode(), None, ctypes.byref(callbacks), 0, 0
-    )
-    return component
+    guid, callbacks = guid or instance.slave.guid, ctypes.byref(host.callbacks())
+    made: int | None = function(name, ctypes.c_int(kind), guid.encode(), None, callbacks, 0, 0)
+    return made
 
 
 def give_back(instance: Instance, component: int | None) -> None:
@@ -105,22 +107,19 @@ def give_back(instance: Instance, component: int | None) -> None:
     ids=["guid", "type", "empty name", "no name"],
 )
 def test_a_refused_instantiation_says_why(
-    instance: Instance, unpacked: Unpacked, wrong: dict[str, Any], text: str
+    instance: Instance, wrong: dict[str, Any], text: str
 ) -> None:
     host = Host()
-    wish = {"guid": unpacked.description.guid} | wrong
-    assert instantiate_as(instance, host=host, **wish) is None
+    assert instantiate_as(instance, host, **wrong) is None
     ((_, status, category, said),) = host.log
     assert (status, category) == (ERROR, b"logStatusError"), "also when no logging is asked for"
     assert text in said.decode()
     assert host.taken == host.given_back
 
 
-def test_memory_is_the_hosts_and_all_of_it_comes_back(
-    instance: Instance, unpacked: Unpacked
-) -> None:
+def test_memory_is_the_hosts_and_all_of_it_comes_back(instance: Instance) -> None:
     host = Host()
-    component = instantiate_as(instance, unpacked.description.guid, host)
+    component = instantiate_as(instance, host)
     assert host.taken == [component], "one piece for an instance"
     give_back(instance, component)
     assert host.given_back == host.taken
@@ -130,25 +129,25 @@ def test_memory_is_the_hosts_and_all_of_it_comes_back(
     "missing", [("allocateMemory",), ("freeMemory",), ("allocateMemory", "freeMemory", "logger")]
 )
 def test_a_host_without_memory_callbacks_is_served(
-    instance: Instance, unpacked: Unpacked, missing: tuple[str, ...]
+    instance: Instance, missing: tuple[str, ...]
 ) -> None:
     host = Host(missing=missing)
-    component = instantiate_as(instance, unpacked.description.guid, host)
+    component = instantiate_as(instance, host)
     assert component is not None
     give_back(instance, component)
     assert host.taken == host.given_back == [], "memory from one is never given to another"
 
 
-def test_a_host_without_memory_is_told(instance: Instance, unpacked: Unpacked) -> None:
+def test_a_host_without_memory_is_told(instance: Instance) -> None:
     host = Host(memory=False)
-    assert instantiate_as(instance, unpacked.description.guid, host) is None
+    assert instantiate_as(instance, host) is None
     assert b"no memory for an instance" in host.log[0][-1]
 
 
-def test_no_callbacks_no_instance(instance: Instance, unpacked: Unpacked) -> None:
+def test_no_callbacks_no_instance(instance: Instance) -> None:
     function = instance.slave.dll.fmi2Instantiate
     function.restype = ctypes.c_void_p
-    assert function(b"x", 1, unpacked.description.guid.encode(), None, None, 0, 0) is None
+    assert function(b"x", 1, instance.slave.guid.encode(), None, None, 0, 0) is None
 
 
 @pytest.mark.parametrize("function", sorted(fmi_functions() - {"fmi2Instantiate"}))

@@ -108,32 +108,25 @@ def test_the_partition_matters_within_the_tolerance(fidelity: int, amplitude: fl
 
 
 @given(
-    stiffness=st.floats(1.0, 1e7),
-    damping=st.floats(0.0, 50.0),
-    deflection=st.floats(-1.0, 1.0),
-    velocity=st.floats(-0.3, 0.3),
-    amplitude=st.floats(0.0, 2.0),
-    ratio=st.sampled_from([0.0, 1.0, 3.0, 1.37, -1.0]),
-    load=st.floats(-0.3, 0.3),
+    st.builds(
+        Device,
+        friction_law=st.just(1),
+        bristle_stiffness=st.floats(1.0, 1e7),
+        bristle_damping=st.floats(0.0, 50.0),
+        normal_amplitude=st.floats(0.0, 2.0),
+    ),
+    st.builds(
+        Inputs, st.just(0.3), st.floats(-0.3, 0.3), st.sampled_from([0.0, 1.0, 3.0, 1.37, -1.0])
+    ),
+    st.floats(-1.0, 1.0),
+    st.floats(-0.3, 0.3),
 )
 def test_bristles_stay_within_their_limit_and_dissipate(
-    stiffness: float,
-    damping: float,
-    deflection: float,
-    velocity: float,
-    amplitude: float,
-    ratio: float,
-    load: float,
+    device: Device, inputs: Inputs, deflection: float, velocity: float
 ) -> None:
-    mu = TABLE_1.friction_coefficient
-    device = replace(
-        TABLE_1,
-        bristle_stiffness=stiffness,
-        bristle_damping=damping,
-        normal_amplitude=amplitude,
-        initial_bristle_deflection=deflection * mu / stiffness,
-    )
-    law = law_of(device, Inputs(0.3, load, ratio))
+    mu, damping = device.friction_coefficient, device.bristle_damping
+    bent = deflection * mu / device.bristle_stiffness
+    law = law_of(replace(device, initial_bristle_deflection=bent), inputs)
     moment = law.start(State(velocity, 0.0, 0.0), 0.0)
     for _ in range(8):
         moment = law.advance(moment, 0.137 * PERIOD)
