@@ -44,28 +44,28 @@ def test_a_strongly_varying_load_settles(instantiate: Instantiate) -> None:
     assert mean == pytest.approx(steady, rel=1e-6)
 
 
-def test_a_beat_followed_too_long_is_refused(instantiate: Instantiate) -> None:
-    """Near a whole ratio the slow velocity follows the phase, and never settles."""
-    instance = instantiate().initialize(**WEAK, frequency_ratio=1.05)
-    with instance.refuses(
-        "communicationStepSize = 10.0 refused",
-        "more than 20000 steps of averaged motion",
-        "must be at most 1e-",
-    ):
-        instance.step(10.0)
-    instance.step(1e-3)
-
-
-def test_a_slider_too_light_for_its_bristles_is_refused(instantiate: Instantiate) -> None:
-    instance = instantiate().initialize(**LIGHT)
-    size = PERIOD / 32.0
-    with instance.refuses(
-        f"communicationStepSize = {size!r} refused",
-        "more than 20000 legs in a turn of the fastest oscillation",
-        "must be at most 1e-7 s",
-    ):
+@pytest.mark.parametrize(
+    ("values", "size", "work", "limit", "carried_out"),
+    [
+        # Near a whole ratio the slow velocity follows the phase, and never settles.
+        ({**WEAK, "frequency_ratio": 1.05}, 10.0, "steps of averaged motion", "1e-", 1e-3),
+        (LIGHT, PERIOD / 32.0, "legs in a turn of the fastest oscillation", "1e-7 s", 1e-9),
+    ],
+    ids=["a beat", "a slider too light for its bristles"],
+)
+def test_a_step_of_too_much_work_is_refused(
+    instantiate: Instantiate,
+    values: dict[str, float],
+    size: float,
+    work: str,
+    limit: str,
+    carried_out: float,
+) -> None:
+    instance = instantiate().initialize(**values)
+    refused = f"communicationStepSize = {size!r} refused"
+    with instance.refuses(refused, f"more than 20000 {work}", f"must be at most {limit}"):
         instance.step(size)
-    instance.step(1e-9)
+    instance.step(carried_out)
 
 
 def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate) -> None:

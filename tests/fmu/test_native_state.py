@@ -9,7 +9,6 @@ import struct
 import pytest
 
 from tests.fmu.host import Instance, Instantiate, Unpacked, unpack
-from tests.fmu.lifecycle import REACH
 from tests.fmu.native_calls import ERROR, OK, call
 from tests.fmu.native_layout import HEAD, LAYOUT, SETTABLE, checksum, numbers
 from tests.fmus import native_fmu_only
@@ -103,14 +102,6 @@ def test_a_state_of_the_python_fmu_is_refused(
     other.free()
     with instance.refuses("FMU state refused", "without the header of a state"):
         instance.restore(foreign)
-
-
-@pytest.mark.parametrize("reached", REACH)
-def test_every_state_of_life_comes_back(instantiate: Instantiate, reached: str) -> None:
-    instance, other = instantiate(), instantiate().initialize(load=0.2)
-    REACH[reached](instance)
-    other.restore(instance.state())
-    assert other.state() == instance.state()
 
 
 def test_memory_of_another_size_is_refused(instance: Instance) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.fmu.host import Instance, Instantiate
+from tests.fmu.lifecycle import REACH
 from tests.fmus import both_fmus
 from tests.processes import run_python
 
@@ -84,13 +85,12 @@ def test_replay_in_a_new_process(fmu: Path, on_its_way: Instance, tmp_path: Path
     assert replayed == expected, "a new process replays the same bits"
 
 
-def test_state_of_an_initializing_instance(instantiate: Instantiate) -> None:
-    instance, other = instantiate(), instantiate()
-    instance.enter_initialization(slider_mass=2.0, phase=0.3)
+@pytest.mark.parametrize("reached", REACH)
+def test_every_state_of_life_comes_back(instantiate: Instantiate, reached: str) -> None:
+    instance, other = instantiate(), instantiate().initialize(load=0.2)
+    REACH[reached](instance)
     other.restore(instance.state())
-    for i in (instance, other):
-        i.slave.exitInitializationMode()
-    assert other.run(5, STEP) == instance.run(5, STEP), "values set before the start are kept"
+    assert other.state() == instance.state()
 
 
 def _foreign(data: bytes) -> dict[str, bytes]:

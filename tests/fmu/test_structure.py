@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import pytest
+from fmpy.model_description import Unknown
 
 from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked
 from tests.fmus import both_fmus
@@ -54,6 +56,10 @@ OTHER_VALUES: dict[str, float] = {
 }
 
 
+def dependencies(unknowns: Iterable[Unknown]) -> dict[str, set[str]]:
+    return {u.variable.name: {v.name for v in u.dependencies} for u in unknowns}
+
+
 def initial_outputs(instance: Instance, values: dict[str, float]) -> dict[str, float]:
     instance.slave.reset()
     instance.initialize(**values)
@@ -64,10 +70,7 @@ def initial_outputs(instance: Instance, values: dict[str, float]) -> dict[str, f
 def test_initial_unknowns_declare_all_that_acts(
     unpacked: Unpacked, instance: Instance, situation: str
 ) -> None:
-    declared = {
-        u.variable.name: {v.name for v in u.dependencies}
-        for u in unpacked.description.initialUnknowns
-    }
+    declared = dependencies(unpacked.description.initialUnknowns)
     values = SITUATIONS[situation]
     before = initial_outputs(instance, values)
     for name, other in OTHER_VALUES.items():
@@ -86,9 +89,7 @@ def test_every_settable_number_is_tried(unpacked: Unpacked) -> None:
 def test_outputs_declare_every_input_that_acts_at_once(
     unpacked: Unpacked, instantiate: Instantiate, situation: str
 ) -> None:
-    declared = {
-        u.variable.name: {v.name for v in u.dependencies} for u in unpacked.description.outputs
-    }
+    declared = dependencies(unpacked.description.outputs)
     instance = instantiate().initialize(**SITUATIONS[situation])
     for _ in range(40):
         instance.step(1.37e-4)

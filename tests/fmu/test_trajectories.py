@@ -58,14 +58,6 @@ def test_independent_of_the_partition(instantiate: Instantiate, name: str, count
     assert ends["reversals"] == reference.reversals, "no partition hides or adds a reversal"
 
 
-def test_one_step_of_a_quarter_second(instantiate: Instantiate) -> None:
-    whole, fine = (instantiate().initialize() for _ in range(2))
-    whole.step(0.25)
-    fine.run(250, 1e-3)
-    assert whole.get(*SIGNALS) == pytest.approx(fine.get(*SIGNALS), rel=1e-9, abs=0.0)
-    assert whole.get("reversals") == fine.get("reversals"), "no step hides a reversal"
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["table 1", "sticking every period", "undamped, slipping resonance"]

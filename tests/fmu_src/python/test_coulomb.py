@@ -111,13 +111,6 @@ def test_a_lifting_contact_moves_nothing_at_rest(
     assert (moment.position, moment.counts.reversals) == (0.0, 0)
 
 
-def test_a_massless_resonator_keeps_its_own_motion() -> None:
-    light = replace(TABLE_1, resonator_mass=1e-12, tangential_force=3.0)
-    none = replace(light, resonator_mass=0.0)
-    one, other = (after(1e-3, d, velocity=0.1, displacement=1e-3) for d in (light, none))
-    assert one.state == pytest.approx(other.state, rel=1e-9, abs=0.0)
-
-
 def test_work_is_bounded_by_the_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     """Searches for a zero, per drive period: two while it moves, none where nothing can happen."""
     searches = []
