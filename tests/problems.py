@@ -20,6 +20,17 @@ SIGNALS = (
 
 DURATION = 0.2
 MASS_FRACTION = 0.1 / 1.1
+STEADY_VELOCITIES = {
+    (1, 0.0): 0.6966,
+    (1, 1.5): 0.7719,
+    (3, 0.0): -0.2780,
+    (3, 1.5): 0.2036,
+    (5, 0.0): -0.1169,
+    (5, 1.5): -0.1795,
+    (7, 0.0): 0.1297,
+    (7, 1.5): -0.0600,
+}
+"""Of resolved table 1 by frequency ratio and phase [rad], by another program, in units of x0 w0."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +43,11 @@ class Problem:
     @property
     def device(self) -> Device:
         return Device.from_mapping(self.parameters)
+
+    @property
+    def start_values(self) -> dict[str, float]:
+        """Parameters and first inputs."""
+        return {**self.parameters, **self.pieces[0][1]}
 
     @property
     def held(self) -> list[HeldInputs]:
@@ -67,6 +83,7 @@ PROBLEMS: dict[str, Problem] = {
     "critical while slipping": Problem({"damping_ratio": math.sqrt(1.0 - MASS_FRACTION)}),
     "damping ratio 1.7": Problem({"damping_ratio": 1.7}),
     "overdamped and sticking": Problem({"damping_ratio": 1.7, "base_amplitude": 2e-7}),
+    "massless resonator": Problem({"resonator_mass": 0.0}),
     "heavy resonator": Problem({"slider_mass": 0.1 / 9.0}),
     "direct drive": Problem({"tangential_force": -3.0, "base_amplitude": 0.0}, under(phase=0.5)),
     "one face": Problem({"friction_faces": 1, "friction_coefficient": 0.3}, under(phase=1.0)),

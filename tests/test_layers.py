@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+from tests.processes import ROOT, run_command
+
 PACKAGE = Path("harness", "slider_resonator")
 HOST_LIBRARIES = {"cofmupy", "fmpy", "fmuloader", "libcosimpy", "pathsim", "pathsim_fmi"}
 """What a host module may need beside the standard library: the simulator that it drives."""
@@ -28,14 +29,8 @@ def copy(tmp_path: Path) -> Path:
 
 def lint(folder: Path) -> subprocess.CompletedProcess[str]:
     """Check the layers as `make lint` does."""
-    return subprocess.run(
-        [Path(sys.executable).with_name("lint-imports"), "--no-cache"],
-        cwd=folder,
-        env={**os.environ, "PYTHONPATH": "harness"},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    command = (Path(sys.executable).with_name("lint-imports"), "--no-cache")
+    return run_command(*command, cwd=folder, env={**os.environ, "PYTHONPATH": "harness"})
 
 
 def test_sources_keep_their_layers(copy: Path) -> None:
@@ -99,11 +94,6 @@ def test_host_module_needs_only_its_host(module: str) -> None:
     """A foreign environment has the simulator and the standard library, but not our packages."""
     name = f"slider_resonator.trials.hosts.{module}"
     code = f"import sys; sys.path.insert(0, sys.argv[1]); import {name}"
-    result = subprocess.run(
-        [sys.executable, "-I", "-S", "-c", code, str(ROOT / "harness")],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    result = run_command(sys.executable, "-I", "-S", "-c", code, ROOT / "harness")
     missing = result.stderr.strip().rpartition("No module named ")[2].strip("'").partition(".")[0]
     assert result.returncode == 0 or missing in HOST_LIBRARIES, result.stderr

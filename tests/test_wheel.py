@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+from tests.processes import ROOT, run_command
 
 
 @pytest.fixture(scope="module")
@@ -59,16 +59,11 @@ def test_folder_with_a_harness_of_its_own(
         (tmp_path / name).mkdir()
         (tmp_path / name / "__init__.py").write_text("raise RuntimeError('not ours')\n")
     path = os.pathsep.join([".", str(installed)])
-    result = subprocess.run(
-        [
-            *(sys.executable, "-m", "slider_resonator", "validate", str(native_fmu)),
-            *("--scene", "blocking_force_table_1"),
-        ],
+    result = run_command(
+        *(sys.executable, "-m", "slider_resonator", "validate", native_fmu),
+        *("--scene", "blocking_force_table_1"),
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": path},
-        capture_output=True,
-        text=True,
-        check=False,
     )
     assert result.returncode == 0, result.stdout + result.stderr
     assert "passed" in result.stdout

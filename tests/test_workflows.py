@@ -13,8 +13,8 @@ import pytest
 import yaml
 
 from slider_resonator.cli import main
+from tests.processes import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 WORKFLOWS = (ROOT / ".github" / "workflows" / "ci.yml", ROOT / "examples" / "validate-fmu.yml")
 HARNESS = (["python", "-m", "harness"], ["slider-resonator"])
 """How the harness is called; a user's folder may have a harness of its own, but not its command."""

@@ -1,11 +1,11 @@
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from tests.fmu.host import Instance, Unpacked, unpack
+from tests.fmu.host import Instance, Instantiate, Unpacked, unpack
 
 
 @pytest.fixture(scope="session")
@@ -14,7 +14,7 @@ def unpacked(fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Unpacked:
 
 
 @pytest.fixture
-def instantiate(unpacked: Unpacked) -> Iterator[Callable[[], Instance]]:
+def instantiate(unpacked: Unpacked) -> Iterator[Instantiate]:
     """Makes instances that are not initialized yet, and frees them after the test."""
     made: list[Instance] = []
 
@@ -28,6 +28,6 @@ def instantiate(unpacked: Unpacked) -> Iterator[Callable[[], Instance]]:
 
 
 @pytest.fixture
-def instance(instantiate: Callable[[], Instance]) -> Instance:
+def instance(instantiate: Instantiate) -> Instance:
     """One initialized instance with start values."""
     return instantiate().initialize()

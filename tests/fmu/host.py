@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,21 +22,9 @@ from fmpy.fmi2 import (
 )
 from fmpy.model_description import ModelDescription
 
-OUTPUTS = (
-    "position",
-    "velocity",
-    "mean_velocity",
-    "resonator_displacement",
-    "resonator_velocity",
-    "normal_force",
-    "friction_force",
-    "contact_mode",
-    "reversals",
-    "stick_fraction",
-    "last_event_time",
-    "steady_velocity",
-    "blocking_force",
-)
+from fmu_src.python.slider_component.variables import VARIABLES
+
+OUTPUTS = tuple(v.name for v in VARIABLES if v.causality == "output")
 
 
 @dataclass(frozen=True)
@@ -94,12 +82,15 @@ class Instance:
         """Texts of all messages so far."""
         return [entry.text for entry in self.entries]
 
-    def initialize(self, start_time: float = 0.0, **values: float) -> Instance:
+    def enter_initialization(self, start_time: float = 0.0, **values: float) -> Instance:
         self.slave.setupExperiment(startTime=start_time)
         self.slave.enterInitializationMode()
         self.set(**values)
-        self.slave.exitInitializationMode()
         self.time = start_time
+        return self
+
+    def initialize(self, start_time: float = 0.0, **values: float) -> Instance:
+        self.enter_initialization(start_time, **values).slave.exitInitializationMode()
         return self
 
     def reference(self, name: str) -> int:
@@ -159,3 +150,7 @@ class Instance:
         for fragment in fragments:
             assert fragment in self.log[-1], "the text names thing, value and requirement"
         assert self.state() == before, "a refused call leaves the state as it was, bit by bit"
+
+
+Instantiate = Callable[[], Instance]
+"""Makes an instance that is not initialized yet, as the fixture `instantiate` does."""

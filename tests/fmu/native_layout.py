@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import struct
+from typing import Any
 
 from fmu_src.python.slider_component.variables import VARIABLES
 
@@ -29,3 +31,11 @@ def checksum(data: bytes) -> int:
 def numbers(data: bytes) -> dict[str, float]:
     found = LAYOUT.unpack(data)[2:-1]
     return dict(zip([*FIELDS, *(v.name for v in SETTABLE)], found, strict=True))
+
+
+def moment_of(state: bytes) -> dict[str, Any]:
+    """The motion in a state of either FMU by name, such as theta, psi and sticks."""
+    if state.startswith(b"SLIDRES\x01") and len(state) == LAYOUT.size:
+        return numbers(state)
+    moment = json.loads(state.partition(b"\n")[2])["moment"]
+    return {**moment, **moment["counts"]}

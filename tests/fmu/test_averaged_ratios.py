@@ -1,17 +1,19 @@
-"""Averaged against resolved motion of the built FMU at odd frequency ratios, Coulomb friction."""
+"""Averaged against resolved motion of the built FMU at and near odd frequency ratios."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from dataclasses import dataclass
 
+import numpy as np
 import pytest
 
-from tests.fmu.host import Instance
+from slider_resonator.checks.measures.frequency import dominant_frequency
+from tests.fmu.host import Instantiate
+from tests.problems import STEADY_VELOCITIES
 
-Instantiate = Callable[[], Instance]
-
-PERIOD = math.tau / 3500.0
+DRIVE = 3500.0 / math.tau
+"""Drive frequency of table 1 in Hz."""
 FAST = 0.2366097
 """v_q of table 1, m/s."""
 SCALE = 2.0 / 11.0
@@ -19,35 +21,8 @@ SCALE = 2.0 / 11.0
 START = 0.1 * 1e-4 * 3500.0 / 1.1
 """Slow velocity of table 1 from rest: the momentum that the drive leaves between its swings."""
 
-EXACT = {
-    (1, 0.0): 0.6966,
-    (1, 1.5): 0.7719,
-    (3, 0.0): -0.2780,
-    (3, 1.5): 0.2036,
-    (5, 0.0): -0.1169,
-    (5, 1.5): -0.1795,
-    (7, 0.0): 0.1297,
-    (7, 1.5): -0.0600,
-}
-"""Steady velocity of the resolved device in x0 w0 by another program, by ratio and phase."""
 
-
-@pytest.mark.parametrize(("ratio", "phase"), EXACT)
-def test_from_rest_both_take_the_same_course(
-    instantiate: Instantiate, ratio: int, phase: float
-) -> None:
-    slow, full = (
-        instantiate().initialize(fidelity=fidelity, frequency_ratio=ratio, phase=phase)
-        for fidelity in (0, 2)
-    )
-    for _ in range(6):
-        for instance in (slow, full):
-            instance.step(200.0 * PERIOD)
-        one, other = slow.get("mean_velocity")[0], full.get("mean_velocity")[0]
-        assert one == pytest.approx(other, abs=0.01 * FAST), f"1 % of v_q at t = {slow.time:.2f} s"
-
-
-@pytest.mark.parametrize(("ratio", "phase"), EXACT)
+@pytest.mark.parametrize(("ratio", "phase"), STEADY_VELOCITIES)
 def test_steady_velocities(instantiate: Instantiate, ratio: int, phase: float) -> None:
     """Started where averages settle, the resolved motion forgets the rest of their error."""
     inputs = {"frequency_ratio": ratio, "phase": phase}
@@ -57,9 +32,53 @@ def test_steady_velocities(instantiate: Instantiate, ratio: int, phase: float) -
         instance = instantiate().initialize(
             **inputs, fidelity=fidelity, initial_velocity=theory - START
         )
-        instance.step(4000.0 * PERIOD)
+        instance.step(4000.0 / DRIVE)
         ends.append(instance.get("mean_velocity")[0])
     assert ends[0] == pytest.approx(theory, abs=1e-8), "averaged motion rests there"
-    exact = EXACT[ratio, phase] * SCALE
+    exact = STEADY_VELOCITIES[ratio, phase] * SCALE
     assert ends[1] == pytest.approx(exact, abs=2e-4 * SCALE), "resolved motion: the exact mean"
     assert ends[0] == pytest.approx(ends[1], abs=0.01 * FAST), "1 % of v_q"
+
+
+@dataclass(frozen=True)
+class Beat:
+    frequency: float
+    """Hz."""
+    amplitude: float
+    """Of the slow velocity, m/s."""
+
+
+def beat(instantiate: Instantiate, fidelity: int, nearest: int, detuning: float) -> Beat:
+    """The swing of the mean velocity over eight beats, once four have passed."""
+    instance = instantiate().initialize(
+        fidelity=fidelity, frequency_ratio=nearest + detuning, initial_velocity=-START
+    )
+    expected = 1.0 / (abs(detuning) * DRIVE)
+    instance.step(max(4.0 * expected, 3.0))
+    times, velocities = [], []
+    for _ in range(8 * 24):
+        instance.step(expected / 24.0)
+        times.append(instance.time)
+        velocities.append(instance.get("mean_velocity")[0])
+    record = np.array(velocities)
+    return Beat(dominant_frequency(np.array(times), record), 0.5 * float(np.ptp(record)))
+
+
+@pytest.mark.parametrize("nearest", [1, 3])
+def test_the_slow_velocity_beats_near_a_ratio(instantiate: Instantiate, nearest: int) -> None:
+    detunings = np.array([0.002, -0.005, 0.008, 0.016, 0.032])
+    sizes = {}
+    for fidelity in (0, 2):
+        beats = [beat(instantiate, fidelity, nearest, detuning) for detuning in detunings]
+        np.testing.assert_allclose(
+            [found.frequency for found in beats],
+            np.abs(detunings) * DRIVE,
+            rtol=2e-3,
+            err_msg="|ratio - n| w: the phase of the normal load turns once a beat",
+        )
+        sizes[fidelity] = np.array([found.amplitude for found in beats])
+        assert all(np.diff(sizes[fidelity]) < 0.0), f"amplitudes {sizes} m/s"
+        assert sizes[fidelity][-2] / sizes[fidelity][-1] == pytest.approx(2.0, rel=0.1), (
+            "a slider too slow to follow swings in inverse proportion to the detuning"
+        )
+    np.testing.assert_allclose(sizes[0], sizes[2], rtol=0.0, atol=0.01 * FAST)

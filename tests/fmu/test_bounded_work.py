@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import pytest
 
-from tests.fmu.host import Instance
+from tests.fmu.host import Instantiate
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -23,9 +22,7 @@ LIGHT = {"friction_law": 1, "slider_mass": 1.1e-9, "resonator_mass": 1.1}
 
 @pytest.mark.parametrize("law", [0, 1])
 @pytest.mark.parametrize("ratio", [1.0, 3.0, math.pi])
-def test_weak_vibration_settles(
-    instantiate: Callable[[], Instance], law: int, ratio: float
-) -> None:
+def test_weak_vibration_settles(instantiate: Instantiate, law: int, ratio: float) -> None:
     values = {**WEAK, "friction_law": law, "phase": 0.4, "frequency_ratio": ratio}
     whole = instantiate().initialize(**values)
     whole.step(1000.0 * PERIOD)
@@ -38,7 +35,7 @@ def test_weak_vibration_settles(
     assert near == pytest.approx(far, abs=1e-7 * abs(fast) * 1000.0 * PERIOD), "in any steps"
 
 
-def test_a_strongly_varying_load_settles(instantiate: Callable[[], Instance]) -> None:
+def test_a_strongly_varying_load_settles(instantiate: Instantiate) -> None:
     """LuGre friction over flight costs a quadrature each time it is asked for."""
     values = {"fidelity": 0, "friction_law": 1, "normal_amplitude": 1e9, "phase": 0.4}
     instance = instantiate().initialize(**values)
@@ -47,30 +44,34 @@ def test_a_strongly_varying_load_settles(instantiate: Callable[[], Instance]) ->
     assert mean == pytest.approx(steady, rel=1e-6)
 
 
-def test_a_beat_followed_too_long_is_refused(instantiate: Callable[[], Instance]) -> None:
-    """Near a whole ratio the slow velocity follows the phase, and never settles."""
-    instance = instantiate().initialize(**WEAK, frequency_ratio=1.05)
-    with instance.refuses(
-        "communicationStepSize = 10.0 refused",
-        "more than 20000 steps of averaged motion",
-        "must be at most 1e-",
-    ):
-        instance.step(10.0)
-    instance.step(1e-3)
-
-
-def test_a_slider_too_light_for_its_bristles_is_refused(
-    instantiate: Callable[[], Instance],
+@pytest.mark.parametrize(
+    ("values", "size", "work", "limit", "carried_out"),
+    [
+        # Near a whole ratio the slow velocity follows the phase, and never settles.
+        ({**WEAK, "frequency_ratio": 1.05}, 10.0, "steps of averaged motion", "1e-", 1e-3),
+        (LIGHT, PERIOD / 32.0, "legs in a turn of the fastest oscillation", "1e-7 s", 1e-9),
+    ],
+    ids=["a beat", "a slider too light for its bristles"],
+)
+def test_a_step_of_too_much_work_is_refused(
+    instantiate: Instantiate,
+    values: dict[str, float],
+    size: float,
+    work: str,
+    limit: str,
+    carried_out: float,
 ) -> None:
-    instance = instantiate().initialize(**LIGHT)
-    size = PERIOD / 32.0
-    with instance.refuses(
-        f"communicationStepSize = {size!r} refused",
-        "more than 20000 legs in a turn of the fastest oscillation",
-        "must be at most 1e-7 s",
-    ):
+    instance = instantiate().initialize(**values)
+    refused = f"communicationStepSize = {size!r} refused"
+    with instance.refuses(refused, f"more than 20000 {work}", f"must be at most {limit}"):
         instance.step(size)
-    instance.step(1e-9)
+    instance.step(carried_out)
+
+
+def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(initial_velocity=1e308)
+    with instance.refuses("leaves the range of floating point numbers"):
+        instance.step(10.0)
 
 
 @pytest.mark.parametrize(
@@ -82,11 +83,8 @@ def test_a_slider_too_light_for_its_bristles_is_refused(
     ],
 )
 def test_values_that_leave_the_range_are_named(
-    instantiate: Callable[[], Instance], values: dict[str, float], named: str
+    instantiate: Instantiate, values: dict[str, float], named: str
 ) -> None:
-    instance = instantiate()
-    instance.slave.setupExperiment(startTime=0.0)
-    instance.slave.enterInitializationMode()
-    instance.set(**values)
+    instance = instantiate().enter_initialization(**values)
     with instance.refuses(named, "must be nearer to"):
         instance.slave.exitInitializationMode()

@@ -2,33 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from math import asin, nan, pi
-from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.fmu.host import Instance, unpack
+from tests.fmu.host import Instantiate
+from tests.fmus import controller_fmu_only
 
 GAIN, INTEGRAL, THETA, SAMPLE = 100.0, 400.0, 0.733313, 0.01
 
 
-@pytest.fixture(scope="module")
-def controller(
-    controller_fmu: Path, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Callable[[], Instance]]:
-    unpacked = unpack(controller_fmu, tmp_path_factory.mktemp("controller"))
-    made: list[Instance] = []
-
-    def make() -> Instance:
-        made.append(Instance(unpacked))
-        return made[-1]
-
-    yield make
-    for instance in made:
-        instance.free()
+pytestmark = controller_fmu_only
 
 
 class Law:
@@ -45,21 +31,18 @@ class Law:
         return effort
 
 
-def test_at_the_start_the_vibration_gives_no_mean_force(
-    controller: Callable[[], Instance],
-) -> None:
-    instance = controller().initialize()
+def test_at_the_start_the_vibration_gives_no_mean_force(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize()
     assert instance.get("effort", "phase") == (0.0, -THETA)
     instance.step(SAMPLE)
     assert instance.get("effort", "phase") == (0.0, -THETA), "no error, as all inputs are 0"
 
 
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.floats(-0.05, 0.05), min_size=1, max_size=60))
-def test_effort_and_phase_follow_the_law(
-    controller: Callable[[], Instance], errors: list[float]
-) -> None:
+def test_effort_and_phase_follow_the_law(instantiate: Instantiate, errors: list[float]) -> None:
     law = Law()
-    instance = controller()
+    instance = instantiate()
     instance.initialize(velocity_reference=0.06)
     for error in errors:
         measured = 0.06 - error
@@ -71,8 +54,8 @@ def test_effort_and_phase_follow_the_law(
         assert phase == pytest.approx(asin(expected) - THETA, abs=1e-6)
 
 
-def test_the_integral_does_not_wind_up(controller: Callable[[], Instance]) -> None:
-    instance = controller().initialize(velocity_reference=0.06)
+def test_the_integral_does_not_wind_up(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(velocity_reference=0.06)
     for _ in range(1000):
         instance.step(SAMPLE)
     assert instance.get("effort", "phase") == pytest.approx((1.0, pi / 2 - THETA)), "at its limit"
@@ -83,28 +66,22 @@ def test_the_integral_does_not_wind_up(controller: Callable[[], Instance]) -> No
 
 
 @pytest.mark.parametrize("parts", [1, 4, 10])
+@pytest.mark.parametrize("samples", [1, 20])
 def test_samples_do_not_depend_on_the_communication_step(
-    controller: Callable[[], Instance], parts: int
+    instantiate: Instantiate, parts: int, samples: int
 ) -> None:
-    instance = controller().initialize(velocity_reference=0.001)
-    efforts: list[float] = []
-    for _ in range(20):
+    """Twenty samples in all, of which `samples` fall due in `parts` steps."""
+    instance = instantiate().initialize(start_time=3.0, velocity_reference=0.001)
+    law = Law()
+    for _ in range(20 // samples):
         for _ in range(parts):
-            instance.step(SAMPLE / parts)
-        efforts += instance.get("effort")
-    law = Law()
-    assert efforts == pytest.approx([law.effort(0.001) for _ in range(20)], abs=1e-12)
+            instance.step(samples * SAMPLE / parts)
+        expected = [law.effort(0.001) for _ in range(samples)]
+        assert instance.get("effort") == pytest.approx((expected[-1],), abs=1e-12)
 
 
-def test_a_step_takes_all_samples_that_fall_due_in_it(controller: Callable[[], Instance]) -> None:
-    instance = controller().initialize(start_time=3.0, velocity_reference=0.001)
-    instance.step(20 * SAMPLE)
-    law = Law()
-    assert instance.get("effort")[0] == pytest.approx([law.effort(0.001) for _ in range(20)][-1])
-
-
-def test_a_replayed_state_gives_the_same_bits(controller: Callable[[], Instance]) -> None:
-    first, other = controller().initialize(velocity_reference=0.03), controller().initialize()
+def test_a_replayed_state_gives_the_same_bits(instantiate: Instantiate) -> None:
+    first, other = instantiate().initialize(velocity_reference=0.03), instantiate().initialize()
     first.step(0.025)
     other.restore(first.state())
     other.time = first.time
@@ -115,8 +92,8 @@ def test_a_replayed_state_gives_the_same_bits(controller: Callable[[], Instance]
     assert first.get("phase", "effort") == other.get("phase", "effort")
 
 
-def test_damaged_states_are_refused(controller: Callable[[], Instance]) -> None:
-    instance = controller().initialize()
+def test_damaged_states_are_refused(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize()
     state = instance.state()
     for place in (0, 45, len(state) - 1):
         damaged = state[:place] + bytes([state[place] ^ 1]) + state[place + 1 :]
@@ -126,10 +103,8 @@ def test_damaged_states_are_refused(controller: Callable[[], Instance]) -> None:
         instance.restore(state[:-8])
 
 
-def test_refused_values_and_steps_change_nothing(
-    controller: Callable[[], Instance],
-) -> None:
-    instance = controller().initialize(velocity_reference=0.01)
+def test_refused_values_and_steps_change_nothing(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(velocity_reference=0.01)
     instance.step(SAMPLE)
     with instance.refuses("measured_velocity = nan refused: must be a finite number"):
         instance.set(measured_velocity=nan)
@@ -149,8 +124,8 @@ def test_refused_values_and_steps_change_nothing(
         instance.step(1e6)
 
 
-def test_calls_out_of_order_are_refused(controller: Callable[[], Instance]) -> None:
-    instance = controller()
+def test_calls_out_of_order_are_refused(instantiate: Instantiate) -> None:
+    instance = instantiate()
     with instance.refuses("doStep refused in state 'instantiated'"):
         instance.step(SAMPLE)
     with instance.refuses("reading phase refused in state 'instantiated'"):
@@ -161,8 +136,8 @@ def test_calls_out_of_order_are_refused(controller: Callable[[], Instance]) -> N
         instance.slave.setupExperiment(startTime=0.0, tolerance=-1.0)
 
 
-def test_huge_values_make_no_nan(controller: Callable[[], Instance]) -> None:
-    instance = controller()
+def test_huge_values_make_no_nan(instantiate: Instantiate) -> None:
+    instance = instantiate()
     instance.initialize(
         velocity_reference=1e308,
         measured_velocity=-1e308,

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
-from fmpy import simulate_fmu
 
 from fmu_src.building import native_fmu
 from fmu_src.building.c_sources import slider_sources
@@ -15,7 +16,8 @@ from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
 from fmu_src.sources import PACKAGE
-from tests.fmu.host import OUTPUTS, Instance, Unpacked, unpack
+from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked, unpack
+from tests.fmu.test_after_refusals import maltreat
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -61,7 +63,7 @@ def other_build(unpacked: Unpacked, tmp_path_factory: pytest.TempPathFactory) ->
 
 
 def test_two_builds_in_one_process_stay_independent(
-    other_build: Path, instantiate: Callable[[], Instance], tmp_path: Path
+    other_build: Path, instantiate: Instantiate, tmp_path: Path
 ) -> None:
     golden = instantiate().initialize()
     candidate = Instance(unpack(other_build, tmp_path)).initialize()
@@ -83,7 +85,7 @@ def test_a_state_of_another_build_is_refused(
         instance.restore(foreign)
 
 
-def test_two_instances_do_not_share_anything(instantiate: Callable[[], Instance]) -> None:
+def test_two_instances_do_not_share_anything(instantiate: Instantiate) -> None:
     values: tuple[dict[str, float], ...] = ({"phase": 0.4}, {"load": 0.06, "fidelity": 1})
     together = [instantiate().initialize(**v) for v in values]
     rows: list[list[tuple[float, ...]]] = [[], []]
@@ -94,39 +96,49 @@ def test_two_instances_do_not_share_anything(instantiate: Callable[[], Instance]
     assert rows == alone, "two devices stepped in turn move as each does alone"
 
 
-def test_each_instance_logs_to_its_own_host(instantiate: Callable[[], Instance]) -> None:
+def test_each_instance_logs_to_its_own_host(instantiate: Instantiate) -> None:
     first, second = instantiate().initialize(), instantiate().initialize()
     with first.refuses("load"):
         first.set(load=float("nan"))
     assert second.log == [], "what one instance refuses is not told to the host of another"
 
 
-def test_reset_gives_back_a_new_instance(instantiate: Callable[[], Instance]) -> None:
+def _stepped(instance: Instance) -> None:
+    instance.initialize(slider_mass=3.0, phase=1.0, friction_faces=1).run(10, STEP)
+
+
+def _terminated(instance: Instance) -> None:
+    (*_, last) = instance.initialize(load=0.1).run(10, STEP)
+    instance.slave.terminate()
+    assert instance.get(*OUTPUTS) == last, "results can be read after the end"
+
+
+@pytest.mark.parametrize("use", [_stepped, _terminated, lambda i: maltreat(i.initialize())])
+def test_reset_gives_back_a_new_instance(
+    instantiate: Instantiate, use: Callable[[Instance], None]
+) -> None:
     used, fresh = instantiate(), instantiate().initialize()
-    used.initialize(slider_mass=3.0, phase=1.0, friction_faces=1)
-    used.run(10, STEP)
+    use(used)
     used.slave.reset()
     used.initialize()
     assert used.run(10, STEP) == fresh.run(10, STEP), "parameters, inputs and motion are forgotten"
 
 
-def test_reset_after_terminate(instance: Instance, instantiate: Callable[[], Instance]) -> None:
-    first = instance.run(10, STEP)
-    instance.slave.terminate()
-    assert instance.get(*OUTPUTS) == first[-1], "results can be read after the end"
-    instance.slave.reset()
-    instance.initialize()
-    assert instance.run(10, STEP) == first, "the same run again gives the same motion"
-
-
-def test_a_run_that_starts_later_is_the_same_motion(
-    instance: Instance, instantiate: Callable[[], Instance]
+@pytest.mark.parametrize("start_time", [-5.0, 1000.0, 1e12])
+def test_the_start_time_does_not_matter(
+    instance: Instance, instantiate: Instantiate, start_time: float
 ) -> None:
-    later = instantiate().initialize(start_time=1000.0)
-    velocity = OUTPUTS.index("velocity")
-    assert [r[velocity] for r in later.run(10, 2.0**-10)] == [
-        r[velocity] for r in instance.run(10, 2.0**-10)
-    ], "phases start at zero at the start time, whatever it is"
+    later = instantiate().initialize(start_time=start_time)
+    assert later.get("last_event_time") == (start_time,)
+    signals = np.array([i.run(10, 2.0**-8) for i in (instance, later)])
+    event = OUTPUTS.index("last_event_time")
+    np.testing.assert_array_equal(*np.delete(signals, event, axis=2))
+    np.testing.assert_allclose(
+        signals[1, :, event] - start_time,
+        signals[0, :, event],
+        rtol=0.0,
+        atol=2.0 * math.ulp(start_time) + 1e-15,
+    )
 
 
 def test_the_folder_of_an_earlier_instance_may_be_gone(fmu: Path, tmp_path: Path) -> None:
@@ -137,8 +149,3 @@ def test_the_folder_of_an_earlier_instance_may_be_gone(fmu: Path, tmp_path: Path
         instance.free()
         shutil.rmtree(folder)
     assert rows[0] == rows[1], "the motion does not depend on the folder"
-
-
-def test_simulate_fmu_twice(fmu: Path) -> None:
-    first, second = (simulate_fmu(str(fmu), stop_time=0.05) for _ in range(2))
-    assert first.tolist() == second.tolist(), "a second run gives the same motion"

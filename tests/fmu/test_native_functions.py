@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,14 +17,15 @@ from fmpy.fmi2 import (
 )
 
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
-from tests.fmu.host import Instance, Unpacked
+from tests.fmu.host import Instance, Instantiate
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
 from tests.fmu.test_native_binaries import fmi_functions
+from tests.fmus import native_fmu_only
 
-pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
+pytestmark = native_fmu_only
 
 NULL = ctypes.c_void_p()
-MODEL_EXCHANGE = (
+NOT_OFFERED = (
     "EnterEventMode",
     "NewDiscreteStates",
     "EnterContinuousTimeMode",
@@ -36,8 +36,6 @@ MODEL_EXCHANGE = (
     "GetEventIndicators",
     "GetContinuousStates",
     "GetNominalsOfContinuousStates",
-)
-NOT_OFFERED = (
     "CancelStep",
     "SetRealInputDerivatives",
     "GetRealOutputDerivatives",
@@ -78,16 +76,18 @@ class Host:
 
 
 def instantiate_as(
-    instance: Instance, guid: str, host: Host, name: bytes | None = b"slider", kind: int = 1
+    instance: Instance,
+    host: Host,
+    guid: str | None = None,
+    name: bytes | None = b"slider",
+    kind: int = 1,
 ) -> int | None:
-    """The component that fmi2Instantiate makes."""
+    """The component that fmi2Instantiate makes; its own GUID unless another is given."""
     function = instance.slave.dll.fmi2Instantiate
     function.restype = ctypes.c_void_p
-    callbacks = host.callbacks()
-    component: int | None = function(
-        name, ctypes.c_int(kind), guid.encode(), None, ctypes.byref(callbacks), 0, 0
-    )
-    return component
+    guid, callbacks = guid or instance.slave.guid, ctypes.byref(host.callbacks())
+    made: int | None = function(name, ctypes.c_int(kind), guid.encode(), None, callbacks, 0, 0)
+    return made
 
 
 def give_back(instance: Instance, component: int | None) -> None:
@@ -105,22 +105,19 @@ def give_back(instance: Instance, component: int | None) -> None:
     ids=["guid", "type", "empty name", "no name"],
 )
 def test_a_refused_instantiation_says_why(
-    instance: Instance, unpacked: Unpacked, wrong: dict[str, Any], text: str
+    instance: Instance, wrong: dict[str, Any], text: str
 ) -> None:
     host = Host()
-    wish = {"guid": unpacked.description.guid} | wrong
-    assert instantiate_as(instance, host=host, **wish) is None
+    assert instantiate_as(instance, host, **wrong) is None
     ((_, status, category, said),) = host.log
     assert (status, category) == (ERROR, b"logStatusError"), "also when no logging is asked for"
     assert text in said.decode()
     assert host.taken == host.given_back
 
 
-def test_memory_is_the_hosts_and_all_of_it_comes_back(
-    instance: Instance, unpacked: Unpacked
-) -> None:
+def test_memory_is_the_hosts_and_all_of_it_comes_back(instance: Instance) -> None:
     host = Host()
-    component = instantiate_as(instance, unpacked.description.guid, host)
+    component = instantiate_as(instance, host)
     assert host.taken == [component], "one piece for an instance"
     give_back(instance, component)
     assert host.given_back == host.taken
@@ -130,25 +127,25 @@ def test_memory_is_the_hosts_and_all_of_it_comes_back(
     "missing", [("allocateMemory",), ("freeMemory",), ("allocateMemory", "freeMemory", "logger")]
 )
 def test_a_host_without_memory_callbacks_is_served(
-    instance: Instance, unpacked: Unpacked, missing: tuple[str, ...]
+    instance: Instance, missing: tuple[str, ...]
 ) -> None:
     host = Host(missing=missing)
-    component = instantiate_as(instance, unpacked.description.guid, host)
+    component = instantiate_as(instance, host)
     assert component is not None
     give_back(instance, component)
     assert host.taken == host.given_back == [], "memory from one is never given to another"
 
 
-def test_a_host_without_memory_is_told(instance: Instance, unpacked: Unpacked) -> None:
+def test_a_host_without_memory_is_told(instance: Instance) -> None:
     host = Host(memory=False)
-    assert instantiate_as(instance, unpacked.description.guid, host) is None
+    assert instantiate_as(instance, host) is None
     assert b"no memory for an instance" in host.log[0][-1]
 
 
-def test_no_callbacks_no_instance(instance: Instance, unpacked: Unpacked) -> None:
+def test_no_callbacks_no_instance(instance: Instance) -> None:
     function = instance.slave.dll.fmi2Instantiate
     function.restype = ctypes.c_void_p
-    assert function(b"x", 1, unpacked.description.guid.encode(), None, None, 0, 0) is None
+    assert function(b"x", 1, instance.slave.guid.encode(), None, None, 0, 0) is None
 
 
 @pytest.mark.parametrize("function", sorted(fmi_functions() - {"fmi2Instantiate"}))
@@ -164,7 +161,7 @@ def test_no_instance_is_an_error_and_no_crash(instance: Instance, function: str)
         assert status == ERROR
 
 
-@pytest.mark.parametrize("function", [*MODEL_EXCHANGE, *NOT_OFFERED])
+@pytest.mark.parametrize("function", NOT_OFFERED)
 def test_what_is_not_offered_is_refused_by_name(instance: Instance, function: str) -> None:
     before = instance.state()
     assert call(instance, f"fmi2{function}", *[NULL] * 6) == ERROR
@@ -229,20 +226,16 @@ def test_a_status_that_is_not_known_is_discarded(
         assert place.raw == b"\x07" * 8, "nothing was written"
 
 
-def test_time_overflow_is_refused(
-    instantiate: Callable[[], Instance],
-) -> None:
+def test_time_overflow_is_refused(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(start_time=1.7e308, fidelity=0, friction_coefficient=0.0)
     with instance.refuses("leaves the range of floating point numbers"):
         instance.slave.doStep(instance.time, 1e308)
 
 
-def test_masses_beyond_the_range_of_numbers_are_refused(
-    instantiate: Callable[[], Instance],
-) -> None:
-    instance = instantiate()
-    instance.slave.enterInitializationMode()
-    instance.set(slider_mass=1e-12, resonator_mass=math.nextafter(math.inf, 0.0))
+def test_masses_beyond_the_range_of_numbers_are_refused(instantiate: Instantiate) -> None:
+    instance = instantiate().enter_initialization(
+        slider_mass=1e-12, resonator_mass=math.nextafter(math.inf, 0.0)
+    )
     with instance.refuses("resonator_mass = 1.7976931348623157e+308 refused: together with"):
         instance.slave.exitInitializationMode()
     instance.set(slider_mass=1.0, resonator_mass=0.1)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,8 +13,9 @@ from fmpy.fmi1 import FMICallException
 from fmu_src.model_description import LOG_CATEGORIES
 from tests.fmu.host import Instance, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call
+from tests.fmus import native_fmu_only
 
-pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
+pytestmark = native_fmu_only
 
 
 def debug_logging(instance: Instance, logging_on: bool, *categories: str | None) -> int:
@@ -85,13 +85,16 @@ def test_invalid_category_counts_are_refused(instance: Instance) -> None:
     assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 0, null) == OK
 
 
+@pytest.mark.parametrize("logging_on", [False, True])
 def test_errors_are_sent_without_debug_logging(
-    unpacked: Unpacked, capfd: pytest.CaptureFixture[str]
+    unpacked: Unpacked, capfd: pytest.CaptureFixture[str], logging_on: bool
 ) -> None:
-    instance = Instance(unpacked, logging_on=False).initialize()
+    instance = Instance(unpacked, logging_on=logging_on).initialize()
     assert provoke_error(instance) == ERROR
     assert provoke_discard(instance) == DISCARD
-    assert [entry.category for entry in instance.entries] == ["logStatusError"]
+    expected = [("slider", ERROR, "logStatusError"), ("slider", DISCARD, "logStatusDiscard")]
+    found = [(entry.instance, entry.status, entry.category) for entry in instance.entries]
+    assert found == (expected if logging_on else expected[:1])
     assert "communicationStepSize = nan refused" in instance.log[0]
     instance.free()
     assert capfd.readouterr() == ("", ""), "the streams belong to the host"
@@ -111,16 +114,3 @@ def test_fmpy_says_why_a_run_failed(fmu: Path, capfd: pytest.CaptureFixture[str]
     with pytest.raises(FMICallException):
         simulate_fmu(str(fmu), start_values={"load": math.nan}, stop_time=0.1)
     assert "load = nan refused: must be a finite number" in capfd.readouterr().out
-
-
-def test_status_category_and_name_go_with_the_text(
-    instantiate: Callable[[], Instance],
-) -> None:
-    instance = instantiate()
-    instance.initialize()
-    provoke_error(instance)
-    provoke_discard(instance)
-    assert [(e.instance, e.status, e.category) for e in instance.entries] == [
-        ("slider", ERROR, "logStatusError"),
-        ("slider", DISCARD, "logStatusDiscard"),
-    ]

@@ -5,15 +5,15 @@ from __future__ import annotations
 import ctypes
 import math
 import struct
-from collections.abc import Callable
 
 import pytest
 
-from tests.fmu.host import Instance, Unpacked, unpack
+from tests.fmu.host import Instance, Instantiate, Unpacked, unpack
 from tests.fmu.native_calls import ERROR, OK, call
 from tests.fmu.native_layout import HEAD, LAYOUT, SETTABLE, checksum, numbers
+from tests.fmus import native_fmu_only
 
-pytestmark = pytest.mark.parametrize("fmu", ["native"], indirect=True, scope="session")
+pytestmark = native_fmu_only
 
 STEP = 3.1e-4
 
@@ -44,9 +44,7 @@ def test_the_layout_is_that_of_any_platform(instance: Instance, unpacked: Unpack
         assert state[variable.name] == expected, variable.name
 
 
-def test_a_state_made_elsewhere_is_taken(
-    instance: Instance, instantiate: Callable[[], Instance]
-) -> None:
+def test_a_state_made_elsewhere_is_taken(instance: Instance, instantiate: Instantiate) -> None:
     instance.run(7, STEP)
     foreign = forged(instance.state(), position=0.25, load=0.03)
     other = instantiate()
@@ -104,33 +102,6 @@ def test_a_state_of_the_python_fmu_is_refused(
     other.free()
     with instance.refuses("FMU state refused", "without the header of a state"):
         instance.restore(foreign)
-
-
-def _instantiated(_: Instance) -> None:
-    pass
-
-
-def _initializing(instance: Instance) -> None:
-    instance.slave.setupExperiment(startTime=0.0, stopTime=1.0)
-    instance.slave.enterInitializationMode()
-
-
-def _stepping(instance: Instance) -> None:
-    instance.initialize().step(STEP)
-
-
-def _terminated(instance: Instance) -> None:
-    instance.initialize().slave.terminate()
-
-
-@pytest.mark.parametrize("reach", [_instantiated, _initializing, _stepping, _terminated])
-def test_every_state_of_life_comes_back(
-    instantiate: Callable[[], Instance], reach: Callable[[Instance], None]
-) -> None:
-    instance, other = instantiate(), instantiate().initialize(load=0.2)
-    reach(instance)
-    other.restore(instance.state())
-    assert other.state() == instance.state()
 
 
 def test_memory_of_another_size_is_refused(instance: Instance) -> None:

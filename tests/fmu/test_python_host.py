@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import subprocess
 import sys
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from tests.fmu.host import Instance, Unpacked
+from tests.processes import run_python
 
 STEP = 1.3e-3
 
@@ -44,16 +44,8 @@ print(asked.count("_release_interpreter"))
 
 
 def test_each_binary_is_released_once_before_exit(python_fmu: Path, tmp_path: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", LET_GO, python_fmu, tmp_path],
-        cwd=Path(__file__).resolve().parents[2],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
     expected = 2 if sys.platform == "linux" else 0
-    assert int(done.stdout) == expected, (
+    assert int(run_python(LET_GO, python_fmu, tmp_path)) == expected, (
         "unasked, the binary on Linux frees memory twice at the end"
     )
 

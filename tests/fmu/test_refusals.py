@@ -10,7 +10,8 @@ import pytest
 
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
-from tests.fmu.host import Instance
+from tests.fmu.host import Instance, Instantiate
+from tests.fmu.lifecycle import REACH
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -28,69 +29,36 @@ def by_name(variables: list[Variable]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize("variable", variables, ids=lambda v: v.name)
 
 
-def outside(variable: Variable) -> list[float]:
-    """The nearest values that the bounds of a variable shut out."""
+def bad_values(variable: Variable) -> list[float]:
+    """Values that are not finite, and the nearest beyond the bounds of a variable."""
     if variable.type == "Integer":
-        near = [
-            None if variable.minimum is None else variable.minimum - 1,
-            None if variable.maximum is None else variable.maximum + 1,
-        ]
-    else:
-        near = [
-            None if variable.minimum is None else math.nextafter(variable.minimum, -INF),
-            None if variable.maximum is None else math.nextafter(variable.maximum, INF),
-        ]
-    return [x for x in near if x is not None]
+        assert variable.minimum is not None
+        assert variable.maximum is not None
+        return [int(variable.minimum) - 1, int(variable.maximum) + 1]
+    bounds = ((variable.minimum, -INF), (variable.maximum, INF))
+    return [NAN, INF, -INF] + [math.nextafter(x, to) for x, to in bounds if x is not None]
 
 
-def in_initialization_mode(instance: Instance) -> Instance:
-    instance.slave.setupExperiment(startTime=0.0)
-    instance.slave.enterInitializationMode()
-    return instance
-
-
-@by_name([v for v in SETTABLE if v.type == "Real"])
-@pytest.mark.parametrize("value", [NAN, INF, -INF])
-def test_not_finite_before_the_run(
-    instantiate: Callable[[], Instance], variable: Variable, value: float
-) -> None:
-    instance = in_initialization_mode(instantiate())
-    with instance.refuses(f"{variable.name} = {value!r} refused", variable.requirement):
-        instance.set(**{variable.name: value})
-
-
-@by_name(ANYTIME)
-@pytest.mark.parametrize("value", [NAN, INF, -INF])
-def test_not_finite_during_the_run(instance: Instance, variable: Variable, value: float) -> None:
-    instance.step(STEP)
-    with instance.refuses(f"{variable.name} = {value!r} refused", variable.requirement):
-        instance.set(**{variable.name: value})
-
-
-@by_name([v for v in SETTABLE if outside(v)])
-def test_out_of_bounds_before_the_run(
-    instantiate: Callable[[], Instance], variable: Variable
-) -> None:
-    instance = in_initialization_mode(instantiate())
-    for value in outside(variable):
-        shown = int(value) if variable.type == "Integer" else value
-        with instance.refuses(f"{variable.name} = {shown!r} refused", variable.requirement):
-            instance.set(**{variable.name: value})
-
-
-@by_name([v for v in ANYTIME if outside(v)])
-def test_out_of_bounds_during_the_run(instance: Instance, variable: Variable) -> None:
-    instance.step(STEP)
-    for value in outside(variable):
+def assert_bad_values_are_refused(instance: Instance, variable: Variable) -> None:
+    for value in bad_values(variable):
         with instance.refuses(f"{variable.name} = {value!r} refused", variable.requirement):
             instance.set(**{variable.name: value})
 
 
+@by_name(SETTABLE)
+def test_bad_value_before_the_run(instantiate: Instantiate, variable: Variable) -> None:
+    assert_bad_values_are_refused(instantiate().enter_initialization(), variable)
+
+
+@by_name(ANYTIME)
+def test_bad_value_during_the_run(instance: Instance, variable: Variable) -> None:
+    instance.step(STEP)
+    assert_bad_values_are_refused(instance, variable)
+
+
 @by_name([v for v in SETTABLE if v.minimum is not None or v.maximum is not None])
-def test_the_bounds_themselves_are_accepted(
-    instantiate: Callable[[], Instance], variable: Variable
-) -> None:
-    instance = in_initialization_mode(instantiate())
+def test_the_bounds_themselves_are_accepted(instantiate: Instantiate, variable: Variable) -> None:
+    instance = instantiate().enter_initialization()
     for value in (variable.minimum, variable.maximum):
         if value is not None:
             instance.set(**{variable.name: value})
@@ -112,15 +80,13 @@ def test_output_set_from_outside(instance: Instance, variable: Variable) -> None
 
 @pytest.mark.parametrize("fidelity", [0, 1])
 @pytest.mark.parametrize("ulps", [-2, -1, 0, 1, 2])
-def test_undamped_resonance_to_rounding(
-    instantiate: Callable[[], Instance], fidelity: int, ulps: int
-) -> None:
+def test_undamped_resonance_to_rounding(instantiate: Instantiate, fidelity: int, ulps: int) -> None:
     """Steady force and velocity would be numbers without a correct digit."""
     frequency = 3500.0 * math.sqrt(1.0 / 1.1)
     for _ in range(abs(ulps)):
         frequency = math.nextafter(frequency, math.copysign(INF, ulps))
-    instance = in_initialization_mode(instantiate())
-    instance.set(damping_ratio=0.0, resonator_frequency=frequency, fidelity=fidelity)
+    undamped = {"damping_ratio": 0.0, "resonator_frequency": frequency, "fidelity": fidelity}
+    instance = instantiate().enter_initialization(**undamped)
     with instance.refuses("damping_ratio = 0.0 refused", "drive_frequency = 3500.0", "be above 0"):
         instance.slave.exitInitializationMode()
     instance.set(damping_ratio=1e-12)
@@ -128,9 +94,11 @@ def test_undamped_resonance_to_rounding(
     instance.step(STEP)
 
 
-def test_values_that_do_not_fit_each_other(instantiate: Callable[[], Instance]) -> None:
-    instance = in_initialization_mode(instantiate())
-    instance.set(friction_law=1, friction_coefficient=0.0)
+@pytest.mark.parametrize("fidelity", [0, 1, 2])
+def test_values_that_do_not_fit_each_other(instantiate: Instantiate, fidelity: int) -> None:
+    instance = instantiate().enter_initialization(
+        fidelity=fidelity, friction_law=1, friction_coefficient=0.0
+    )
     with instance.refuses("friction_coefficient = 0.0 refused: with LuGre friction it must be"):
         instance.slave.exitInitializationMode()
     instance.set(friction_coefficient=0.1)
@@ -157,23 +125,19 @@ def test_step_that_does_not_continue_from_the_present(instance: Instance, jump: 
 @pytest.mark.parametrize(
     ("name", "value"),
     [
-        ("startTime", NAN),
-        ("startTime", INF),
-        ("startTime", -INF),
-        ("stopTime", NAN),
-        ("stopTime", -INF),
-        ("stopTime", 4.0),
+        *(("startTime", value) for value in (NAN, INF, -INF)),
+        *(("stopTime", value) for value in (NAN, -INF, 4.0)),
         ("tolerance", NAN),
     ],
 )
-def test_experiment(instantiate: Callable[[], Instance], name: str, value: float) -> None:
+def test_experiment(instantiate: Instantiate, name: str, value: float) -> None:
     instance = instantiate()
     experiment = {"startTime": 5.0} | {name: value}
     with instance.refuses(f"{name} = {value!r} refused: must be"):
         instance.slave.setupExperiment(**experiment)
 
 
-def test_step_beyond_the_stop_time(instantiate: Callable[[], Instance]) -> None:
+def test_step_beyond_the_stop_time(instantiate: Instantiate) -> None:
     instance = instantiate()
     instance.slave.setupExperiment(startTime=0.0, stopTime=0.1)
     instance.slave.enterInitializationMode()
@@ -208,9 +172,9 @@ def test_unknown_value_reference(instance: Instance, reference: int, kind: str) 
     ],
 )
 def test_type_of_another_variable(
-    instantiate: Callable[[], Instance], name: str, kind: str, value: object
+    instantiate: Instantiate, name: str, kind: str, value: object
 ) -> None:
-    instance = in_initialization_mode(instantiate())
+    instance = instantiate().enter_initialization()
     reference = [instance.reference(name)]
     with instance.refuses(name, kind):
         getattr(instance.slave, f"set{kind}")(reference, [value])
@@ -225,26 +189,6 @@ def test_one_bad_value_among_good_ones_sets_none_of_them(instance: Instance) -> 
     assert tuple(instance.slave.getReal(references)) == (0.0, 0.0, 1.0)
 
 
-def _instantiated(_: Instance) -> None:
-    pass
-
-
-def _experiment_set_up(instance: Instance) -> None:
-    instance.slave.setupExperiment(startTime=0.0)
-
-
-def _initializing(instance: Instance) -> None:
-    in_initialization_mode(instance)
-
-
-def _stepping(instance: Instance) -> None:
-    instance.initialize()
-
-
-def _terminated(instance: Instance) -> None:
-    instance.initialize().slave.terminate()
-
-
 CALLS: dict[str, Callable[[Instance], object]] = {
     "setupExperiment": lambda i: i.slave.setupExperiment(startTime=0.0),
     "enterInitializationMode": lambda i: i.slave.enterInitializationMode(),
@@ -255,32 +199,21 @@ CALLS: dict[str, Callable[[Instance], object]] = {
 }
 
 
+OUT_OF_ORDER: dict[str, tuple[str, ...]] = {
+    "instantiated": ("exitInitializationMode", "doStep"),
+    "experiment set up": ("exitInitializationMode", "doStep"),
+    "initializing": ("setupExperiment", "enterInitializationMode", "doStep"),
+    "stepping": ("setupExperiment", "enterInitializationMode", "exitInitializationMode"),
+    "terminated": tuple(CALLS),
+}
+
+
 @pytest.mark.parametrize(
-    ("reach", "call"),
-    [
-        (_instantiated, "exitInitializationMode"),
-        (_instantiated, "doStep"),
-        (_experiment_set_up, "exitInitializationMode"),
-        (_experiment_set_up, "doStep"),
-        (_initializing, "setupExperiment"),
-        (_initializing, "enterInitializationMode"),
-        (_initializing, "doStep"),
-        (_stepping, "setupExperiment"),
-        (_stepping, "enterInitializationMode"),
-        (_stepping, "exitInitializationMode"),
-        (_terminated, "setupExperiment"),
-        (_terminated, "enterInitializationMode"),
-        (_terminated, "exitInitializationMode"),
-        (_terminated, "doStep"),
-        (_terminated, "terminate"),
-        (_terminated, "setting load"),
-    ],
+    ("reached", "call"), [(state, call) for state, calls in OUT_OF_ORDER.items() for call in calls]
 )
-def test_call_out_of_order(
-    instantiate: Callable[[], Instance], reach: Callable[[Instance], None], call: str
-) -> None:
+def test_call_out_of_order(instantiate: Instantiate, reached: str, call: str) -> None:
     instance = instantiate()
-    reach(instance)
+    REACH[reached](instance)
     with instance.refuses(call, "refused", "the state must be"):
         CALLS[call](instance)
 

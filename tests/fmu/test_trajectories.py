@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
@@ -13,8 +11,8 @@ from numpy.typing import NDArray
 
 from slider_resonator.references.resolved.taylor import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
-from tests.fmu.host import Instance, Unpacked
-from tests.fmu.native_layout import LAYOUT, numbers
+from tests.fmu.host import Instantiate, Unpacked
+from tests.fmu.trajectories import assert_equal, fmu_run
 from tests.fmus import both_fmus
 from tests.problems import DURATION, PROBLEMS, SIGNALS, Problem
 
@@ -23,39 +21,9 @@ pytestmark = both_fmus
 ALLOWED = 1e-9
 """Deviation allowed, as a fraction of the peak of each signal."""
 
-Instantiate = Callable[[], Instance]
-
-
-def fmu_run(
-    instantiate: Instantiate, problem: Problem, times: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], dict[str, float]]:
-    """Signals (n, 6) at `times`, which must include the starts of the pieces, and end values."""
-    inputs = {start: values for start, values in problem.pieces}
-    first = inputs.pop(0.0)
-    instance = instantiate().initialize(**problem.parameters, **first)
-    rows = []
-    for time in times:
-        instance.step(time - instance.time)
-        rows.append(instance.get(*SIGNALS))
-        if time in inputs:
-            instance.set(phase=0.0, load=0.0, frequency_ratio=1.0)
-            instance.set(**inputs[time])
-    names = ("reversals", "last_event_time", "contact_mode")
-    ends = dict(zip(names, instance.get(*names), strict=True))
-    ends["sticks"] = sticks(instance.state())
-    return np.array(rows), ends
-
-
-def sticks(state: bytes) -> float:
-    """Sticks begun, which no output shows."""
-    if len(state) == LAYOUT.size and state.startswith(b"SLIDRES"):
-        return numbers(state)["sticks"]
-    count: int = json.loads(state.partition(b"\n")[2])["moment"]["counts"]["sticks"]
-    return count
-
 
 @cache
-def referee_of(name: str, count: int) -> Trajectory:
+def reference_of(name: str, count: int) -> Trajectory:
     """The reference at the same moments, for both FMUs."""
     problem = PROBLEMS[name]
     return simulate(problem.device, problem.held, grid(problem, count))
@@ -66,26 +34,11 @@ def grid(problem: Problem, count: int) -> NDArray[np.float64]:
     return np.union1d(np.linspace(0.0, DURATION, count + 1)[1:], starts)
 
 
-def assert_equal(signals: NDArray[np.float64], reference: Trajectory, allowed: float) -> None:
-    for name, column in zip(SIGNALS, signals.T, strict=True):
-        expected = getattr(reference, name)
-        peak = np.abs(expected).max()
-        deviation = np.abs(column - expected).max()
-        if name == "position":
-            # It is what is left of the resonator's motion, whose rounding it carries.
-            rounding = 2.0 * np.spacing(np.abs(reference.resonator_displacement).max())
-            deviation = max(0.0, deviation - rounding)
-        assert deviation <= allowed * peak, (
-            f"{name} deviates by {deviation:.3g}, {deviation / peak:.3g} of its peak; "
-            f"the limit is {allowed:g}"
-        )
-
-
 @pytest.mark.parametrize("name", PROBLEMS)
-def test_against_the_referee(instantiate: Instantiate, name: str) -> None:
+def test_motion_is_that_of_the_reference(instantiate: Instantiate, name: str) -> None:
     problem = PROBLEMS[name]
     signals, ends = fmu_run(instantiate, problem, grid(problem, 230))
-    reference = referee_of(name, 230)
+    reference = reference_of(name, 230)
     assert_equal(signals, reference, ALLOWED)
     assert ends["reversals"] == reference.reversals, "reversals seen by the reference"
     assert ends["sticks"] == reference.sticks, "sticks seen by the reference"
@@ -99,22 +52,10 @@ def test_against_the_referee(instantiate: Instantiate, name: str) -> None:
 def test_independent_of_the_partition(instantiate: Instantiate, name: str, count: int) -> None:
     problem = PROBLEMS[name]
     signals, ends = fmu_run(instantiate, problem, grid(problem, count))
-    reference = referee_of(name, 1)
-    for column, signal in enumerate(SIGNALS[:4]):
-        expected = getattr(reference, signal)[-1]
-        assert signals[-1, column] == pytest.approx(expected, rel=1e-9, abs=1e-13)
+    reference = reference_of(name, 1)
+    expected = [getattr(reference, signal)[-1] for signal in SIGNALS[:4]]
+    assert signals[-1, :4] == pytest.approx(expected, rel=1e-9, abs=1e-13)
     assert ends["reversals"] == reference.reversals, "no partition hides or adds a reversal"
-
-
-def test_one_step_of_a_quarter_second(instantiate: Instantiate) -> None:
-    whole = instantiate().initialize()
-    whole.step(0.25)
-    fine = instantiate().initialize()
-    for _ in range(250):
-        fine.step(1e-3)
-    for one, other in zip(whole.get(*SIGNALS), fine.get(*SIGNALS), strict=True):
-        assert one == pytest.approx(other, rel=1e-9)
-    assert whole.get("reversals") == fine.get("reversals"), "no step hides a reversal"
 
 
 @pytest.mark.slow

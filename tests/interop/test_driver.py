@@ -9,7 +9,7 @@ import pytest
 
 from slider_resonator.trials.hosts.driver_host import BINARY, native_driver
 from slider_resonator.trials.hosts.job import describe
-from tests.native.toolchain import Binary, unpacked_binary
+from tests.native.toolchain import Binary, run, unpacked_binary
 
 STEADY = {
     (0.0, 0.0, 1.0): 0.12666700,
@@ -28,8 +28,7 @@ def binary(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Binary
 def drive(
     binary: Binary, commands: str, guid: str | None = None
 ) -> subprocess.CompletedProcess[str]:
-    command = [str(native_driver()), str(binary.library), guid or binary.guid, "file:///"]
-    return subprocess.run(command, input=commands, capture_output=True, text=True, check=False)
+    return run([native_driver(), binary.library, guid or binary.guid, "file:///"], commands)
 
 
 def commands(native_fmu: Path, values: dict[str, float], *steps: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 import zipfile
 from pathlib import Path
@@ -11,6 +10,7 @@ import pytest
 
 from slider_resonator.trials.hosts.hosts import hosts
 from slider_resonator.trials.hosts.runs import CASES, by_case, run_jobs, table_1_jobs
+from tests.processes import run_command
 
 pytestmark = pytest.mark.interop
 
@@ -27,9 +27,7 @@ def test_fmutool_binary_gives_the_same_numbers(native_fmu: Path, tmp_path: Path)
     stripped = without_binaries(native_fmu, tmp_path / "stripped.fmu")
     compiled = tmp_path / "compiled.fmu"
     fmutool = Path(sys.executable).with_name("fmutool")
-    command: list[str | Path] = [fmutool, "-input", stripped, "-compile-sources"]
-    command += ["-output", compiled]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = run_command(fmutool, "-input", stripped, "-compile-sources", "-output", compiled)
     assert compiled.is_file(), done.stdout + done.stderr
     fmpy = hosts()[0]
     ours = [answer.rows for answer in run_jobs(fmpy, table_1_jobs(native_fmu))]

@@ -39,9 +39,7 @@ EXTREMES: dict[str, Sequence[float]] = {
 
 def devices() -> dict[str, dict[str, float]]:
     """Start values by the name of what they try."""
-    named = {
-        name: dict(problem.parameters) | problem.pieces[0][1] for name, problem in PROBLEMS.items()
-    }
+    named = {name: problem.start_values for name, problem in PROBLEMS.items()}
     for parameter, values in EXTREMES.items():
         named |= {f"{parameter} = {value!r}": {parameter: value} for value in values}
     return named

@@ -1,18 +1,22 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from tests.native.toolchain import PROGRAMS, Binary, program, run
 
+pytestmark = pytest.mark.slow
 
-@pytest.mark.slow
-def test_memory_stays_flat_over_thousands_of_instances(
-    product: Binary, tmp_path_factory: pytest.TempPathFactory
-) -> None:
-    made = program(PROGRAMS / "instances.c", tmp_path_factory.mktemp("instances"))
-    done = run([made, product.library, product.guid, 30_000])
+
+def output_of(source: str, folder: Path, product: Binary, *arguments: int) -> str:
+    done = run([program(PROGRAMS / source, folder), product.library, product.guid, *arguments])
     assert done.returncode == 0, done.stdout + done.stderr
-    early, late = (int(kilobytes) for kilobytes in done.stdout.split())
+    return done.stdout
+
+
+def test_memory_stays_flat_over_thousands_of_instances(product: Binary, tmp_path: Path) -> None:
+    early, late = map(int, output_of("instances.c", tmp_path, product, 30_000).split())
     assert early > 0, "resident memory is known"
     assert late - early < 256, (
         f"27 000 instances more must not take memory, not even the smallest block of malloc each: "
@@ -20,10 +24,5 @@ def test_memory_stays_flat_over_thousands_of_instances(
     )
 
 
-@pytest.mark.slow
-def test_8_instances_in_8_threads_give_the_numbers_that_they_give_alone(
-    product: Binary, tmp_path_factory: pytest.TempPathFactory
-) -> None:
-    made = program(PROGRAMS / "threads.c", tmp_path_factory.mktemp("threads"))
-    done = run([made, product.library, product.guid, 8, 5000])
-    assert done.returncode == 0, done.stdout + done.stderr
+def test_threads_give_the_numbers_of_instances_alone(product: Binary, tmp_path: Path) -> None:
+    output_of("threads.c", tmp_path, product, 8, 5000)

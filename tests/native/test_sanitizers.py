@@ -79,16 +79,14 @@ def test_no_device_makes_undefined_behaviour(
     assert ran > 0.8 * len(devices()), "nearly all of the devices are carried out"
 
 
-def test_no_random_call_makes_undefined_behaviour(memory_checked: Binary, tmp_path: Path) -> None:
-    fuzzer = program(PROGRAMS / "fuzz.c", tmp_path, MEMORY)
-    command = [fuzzer, memory_checked.library, memory_checked.guid, 7, 200_000]
-    done = run(command, environment=SPEAK_UP)
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-def test_no_instance_leaves_memory_behind(memory_checked: Binary, tmp_path: Path) -> None:
-    instances = program(PROGRAMS / "instances.c", tmp_path, MEMORY)
-    command = [instances, memory_checked.library, memory_checked.guid, 600]
+@pytest.mark.parametrize(
+    ("source", "arguments"), [("fuzz.c", (7, 200_000)), ("instances.c", (600,))]
+)
+def test_no_call_makes_undefined_behaviour_or_leaves_memory(
+    memory_checked: Binary, tmp_path: Path, source: str, arguments: tuple[int, ...]
+) -> None:
+    caller = program(PROGRAMS / source, tmp_path, MEMORY)
+    command = [caller, memory_checked.library, memory_checked.guid, *arguments]
     done = run(command, environment=SPEAK_UP)
     assert done.returncode == 0, done.stdout + done.stderr
 

@@ -20,9 +20,9 @@ def test_no_invalid_operation_and_no_division_by_zero(
     command = [native_driver(), product.library, product.guid, "file:///nowhere"]
     died = {}
     for name, problem in PROBLEMS.items():
-        values = dict(problem.parameters) | problem.pieces[0][1]
         for law, fidelity in ((law, fidelity) for law, fidelity in CHOICES if fidelity > 0):
-            done = run(command, script(values, law, fidelity), {"LD_PRELOAD": str(trap)})
+            commands = script(problem.start_values, law, fidelity)
+            done = run(command, commands, {"LD_PRELOAD": str(trap)})
             if done.returncode < 0:
                 died[name, law, fidelity] = done.returncode
     assert not died

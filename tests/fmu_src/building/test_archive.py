@@ -18,12 +18,6 @@ def test_universal_binary_contains_each_library(tmp_path: Path) -> None:
         assert {name: archive.read(name) for name in archive.namelist()} == FILES
 
 
-def test_the_order_of_files_does_not_show(tmp_path: Path) -> None:
-    one = write_archive(tmp_path / "1", "Model", FILES)
-    other = write_archive(tmp_path / "2", "Model", dict(reversed(FILES.items())))
-    assert one.read_bytes() == other.read_bytes()
-
-
 def test_an_older_file_is_replaced_or_stays(tmp_path: Path) -> None:
     older = write_archive(tmp_path, "Model", {"a": b"old"}).read_bytes()
     with pytest.raises(TypeError):

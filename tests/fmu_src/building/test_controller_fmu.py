@@ -1,31 +1,18 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
 import pytest
 from fmpy import read_model_description
-from fmpy.validation import validate_fmu
 
 from fmu_src.building.c_sources import slider_sources
 from fmu_src.building.compiling import FLAGS
 from fmu_src.controller.variables import VARIABLES
 from fmu_src.sources import CONTROLLER_SOURCES
 from tests.fmu_src.building.test_native_fmu import WARNINGS
-
-
-def test_fmpy_and_fmutool_find_no_problem(controller_fmu: Path) -> None:
-    assert validate_fmu(str(controller_fmu)) == []
-    fmutool = Path(sys.executable).with_name("fmutool")
-    done = subprocess.run(
-        [fmutool, "-input", controller_fmu, "-check"], capture_output=True, text=True, check=False
-    )
-    report = done.stdout + done.stderr
-    assert "compliant with FMI-2.0" in report
-    assert "No semantic error" in report
+from tests.processes import run_command
 
 
 def test_the_description_is_that_of_the_table(controller_fmu: Path) -> None:
@@ -57,12 +44,6 @@ def test_sources_compile_alone_without_a_warning(controller_fmu: Path, tmp_path:
     with zipfile.ZipFile(controller_fmu) as archive:
         archive.extractall(tmp_path)
     sources = tmp_path / "sources"
-    command = ["gcc", *FLAGS, *WARNINGS, "-o", "alone.so"]
-    done = subprocess.run(
-        [*command, *(path.name for path in sources.glob("*.c")), "-lm"],
-        cwd=sources,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    files = [path.name for path in sources.glob("*.c")]
+    done = run_command("gcc", *FLAGS, *WARNINGS, "-o", "alone.so", *files, "-lm", cwd=sources)
     assert done.returncode == 0, done.stderr

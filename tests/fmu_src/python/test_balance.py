@@ -56,25 +56,20 @@ def test_few_evaluations_do_where_bisection_takes_52() -> None:
     assert calls <= 15
 
 
-def test_one_of_several_balances_is_that_of_bisection() -> None:
-    def excess(turning: float) -> float:
-        return cos(5.0 * turning) + 0.1
-
-    turning, _ = found(excess, rises=True)
-    assert turning == pytest.approx(by_bisection(excess), abs=1e-12)
-
-
 @pytest.mark.parametrize(("level", "end"), [(1.0, pi), (-1.0, 0.0)])
 def test_without_a_balance_the_end_counts(level: float, end: float) -> None:
     turning, _ = found(lambda _: level)
     assert turning == end
 
 
-def test_flat_friction_is_bisected_as_rounding_has_it() -> None:
-    """Within its noise the sign of the excess is that of each evaluation."""
-
-    def excess(turning: float) -> float:
-        return -((turning - 1.0) ** 5)
-
-    turning, _ = found(excess)
-    assert turning == pytest.approx(by_bisection(excess), abs=1e-9)
+@pytest.mark.parametrize(
+    ("excess", "rises", "tolerance"),
+    [
+        pytest.param(lambda angle: cos(5.0 * angle) + 0.1, True, 1e-12, id="one of several"),
+        # Within its noise the sign of the excess is that of each evaluation.
+        pytest.param(lambda angle: -((angle - 1.0) ** 5), False, 1e-9, id="flat friction"),
+    ],
+)
+def test_the_balance_is_that_of_bisection(excess: Excess, rises: bool, tolerance: float) -> None:
+    turning, _ = found(excess, rises=rises)
+    assert turning == pytest.approx(by_bisection(excess), abs=tolerance)

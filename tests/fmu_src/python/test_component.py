@@ -1,16 +1,16 @@
-"""The component: what may be called when, what stays after a refusal, and exact replay."""
+"""The component: damaged snapshots, rounded time, and what outputs read before a step."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 from fmu_src.python.slider_component.component import Component
 from fmu_src.python.slider_component.outputs import OUTPUTS
 from fmu_src.python.slider_component.refusal import Refusal
-from fmu_src.python.slider_component.snapshot import from_bytes, to_bytes
 
 
 def running(start_time: float = 0.0, **values: float) -> Component:
@@ -30,46 +30,26 @@ def outputs(component: Component) -> dict[str, float]:
     return dict(zip(OUTPUTS, component.get(*OUTPUTS), strict=True))
 
 
-def test_replay_is_bit_equal() -> None:
-    component = running(phase=0.4, load=0.01)
-    component.step(0.0, 0.0123)
-    stored = from_bytes(to_bytes(component.snapshot()))
-    component.step(0.0123, 0.1)
-    later = outputs(component)
-    other = Component()
-    other.restore(stored)
-    other.step(0.0123, 0.1)
-    assert outputs(other) == later
-
-
-def test_refused_calls_change_nothing() -> None:
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda before: {"format": "something else"},
+        lambda before: {**before, "time": math.nan},
+        lambda before: {**before, "values": {"phase": 0.0}},
+        lambda before: {**before, "moment": {**before["moment"], "psi": "x"}},
+        lambda before: {**before, "moment": None},
+    ],
+)
+def test_a_snapshot_that_is_none_changes_nothing(
+    damage: Callable[[dict[str, Any]], dict[str, Any]],
+) -> None:
+    """Bytes of the FMU get that far only with a matching checksum."""
     component = running()
     component.step(0.0, 0.01)
     before = component.snapshot()
-    refused: tuple[Callable[[], object], ...] = (
-        lambda: component.step(0.01, 0.0),
-        lambda: component.step(0.01, -1e-3),
-        lambda: component.step(0.01, math.nan),
-        lambda: component.step(0.01, math.inf),
-        lambda: component.step(0.02, 1e-3),
-        lambda: component.step(math.nan, 1e-3),
-        lambda: component.set({"phase": 1.0, "load": math.nan}),
-        lambda: component.set({"slider_mass": 2.0}),
-        lambda: component.set({"velocity": 2.0}),
-        lambda: component.set({"normal_preload": -1.0}),
-        lambda: component.setup_experiment(0.0, None),
-        lambda: component.enter_initialization(),
-        lambda: component.exit_initialization(),
-        lambda: component.restore({"format": "something else"}),
-        lambda: component.restore({**before, "time": math.nan}),
-        lambda: component.restore({**before, "values": {"phase": 0.0}}),
-        lambda: component.restore({**before, "moment": {**before["moment"], "psi": "x"}}),
-        lambda: component.restore({**before, "moment": None}),
-    )
-    for call in refused:
-        with pytest.raises(Refusal, match=r"refused"):
-            call()
-        assert component.snapshot() == before
+    with pytest.raises(Refusal, match="refused"):
+        component.restore(damage(before))
+    assert component.snapshot() == before
 
 
 def test_hosts_may_round_their_time() -> None:
@@ -78,57 +58,6 @@ def test_hosts_may_round_their_time() -> None:
         component.step(time, 1e-4 / 3.0)
         time += 1e-4 / 3.0
     assert component.time == time
-
-
-@pytest.mark.parametrize("start_time", [0.0, -5.0, 1e12])
-def test_the_start_time_does_not_matter(start_time: float) -> None:
-    late, plain = running(start_time), running()
-    assert one(late, "last_event_time") == start_time
-    for i in range(10):
-        late.step(late.time, 2.0**-8)
-        plain.step(i * 2.0**-8, 2.0**-8)
-    assert one(late, "position") == one(plain, "position")
-    assert one(late, "last_event_time") - start_time == pytest.approx(
-        one(plain, "last_event_time"), abs=2 * math.ulp(start_time) + 1e-15
-    )
-
-
-def test_stop_time_is_kept() -> None:
-    component = Component()
-    component.setup_experiment(0.0, 0.01)
-    component.enter_initialization()
-    component.exit_initialization()
-    component.step(0.0, 0.01)
-    with pytest.raises(Refusal, match=r"stopTime = 0\.01"):
-        component.step(0.01, 1e-3)
-
-
-def test_all_inputs_zero_is_a_sane_run() -> None:
-    component = running(phase=0.0, load=0.0, frequency_ratio=0.0)
-    component.step(0.0, 0.1)
-    assert all(math.isfinite(value) for value in outputs(component).values())
-
-
-def test_beyond_the_range_of_numbers_is_refused() -> None:
-    component = running(initial_velocity=1e308)
-    before = component.snapshot()
-    with pytest.raises(Refusal, match="leaves the range of floating point numbers"):
-        component.step(0.0, 10.0)
-    assert component.snapshot() == before
-
-
-def test_undamped_resonance_has_no_steady_force() -> None:
-    """Slider and resonator of equal mass: slipping resonance at exactly wn sqrt(2)."""
-    component = Component()
-    component.setup_experiment(0.0, None)
-    component.enter_initialization()
-    component.set({"fidelity": 1, "damping_ratio": 0.0, "slider_mass": 1.0 / 3.0,
-                   "resonator_mass": 1.0, "resonator_frequency": 8.0,
-                   "drive_frequency": 16.0})  # fmt: skip
-    with pytest.raises(Refusal, match=r"damping_ratio = 0.0 refused: without damping"):
-        component.exit_initialization()
-    component.set({"damping_ratio": 0.01})
-    component.exit_initialization()
 
 
 def test_outputs_before_the_first_step() -> None:
@@ -141,14 +70,6 @@ def test_outputs_before_the_first_step() -> None:
     assert one(component, "normal_force") == 2.0
     assert one(component, "contact_mode") == 1.0
     assert one(component, "stick_fraction") == 0.0
-
-
-def test_outputs_feel_inputs_at_once() -> None:
-    component = running()
-    component.step(0.0, 0.01)
-    component.set({"phase": 1.0})
-    psi = component.snapshot()["moment"]["psi"]
-    assert one(component, "normal_force") == pytest.approx(1.0 + math.sin(psi + 1.0), rel=1e-14)
 
 
 @pytest.mark.parametrize("phase", [0.3, -2.0, 3.0])

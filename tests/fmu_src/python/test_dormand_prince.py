@@ -25,12 +25,6 @@ def passed(
     return end.velocity, end.moved
 
 
-def test_relaxation() -> None:
-    velocity, moved = passed(lambda t, v: 1.0 - v, 0.0, 3.0, 0.1, 1e-11)
-    assert velocity == pytest.approx(1.0 - math.exp(-3.0), abs=1e-9)
-    assert moved == pytest.approx(3.0 - (1.0 - math.exp(-3.0)), abs=1e-9)
-
-
 def test_one_step_has_order_five() -> None:
     def error(step: float) -> float:
         velocity, _ = passed(lambda t, v: math.cos(t) - v, 0.0, step, step, 1.0)

@@ -27,18 +27,11 @@ def watch(signal: Signal, noise: float = 1e-16, fastest: float = 1.0) -> Watch:
     return Watch(signal, noise, fastest, math.inf)
 
 
-def test_simple_zero_to_rounding() -> None:
-    zero = first_zero(watch(sine_sum(0.0, [(1.0, 1.0, 0.5)])), 10.0)
-    assert zero == pytest.approx(math.pi - 0.5, abs=4e-16)
-
-
-def test_start_at_zero_and_rising_is_not_a_zero() -> None:
-    zero = first_zero(watch(sine_sum(0.0, [(1.0, 1.0, 0.0)])), 10.0)
-    assert zero == pytest.approx(math.pi, abs=4e-16), "the zero that the motion leaves was found"
-
-
-def test_none_before_the_limit() -> None:
-    assert first_zero(watch(sine_sum(0.0, [(1.0, 1.0, 0.0)])), 3.14) is None
+@pytest.mark.parametrize("start", [0.5, 0.0])
+def test_a_start_at_zero_is_none_and_the_next_is_found_to_rounding(start: float) -> None:
+    signal = sine_sum(0.0, [(1.0, 1.0, start)])
+    assert first_zero(watch(signal), 10.0) == pytest.approx(math.pi - start, abs=4e-16)
+    assert first_zero(watch(signal), 3.14 - start) is None, "none before the limit"
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1e-6, 1e-9, 1e-12])

@@ -13,26 +13,13 @@ from hypothesis import strategies as st
 from fmu_src.python.slider_component import lugre
 from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import law_of
-from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
-from fmu_src.python.slider_component.refusal import Refusal
 from fmu_src.python.slider_component.taylor_slide import TaylorSlide
+from tests.fmu_src.python import motions
+from tests.fmu_src.python.motions import PERIOD, REST, after
 
 TABLE_1 = Device(friction_law=1)
-PERIOD = math.tau / 3500.0
-BLOCK = Device(
-    resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0, friction_law=1, tolerance=1e-12
-)
-"""A rigid block of 1 kg under constant normal load; friction 0.2 N."""
-
-
-def begin(device: Device, inputs: Inputs | None = None, velocity: float = 0.0) -> Moment:
-    return law_of(device, inputs or Inputs()).start(State(velocity, 0.0, 0.0), 0.0)
-
-
-def run(device: Device, duration: float, inputs: Inputs | None = None, **start: float) -> Moment:
-    inputs = inputs or Inputs()
-    return law_of(device, inputs).advance(begin(device, inputs, **start), duration)
+BLOCK = replace(motions.BLOCK, friction_law=1, tolerance=1e-12)
 
 
 def test_tiny_motion_swings_on_the_bristles() -> None:
@@ -40,41 +27,40 @@ def test_tiny_motion_swings_on_the_bristles() -> None:
     device = replace(BLOCK, bristle_stiffness=1e4, bristle_damping=0.0)
     frequency = math.sqrt(2.0 * 1.0 * 1e4)
     velocity = 1e-12
-    quarter = run(device, 0.5 * math.pi / frequency, velocity=velocity)
+    quarter = after(0.5 * math.pi / frequency, device, velocity=velocity)
     assert quarter.position == pytest.approx(velocity / frequency, rel=1e-5)
     assert abs(quarter.state.velocity) < 1e-5 * velocity
-    half = run(device, math.pi / frequency, velocity=velocity)
+    half = after(math.pi / frequency, device, velocity=velocity)
     assert half.state.velocity == pytest.approx(-velocity, rel=1e-5)
     assert half.counts.reversals == 1
 
 
 def test_steady_sliding_has_coulomb_friction() -> None:
-    law = law_of(BLOCK, Inputs())
-    bending = law.advance(begin(BLOCK, velocity=3.0), 1e-3)
+    bending = after(1e-3, BLOCK, velocity=3.0)
     assert bending.bristle == pytest.approx(0.1, rel=1e-12), "sigma_0 z tends to mu"
-    end = law.advance(bending, 1.0)
+    end = law_of(BLOCK, Inputs()).advance(bending, 1.0)
     assert bending.state.velocity - end.state.velocity == pytest.approx(0.2, rel=1e-11)
 
 
 def test_bristles_without_stiffness_are_a_damper() -> None:
     """sigma_0 = 0 leaves F = N sigma_1 v: velocity decays with rate faces N sigma_1 / M."""
     device = replace(BLOCK, bristle_stiffness=0.0, bristle_damping=0.5)
-    end = run(device, 2.0, velocity=3.0)
+    end = after(2.0, device, velocity=3.0)
     assert end.state.velocity == pytest.approx(3.0 * math.exp(-2.0 * 0.5 * 2.0), rel=1e-10)
 
 
 def test_a_block_at_rest_stays() -> None:
-    end = run(BLOCK, 1.0)
+    end = after(1.0, BLOCK)
     assert (end.position, end.state.velocity, end.counts.reversals) == (0.0, 0.0, 0)
 
 
 def test_stiff_bristles_are_coulomb_friction() -> None:
     """The velocity lost over a bending path falls with sigma_0^(-1/2) or faster."""
-    exact = law_of(Device(), Inputs()).advance(begin(Device()), 20 * PERIOD)
+    exact = after(20 * PERIOD, Device())
     errors = []
     for stiffness in (1e6, 1e8, 1e10):
         device = replace(TABLE_1, bristle_stiffness=stiffness, bristle_damping=0.0, tolerance=1e-12)
-        end = run(device, 20 * PERIOD)
+        end = after(20 * PERIOD, device)
         errors.append(abs(end.state.velocity - exact.state.velocity))
     assert errors[0] > 5.0 * errors[1] > 25.0 * errors[2], errors
 
@@ -83,10 +69,10 @@ def test_stiff_bristles_are_coulomb_friction() -> None:
 @pytest.mark.parametrize("amplitude", [1e-4, 5e-8])
 def test_error_falls_with_the_tolerance(stiffness: float, amplitude: float) -> None:
     device = replace(TABLE_1, bristle_stiffness=stiffness, base_amplitude=amplitude)
-    exact = run(replace(device, tolerance=1e-14), 30 * PERIOD)
+    exact = after(30 * PERIOD, replace(device, tolerance=1e-14))
     scale = 3500.0 * amplitude
     for tolerance in (1e-5, 1e-7, 1e-9):
-        end = run(replace(device, tolerance=tolerance), 30 * PERIOD)
+        end = after(30 * PERIOD, replace(device, tolerance=tolerance))
         error = abs(end.state.velocity - exact.state.velocity)
         assert error <= 30.0 * tolerance * scale, f"error {error / scale:.2g} at {tolerance}"
 
@@ -104,7 +90,7 @@ def test_stiffness_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def series(stiffness: float) -> int:
         made.clear()
-        run(replace(TABLE_1, bristle_stiffness=stiffness), 50 * PERIOD)
+        after(50 * PERIOD, replace(TABLE_1, bristle_stiffness=stiffness))
         return len(made)
 
     assert 0 < series(1e8) <= 1.5 * series(1e5)
@@ -114,42 +100,33 @@ def test_stiffness_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("amplitude", [1.0, 2.0])
 def test_the_partition_matters_within_the_tolerance(fidelity: int, amplitude: float) -> None:
     device = replace(TABLE_1, fidelity=fidelity, normal_amplitude=amplitude, tolerance=1e-10)
-    whole = run(device, 10 * PERIOD)
-    law, moment = law_of(device, Inputs()), begin(device)
-    for _ in range(170):
-        moment = law.advance(moment, 10 * PERIOD / 170)
+    whole = after(10 * PERIOD, device)
+    moment = after(10 * PERIOD, device, parts=170)
     assert moment.state.velocity == pytest.approx(whole.state.velocity, abs=1e-8)
     assert moment.position == pytest.approx(whole.position, abs=1e-11)
     assert moment.counts.reversals == whole.counts.reversals
 
 
 @given(
-    stiffness=st.floats(1.0, 1e7),
-    damping=st.floats(0.0, 50.0),
-    deflection=st.floats(-1.0, 1.0),
-    velocity=st.floats(-0.3, 0.3),
-    amplitude=st.floats(0.0, 2.0),
-    ratio=st.sampled_from([0.0, 1.0, 3.0, 1.37, -1.0]),
-    load=st.floats(-0.3, 0.3),
+    st.builds(
+        Device,
+        friction_law=st.just(1),
+        bristle_stiffness=st.floats(1.0, 1e7),
+        bristle_damping=st.floats(0.0, 50.0),
+        normal_amplitude=st.floats(0.0, 2.0),
+    ),
+    st.builds(
+        Inputs, st.just(0.3), st.floats(-0.3, 0.3), st.sampled_from([0.0, 1.0, 3.0, 1.37, -1.0])
+    ),
+    st.floats(-1.0, 1.0),
+    st.floats(-0.3, 0.3),
 )
 def test_bristles_stay_within_their_limit_and_dissipate(
-    stiffness: float,
-    damping: float,
-    deflection: float,
-    velocity: float,
-    amplitude: float,
-    ratio: float,
-    load: float,
+    device: Device, inputs: Inputs, deflection: float, velocity: float
 ) -> None:
-    mu = TABLE_1.friction_coefficient
-    device = replace(
-        TABLE_1,
-        bristle_stiffness=stiffness,
-        bristle_damping=damping,
-        normal_amplitude=amplitude,
-        initial_bristle_deflection=deflection * mu / stiffness,
-    )
-    law = law_of(device, Inputs(0.3, load, ratio))
+    mu, damping = device.friction_coefficient, device.bristle_damping
+    bent = deflection * mu / device.bristle_stiffness
+    law = law_of(replace(device, initial_bristle_deflection=bent), inputs)
     moment = law.start(State(velocity, 0.0, 0.0), 0.0)
     for _ in range(8):
         moment = law.advance(moment, 0.137 * PERIOD)
@@ -165,7 +142,7 @@ def test_mirror_symmetry(stiffness: float, damping: float, phase: float, load: f
     """Half a drive period on, with load and bristle reversed, the motion is mirrored."""
     device = replace(TABLE_1, bristle_stiffness=stiffness, bristle_damping=damping, tolerance=1e-11)
     law = law_of(device, Inputs(phase, load))
-    half = law.advance(law.start(State(0.0, 0.0, 0.0), 0.0), 0.5 * PERIOD)
+    half = law.advance(law.start(REST, 0.0), 0.5 * PERIOD)
     mirror = law_of(
         replace(device, initial_bristle_deflection=-half.bristle / stiffness),
         Inputs(phase + math.pi, -load),
@@ -175,8 +152,3 @@ def test_mirror_symmetry(stiffness: float, damping: float, phase: float, load: f
     assume(abs(one.state.velocity) > 1e-6)
     assert other.state.velocity == pytest.approx(-one.state.velocity, rel=1e-6, abs=1e-9)
     assert other.position == pytest.approx(-one.position, rel=1e-6, abs=1e-12)
-
-
-def test_no_friction_coefficient_is_refused() -> None:
-    with pytest.raises(Refusal, match=r"friction_coefficient = 0\.0 refused: with LuGre friction"):
-        law_of(replace(TABLE_1, friction_coefficient=0.0), Inputs())

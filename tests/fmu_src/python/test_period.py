@@ -27,14 +27,7 @@ def follow(durations: list[float]) -> tuple[PeriodMeans, float, float]:
     means, theta, now = PeriodMeans(), 0.0, 0.0
     for duration in durations:
         moved = partial(_moved, now)
-        means, theta = means.advanced(
-            duration,
-            theta,
-            FREQUENCY,
-            False,
-            moved,
-            moved(duration),
-        )
+        means, theta = means.advanced(duration, theta, FREQUENCY, False, moved, moved(duration))
         now += duration
     return means, theta, now
 

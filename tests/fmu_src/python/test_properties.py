@@ -16,6 +16,7 @@ from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import Law, law_of
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
+from tests.fmu_src.python.motions import REST, after, begin
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5]), st.floats(-3.0, 3.0))
 devices = st.builds(
@@ -39,7 +40,6 @@ inputs = st.builds(
     load=st.one_of(st.just(0.0), st.floats(-1.0, 1.0)),
     frequency_ratio=ratios,
 )
-REST = State(0.0, 0.0, 0.0)
 PERIODS = 3.3
 
 
@@ -67,9 +67,8 @@ def test_the_partition_into_steps_does_not_matter(
     device: Device, held_inputs: Inputs, parts: list[float]
 ) -> None:
     assume(bounded(device))
-    law = law_of(device, held_inputs)
-    whole = law.advance(law.start(REST, 0.0), duration(device))
-    moment = law.start(REST, 0.0)
+    law, moment = law_of(device, held_inputs), begin(device, held_inputs)
+    whole = law.advance(moment, duration(device))
     for part in parts:
         moment = law.advance(moment, duration(device) * part / sum(parts))
     size = scale(device, whole)
@@ -91,7 +90,7 @@ def test_mirror_symmetry(device: Device, held_inputs: Inputs) -> None:
     assume(bounded(device))
     half = math.pi / device.drive_frequency
     law = law_of(device, held_inputs)
-    moment = law.advance(law.start(REST, 0.0), half)
+    moment = after(half, device, held_inputs)
     mirrored_inputs = Inputs(
         held_inputs.phase + held_inputs.frequency_ratio * math.pi,
         -held_inputs.load,
@@ -140,8 +139,8 @@ def test_no_motion_below_the_stick_limit(
         normal_amplitude=amplitude * device.normal_preload,
     )
     least = device.friction_faces * device.friction_coefficient * (1.0 - amplitude)
-    law = law_of(device, Inputs(phase, share * least * device.normal_preload, ratio))
-    moment = law.advance(law.start(REST, 0.0), 10 * duration(device))
+    held_inputs = Inputs(phase, share * least * device.normal_preload, ratio)
+    moment = after(10 * duration(device), device, held_inputs)
     assert (moment.position, moment.state.velocity) == (0.0, 0.0)
     assert moment.counts.reversals == 0
 
@@ -185,11 +184,11 @@ def test_energy_balance_closes(device: Device, held_inputs: Inputs) -> None:
     gained = moved = 0.0
     edges = [0.0, *event_times(law, first, length), length]
     time, moment = 0.0, first
-    for begin, end in itertools.pairwise(edges):
-        parts = max(1, math.ceil((end - begin) * 4.0 * max(w, device.resonator_frequency)))
+    for left, right in itertools.pairwise(edges):
+        parts = max(1, math.ceil((right - left) * 4.0 * max(w, device.resonator_frequency)))
         for i in range(parts):
-            a = begin + (end - begin) * i / parts
-            half = 0.5 * (end - begin) / parts
+            a = left + (right - left) * i / parts
+            half = 0.5 * (right - left) / parts
             for node, weight in zip(nodes, weights, strict=True):
                 here = a + half * (1.0 + float(node))
                 time, moment = here, law.advance(moment, here - time)

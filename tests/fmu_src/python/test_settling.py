@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import pytest
 
@@ -25,24 +26,20 @@ def test_the_last_approach_is_in_closed_form() -> None:
     assert end.moved == pytest.approx(0.5 + 100.0 + 0.6 * NEAR / RATE, abs=1e-13)
 
 
-def test_far_from_balance_is_followed() -> None:
-    assert settled(towards_one, 1.0, 100.0, Reached(0.0, 1.1, 0.0, 1e-3)) is None
-
-
-def test_a_short_rest_is_followed() -> None:
-    start = Reached(0.0, 1.0 + 0.5 * NEAR, 0.0, 1e-3)
-    assert settled(towards_one, 1.0, 5.0 / RATE, start) is None
-
-
-def test_a_balance_that_repels_is_followed() -> None:
-    start = Reached(0.0, 1.0 + 0.5 * NEAR, 0.0, 1e-3)
-    assert settled(lambda t, v: -towards_one(t, v), 1.0, 100.0, start) is None
-
-
-def test_a_balance_that_hardly_draws_is_followed() -> None:
-    """Near v = 1 the approach to (v - 1)^3 takes far longer than any linear rate says."""
-    start = Reached(0.0, 1.0 + 0.5 * NEAR, 0.0, 1e-3)
-    assert settled(lambda t, v: -((v - 1.0) ** 3), 1.0, 1e6, start) is None
+@pytest.mark.parametrize(
+    ("acceleration", "start", "until"),
+    [
+        pytest.param(towards_one, 1.1, 100.0, id="far from balance"),
+        pytest.param(towards_one, 1.0 + 0.5 * NEAR, 5.0 / RATE, id="a short rest"),
+        pytest.param(lambda t, v: -towards_one(t, v), 1.0 + 0.5 * NEAR, 100.0, id="it repels"),
+        # The approach takes far longer than any linear rate says.
+        pytest.param(lambda t, v: -((v - 1.0) ** 3), 1.0 + 0.5 * NEAR, 1e6, id="it hardly draws"),
+    ],
+)
+def test_what_does_not_settle_is_followed(
+    acceleration: Callable[[float, float], float], start: float, until: float
+) -> None:
+    assert settled(acceleration, 1.0, until, Reached(0.0, start, 0.0, 1e-3)) is None
 
 
 def test_a_balance_beside_a_steep_slope() -> None:

@@ -32,15 +32,6 @@ def test_values_that_are_not_finite_are_refused(name: str, value: object) -> Non
         checked(BY_NAME[name], value)
 
 
-@pytest.mark.parametrize("name", [v.name for v in SETTABLE if v.minimum is not None])
-def test_below_the_minimum_is_refused(name: str) -> None:
-    variable = BY_NAME[name]
-    assert variable.minimum is not None
-    low = variable.minimum - max(1.0, abs(variable.minimum))
-    with pytest.raises(Refusal, match=f"{name} = {low!r} refused: must be .*{variable.minimum:g}"):
-        checked(variable, low)
-
-
 @pytest.mark.parametrize(
     ("name", "value", "reason"),
     [
