@@ -46,6 +46,17 @@ def test_a_crash_after_the_run_ends_with_2(native_fmu: Path, tmp_path: Path) -> 
     assert "crashed in fmi2Terminate or fmi2FreeInstance" in result.stderr
 
 
+@pytest.mark.parametrize("command", ["steady", "blocking"])
+def test_a_drive_frequency_of_zero_is_an_error_of_the_fmu(
+    native_fmu: Path, tmp_path: Path, command: str
+) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "still.fmu", "VALUE=0.0")
+    result = invoke(command, str(fmu))
+    assert result.exit_code == 2
+    reported = "still.fmu reports drive_frequency = 0.0: must be a number above 0"
+    assert result.stderr == f"error: {reported}\n"
+
+
 def invoke(*arguments: str) -> Result:
     return CliRunner().invoke(main, arguments)
 
