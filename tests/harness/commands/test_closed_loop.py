@@ -9,15 +9,10 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
 from slider_resonator.studies.closed_loop import prediction
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
-
-
-def closed_loop(*arguments: object) -> Result:
-    return CliRunner().invoke(main, ["closed-loop", *(str(argument) for argument in arguments)])
 
 
 def changed(package: Path, target: Path, old: str, new: str) -> Path:
@@ -35,7 +30,7 @@ def changed(package: Path, target: Path, old: str, new: str) -> Path:
 def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
-    done = closed_loop(closed_loop_package, "--out", tmp_path, "--json")
+    done = call("closed-loop", closed_loop_package, "--out", tmp_path, "--json")
     assert done.exit_code == 0, done.output
     assert_public_keys("closed-loop", done.stdout)
     found = json.loads(done.stdout)
@@ -64,7 +59,7 @@ def test_a_controller_without_integral_does_not_hold(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
     loose = changed(closed_loop_package, tmp_path / "loose.ssp", '"400.0"', '"0.0"')
-    done = closed_loop(loose, "--out", tmp_path)
+    done = call("closed-loop", loose, "--out", tmp_path)
     assert done.exit_code == 1
     assert "FAIL" in done.stdout
     assert "never" in done.stdout
@@ -83,7 +78,7 @@ def test_another_device_is_a_proof_that_disagrees(
             if name.endswith("proof.ssv"):
                 data = data.replace(integer.encode(), f"{heavy}</ssv:Parameter>".encode())
             copy.writestr(name, data)
-    done = closed_loop(other, "--out", tmp_path, "--json")
+    done = call("closed-loop", other, "--out", tmp_path, "--json")
     assert done.exit_code == 1
     assert not any(agreement["passed"] for agreement in json.loads(done.stdout)["agreements"])
 
@@ -108,17 +103,17 @@ def test_a_package_that_cannot_be_run_is_no_verdict(
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     monkeypatch.setenv("TMPDIR", str(temporary))
     broken = changed(closed_loop_package, tmp_path / "broken.ssp", old, new)
-    done = closed_loop(broken, "--out", tmp_path)
+    done = call("closed-loop", broken, "--out", tmp_path)
     assert done.exit_code == 2
     assert reported in done.stderr
     assert list(temporary.iterdir()) == [], "nothing that was unpacked is left behind"
 
 
 def test_what_is_no_package_is_reported(tmp_path: Path) -> None:
-    done = closed_loop(tmp_path / "none.ssp", "--out", tmp_path)
+    done = call("closed-loop", tmp_path / "none.ssp", "--out", tmp_path)
     assert done.exit_code == 2
     assert "none.ssp: no such file; build it with: python build_fmu.py" in done.stderr
     (tmp_path / "text.ssp").write_text("no zip")
-    done = closed_loop(tmp_path / "text.ssp", "--out", tmp_path)
+    done = call("closed-loop", tmp_path / "text.ssp", "--out", tmp_path)
     assert done.exit_code == 2
     assert "text.ssp: no parameter set design can be read" in done.stderr

@@ -8,9 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from slider_resonator.cli import main
 from slider_resonator.commands import trade as command
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import instantiate
@@ -19,6 +17,7 @@ from slider_resonator.studies.trade.fmu_methods import FmuMethods
 from slider_resonator.studies.trade.peer_methods import peer_methods
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import Omission, Trade
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 from tests.harness.studies.trade.problems import HEAD, TABLE_1, problem
 from tests.harness.studies.trade.test_needs import TRADE
@@ -32,9 +31,9 @@ def test_nobody_is_dropped_and_what_is_written_can_be_looked_at(
     scene.write_text(HEAD)
     out, page, picture = tmp_path / "out", tmp_path / "page.md", tmp_path / "trade.png"
     page.write_text("before\n<!-- trade -->\n<!-- end of trade -->\nafter\n")
-    arguments = [str(scene), "--out", str(out), "--fmu", str(native_fmu), "--repeats", "1"]
-    arguments += ["--budget", "0.05", "--periods", "8", "--page", str(page)]
-    result = CliRunner().invoke(main, ["trade", *arguments, "--picture", str(picture), "--json"])
+    arguments = [scene, "--out", out, "--fmu", native_fmu, "--repeats", "1"]
+    arguments += ["--budget", "0.05", "--periods", "8", "--page", page]
+    result = call("trade", *arguments, "--picture", picture, "--json")
     assert result.exit_code == 0, result.output
     assert_public_keys("trade", result.stdout)
     (document,) = json.loads(result.stdout)
@@ -82,7 +81,7 @@ def test_what_does_not_exist_is_reported_and_nothing_written(
     tmp_path: Path, arguments: list[str], reported: str
 ) -> None:
     out = tmp_path / "out"
-    result = CliRunner().invoke(main, ["trade", *arguments, "--out", str(out)])
+    result = call("trade", *arguments, "--out", out)
     assert result.exit_code == 2
     assert reported in result.stderr
     assert not out.exists()
@@ -98,8 +97,8 @@ def test_what_was_measured_before_a_scene_that_fails_is_kept(
 
     monkeypatch.setattr(command, "measure_trade", measure)
     out = tmp_path / "out"
-    arguments = ["trade", "table_1", "lugre", "--out", str(out), "--fmu", str(native_fmu)]
-    result = CliRunner().invoke(main, arguments)
+    arguments = ["table_1", "lugre", "--out", out, "--fmu", native_fmu]
+    result = call("trade", *arguments)
     assert result.exit_code == 2
     assert "the reference cannot follow it" in result.stderr
     rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
@@ -111,5 +110,5 @@ def test_the_public_keys_stay(
 ) -> None:
     measured = replace(TRADE, omissions=(Omission("s", "CVODE", "all", "not installed"),))
     monkeypatch.setattr(command, "measure_trade", lambda *_, **__: measured)
-    arguments = ["trade", "--out", str(tmp_path), "--fmu", str(native_fmu), "--json"]
-    assert_public_keys("trade", CliRunner().invoke(main, arguments).stdout)
+    arguments = ["--out", tmp_path, "--fmu", native_fmu, "--json"]
+    assert_public_keys("trade", call("trade", *arguments).stdout)

@@ -1,0 +1,11 @@
+"""Calling the command line as a user does, in this process."""
+
+from __future__ import annotations
+
+from click.testing import CliRunner, Result
+
+from slider_resonator.cli import main
+
+
+def call(*arguments: object, **environment: str) -> Result:
+    return CliRunner().invoke(main, [str(argument) for argument in arguments], env=environment)
