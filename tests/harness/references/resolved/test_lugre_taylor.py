@@ -164,8 +164,3 @@ def test_samples_at_starts_and_stops_are_kept() -> None:
     motion = simulate_lugre(device, held, edges)
     assert motion.position.shape == edges.shape, "one sample for each time wanted"
     assert simulate_lugre(device, held, np.empty(0)).position.shape == (0,), "none wanted, none got"
-
-
-def test_friction_coefficient_of_zero_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"friction_coefficient = 0\.0"):
-        simulate_lugre(Device(friction_coefficient=0.0), constant(), TIMES)
