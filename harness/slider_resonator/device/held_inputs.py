@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from slider_resonator.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ def check_contiguous(held: Sequence[HeldInputs]) -> None:
             )
 
 
-def check_times(times: NDArray[np.float64], held: Sequence[HeldInputs]) -> None:
+def check_times(times: Array, held: Sequence[HeldInputs]) -> None:
     """Raise ValueError unless ``times`` (s) are one ascending row within the held inputs."""
     start, stop = held[0].start, held[-1].stop
     if times.ndim != 1 or not (np.diff(times) >= 0.0).all():

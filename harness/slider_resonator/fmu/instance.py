@@ -15,8 +15,8 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
 from fmpy.model_description import ModelVariable
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
 from slider_resonator.errors import FmuError, Refusal, unknown_name
@@ -166,7 +166,7 @@ class Instance:
             call(self.slave, "fmi2ExitInitializationMode")
             self._initialised = True
 
-    def check_steps(self, times: NDArray[np.float64]) -> None:
+    def check_steps(self, times: Array) -> None:
         """Raise FmuError for an FMU that takes equal steps only, if those to `times` (s) differ."""
         steps = np.diff(times, prepend=self.time)
         if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * np.max(steps):

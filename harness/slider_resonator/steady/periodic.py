@@ -8,11 +8,12 @@ from math import asin, ceil, pi, sin, sqrt
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.bristle_reading import Array, bristle_reading
+from slider_resonator.steady.bristle_reading import bristle_reading
 from slider_resonator.steady.newton import Vector
 from slider_resonator.steady.search import WARM_UP, WarmedUp
 

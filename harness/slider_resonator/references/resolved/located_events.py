@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
@@ -28,8 +28,6 @@ from slider_resonator.references.resolved.scipy_methods import (
 )
 from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
-
-Array = NDArray[np.float64]
 
 STEPS_PER_FASTEST_PERIOD = 16
 _SEARCHED_PER_STEP = 8

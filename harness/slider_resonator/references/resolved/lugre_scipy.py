@@ -10,8 +10,8 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.resolved.contact import LIFTED
@@ -20,8 +20,6 @@ from slider_resonator.references.resolved.lugre_equations import LugreEquations,
 from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.scipy_methods import Method, scipy_method, take_step
-
-Array = NDArray[np.float64]
 
 _STEPS_PER_FASTEST_PERIOD = 16
 

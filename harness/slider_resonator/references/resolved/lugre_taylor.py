@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.phase import Elapsed, advanced
@@ -41,8 +41,6 @@ from slider_resonator.references.resolved.taylor_system import (
     series_values,
     taylor_integrator,
 )
-
-Array = NDArray[np.float64]
 
 Bristle = Literal["path", "state"]
 """Whether the bristle follows from the path since the start of a step, or is a state."""

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slider_resonator.arrays import Array
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 
@@ -19,4 +17,4 @@ class LugreTrajectory(Trajectory):
     flight too.
     """
 
-    bristle_deflection: NDArray[np.float64]
+    bristle_deflection: Array

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
+
 
 @dataclass(frozen=True)
 class Trajectory:
@@ -19,17 +21,17 @@ class Trajectory:
     ``event_times`` are the instants of every change of contact mode, s; ``stick_time`` is in s.
     """
 
-    time: NDArray[np.float64]
-    position: NDArray[np.float64]
-    velocity: NDArray[np.float64]
-    resonator_displacement: NDArray[np.float64]
-    resonator_velocity: NDArray[np.float64]
-    normal_force: NDArray[np.float64]
-    friction_force: NDArray[np.float64]
+    time: Array
+    position: Array
+    velocity: Array
+    resonator_displacement: Array
+    resonator_velocity: Array
+    normal_force: Array
+    friction_force: Array
     contact_mode: NDArray[np.int64]
     reversals: int
     sticks: int
     stick_time: float
-    event_times: NDArray[np.float64]
+    event_times: Array
     steps: int
     evaluations: int
