@@ -11,7 +11,7 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
+from slider_resonator.references.resolved.trajectory import LugreTrajectory
 from tests.fmu.host import Instance
 from tests.fmus import both_fmus
 from tests.problems import DURATION, SIGNALS

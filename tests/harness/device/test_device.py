@@ -5,6 +5,8 @@ import math
 import pytest
 
 from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS, OUTPUTS, PARAMETERS
+from slider_resonator.fmu.opening import Fmu
 
 
 def test_starts_are_table_1() -> None:
@@ -34,3 +36,10 @@ def test_mapping_replaces_only_what_it_names() -> None:
 def test_wrong_parameter_is_refused_by_name(name: str, value: float, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         Device.from_mapping({name: value})
+
+
+def test_fmu_has_this_interface_and_these_starts(fmu: Fmu) -> None:
+    """The interface is written down twice, in the harness and in the component: both must agree."""
+    assert set(fmu.variables) == {*INPUTS, *PARAMETERS, *OUTPUTS}
+    for name, start in {**vars(Device()), **INPUT_STARTS}.items():
+        assert float(fmu.variables[name].start) == start, name

@@ -9,8 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
-from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
 from tests.problems import SIGNALS
 
 

@@ -12,7 +12,6 @@ from slider_resonator.references import closed_forms
 
 TABLE_1 = Device()
 SLIPPING_RESONANCE = {"damping_ratio": 0.0, "resonator_frequency": 3500.0 * math.sqrt(1.0 / 1.1)}
-FAST_VARIANT = Device(base_amplitude=1e-5, drive_frequency=35000.0, resonator_frequency=35000.0)
 
 
 def mean_friction(velocity: float, strength: float, ratio: float, phase: float) -> float:
@@ -76,16 +75,6 @@ def test_table_1_figures() -> None:
     assert blocking == pytest.approx(0.085222, abs=5e-7), "blocking force of both faces in N"
 
 
-def test_fast_variant_keeps_the_velocity_with_a_tenth_of_the_ripple() -> None:
-    force = closed_forms.equivalent_force(FAST_VARIANT)
-    assert force.amplitude == pytest.approx(9109.47, abs=5e-3), "F_T* in N"
-    assert force.ripple_amplitude == pytest.approx(6.7603e-6, abs=5e-11), "ripple in m"
-    velocity = closed_forms.device_steady_velocity(FAST_VARIANT, phase=0.0)
-    assert velocity == pytest.approx(closed_forms.device_steady_velocity(TABLE_1, phase=0.0)), (
-        "q and phi are unchanged, so is the velocity"
-    )
-
-
 def test_one_face_blocks_at_half_the_force() -> None:
     one = closed_forms.device_blocking_force(replace(TABLE_1, friction_faces=1), phase=0.3)
     force = closed_forms.equivalent_force(TABLE_1)
@@ -137,19 +126,11 @@ def test_equivalent_force_matches_the_frictionless_device(device: Device) -> Non
         max_step=1e-4,
     )
     velocity = -force.velocity_amplitude * np.cos(frequency * times - force.angle)
-    np.testing.assert_allclose(
-        run.y[0],
-        velocity,
-        atol=1e-7 * force.velocity_amplitude,
-        err_msg="the slider must move as under F_T* sin(w t - theta1) alone, (33)",
-    )
+    allowed = 1e-7 * force.velocity_amplitude
+    assert run.y[0] == pytest.approx(velocity, abs=allowed), "as under F_T* alone, (33)"
     resonator = force.resonator_amplitude * np.sin(frequency * times - force.resonator_angle)
-    np.testing.assert_allclose(
-        run.y[1],
-        resonator,
-        atol=1e-7 * abs(force.resonator_amplitude),
-        err_msg="the resonator must move as (32) says",
-    )
+    allowed = 1e-7 * abs(force.resonator_amplitude)
+    assert run.y[1] == pytest.approx(resonator, abs=allowed), "as (32) says"
 
 
 @pytest.mark.parametrize("load", [1.0, -1.0, 1.5, math.nan])

@@ -17,11 +17,11 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.references.averaged.slow_equilibria import stable_velocity
 from slider_resonator.references.averaged.vibrating_contact import (
-    check_never_lifts,
     closed_spans,
     mean_load,
     turning_angle,
 )
+from slider_resonator.references.closed_forms import check_never_lifts
 
 
 @dataclass(frozen=True)

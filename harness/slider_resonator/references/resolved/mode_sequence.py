@@ -17,8 +17,7 @@ from slider_resonator.references.resolved.contact import (
     STICK,
     is_lifted,
     mode_at_rest,
-    time_to_lift_off,
-    time_to_touchdown,
+    time_to_contact_change,
 )
 from slider_resonator.references.resolved.equations import Equations, State
 from slider_resonator.references.resolved.recorder import Recorder
@@ -156,8 +155,8 @@ class ModeSequence:
 
     def _time_to_contact_change(self, mode: int, inputs: HeldInputs) -> float:
         equations = self._equations
-        time_to = time_to_touchdown if mode == LIFTED else time_to_lift_off
-        return time_to(
+        return time_to_contact_change(
+            mode == LIFTED,
             equations.normal_preload,
             equations.normal_amplitude,
             self._psi + inputs.phase,

@@ -6,8 +6,7 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.references.resolved.contact_record import ContactRecord
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
-from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
 
 
 class Recorder:

@@ -25,10 +25,6 @@ class Solver(Protocol):
         """Time at the end of the last step, s."""
 
     @property
-    def t_old(self) -> float | None:
-        """Time at its start, s."""
-
-    @property
     def y(self) -> Array:
         """State at its end, shape (k,)."""
 

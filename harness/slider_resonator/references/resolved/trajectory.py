@@ -1,4 +1,4 @@
-"""The sampled motion that every reference integrator returns."""
+"""The sampled motion that every reference integrator returns, of either friction law."""
 
 from __future__ import annotations
 
@@ -35,3 +35,15 @@ class Trajectory:
     event_times: Array
     steps: int
     evaluations: int
+
+
+@dataclass(frozen=True)
+class LugreTrajectory(Trajectory):
+    """A ``Trajectory`` with ``bristle_deflection``, z of (8) in m, shape (n,).
+
+    Bristles never stick: ``contact_mode`` is the sign of the velocity (2 while lifted), ``sticks``
+    and ``stick_time`` are 0. ``reversals`` counts every change of sign of the velocity, those in
+    flight too.
+    """
+
+    bristle_deflection: Array

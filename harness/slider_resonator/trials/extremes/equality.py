@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.taylor import simulate
-from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
 from slider_resonator.trials.extremes import averaged_reference
 from slider_resonator.trials.extremes.cell import Cell
 from slider_resonator.trials.extremes.observe import NAMES, Observation

@@ -109,26 +109,6 @@ def test_ratio_1_matches_the_paper() -> None:
         )
 
 
-@pytest.mark.parametrize(
-    ("ratio", "phase", "velocity"),
-    [
-        (1, 0.0, 0.6966),
-        (1, 1.5, 0.7719),
-        (3, 0.0, -0.2780),
-        (3, 1.5, 0.2036),
-        (5, 0.0, -0.1169),
-        (5, 1.5, -0.1795),
-        (7, 0.0, 0.1297),
-        (7, 1.5, -0.0600),
-    ],
-)
-def test_odd_ratios_match_the_exact_motion_of_table_1(
-    ratio: int, phase: float, velocity: float
-) -> None:
-    found = coulomb.device_steady_velocity_at_ratio(Device(), phase, ratio) / (2.0 / 11.0)
-    assert found == pytest.approx(velocity, abs=5e-4), "in x0 w0, the average errs by 1 / Omega"
-
-
 def test_linear_acceleration_is_the_slope_at_rest() -> None:
     step = 1e-5
     for velocity in (0.0, step):

@@ -10,13 +10,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import lugre_scipy, lugre_taylor
 from tests.harness.references.comparing import assert_agree, deviation
-from tests.harness.references.lugre_problems import (
-    DURATION,
-    PROBLEMS,
-    STIFF,
-    TIMES,
-    constant,
-)
+from tests.harness.references.lugre_problems import DURATION, PROBLEMS, STIFF, TIMES, constant
 
 QUICK = ("table 1", "ratio 1.37, lift-off", "deep presliding", "schedule", "1e6")
 

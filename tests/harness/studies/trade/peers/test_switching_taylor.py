@@ -11,8 +11,8 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.references.resolved.trajectory import LugreTrajectory
 from slider_resonator.studies.trade.peers.switching_taylor import simulate_sliding
 
 MOVING = Device(
