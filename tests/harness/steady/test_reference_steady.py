@@ -29,7 +29,9 @@ def test_blocking_force_of_table_1() -> None:
 def test_what_never_repeats_has_no_steady_motion() -> None:
     assert reference_steady_velocity(TABLE_1, 0.0, 0.0, 1.001) is None
     assert reference_blocking_force(TABLE_1, 0.0, 1.001) is None
-    assert reference_steady_velocity(TABLE_1, 0.0, 0.25, 1.0) is None, "a load above friction"
+    for device, load in ((TABLE_1, 0.25), (Device(friction_law=1), 3.0)):
+        found = reference_steady_velocity(device, 0.0, load, 1.0)
+        assert found is None, "a load above friction"
 
 
 def test_blocking_force_without_preload() -> None:

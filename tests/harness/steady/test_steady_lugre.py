@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import pi
 
 import pytest
-from scipy.optimize import brentq
 
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
@@ -65,26 +64,6 @@ def test_run_from_the_steady_state_stays_there(
     mean = (instance.value("position") - begin) / instance.time
     assert mean == pytest.approx(motion.steady_velocity, abs=1e-9)
     assert instance.value("velocity") == pytest.approx(motion.state["velocity"], abs=1e-9)
-
-
-@pytest.mark.parametrize("stiffness", [50.0, 3e3, 1e6])
-def test_bristle_is_read_earlier_where_friction_hides_it(
-    instance: Instance, stiffness: float
-) -> None:
-    """At |v| = mu / sigma_1 friction is mu N whatever the deflection."""
-    values = {**LUGRE, "bristle_stiffness": stiffness}
-
-    def weight(damping: float) -> float:
-        motion = find_steady(instance, {**values, "bristle_damping": damping})
-        return 1.0 - damping * abs(motion.state["velocity"]) / 0.1
-
-    values["bristle_damping"] = float(brentq(weight, 1.0, 8.0, xtol=1e-9))
-    assert abs(weight(values["bristle_damping"])) < 1e-6, "the steady motion ends each period blind"
-    motion = find_steady(instance, values)
-    assert motion.status == "steady"
-    device = Device.from_mapping(values)
-    reference = reference_steady_velocity(device, 0.0, 0.0, 1.0, motion.predicted)
-    assert motion.steady_velocity == pytest.approx(reference, abs=1e-7)
 
 
 @pytest.mark.parametrize("stiffness", [1.0, 50.0, 1e3, 1e5])
