@@ -95,18 +95,20 @@ def without_binaries(fmu: Path, out: Path) -> Path:
     return altered(fmu, out, alter)
 
 
+def shared_library(source: Path, fmu: Path, *arguments: str) -> bytes:
+    """Compile a source for this platform, beside the FMU that it is for."""
+    library = fmu.with_suffix(".library")
+    command = [sys.executable, "-m", "ziglang", "cc", "-shared", "-fPIC", "-O1", "-std=gnu99"]
+    subprocess.run([*command, "-o", str(library), str(source), *arguments], check=True)
+    return library.read_bytes()
+
+
 def compiled(fmu: Path, out: Path, *defines: str) -> Path:
     """Copy an FMU with its binary for this platform replaced by `faulty_fmu.c`."""
-    library = out.with_suffix(".library")
-    command = [sys.executable, "-m", "ziglang", "cc", "-shared", "-fPIC", "-O1", "-std=gnu99"]
-    subprocess.run(
-        [*command, *(f"-D{define}" for define in defines), "-o", str(library), str(SOURCE)],
-        check=True,
-    )
+    library = shared_library(SOURCE, out, *(f"-D{define}" for define in defines))
 
     def alter(name: str, content: bytes) -> bytes:
-        binary = name.startswith(f"binaries/{fmpy.platform}/")
-        return library.read_bytes() if binary else content
+        return library if name.startswith(f"binaries/{fmpy.platform}/") else content
 
     return altered(fmu, out, alter)
 

@@ -8,7 +8,6 @@ from ctypes import c_double
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
-from types import TracebackType
 from typing import Any
 
 import numpy as np
@@ -69,12 +68,7 @@ class _Explained:
     def __enter__(self) -> None:
         del self.instance.messages[:]
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if isinstance(error, FMICallException):
             instance = self.instance
             logged = "; ".join(dict.fromkeys(instance.messages))
