@@ -7,7 +7,7 @@ import pytest
 
 from slider_resonator.commands import bench
 from slider_resonator.trials.hosts.step_cost import LONG_STEP, ONE_PERIOD, StepCost
-from tests.harness.calling import call
+from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
 
@@ -30,6 +30,4 @@ def test_costs_are_printed_and_returned_as_json(
 
 
 def test_an_fmu_that_needs_python_is_refused(python_fmu: Path) -> None:
-    result = call("bench", python_fmu)
-    assert result.exit_code == 2
-    assert "needs a Python interpreter" in result.stderr
+    assert "needs a Python interpreter" in refused("bench", python_fmu)
