@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import fmpy
+
+from tests.harness.faulty_fmus import shared_library
 
 SOURCE = Path(__file__).with_name("foreign_fmu.c")
 IDENTIFIER = "foreign_slider"
@@ -17,15 +17,12 @@ FLAGS = ("canGetAndSetFMUstate", "canSerializeFMUstate", "canHandleVariableCommu
 
 def foreign(fmu: Path, out: Path) -> Path:
     """Write an FMU with another order of variables, other references and fewer capabilities."""
-    library = out.with_suffix(".library")
-    command = [sys.executable, "-m", "ziglang", "cc", "-shared", "-fPIC", "-O1", "-std=gnu99"]
-    subprocess.run([*command, "-o", str(library), str(SOURCE), "-ldl"], check=True)
     with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(out, "w") as new:
         (original,) = (n for n in old.namelist() if n.startswith(f"binaries/{fmpy.platform}/"))
         new.writestr("resources/original.so", old.read(original))
         new.writestr("modelDescription.xml", _description(old.read("modelDescription.xml")))
         binary = f"binaries/{fmpy.platform}/{IDENTIFIER}{Path(original).suffix}"
-        new.writestr(binary, library.read_bytes())
+        new.writestr(binary, shared_library(SOURCE, out, "-ldl"))
     return out
 
 
@@ -38,8 +35,7 @@ def _description(xml: bytes) -> bytes:
     simulation.attrib.update(dict.fromkeys(FLAGS, "false"), modelIdentifier=IDENTIFIER)
     simulation.set("canBeInstantiatedOnlyOncePerProcess", "true")
     for element in ("LogCategories", "DefaultExperiment"):
-        found = root.find(element)
-        if found is not None:
+        for found in root.findall(element):
             root.remove(found)
     units = root.find("UnitDefinitions")
     assert units is not None

@@ -8,8 +8,8 @@ from math import isfinite
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.deviation import mismatch_share, peak, share_of
 from slider_resonator.checks.measures.tube import Tube, no_tube
 from slider_resonator.checks.measuring import Measurement
@@ -18,7 +18,6 @@ from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.schema import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-Array = NDArray[np.float64]
 Value = float | str | None
 
 AT_MOST = "at most"

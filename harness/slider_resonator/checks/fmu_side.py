@@ -17,21 +17,14 @@ from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
 class FmuSide:
     """Run, steady motion and blocking force of one FMU instance in one scene."""
 
-    def __init__(
-        self,
-        instance: Instance,
-        scene: Scene,
-        progress: Callable[[float], None] = lambda share: None,
-    ) -> None:
+    def __init__(self, instance: Instance, scene: Scene) -> None:
         self.instance = instance
         self.scene = scene
-        self.progress = progress
 
     @cached_property
     def record(self) -> Record:
         """The run of the scene."""
-        schedule = self.scene.schedule()
-        return run(self.instance, self.scene.parameters, schedule, progress=self.progress)
+        return run(self.instance, self.scene.parameters, self.scene.schedule())
 
     @cached_property
     def steady(self) -> SteadyMotion:

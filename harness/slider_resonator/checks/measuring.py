@@ -7,16 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
 from slider_resonator.checks.measures.slow import slow_displacement
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.vocabulary import QUANTITIES
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from functools import cached_property
 from math import floor
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.tube import Tube
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
@@ -21,8 +21,6 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-
-Array = NDArray[np.float64]
 
 _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
     "located_events": located_events.simulate,

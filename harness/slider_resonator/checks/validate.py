@@ -10,9 +10,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.measure_points import measure_points
@@ -23,8 +21,6 @@ from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

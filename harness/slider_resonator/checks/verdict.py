@@ -25,6 +25,13 @@ def place(at: Mapping[str, float], before: str = "") -> str:
     return before + values if at else ""
 
 
+def value_text(value: Value, digits: int) -> str:
+    """Return a value as tables show it."""
+    if value is None:
+        return "none"
+    return value if isinstance(value, str) else readable(value, digits)
+
+
 def sentence(check: Check) -> str:
     """Return the deviation of the FMU, its time and its ratio to the tolerance."""
     unit = "" if check.unit in ("", "1") else f" {check.unit}"

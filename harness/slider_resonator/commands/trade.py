@@ -8,12 +8,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import (
-    Target,
-    default_fmus,
-    json_option,
-    out_folder_option,
-)
+from slider_resonator.commands.options import Target, default_fmus, json_option, out_folder_option
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import progress_bar

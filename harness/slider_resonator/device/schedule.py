@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.interface import INPUT_STARTS
 
@@ -56,7 +57,7 @@ class Signal:
         share = (time - left) / (right - left)
         return self.values[index] + share * (self.values[index + 1] - self.values[index])
 
-    def over(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    def over(self, times: Array) -> Array:
         """Return the values at ascending times (s), shape (n,), each as `at` gives it."""
         points, values = np.asarray(self.times), np.asarray(self.values)
         index = np.searchsorted(points, times, side="right") - 1
@@ -90,9 +91,7 @@ def ramp(points: Sequence[tuple[float, float]]) -> Signal:
     return Signal(tuple(t for t, _ in points), tuple(v for _, v in points), hold=False)
 
 
-def communication_points(
-    stop: float, step: float, jumps: Iterable[float] = ()
-) -> NDArray[np.float64]:
+def communication_points(stop: float, step: float, jumps: Iterable[float] = ()) -> Array:
     """Return the times 0, step, 2 step, ..., stop (s) together with the jumps inside, shape (n,).
 
     A grid point next to a jump is replaced by it, so that no step starts just
@@ -119,15 +118,13 @@ def step_count(stop: float, step: float) -> int:
     return int(np.ceil(ratio))
 
 
-def _merged(
-    grid: NDArray[np.float64], fixed: NDArray[np.float64], distance: float
-) -> NDArray[np.float64]:
+def _merged(grid: Array, fixed: Array, distance: float) -> Array:
     """Return the sorted `fixed` points and those of the grid that are farther from all of them."""
     far = np.abs(grid - fixed[nearest(fixed, grid)]) > distance
     return np.union1d(grid[far], fixed)
 
 
-def nearest(points: NDArray[np.float64], targets: NDArray[np.float64]) -> NDArray[np.intp]:
+def nearest(points: Array, targets: Array) -> NDArray[np.intp]:
     """Return the index of the nearest of the ascending points (n,) to each target (m,)."""
     after = np.searchsorted(points, targets).clip(max=len(points) - 1)
     before = (after - 1).clip(min=0)
@@ -142,14 +139,14 @@ class Schedule:
     Inputs are sampled at each communication point and held until the next.
     """
 
-    times: NDArray[np.float64]
+    times: Array
     phase: Signal = field(default_factory=lambda: constant(INPUT_STARTS["phase"]))
     load: Signal = field(default_factory=lambda: constant(INPUT_STARTS["load"]))
     frequency_ratio: Signal = field(
         default_factory=lambda: constant(INPUT_STARTS["frequency_ratio"])
     )
 
-    def sampled(self) -> NDArray[np.float64]:
+    def sampled(self) -> Array:
         """Return phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
         signals = (self.phase, self.load, self.frequency_ratio)
         return np.column_stack([signal.over(self.times) for signal in signals])
@@ -164,7 +161,7 @@ class Schedule:
         fine = np.linspace(begin, stop, step_count(stop - begin, step) + 1)
         return self.read_at(fine, 0.01 * step)
 
-    def read_at(self, times: NDArray[np.float64], distance: float) -> Schedule:
+    def read_at(self, times: Array, distance: float) -> Schedule:
         """Return the same held inputs with more points, at `times` (s), shape (m,).
 
         Those within `distance` (s) of a point of this schedule are left out.

@@ -8,15 +8,14 @@ from ctypes import c_double
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
-from types import TracebackType
 from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
 from fmpy.model_description import ModelVariable
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
 from slider_resonator.errors import FmuError, Refusal, unknown_name
@@ -69,12 +68,7 @@ class _Explained:
     def __enter__(self) -> None:
         del self.instance.messages[:]
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if isinstance(error, FMICallException):
             instance = self.instance
             logged = "; ".join(dict.fromkeys(instance.messages))
@@ -166,7 +160,7 @@ class Instance:
             call(self.slave, "fmi2ExitInitializationMode")
             self._initialised = True
 
-    def check_steps(self, times: NDArray[np.float64]) -> None:
+    def check_steps(self, times: Array) -> None:
         """Raise FmuError for an FMU that takes equal steps only, if those to `times` (s) differ."""
         steps = np.diff(times, prepend=self.time)
         if self.fmu.takes_equal_steps_only and np.ptp(steps) > EQUAL * np.max(steps):

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
+from slider_resonator.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -18,14 +17,14 @@ class Record:
     `step_cpu` (s) are the CPU times of each.
     """
 
-    times: NDArray[np.float64]
-    inputs: NDArray[np.float64]
-    outputs: Mapping[str, NDArray[np.float64]]
+    times: Array
+    inputs: Array
+    outputs: Mapping[str, Array]
     wall_time: float
     start_cpu: float
     step_cpu: float
 
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
+    def __getitem__(self, name: str) -> Array:
         """Return one output over the run, shape (n,)."""
         return self.outputs[name]
 

@@ -41,15 +41,12 @@ def unit_problems(unit: str, definitions: Sequence[Unit]) -> list[str]:
     the values of variables are taken as they are; display units must have the factor that goes
     with their names, as far as these are known. The exponent of rad is free.
     """
-    return [
-        problem
-        for definition in definitions
-        if definition.name == unit
-        for problem in (
-            *_base_problems(unit, definition.baseUnit),
-            *_display_problems(unit, definition.displayUnits),
-        )
-    ]
+    problems: list[str] = []
+    for definition in definitions:
+        if definition.name == unit:
+            problems += _base_problems(unit, definition.baseUnit)
+            problems += _display_problems(unit, definition.displayUnits)
+    return problems
 
 
 def _base_problems(unit: str, base: BaseUnit | None) -> Iterator[str]:

@@ -15,9 +15,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slider_resonator.arrays import Array
 
 COLOURS: Mapping[str, str] = {
     "position": "#1f3b57",

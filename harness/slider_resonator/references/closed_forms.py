@@ -67,7 +67,7 @@ def loaded_velocity(strength: float, amplitude_ratio: float, phase: float, load:
     between -1 and 1: a load above full friction runs away.
     """
     check_strength(strength)
-    _check_amplitude_ratio(amplitude_ratio)
+    check_never_lifts(amplitude_ratio)
     if not -1.0 < load < 1.0:
         raise ValueError(
             f"load = {load!r} of the mean friction: (20) has a root only between -1 and 1, "
@@ -88,7 +88,7 @@ def blocking_load(amplitude_ratio: float, phase: float) -> float:
 
     Raises ValueError unless 0 <= ``amplitude_ratio`` <= 1.
     """
-    _check_amplitude_ratio(amplitude_ratio)
+    check_never_lifts(amplitude_ratio)
     return 2.0 * amplitude_ratio / math.pi * math.sin(phase)
 
 
@@ -163,13 +163,8 @@ def device_steady_velocity(device: Device, phase: float, load: float = 0.0) -> f
             f"load = {load!r} N must lie between -{friction!r} and {friction!r} N, the mean "
             "friction: a greater load runs away"
         )
-    return (
-        loaded_velocity(
-            force.strength, device.amplitude_ratio, phase + force.angle, load / friction
-        )
-        * force.length_scale
-        * REFERENCE_FREQUENCY
-    )
+    lag, share = phase + force.angle, load / friction
+    return loaded_velocity(force.velocity_amplitude, device.amplitude_ratio, lag, share)
 
 
 def device_blocking_force(device: Device, phase: float) -> float:
@@ -188,9 +183,10 @@ def check_strength(strength: float) -> None:
         raise ValueError(f"strength = {strength!r} must be greater than 0")
 
 
-def _check_amplitude_ratio(amplitude_ratio: float) -> None:
+def check_never_lifts(amplitude_ratio: float) -> None:
+    """Raise ValueError unless an amplitude ratio keeps the contact closed."""
     if not 0.0 <= amplitude_ratio <= 1.0:
         raise ValueError(
-            f"amplitude ratio normal_amplitude / normal_preload = {amplitude_ratio!r} must lie "
-            "between 0 and 1: above 1 the contact lifts and the averages do not hold"
+            f"amplitude_ratio = {amplitude_ratio!r} of the normal load must lie between 0 and 1: "
+            "above 1 the contact lifts, which this closed form does not cover"
         )

@@ -6,10 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
+from slider_resonator.arrays import Array
 
-Number = TypeVar("Number", float, NDArray[np.float64])
+Number = TypeVar("Number", float, Array)
 
 _TURN = 2.0 * math.pi
 _TURN_REMAINDER = 2.4492935982947064e-16  # 2 pi minus its double precision value

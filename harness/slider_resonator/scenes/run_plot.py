@@ -9,14 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.record import Record
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
 from slider_resonator.scenes.scene import Scene
-
-Array = NDArray[np.float64]
 
 ZOOM_PERIODS = 6
 """Drive periods at the end of the run that are drawn in full."""

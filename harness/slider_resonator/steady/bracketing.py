@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from slider_resonator.steady.newton import Matrix, Vector, central_jacobian
+from slider_resonator.steady.newton import DIFFERENCE, Matrix, Vector, central_jacobian
 from slider_resonator.steady.shooting import PeriodMap
 
 DOUBLINGS = 6
@@ -86,7 +86,7 @@ class _Elimination:
             end, _ = self.period_map(np.append(slow, fast))
             return end[1:] - fast
 
-        jacobian = central_jacobian(fast_change, fast, 1e-4 * self.scale[1:])
+        jacobian = central_jacobian(fast_change, fast, DIFFERENCE * self.scale[1:])
         try:
             return np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
         except np.linalg.LinAlgError as error:

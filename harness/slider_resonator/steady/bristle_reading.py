@@ -13,11 +13,9 @@ from math import asin, copysign, expm1, pi, sin, sqrt, tau
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.errors import FmuError
-
-Array = NDArray[np.float64]
 
 CLEAR = 0.01
 """Minimum weight of the deflection in the friction force, as a share of full weight."""

@@ -19,6 +19,9 @@ Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 Ending = Literal["converged", "singular", "stalled", "limit"]
 
+DIFFERENCE = 1e-4
+"""Steps of a Jacobian, in units of the scale."""
+MAX_ITERATIONS = 60
 SINGULAR = 1e-9
 """Smallest over largest singular value of a Jacobian that counts as singular."""
 KEEP = 0.05
@@ -67,14 +70,11 @@ def solve(
     scale: Vector,
     *,
     tolerance: float = 1e-11,
-    difference: float = 1e-4,
-    max_iterations: int = 60,
 ) -> Root:
     """Find a zero of `function`, (n,) -> (n,) and finite, starting at `guess` (n,).
 
     `scale` (n,) is the typical size of each unknown and of the function value beside it;
-    `tolerance` bounds the last correction and `difference` sets the steps of the Jacobian, both
-    in units of it.
+    `tolerance` bounds the last correction, in units of it.
     """
 
     def scaled(y: Vector) -> Vector:
@@ -86,7 +86,7 @@ def solve(
         return Root(status, y * scale, unscaled, at * scale, iterations, size, residual)
 
     y = guess / scale
-    steps = np.full_like(y, difference)
+    steps = np.full_like(y, DIFFERENCE)
     iterations = 0
     size = np.inf
     value = scaled(y)
@@ -97,7 +97,7 @@ def solve(
         size = float(np.linalg.norm(correction))
         if size <= tolerance:
             return result("converged")
-        if iterations == max_iterations:
+        if iterations == MAX_ITERATIONS:
             return result("limit")
         iterations += 1
         damping = 1.0

@@ -8,10 +8,12 @@ from math import asin, ceil, pi, sin, sqrt
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
+from slider_resonator.device.values import check_value
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.bristle_reading import Array, bristle_reading
+from slider_resonator.steady.bristle_reading import bristle_reading
 from slider_resonator.steady.newton import Vector
 from slider_resonator.steady.search import WARM_UP, WarmedUp
 
@@ -72,7 +74,10 @@ class Facts:
 
 
 def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
-    """Initialise the FMU with `values` and read back what is in force."""
+    """Initialise the FMU with `values` and read back what is in force.
+
+    Raises FmuError for a drive frequency without drive periods, and as `Instance.start` does.
+    """
     instance.start(values)
     names = (
         *("phase", "load", "frequency_ratio", "drive_frequency", "normal_preload"),
@@ -83,6 +88,10 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
     )
     with instance.explained():
         read = instance.read(names)
+    try:
+        check_value("drive_frequency", read["drive_frequency"])
+    except ValueError as error:
+        raise FmuError(f"{instance.fmu.path.name} reports {error}") from error
     return Facts(read, read.pop("steady_velocity"), read.pop("blocking_force"))
 
 

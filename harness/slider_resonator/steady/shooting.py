@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.steady.newton import Matrix, Root, Vector, central_jacobian, solve
+from slider_resonator.steady.newton import DIFFERENCE, Matrix, Root, Vector, central_jacobian, solve
 
 PeriodMap = Callable[[Vector], tuple[Vector, float]]
 """State (n,) at the start of a period -> state (n,) at its end, displacement over it."""
@@ -77,7 +77,6 @@ def fixed_point(
     *,
     load: float = 0.0,
     tolerance: float = 1e-11,
-    max_iterations: int = 60,
 ) -> FixedPoint | NoFixedPoint:
     """Find a state that the map returns to, starting from `guess` (n,).
 
@@ -91,7 +90,7 @@ def fixed_point(
         displacements.append(displacement)
         return end - state
 
-    root = solve(change, guess, scale, tolerance=tolerance, max_iterations=max_iterations)
+    root = solve(change, guess, scale, tolerance=tolerance)
     if root.status != "converged":
         return _failure(root, len(displacements))
     jacobian = _fresh_jacobian(change, root, scale)
@@ -116,7 +115,6 @@ def blocking_point(
     displacement_scale: float,
     *,
     tolerance: float = 1e-11,
-    max_iterations: int = 60,
 ) -> FixedPoint | NoFixedPoint:
     """Find the load and the state of the repeating motion without displacement over a period.
 
@@ -132,13 +130,7 @@ def blocking_point(
         end, displacement = period_map(state, load)
         return np.append(end - state, displacement * load_scale / displacement_scale)
 
-    root = solve(
-        change,
-        np.append(guess, load_guess),
-        bordered_scale,
-        tolerance=tolerance,
-        max_iterations=max_iterations,
-    )
+    root = solve(change, np.append(guess, load_guess), bordered_scale, tolerance=tolerance)
     if root.status != "converged":
         return _failure(root, evaluations)
     jacobian = _fresh_jacobian(change, root, bordered_scale)
@@ -159,7 +151,7 @@ def _fresh_jacobian(function: Callable[[Vector], Vector], root: Root, scale: Vec
     """Return the Jacobian at the root: the last one, where it was taken close enough."""
     if float(np.abs((root.x - root.jacobian_at) / scale).max()) <= FRESH:
         return root.jacobian
-    return central_jacobian(function, root.x, 1e-4 * scale)
+    return central_jacobian(function, root.x, DIFFERENCE * scale)
 
 
 def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:

@@ -23,17 +23,9 @@ def scene(tmp_path: Path) -> Path:
     return faulty_fmus.scene(tmp_path)
 
 
-def test_a_missing_file(tmp_path: Path, scene: Path) -> None:
-    validation = judged(tmp_path / "no.fmu", scene)
-    assert validation.exit_code == 2
-    assert "no.fmu: no such file" in validation.run_failures[0].reason
-
-
 @pytest.mark.parametrize(
     ("define", "reason"),
     [
-        ("IN_STEP=LEAVE", "exit code 0"),
-        ("IN_INSTANTIATE=CRASH", "the FMU crashed in fmi2Instantiate"),
         ("IN_INSTANTIATE=LOOP", "no answer within the time limit of 2 s in fmi2Instantiate"),
         ("IN_FREE=CRASH", "fmi2FreeInstance"),
     ],
@@ -93,12 +85,6 @@ def test_a_refused_scene_does_not_keep_others_from_being_judged(
     assert [(c.scene, c.passed) for c in validation.checks] == [("short", True)]
 
 
-def test_a_broken_fmu_beside_a_good_one(native_fmu: Path, tmp_path: Path, scene: Path) -> None:
-    broken = compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
-    codes = [validation.exit_code for validation in validate([broken, native_fmu], [scene])]
-    assert codes == [2, 0]
-
-
 def test_nothing_is_left_behind(
     native_fmu: Path, tmp_path: Path, scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -106,5 +92,6 @@ def test_nothing_is_left_behind(
     folder = tmp_path / "temporary"
     folder.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
-    validate([crash, native_fmu], [scene])
+    codes = [validation.exit_code for validation in validate([crash, native_fmu], [scene])]
+    assert codes == [2, 0], "a broken FMU spoils nothing for a good one"
     assert not list(folder.iterdir()), "an FMU that crashes does not tidy up what it unpacked"

@@ -4,16 +4,11 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
 from slider_resonator.commands import bench
 from slider_resonator.trials.hosts.step_cost import LONG_STEP, ONE_PERIOD, StepCost
+from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
-
-
-def call(*arguments: object) -> Result:
-    return CliRunner().invoke(main, ["bench", *map(str, arguments)])
 
 
 def test_costs_are_printed_and_returned_as_json(
@@ -25,16 +20,14 @@ def test_costs_are_printed_and_returned_as_json(
         StepCost(LONG_STEP, 0, 55.0, 50.0, 70.0),
     )
     monkeypatch.setattr(bench, "measure_steps", lambda *_: costs)
-    text = call(native_fmu).stdout
+    text = call("bench", native_fmu).stdout
     assert "resolved Coulomb, 1 ms" in text
     assert "1.01-1.25" in text
     assert "1.20 times" in text
-    printed = call(native_fmu, "--json").stdout
+    printed = call("bench", native_fmu, "--json").stdout
     assert_public_keys("bench", printed)
     assert json.loads(printed)["c_host"][0] == vars(costs[0])
 
 
 def test_an_fmu_that_needs_python_is_refused(python_fmu: Path) -> None:
-    result = call(python_fmu)
-    assert result.exit_code == 2
-    assert "needs a Python interpreter" in result.stderr
+    assert "needs a Python interpreter" in refused("bench", python_fmu)

@@ -6,9 +6,8 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 SCENE = """
@@ -27,10 +26,6 @@ def written(folder: Path, need: str) -> Path:
     path = folder / "mine.toml"
     path.write_text(f"{SCENE}{need}\n")
     return path
-
-
-def call(*arguments: object) -> Result:
-    return CliRunner().invoke(main, [str(argument) for argument in arguments])
 
 
 def test_json_holds_the_answer(native_fmu: Path, tmp_path: Path) -> None:

@@ -5,37 +5,29 @@ from __future__ import annotations
 import csv
 import json
 import tempfile
-import zipfile
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
 from slider_resonator.studies.closed_loop import prediction
+from tests.harness import faulty_fmus
+from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
 
-def closed_loop(*arguments: object) -> Result:
-    return CliRunner().invoke(main, ["closed-loop", *(str(argument) for argument in arguments)])
+def changed(package: Path, target: Path, old: str, new: str, sets: str = ".ssv") -> Path:
+    """The package with another text in those of its parameter sets whose names end so."""
 
+    def alter(name: str, content: bytes) -> bytes:
+        return content.replace(old.encode(), new.encode()) if name.endswith(sets) else content
 
-def changed(package: Path, target: Path, old: str, new: str) -> Path:
-    """The package with other texts in its parameter sets."""
-    with zipfile.ZipFile(package) as archive, zipfile.ZipFile(target, "w") as copy:
-        for name in archive.namelist():
-            data = archive.read(name)
-            if name.endswith(".ssv"):
-                assert old.encode() in data
-                data = data.replace(old.encode(), new.encode())
-            copy.writestr(name, data)
-    return target
+    return faulty_fmus.altered(package, target, alter)
 
 
 def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
-    done = closed_loop(closed_loop_package, "--out", tmp_path, "--json")
+    done = call("closed-loop", closed_loop_package, "--out", tmp_path, "--json")
     assert done.exit_code == 0, done.output
     assert_public_keys("closed-loop", done.stdout)
     found = json.loads(done.stdout)
@@ -64,7 +56,7 @@ def test_a_controller_without_integral_does_not_hold(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
     loose = changed(closed_loop_package, tmp_path / "loose.ssp", '"400.0"', '"0.0"')
-    done = closed_loop(loose, "--out", tmp_path)
+    done = call("closed-loop", loose, "--out", tmp_path)
     assert done.exit_code == 1
     assert "FAIL" in done.stdout
     assert "never" in done.stdout
@@ -74,16 +66,11 @@ def test_a_controller_without_integral_does_not_hold(
 def test_another_device_is_a_proof_that_disagrees(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
-    other = tmp_path / "other.ssp"
     integer = '<ssv:Integer value="2" />\n    </ssv:Parameter>'
     heavy = f'{integer}<ssv:Parameter name="slider.resonator_frequency"><ssv:Real value="100"/>'
-    with zipfile.ZipFile(closed_loop_package) as archive, zipfile.ZipFile(other, "w") as copy:
-        for name in archive.namelist():
-            data = archive.read(name)
-            if name.endswith("proof.ssv"):
-                data = data.replace(integer.encode(), f"{heavy}</ssv:Parameter>".encode())
-            copy.writestr(name, data)
-    done = closed_loop(other, "--out", tmp_path, "--json")
+    other = tmp_path / "other.ssp"
+    changed(closed_loop_package, other, integer, f"{heavy}</ssv:Parameter>", "proof.ssv")
+    done = call("closed-loop", other, "--out", tmp_path, "--json")
     assert done.exit_code == 1
     assert not any(agreement["passed"] for agreement in json.loads(done.stdout)["agreements"])
 
@@ -108,17 +95,17 @@ def test_a_package_that_cannot_be_run_is_no_verdict(
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     monkeypatch.setenv("TMPDIR", str(temporary))
     broken = changed(closed_loop_package, tmp_path / "broken.ssp", old, new)
-    done = closed_loop(broken, "--out", tmp_path)
+    done = call("closed-loop", broken, "--out", tmp_path)
     assert done.exit_code == 2
     assert reported in done.stderr
     assert list(temporary.iterdir()) == [], "nothing that was unpacked is left behind"
 
 
-def test_a_file_that_is_no_package_is_reported(tmp_path: Path) -> None:
-    done = closed_loop(tmp_path / "none.ssp", "--out", tmp_path)
-    assert done.exit_code == 2
-    assert "none.ssp: no such file; build it with: python build_fmu.py" in done.stderr
+def test_what_is_no_package_is_reported(tmp_path: Path) -> None:
+    assert "none.ssp: no such file; build it with: python build_fmu.py" in refused(
+        "closed-loop", tmp_path / "none.ssp", "--out", tmp_path
+    )
     (tmp_path / "text.ssp").write_text("no zip")
-    done = closed_loop(tmp_path / "text.ssp", "--out", tmp_path)
-    assert done.exit_code == 2
-    assert "text.ssp: no parameter set design can be read" in done.stderr
+    assert "text.ssp: no parameter set design can be read" in refused(
+        "closed-loop", tmp_path / "text.ssp", "--out", tmp_path
+    )

@@ -4,11 +4,10 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from slider_resonator.cli import main
 from slider_resonator.commands import extremes
 from slider_resonator.trials.extremes.cell import Hold, Limit, MatrixCell, Model
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 HOLDS = (Hold(1e-4, 20),)
@@ -18,11 +17,11 @@ FLIES = Limit("position", 1.0, 1e-9, "it flies")
 WRONG = MatrixCell("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
 
 
-def invoke(
-    monkeypatch: pytest.MonkeyPatch, cells: list[MatrixCell], *arguments: str
+def extremes_of(
+    monkeypatch: pytest.MonkeyPatch, cells: list[Cell], *arguments: object
 ) -> tuple[int, str]:
     monkeypatch.setattr(extremes, "all_cells", lambda *, long: cells)
-    result = CliRunner().invoke(main, ["extremes", *arguments])
+    result = call("extremes", *arguments)
     return result.exit_code, result.output
 
 
@@ -30,7 +29,7 @@ def test_results_are_written(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "new"
-    code, text = invoke(monkeypatch, [GOOD, REFUSED], str(native_fmu), "--out", str(out))
+    code, text = extremes_of(monkeypatch, [GOOD, REFUSED], native_fmu, "--out", out)
     assert code == 0, text
     assert "2 cells: 1 passed, 1 refused by name, 0 failed, none skipped" in text
     assert "worst cost of a step" in text
@@ -46,7 +45,7 @@ def test_results_are_written(
 def test_a_failed_cell_exits_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    code, text = invoke(monkeypatch, [WRONG], str(native_fmu), "--out", str(tmp_path), "--json")
+    code, text = extremes_of(monkeypatch, [WRONG], native_fmu, "--out", tmp_path, "--json")
     assert code == 1
     assert "it flies" in json.loads(text)["fmus"][0]["verdicts"][0]["reason"]
 
@@ -57,7 +56,7 @@ def test_what_cannot_run_exits_with_2_before_anything_runs(
     run: list[Path] = []
     monkeypatch.setattr(extremes, "run_matrix", lambda fmu, *_: run.append(fmu))
     out = tmp_path / "out"
-    code, text = invoke(monkeypatch, [GOOD], str(native_fmu), "missing.fmu", "--out", str(out))
+    code, text = extremes_of(monkeypatch, [GOOD], native_fmu, "missing.fmu", "--out", out)
     assert code == 2
     assert "missing.fmu: no such file" in text
     assert run == []

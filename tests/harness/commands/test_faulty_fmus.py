@@ -11,10 +11,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.calling import call, refused
 
 COMMANDS: Mapping[str, Sequence[str]] = {"steady": [], "blocking": [], "run": ["table_1"]}
 """Command to the arguments after the FMU."""
@@ -34,20 +33,25 @@ def test_a_crash_a_hang_and_an_exit_end_with_2(
 ) -> None:
     fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", define, "VALUE=1.0")
     for command, arguments in COMMANDS.items():
-        result = invoke(command, str(fmu), *arguments, "--time-limit", "2")
+        result = call(command, fmu, *arguments, "--time-limit", "2")
         assert result.exit_code == 2, command
         assert cause in result.stderr, command
 
 
 def test_a_crash_after_the_run_ends_with_2(native_fmu: Path, tmp_path: Path) -> None:
     fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", "IN_FREE=CRASH")
-    result = invoke("run", str(fmu), "table_1")
+    assert "crashed in fmi2Terminate or fmi2FreeInstance" in refused("run", fmu, "table_1")
+
+
+@pytest.mark.parametrize("command", ["steady", "blocking"])
+def test_a_drive_frequency_of_zero_is_an_error_of_the_fmu(
+    native_fmu: Path, tmp_path: Path, command: str
+) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "still.fmu", "VALUE=0.0")
+    result = call(command, fmu)
     assert result.exit_code == 2
-    assert "crashed in fmi2Terminate or fmi2FreeInstance" in result.stderr
-
-
-def invoke(*arguments: str) -> Result:
-    return CliRunner().invoke(main, arguments)
+    reported = "still.fmu reports drive_frequency = 0.0: must be a number above 0"
+    assert result.stderr == f"error: {reported}\n"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no signals to end a process with")

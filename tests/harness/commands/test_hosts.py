@@ -4,24 +4,19 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
 from slider_resonator.commands.hosts import NATIVE, PYTHON
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 FMPY = ("--host", "fmpy")
-
-
-def hosts(*arguments: object) -> Result:
-    return CliRunner().invoke(main, ["hosts", *(str(argument) for argument in arguments)])
 
 
 def test_the_reference_agrees_with_itself(
     native_fmu: Path, python_fmu: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "hosts.md"
-    done = hosts(native_fmu, "--python-fmu", python_fmu, *FMPY, "--out", out, "--json")
+    done = call("hosts", native_fmu, "--python-fmu", python_fmu, *FMPY, "--out", out, "--json")
     assert done.exit_code == 0, done.output
     assert_public_keys("hosts", done.stdout)
     results = json.loads(done.stdout)
@@ -37,7 +32,7 @@ def test_the_reference_agrees_with_itself(
 def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(python_fmu: Path, tmp_path: Path) -> None:
     broken = tmp_path / "broken.fmu"
     broken.write_bytes(b"no zip")
-    done = hosts(broken, "--python-fmu", python_fmu, *FMPY)
+    done = call("hosts", broken, "--python-fmu", python_fmu, *FMPY)
     assert done.exit_code == 2
     assert f"{broken}: does not run in fmpy: BadZipFile" in done.stderr
 
@@ -48,7 +43,7 @@ def test_a_host_that_fails_is_a_verdict(
     monkeypatch.setenv("CC", str(tmp_path / "no compiler"))
     monkeypatch.setattr("slider_resonator.trials.hosts.hosts.compiler_version", lambda _: "none")
     out = tmp_path / "hosts.md"
-    done = hosts(native_fmu, "--python-fmu", python_fmu, "--host", "C driver", "--out", out)
+    done = call("hosts", native_fmu, "--python-fmu", python_fmu, "--host", "C driver", "--out", out)
     assert done.exit_code == 1
     assert "FAIL" in done.stdout
     assert "C driver, native FMU, Coulomb 2: FileNotFoundError" in done.stdout
@@ -59,7 +54,8 @@ def test_hosts_that_are_not_installed_are_no_verdict(
     native_fmu: Path, python_fmu: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "hosts.md"
-    done = hosts(
+    done = call(
+        "hosts",
         *(native_fmu, "--python-fmu", python_fmu, "--host", "cofmupy"),
         *("--own-environment", tmp_path / "nowhere", "--out", out, "--json"),
     )
@@ -83,6 +79,6 @@ def test_bad_arguments_are_refused(
         (tmp_path / path).parent.mkdir(exist_ok=True)
         (tmp_path / path).touch()
     monkeypatch.chdir(tmp_path)
-    done = hosts(*arguments)
+    done = call("hosts", *arguments)
     assert done.exit_code == 2
     assert reported in done.stderr

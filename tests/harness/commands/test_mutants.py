@@ -4,32 +4,27 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
 from tests.harness import faulty_fmus
+from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
 
-def invoke(*arguments: str) -> Result:
-    return CliRunner().invoke(main, ["mutants", *arguments])
-
-
 def test_the_list_shows_names_and_diffs(python_fmu: Path) -> None:
-    result = invoke(str(python_fmu), "--list", "--file", "clock.py", "--sample", "3")
+    result = call("mutants", python_fmu, "--list", "--file", "clock.py", "--sample", "3")
     assert result.exit_code == 0, result.output
     assert result.output.count("--- clock.py") == 3
     assert "3 mutants" in result.output
 
 
 def test_kinds_can_be_chosen(python_fmu: Path) -> None:
-    result = invoke(str(python_fmu), "--list", "--json", "--kind", "event", "--kind", "input")
+    result = call("mutants", python_fmu, "--list", "--json", "--kind", "event", "--kind", "input")
     assert {m["kind"] for m in json.loads(result.output)["mutants"]} == {"event", "input"}
 
 
 def test_the_list_as_json(python_fmu: Path) -> None:
     files = ("--file", "clock.py", "--file", "modelDescription.xml")
-    result = invoke(str(python_fmu), "--list", "--json", *files)
+    result = call("mutants", python_fmu, "--list", "--json", *files)
     assert_public_keys("mutants --list", result.output)
     mutants = json.loads(result.output)["mutants"]
     assert {m["file"] for m in mutants} == {"clock.py", "modelDescription.xml"}
@@ -37,10 +32,10 @@ def test_the_list_as_json(python_fmu: Path) -> None:
 
 @pytest.mark.slow
 def test_rejected_mutants_pass_the_command(python_fmu: Path, tmp_path: Path) -> None:
-    scene = str(faulty_fmus.scene(tmp_path))
+    scene = faulty_fmus.scene(tmp_path)
     page = tmp_path / "page.html"
     only = ("--file", "modelDescription.xml", "--sample", "2", "--seed", "1", "--probes", "1")
-    result = invoke(str(python_fmu), *only, "--scene", scene, "--html", str(page), "--json")
+    result = call("mutants", python_fmu, *only, "--scene", scene, "--html", page, "--json")
     assert_public_keys("mutants", result.output)
     written = json.loads(result.output)
     assert written["tried"] == 2
@@ -53,10 +48,8 @@ def test_rejected_mutants_pass_the_command(python_fmu: Path, tmp_path: Path) -> 
 
 def test_mutation_runs_that_cannot_start_are_refused(python_fmu: Path, tmp_path: Path) -> None:
     for arguments, reason in (
-        ([str(tmp_path / "no.fmu")], "no such file"),
-        ([str(python_fmu), "--file", "clok.py"], "did you mean 'clock.py'"),
-        ([str(python_fmu), "--file", "__init__.py"], "nothing to change"),
+        ([tmp_path / "no.fmu"], "no such file"),
+        ([python_fmu, "--file", "clok.py"], "did you mean 'clock.py'"),
+        ([python_fmu, "--file", "__init__.py"], "nothing to change"),
     ):
-        result = invoke(*arguments)
-        assert result.exit_code == 2
-        assert reason in result.output
+        assert reason in refused("mutants", *arguments)

@@ -4,15 +4,14 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from slider_resonator.cli import main
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 
 def test_figures_are_written_and_listed_as_json(native_fmu: Path, tmp_path: Path) -> None:
-    arguments = ["--out", str(tmp_path), "--only", "figure_7", "--fmu", str(native_fmu), "--json"]
-    result = CliRunner().invoke(main, ["paper", *arguments])
+    arguments = ["--out", tmp_path, "--only", "figure_7", "--fmu", native_fmu, "--json"]
+    result = call("paper", *arguments)
     assert result.exit_code == 0, result.output
     assert json.loads(result.stdout)["run"] == ["figure_7"]
     assert (tmp_path / "figure_7.svg").is_file()
@@ -23,7 +22,7 @@ def test_figures_are_written_and_listed_as_json(native_fmu: Path, tmp_path: Path
     "arguments", [["--only", "figure_6"], ["--fmu", "missing.fmu", "--only", "figure_3"]]
 )
 def test_what_cannot_run_exits_with_2(arguments: list[str], tmp_path: Path) -> None:
-    result = CliRunner().invoke(main, ["paper", "--out", str(tmp_path), *arguments])
+    result = call("paper", "--out", tmp_path, *arguments)
     assert result.exit_code == 2
 
 
@@ -36,11 +35,11 @@ def test_an_unconfirmed_claim_exits_with_1(
     claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, "agrees", "it does not", False)
     group = ClaimGroup("claims_x", "X", (lambda instance: [claim],))
     monkeypatch.setattr(reproduce, "GROUPS", (group,))
-    arguments = ["--out", str(tmp_path), "--only", "claims", "--fmu", str(native_fmu)]
-    result = CliRunner().invoke(main, ["paper", *arguments])
+    arguments = ["--out", tmp_path, "--only", "claims", "--fmu", native_fmu]
+    result = call("paper", *arguments)
     assert result.exit_code == 1
     assert "It flies" in result.output
-    printed = CliRunner().invoke(main, ["paper", *arguments, "--json"]).stdout
+    printed = call("paper", *arguments, "--json").stdout
     assert_public_keys("paper --only claims", printed)
     assert_public_keys("claims.json", (tmp_path / "claims.json").read_text(encoding="utf-8"))
 
@@ -57,10 +56,10 @@ def test_a_table_that_deviates_exits_with_1(
     name = "lugre_device"
     table = PaperTable(name, "Forces", "", {"error": "error"}, {"error": 0.1}, measure)
     monkeypatch.setattr(reproduce, "TABLES", {name: table})
-    arguments = ["--out", str(tmp_path), "--only", name, "--fmu", str(native_fmu)]
-    result = CliRunner().invoke(main, ["paper", *arguments])
+    arguments = ["--out", tmp_path, "--only", name, "--fmu", native_fmu]
+    result = call("paper", *arguments)
     assert result.exit_code == 1
     assert "FAIL     lugre_device: error up to 0.3, allowed 0.1" in result.output
-    printed = CliRunner().invoke(main, ["paper", *arguments, "--json"]).stdout
+    printed = call("paper", *arguments, "--json").stdout
     assert_public_keys("paper --only TABLE", printed)
     assert_public_keys("TABLE.json", (tmp_path / f"{name}.json").read_text(encoding="utf-8"))

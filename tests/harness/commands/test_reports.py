@@ -1,6 +1,8 @@
 from __future__ import annotations
 
+import json
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import pytest
 
@@ -28,11 +30,23 @@ def test_output_of_an_fmu_commands_neither_terminal_nor_ci(
     assert capsys.readouterr().err == "error: crashed\ufffd[2J\n: :stop-commands::all\n"
 
 
+def test_an_error_before_any_fmu_is_in_every_report(tmp_path: Path) -> None:
+    junit, html, written, summary = (
+        tmp_path / name for name in ("report.xml", "report.html", "report.json", "summary.md")
+    )
+    Reports("A title", junit, html, written, summary).write([], "my.fmu: corrupt")
+    (error,) = ET.parse(junit).getroot().iter("error")
+    assert error.get("message") == "my.fmu: corrupt"
+    for page in (html, summary):
+        assert "Could not run: my.fmu: corrupt" in page.read_text(encoding="utf-8")
+    expected = {"schema_version": 1, "passed": False, "error": "my.fmu: corrupt"}
+    assert json.loads(written.read_text()) == expected
+
+
 def test_reports_are_written_even_where_the_summary_cannot_be(tmp_path: Path) -> None:
     paths = [tmp_path / name for name in ("report.xml", "report.html", "report.json")]
     junit, html, written = paths
     reports = Reports("A title", junit, html, written, tmp_path / "none" / "summary.md")
     with pytest.raises(HarnessError, match=r"GITHUB_STEP_SUMMARY .*cannot be written"):
         reports.write([], "my.fmu: corrupt")
-    for path in paths:
-        assert "my.fmu: corrupt" in path.read_text(encoding="utf-8"), path.name
+    assert all(path.is_file() for path in paths)

@@ -7,14 +7,9 @@ import shutil
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
 from slider_resonator.scenes.scene import find_scene
-
-
-def call(*arguments: object) -> Result:
-    return CliRunner().invoke(main, ["run", *map(str, arguments)])
+from tests.harness.calling import call, refused
 
 
 def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path: Path) -> None:
@@ -22,9 +17,7 @@ def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path
     scene = Path(shutil.copy(find_scene("lift_off"), tmp_path / "scene.toml"))
     for target, reported in ((fmu, "is the FMU"), (scene, "is the scene's file")):
         before = target.read_bytes()
-        result = call(fmu, scene, "--out", target)
-        assert result.exit_code == 2
-        assert reported in result.stderr
+        assert reported in refused("run", fmu, scene, "--out", target)
         assert target.read_bytes() == before
 
 
@@ -36,31 +29,26 @@ def test_a_csv_that_the_scene_reads_is_not_overwritten(python_fmu: Path, tmp_pat
         'name = "mine"\ntitle = "Mine"\n[inputs]\nload = { csv = "load.csv" }\n'
         "[run]\nstop_time = 0.01\nstep_size = 0.001\n"
     )
-    result = call(python_fmu, scene, "--out", points)
-    assert result.exit_code == 2
-    assert "is the scene's file" in result.stderr
+    assert "is the scene's file" in refused("run", python_fmu, scene, "--out", points)
     assert points.read_text().startswith("time,load\n0,0")
 
 
 def test_two_results_need_two_files(tmp_path: Path) -> None:
     same = tmp_path / "a.png"
-    result = call("no.fmu", "lift_off", "--out", same, "--plot", same)
-    assert result.exit_code == 2
-    assert "is the file of --out" in result.stderr
+    assert "is the file of --out" in refused(
+        "run", "no.fmu", "lift_off", "--out", same, "--plot", same
+    )
 
 
 @pytest.mark.parametrize(
     ("arguments", "reported"),
     [
         (["--out", "/dev/full"], "is a device"),
-        (["--out", "/dev/stdout"], "is a symbolic link"),
         (["--out", ""], "'' names no file"),
         (["--out", "/"], "is a directory"),
         (["--out", "/no/such/out.csv"], "there is no folder /no/such"),
         (["--plot", "p.txt"], "'.txt'; must be one of .png, .svg, .pdf"),
         (["--set", "load=nan"], "'--set': load = nan: must be a finite number"),
-        (["--set", "load=inf"], "'--set': load = inf: must be a finite number"),
-        (["--set", "fidelity=nan"], "'--set': fidelity = nan: must be an integer"),
         (["--set", "drive_frequency=0"], "'--set': drive_frequency = 0.0: must be"),
         (["--set", "load=1", "--set", "load=2"], "load = 1.0 and load = 2.0: must be one"),
     ],
@@ -68,14 +56,14 @@ def test_two_results_need_two_files(tmp_path: Path) -> None:
 def test_mistakes_are_named_by_their_option_before_the_fmu_is_opened(
     arguments: list[str], reported: str
 ) -> None:
-    result = call("no.fmu", "lift_off", *arguments)
+    result = call("run", "no.fmu", "lift_off", *arguments)
     assert result.exit_code == 2
     assert reported in result.stderr
     assert ".toml" not in result.stderr, "the scene file is not to blame"
 
 
 def test_a_refusal_of_the_fmu_is_reported_once_without_its_wrapping(python_fmu: Path) -> None:
-    result = call(python_fmu, "lift_off", "--set", "slider_mass=-1", "--json")
+    result = call("run", python_fmu, "lift_off", "--set", "slider_mass=-1", "--json")
     assert result.exit_code == 2
     assert result.stdout.count("slider_mass = -1.0 refused") == 1
     assert "Refusal(" not in result.output
@@ -84,8 +72,8 @@ def test_a_refusal_of_the_fmu_is_reported_once_without_its_wrapping(python_fmu: 
 
 def test_a_picture_changes_no_digit_of_the_csv(python_fmu: Path, tmp_path: Path) -> None:
     alone, beside = tmp_path / "alone.csv", tmp_path / "beside.csv"
-    assert call(python_fmu, "table_1", "--out", alone).exit_code == 0
-    drawn = call(python_fmu, "table_1", "--out", beside, "--plot", tmp_path / "run.png")
+    assert call("run", python_fmu, "table_1", "--out", alone).exit_code == 0
+    drawn = call("run", python_fmu, "table_1", "--out", beside, "--plot", tmp_path / "run.png")
     assert drawn.exit_code == 0
     assert "in 1600 communication steps" in drawn.stdout
     assert alone.read_bytes() == beside.read_bytes()

@@ -4,23 +4,22 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from slider_resonator.cli import main
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 
-def _grid(tmp_path: Path, text: str) -> str:
+def _grid(tmp_path: Path, text: str) -> Path:
     path = tmp_path / "grid.toml"
     path.write_text(text, encoding="utf-8")
-    return str(path)
+    return path
 
 
 def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> None:
     grid = _grid(tmp_path, "[grid]\nphase = [0.0, 0.4, 0.8]")
     out, plot = tmp_path / "a.csv", tmp_path / "a.svg"
-    arguments = ["--out", str(out), "--plot", str(plot), "--fmu", str(native_fmu), "--json"]
-    result = CliRunner().invoke(main, ["sweep", grid, *arguments])
+    arguments = ["--out", out, "--plot", plot, "--fmu", native_fmu, "--json"]
+    result = call("sweep", grid, *arguments)
     assert result.exit_code == 0, result.output
     assert_public_keys("sweep", result.stdout)
     summary = json.loads(result.stdout)
@@ -33,8 +32,8 @@ def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> 
 
 def test_a_failed_point_is_reported_and_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     grid = _grid(tmp_path, "[list]\nfriction_coefficient = [0.1, -1]")
-    arguments = ["--out", str(tmp_path / "a.csv"), "--fmu", str(native_fmu), "--workers", "1"]
-    result = CliRunner().invoke(main, ["sweep", grid, *arguments])
+    arguments = ["--out", tmp_path / "a.csv", "--fmu", native_fmu, "--workers", "1"]
+    result = call("sweep", grid, *arguments)
     assert result.exit_code == 1
     assert "failed   1 points; the first error:" in result.output
     assert "friction_coefficient = -1" in result.output
@@ -57,7 +56,7 @@ def test_what_cannot_run_exits_with_2(
     text: str, arguments: list[str], words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    result = CliRunner().invoke(main, ["sweep", _grid(tmp_path, text), *arguments])
+    result = call("sweep", _grid(tmp_path, text), *arguments)
     assert result.exit_code == 2
     assert words in result.output
     assert sorted(path.name for path in tmp_path.iterdir()) == ["grid.toml"]

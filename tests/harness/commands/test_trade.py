@@ -8,9 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from slider_resonator.cli import main
 from slider_resonator.commands import trade as command
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import instantiate
@@ -19,6 +17,7 @@ from slider_resonator.studies.trade.fmu_methods import FmuMethods
 from slider_resonator.studies.trade.peer_methods import peer_methods
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import Omission, Trade
+from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 from tests.harness.studies.trade.problems import HEAD, TABLE_1, problem
 from tests.harness.studies.trade.test_needs import TRADE
@@ -32,9 +31,9 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     scene.write_text(HEAD)
     out, page, picture = tmp_path / "out", tmp_path / "page.md", tmp_path / "trade.png"
     page.write_text("before\n<!-- trade -->\n<!-- end of trade -->\nafter\n")
-    arguments = [str(scene), "--out", str(out), "--fmu", str(native_fmu), "--repeats", "1"]
-    arguments += ["--budget", "0.05", "--periods", "8", "--page", str(page)]
-    result = CliRunner().invoke(main, ["trade", *arguments, "--picture", str(picture), "--json"])
+    arguments = [scene, "--out", out, "--fmu", native_fmu, "--repeats", "1"]
+    arguments += ["--budget", "0.05", "--periods", "8", "--page", page]
+    result = call("trade", *arguments, "--picture", picture, "--json")
     assert result.exit_code == 0, result.output
     assert_public_keys("trade", result.stdout)
     (document,) = json.loads(result.stdout)
@@ -82,7 +81,7 @@ def test_missing_inputs_are_reported_and_nothing_is_written(
     tmp_path: Path, arguments: list[str], reported: str
 ) -> None:
     out = tmp_path / "out"
-    result = CliRunner().invoke(main, ["trade", *arguments, "--out", str(out)])
+    result = call("trade", *arguments, "--out", out)
     assert result.exit_code == 2
     assert reported in result.stderr
     assert not out.exists()
@@ -98,10 +97,8 @@ def test_measurements_before_a_failing_scene_are_kept(
 
     monkeypatch.setattr(command, "measure_trade", measure)
     out = tmp_path / "out"
-    arguments = ["trade", "table_1", "lugre", "--out", str(out), "--fmu", str(native_fmu)]
-    result = CliRunner().invoke(main, arguments)
-    assert result.exit_code == 2
-    assert "the reference cannot follow it" in result.stderr
+    arguments = ["table_1", "lugre", "--out", out, "--fmu", native_fmu]
+    assert "the reference cannot follow it" in refused("trade", *arguments)
     rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
     assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
 
@@ -111,5 +108,5 @@ def test_the_public_keys_stay(
 ) -> None:
     measured = replace(TRADE, omissions=(Omission("s", "CVODE", "all", "not installed"),))
     monkeypatch.setattr(command, "measure_trade", lambda *_, **__: measured)
-    arguments = ["trade", "--out", str(tmp_path), "--fmu", str(native_fmu), "--json"]
-    assert_public_keys("trade", CliRunner().invoke(main, arguments).stdout)
+    arguments = ["--out", tmp_path, "--fmu", native_fmu, "--json"]
+    assert_public_keys("trade", call("trade", *arguments).stdout)

@@ -5,6 +5,8 @@ import math
 import pytest
 
 from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS, OUTPUTS, PARAMETERS
+from slider_resonator.fmu.opening import Fmu
 
 
 def test_starts_are_table_1() -> None:
@@ -22,17 +24,22 @@ def test_mapping_replaces_only_what_it_names() -> None:
     assert isinstance(device.friction_faces, int), "Integer parameters stay integers"
 
 
-def test_unknown_parameter_is_refused_by_name() -> None:
-    with pytest.raises(ValueError, match=r"slider_mas.*0\.5.*slider_mass"):
-        Device.from_mapping({"slider_mas": 0.5})
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("slider_mas", 0.5, r"slider_mas.*0\.5.*slider_mass"),
+        ("friction_faces", 1.5, r"friction_faces = 1\.5 must be an integer"),
+        ("friction_faces", math.nan, "friction_faces"),
+        ("friction_faces", math.inf, "friction_faces"),
+    ],
+)
+def test_wrong_parameter_is_refused_by_name(name: str, value: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        Device.from_mapping({name: value})
 
 
-def test_fraction_for_an_integer_is_refused_by_name() -> None:
-    with pytest.raises(ValueError, match=r"friction_faces = 1\.5 must be an integer"):
-        Device.from_mapping({"friction_faces": 1.5})
-
-
-@pytest.mark.parametrize("value", [math.nan, math.inf])
-def test_nonfinite_integer_is_refused_by_name(value: float) -> None:
-    with pytest.raises(ValueError, match="friction_faces"):
-        Device.from_mapping({"friction_faces": value})
+def test_fmu_has_this_interface_and_these_starts(fmu: Fmu) -> None:
+    """The interface is written down twice, in the harness and in the component: both must agree."""
+    assert set(fmu.variables) == {*INPUTS, *PARAMETERS, *OUTPUTS}
+    for name, start in {**vars(Device()), **INPUT_STARTS}.items():
+        assert float(fmu.variables[name].start) == start, name

@@ -8,37 +8,33 @@ from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, ch
 HELD = [HeldInputs(0.0, 0.1), HeldInputs(0.1, 0.3, load=0.05)]
 
 
-def test_adjoining_inputs_are_accepted() -> None:
+@pytest.mark.parametrize(
+    ("held", "message"),
+    [
+        ([], "at least one"),
+        ([HeldInputs(0.0, 0.1), HeldInputs(0.2, 0.3)], r"inputs 1: start = 0\.2 s .* 0\.1 s"),
+        ([HeldInputs(0.0, 0.0)], "held inputs 0: stop"),
+        ([HeldInputs(0.0, -1.0)], "held inputs 0: stop"),
+        ([HeldInputs(0.0, float("nan"))], "held inputs 0: stop"),
+    ],
+)
+def test_gaps_and_empty_intervals_are_refused(held: list[HeldInputs], message: str) -> None:
     check_contiguous(HELD)
+    with pytest.raises(ValueError, match=message):
+        check_contiguous(held)
 
 
-def test_empty_inputs_are_refused() -> None:
-    with pytest.raises(ValueError, match="at least one"):
-        check_contiguous([])
-
-
-def test_gap_is_refused_with_both_times() -> None:
-    with pytest.raises(ValueError, match=r"held inputs 1: start = 0\.2 s .* 0\.1 s"):
-        check_contiguous([HeldInputs(0.0, 0.1), HeldInputs(0.2, 0.3)])
-
-
-@pytest.mark.parametrize("stop", [0.0, -1.0, float("nan")])
-def test_empty_interval_is_refused(stop: float) -> None:
-    with pytest.raises(ValueError, match="held inputs 0: stop"):
-        check_contiguous([HeldInputs(0.0, stop)])
-
-
-def test_times_at_both_ends_and_no_times_are_accepted() -> None:
+@pytest.mark.parametrize(
+    ("times", "message"),
+    [
+        ([0.1, 0.4], r"to 0\.4 s must lie within .* 0\.0 to 0\.3 s"),
+        ([0.2, 0.1], "ascending row"),
+        ([[0.1], [0.2]], "ascending row"),
+        ([0.1, float("nan")], "ascending row"),
+    ],
+)
+def test_times_outside_or_out_of_order_are_refused(times: list[float], message: str) -> None:
     check_times(np.array([0.0, 0.1, 0.1, 0.3]), HELD)
     check_times(np.empty(0), HELD)
-
-
-def test_times_outside_the_inputs_are_refused() -> None:
-    with pytest.raises(ValueError, match=r"to 0\.4 s must lie within .* 0\.0 to 0\.3 s"):
-        check_times(np.array([0.1, 0.4]), HELD)
-
-
-@pytest.mark.parametrize("times", [[0.2, 0.1], [[0.1], [0.2]], [0.1, float("nan")]])
-def test_times_that_do_not_ascend_are_refused(times: list[float]) -> None:
-    with pytest.raises(ValueError, match="ascending row"):
+    with pytest.raises(ValueError, match=message):
         check_times(np.array(times), HELD)

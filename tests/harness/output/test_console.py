@@ -3,6 +3,7 @@ from __future__ import annotations
 import pytest
 
 from slider_resonator.output.console import output, progress_bar
+from slider_resonator.output.readable import readable
 
 
 def test_progress_is_silent_without_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
@@ -14,3 +15,14 @@ def test_progress_is_silent_without_a_terminal(capsys: pytest.CaptureFixture[str
 
 def test_a_log_is_no_wider_than_a_page() -> None:
     assert output().width == 120
+
+
+@pytest.mark.parametrize("value", [0.0, -0.0, -1.7e-14, 9e-13])
+def test_noise_and_minus_zero_are_0(value: float) -> None:
+    assert readable(value, 10) == "0"
+
+
+def test_other_numbers_keep_their_digits_and_sign() -> None:
+    assert readable(0.12666699702, 10) == "0.126666997"
+    assert readable(-2e-12, 9) == "-2e-12"
+    assert readable(199, 8) == "199"

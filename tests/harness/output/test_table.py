@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import io
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 from rich.console import Console
@@ -127,3 +128,13 @@ def test_html_in_an_attribute_stays_there() -> None:
     assert html_page.folded("<2 rows>", "<table></table>").startswith(
         "<details><summary>&lt;2 rows&gt;</summary>"
     )
+
+
+def test_a_page_has_its_title_and_parts_and_needs_nothing_beside_it(tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    html_page.write_page(path, "a < b", ["<p>one</p>", "<p>two</p>"])
+    page = path.read_text()
+    assert "<title>a &lt; b</title>" in page
+    assert page.index("<h1>a &lt; b</h1>") < page.index("<p>one</p>") < page.index("<p>two</p>")
+    assert page.rstrip().endswith("</body></html>")
+    assert "http" not in page

@@ -9,13 +9,7 @@ import pytest
 
 from slider_resonator.references.resolved import located_events, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.studies.trade.peers import event_free
-from tests.harness.references.known_motions import (
-    FIRST_SLIP,
-    FREQUENCY,
-    KNOWN_MOTIONS,
-    STOP,
-)
+from tests.harness.references.known_motions import FIRST_SLIP, FREQUENCY, KNOWN_MOTIONS, STOP
 
 Simulate = Callable[..., Trajectory]
 
@@ -71,20 +65,3 @@ def test_stop_is_complete(simulate: Simulate, allowed: float) -> None:
     assert (run.contact_mode[after] == 0).all(), "after the stop it sticks"
     assert (run.friction_force[after] == 0.0).all(), "nothing pulls, so friction holds nothing"
     assert run.stick_time == pytest.approx(0.1, rel=1e-12), "it sticks for the other half"
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        "free flight under a load",
-        "undamped resonator on a free slider at resonance",
-        "recoil of a free slider at resonance",
-    ],
-)
-def test_paper_method_is_a_plain_integrator_without_contact(name: str) -> None:
-    motion = KNOWN_MOTIONS[name]
-    run = event_free.simulate_sgn(motion.device, motion.held, TIMES, rtol=1e-10, atol=1e-12)
-    found = deviation(run, motion.signal, motion.exact(TIMES))
-    assert found <= 1e-6, f"{name}: {motion.signal} deviates by {found:.1e} of its peak"
-    assert (run.contact_mode == 2).all(), "without normal load the contact is open"
-    assert not run.friction_force.any(), "an open contact has no friction"

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,23 @@ from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, scene_from
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
+STEPS = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
+STEADY = 'quantity = "steady_velocity"\nvalue = 0.1\nrelative = 1e-6\nwhy = "test"\n'
 RUN = "[run]\ndrive_periods = 10\nsteps_per_period = 4\n"
+
+NEEDS = {
+    "": ["need: needs at least one of", "steady_velocity", "event_times"],
+    "friction_law = 'free'": ["need: needs at least one of"],
+    "positon = { rel = 0.1 }": ["need.positon", "did you mean 'position'?"],
+    "position = {}": ["need.position", "needs a tolerance: abs, rel or both"],
+    "position = 0.1": ["need.position = 0.1", "such as { rel = 0.01 }"],
+    "position = { rel = 0.0 }": ["need.position.rel = 0.0", "must be a number above 0"],
+    "position = { abs = -1e-6 }": ["need.position.abs = -1e-06", "a number above 0"],
+    "position = { rel = nan }": ["need.position.rel = nan", "a finite number"],
+    "position = { relative = 0.1 }": ["need.position.relative", "did you mean 'rel'?"],
+    "friction_law = 'any'": ["need.friction_law = 'any'", "'free'"],
+}
+"""Needs that cannot be judged, and what is said of them."""
 
 
 def write(folder: Path, text: str) -> Path:
@@ -18,12 +35,13 @@ def write(folder: Path, text: str) -> Path:
     return path
 
 
-def refusal(folder: Path, text: str) -> str:
+def assert_refused(folder: Path, text: str, parts: Sequence[str]) -> str:
     path = write(folder, text)
     with pytest.raises(SceneError) as caught:
         read_scene(path)
     message = str(caught.value)
-    assert str(path) in message, "an error names the file"
+    for part in (str(path), *parts):
+        assert part in message, f"{part!r} is missing in: {message}"
     return message
 
 
@@ -115,21 +133,26 @@ def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Pa
             ["inputs.phase.between = 'x'", "'linear' or 'hold'"],
         ),
         ("name = 3\n", ["not TOML"]),
+        ("[inputs]\nphse = 1.0\nlod = 2.0\n", ["inputs.phse", "inputs.lod"]),
+        ('[[expect]]\nquantity = "steady_velocity"\n', ["expect[0].why: is missing"]),
+        (f"{STEPS}[[expect]]\n{STEADY}", ["needs constant inputs"]),
+        *((f"{RUN}[need]\n{need}\n", parts) for need, parts in NEEDS.items()),
+        (
+            "[need]\nbeat = { rel = 0.1 }\n",
+            ["need.beat is measured in a run: [run] is missing"],
+        ),
+        (
+            f"{STEPS}[need]\nblocking_force = {{ rel = 0.1 }}\n",
+            ["need.blocking_force needs constant inputs"],
+        ),
     ],
 )
 def test_a_mistake_is_named_with_key_value_and_requirement(
     tmp_path: Path, text: str, parts: list[str]
 ) -> None:
-    message = refusal(tmp_path, HEAD + text)
-    for part in parts:
-        assert part in message, f"{part!r} is missing in: {message}"
+    message = assert_refused(tmp_path, HEAD + text, parts)
     for jargon in ("Input should", "valid", "pattern", "Tuple", "dictionary", "validation"):
         assert jargon not in message, f"{jargon!r} is the schema's word: {message}"
-
-
-def test_a_name_that_is_no_word_is_refused_in_words(tmp_path: Path) -> None:
-    message = refusal(tmp_path, 'name = "a b"\ntitle = "x"\n')
-    assert "name = 'a b': must be a word of letters, digits, _ and -" in message
 
 
 @pytest.mark.parametrize(
@@ -172,14 +195,7 @@ def test_a_name_that_is_no_word_is_refused_in_words(tmp_path: Path) -> None:
 def test_an_expectation_that_cannot_be_judged_is_refused(
     tmp_path: Path, expect: str, parts: list[str]
 ) -> None:
-    message = refusal(tmp_path, HEAD + f'[[expect]]\n{expect}\nwhy = "test"\n')
-    for part in parts:
-        assert part in message, f"{part!r} is missing in: {message}"
-
-
-def test_an_expectation_without_a_reason_is_refused(tmp_path: Path) -> None:
-    text = '[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\n'
-    assert "expect[0].why: is missing" in refusal(tmp_path, HEAD + text)
+    assert_refused(tmp_path, HEAD + f'[[expect]]\n{expect}\nwhy = "test"\n', parts)
 
 
 @pytest.mark.parametrize(
@@ -199,33 +215,22 @@ def test_counts_words_and_bounds_need_no_tolerance_and_0_is_one(
     assert len(scene.expect) == 1
 
 
-def test_steady_quantities_need_constant_inputs(tmp_path: Path) -> None:
-    text = (
-        "[inputs]\nphase = { steps = [[0, 0], [1, 1]] }\n"
-        '[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\nrelative = 1e-6\nwhy = "test"\n'
-    )
-    assert "constant inputs" in refusal(tmp_path, HEAD + text)
+def test_a_name_that_is_no_word_is_refused_in_words(tmp_path: Path) -> None:
+    said = "name = 'a b': must be a word of letters, digits, _ and -"
+    assert_refused(tmp_path, 'name = "a b"\ntitle = "x"\n', [said])
 
 
-def test_all_mistakes_are_reported_at_once(tmp_path: Path) -> None:
-    message = refusal(tmp_path, HEAD + "[inputs]\nphse = 1.0\nlod = 2.0\n")
-    assert "phse" in message
-    assert "lod" in message
-
-
-def test_an_unknown_scene_suggests_the_nearest() -> None:
-    with pytest.raises(SceneError, match="did you mean 'table_1'"):
-        find_scene("table1")
-
-
-def test_a_missing_scene_file_is_named(tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match="no such scene file"):
-        find_scene(str(tmp_path / "no.toml"))
-
-
-def test_a_directory_is_named_as_one(tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match="is a directory; must be a scene file"):
-        find_scene(str(tmp_path))
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("table1", "did you mean 'table_1'"),
+        ("no.toml", "no such scene file"),
+        ("/", "is a directory; must be a scene file"),
+    ],
+)
+def test_a_scene_that_is_not_there_is_named(name: str, message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        find_scene(name)
 
 
 def test_a_scene_knows_the_files_it_was_read_from(tmp_path: Path) -> None:
@@ -259,6 +264,12 @@ def test_a_swept_drive_frequency_changes_a_run_in_drive_periods(tmp_path: Path) 
     assert slow.step_size == 2.0 * (fast.step_size or 0.0)
 
 
+def test_a_scene_can_have_another_step(tmp_path: Path) -> None:
+    scene = read_scene(write(tmp_path, HEAD + RUN))
+    other = scene.with_step(1e-4)
+    assert (other.step_size, other.stop_time) == (1e-4, scene.stop_time)
+
+
 def test_a_swept_run_of_too_many_steps_is_refused(tmp_path: Path) -> None:
     run = "[run]\nstop_time = 1.0\nsteps_per_period = 4\n"
     sweep = '[sweep]\nvariable = "drive_frequency"\nvalues = [1e9]\n'
@@ -280,48 +291,6 @@ def test_a_scene_is_made_of_data_without_a_file(tmp_path: Path) -> None:
     assert (scene.source, scene.files) == ("a table", (tmp_path / "load.csv",))
     with pytest.raises(SceneError, match="a table: titel: unknown key 'titel'"):
         scene_from({"name": "mine", "titel": "Mine"}, "a table")
-
-
-def test_a_scene_can_have_another_step(tmp_path: Path) -> None:
-    scene = read_scene(write(tmp_path, HEAD + RUN)).with_step(1e-4)
-    assert scene.step_size == 1e-4
-    assert scene.stop_time == read_scene(write(tmp_path, HEAD + RUN)).stop_time
-
-
-def test_drive_periods_follow_the_drive_frequency_of_the_scene(tmp_path: Path) -> None:
-    scene = read_scene(write(tmp_path, HEAD + "[device]\ndrive_frequency = 35000.0\n" + RUN))
-    assert scene.stop_time == pytest.approx(10 * 2 * 3.141592653589793 / 35000)
-
-
-@pytest.mark.parametrize(
-    ("need", "parts"),
-    [
-        ("", ["need: needs at least one of", "steady_velocity", "event_times"]),
-        ("friction_law = 'free'", ["need: needs at least one of"]),
-        ("positon = { rel = 0.1 }", ["need.positon", "did you mean 'position'?"]),
-        ("position = {}", ["need.position", "needs a tolerance: abs, rel or both"]),
-        ("position = 0.1", ["need.position = 0.1", "such as { rel = 0.01 }"]),
-        ("position = { rel = 0.0 }", ["need.position.rel = 0.0", "must be a number above 0"]),
-        ("position = { abs = -1e-6 }", ["need.position.abs = -1e-06", "a number above 0"]),
-        ("position = { rel = nan }", ["need.position.rel = nan", "a finite number"]),
-        ("position = { relative = 0.1 }", ["need.position.relative", "did you mean 'rel'?"]),
-        ("position = { rel = 0.1 }\nfriction_law = 'any'", ["need.friction_law = 'any'", "'free'"]),
-    ],
-)
-def test_a_need_that_cannot_be_judged_is_refused(
-    tmp_path: Path, need: str, parts: list[str]
-) -> None:
-    message = refusal(tmp_path, HEAD + RUN + f"[need]\n{need}\n")
-    for part in parts:
-        assert part in message, f"{part!r} is missing in: {message}"
-
-
-def test_needs_are_measured_in_a_run_or_under_constant_inputs(tmp_path: Path) -> None:
-    message = refusal(tmp_path, HEAD + "[need]\nbeat = { rel = 0.1 }\n")
-    assert "need.beat is measured in a run: [run] is missing" in message
-    inputs = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
-    message = refusal(tmp_path, HEAD + inputs + "[need]\nblocking_force = { rel = 0.1 }\n")
-    assert "need.blocking_force needs constant inputs" in message
 
 
 def test_an_allowed_error_has_an_absolute_and_a_relative_part(tmp_path: Path) -> None:

@@ -14,8 +14,15 @@ def test_table_1_blocking_force_matches_taylor_integration(instance: Instance) -
     assert blocking.periods <= 100
 
 
-@pytest.mark.parametrize("values", [{"phase": 0.4}, {"friction_faces": 1.0}, {"fidelity": 1.0}])
-def test_blocking_force_stops_the_device(instance: Instance, values: dict[str, float]) -> None:
+@pytest.mark.parametrize("law", [{}, {"friction_law": 1.0}], ids=["Coulomb", "LuGre"])
+@pytest.mark.parametrize(
+    "values",
+    [{"phase": 0.4}, {"friction_faces": 1.0}, {"fidelity": 1.0}, {"bristle_stiffness": 50.0}],
+)
+def test_blocking_force_stops_the_device(
+    instance: Instance, values: dict[str, float], law: dict[str, float]
+) -> None:
+    values = {**values, **law}
     blocking = find_blocking(instance, values)
     assert blocking.blocking_force is not None
     motion = find_steady(instance, {**values, "load": blocking.blocking_force})

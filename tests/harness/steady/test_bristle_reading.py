@@ -9,26 +9,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INPUT_STARTS
 from slider_resonator.errors import FmuError
 from slider_resonator.steady.bristle_reading import BristleReading, bristle_reading
 
 RATE = 3500.0
-VALUES = {
-    "friction_law": 1.0,
-    "fidelity": 2.0,
-    "friction_coefficient": 0.1,
-    "friction_faces": 2.0,
-    "bristle_stiffness": 1e4,
-    "bristle_damping": 10.0,
-    "normal_preload": 1.0,
-    "normal_amplitude": 1.0,
-    "drive_frequency": RATE,
-    "frequency_ratio": 1.0,
-    "phase": 0.0,
-    "slider_mass": 1.0,
-    "resonator_mass": 0.1,
-    "resonator_frequency": RATE,
-}
+VALUES = {**vars(Device(friction_law=1, bristle_stiffness=1e4)), **INPUT_STARTS}
 
 
 def reading_of(**changed: float) -> BristleReading:

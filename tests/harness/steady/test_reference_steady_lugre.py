@@ -10,8 +10,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged import averaged_lugre, uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.steady.reference_steady import (
@@ -85,23 +84,3 @@ def test_ratio_3_with_the_resonator_matches_the_average() -> None:
     found = steady_velocity(device, 0.4, 0.02, 3.0, guess=average)
     fast = equivalent_force(device).velocity_amplitude
     assert found == pytest.approx(average, abs=5e-3 * fast)
-
-
-def test_load_above_all_friction_has_no_steady_motion() -> None:
-    device = unit_device(1.0, 1000.0, 1.0)
-    assert reference_steady_velocity(device, 0.0, 3.0, 1.0, simulate=simulate_lugre) is None
-
-
-@pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
-def test_soft_bristles_are_on_the_slow_manifold(amplitude_ratio: float) -> None:
-    """kappa = 0.01: the paper's averages, also for a contact that lifts."""
-    device = unit_device(0.01, 4000.0, amplitude_ratio)
-    case = LugreCase(amplitude_ratio=amplitude_ratio, phase=1.0)
-    velocity = averaged_lugre.steady_velocity(case)
-    force = averaged_lugre.blocking_load(case)
-    assert steady_velocity(device, 1.0, guess=velocity) == pytest.approx(velocity, abs=3e-4), (
-        "(17), up to errors of 1 / Omega"
-    )
-    assert blocking_force(device, 1.0, guess=force) == pytest.approx(force, abs=3e-4), (
-        "(24), up to errors of 1 / Omega"
-    )

@@ -5,12 +5,9 @@ from __future__ import annotations
 from math import pi
 
 import pytest
-from scipy.optimize import brentq
 
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import uniform_average
-from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
@@ -37,19 +34,6 @@ def test_soft_and_hard_bristles_match_the_reference(
     force = reference_blocking_force(device, 0.0, 1.0, blocking.predicted)
     assert motion.steady_velocity == pytest.approx(velocity, abs=1e-7), "the bristle as a state"
     assert blocking.blocking_force == pytest.approx(force, abs=1e-7), "the bristle as a state"
-
-
-@pytest.mark.parametrize("stiffness", [50.0, 1e4, 1e6])
-@pytest.mark.parametrize(("phase", "load"), [(0.0, 0.0), (0.4, 0.05), (2.0, -0.05)])
-def test_uniform_average_is_near(
-    instance: Instance, stiffness: float, phase: float, load: float
-) -> None:
-    values = {**LUGRE, "bristle_stiffness": stiffness, "phase": phase, "load": load}
-    motion = find_steady(instance, values)
-    device = Device(friction_law=1, bristle_stiffness=stiffness)
-    average = uniform_average.device_steady_velocity(device, phase, load)
-    fast = equivalent_force(device).velocity_amplitude
-    assert motion.steady_velocity == pytest.approx(average, abs=2e-3 * fast)
 
 
 @pytest.mark.parametrize("stiffness", [50.0, 3e3, 1e6])
@@ -82,48 +66,6 @@ def test_run_from_the_steady_state_stays_there(
     assert instance.value("velocity") == pytest.approx(motion.state["velocity"], abs=1e-9)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("stiffness", "normal_amplitude"), [(50.0, 1.0), (1e6, 1.0), (1e4, 3.0)])
-def test_long_run_converges_to_the_steady_velocity(
-    instance: Instance, stiffness: float, normal_amplitude: float
-) -> None:
-    """The slowest departure has a multiplier of 0.9989."""
-    values = {
-        **LUGRE,
-        "bristle_stiffness": stiffness,
-        "normal_amplitude": normal_amplitude,
-        "phase": -1.2,
-    }
-    motion = find_steady(instance, values)
-    assert motion.steady_velocity is not None
-    instance.start({**values, "initial_velocity": 0.05})
-    instance.step_to(16_000 * PERIOD)
-    begin = instance.value("position")
-    instance.step_to(16_001 * PERIOD)
-    mean = (instance.value("position") - begin) / PERIOD
-    assert mean == pytest.approx(motion.steady_velocity, abs=2e-8)
-
-
-@pytest.mark.parametrize("stiffness", [50.0, 3e3, 1e6])
-def test_bristle_is_read_earlier_where_friction_hides_it(
-    instance: Instance, stiffness: float
-) -> None:
-    """At |v| = mu / sigma_1 friction is mu N whatever the deflection."""
-    values = {**LUGRE, "bristle_stiffness": stiffness}
-
-    def weight(damping: float) -> float:
-        motion = find_steady(instance, {**values, "bristle_damping": damping})
-        return 1.0 - damping * abs(motion.state["velocity"]) / 0.1
-
-    values["bristle_damping"] = float(brentq(weight, 1.0, 8.0, xtol=1e-9))
-    assert abs(weight(values["bristle_damping"])) < 1e-6, "the steady motion ends each period blind"
-    motion = find_steady(instance, values)
-    assert motion.status == "steady"
-    device = Device.from_mapping(values)
-    reference = reference_steady_velocity(device, 0.0, 0.0, 1.0, motion.predicted)
-    assert motion.steady_velocity == pytest.approx(reference, abs=1e-7)
-
-
 @pytest.mark.parametrize("stiffness", [1.0, 50.0, 1e3, 1e5])
 @pytest.mark.parametrize("velocity", [-0.23, -0.05, 0.0, 0.23])
 def test_search_converges_from_any_velocity(
@@ -134,15 +76,6 @@ def test_search_converges_from_any_velocity(
     far = find_steady(instance, {**values, "initial_velocity": velocity})
     assert far.status == "steady"
     assert far.steady_velocity == pytest.approx(near.steady_velocity, abs=1e-8)
-
-
-@pytest.mark.parametrize("values", [{"phase": 0.4}, {"bristle_stiffness": 50.0}, {"fidelity": 1.0}])
-def test_blocking_force_stops_the_device(instance: Instance, values: dict[str, float]) -> None:
-    values = {**LUGRE, **values}
-    blocking = find_blocking(instance, values)
-    assert blocking.blocking_force is not None
-    motion = find_steady(instance, {**values, "load": blocking.blocking_force})
-    assert motion.steady_velocity == pytest.approx(0.0, abs=1e-9)
 
 
 def test_damped_bristles_hold_loads_above_sliding_friction(instance: Instance) -> None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from slider_resonator.arrays import Array
 
 
-def peak(signal: NDArray[np.float64]) -> float:
+def peak(signal: Array) -> float:
     """Return the largest magnitude of a signal (n,), NaN when there is one in it."""
     return float(np.abs(signal).max())
 
@@ -18,7 +19,7 @@ def share_of(difference: float, size: float) -> float:
     return difference / size if size > 0.0 else float("inf")
 
 
-def mismatch_share(error: NDArray[np.float64]) -> float:
+def mismatch_share(error: Array) -> float:
     """Return the share of points at which two signals of integers differ, from the error (n,).
 
     An error that is not finite counts as a difference.

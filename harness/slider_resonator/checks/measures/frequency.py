@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slider_resonator.arrays import Array
 
 HARMONICS = 3
 """Harmonics in the fit: without them a distorted wave would shift the frequency."""

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from slider_resonator.arrays import Array
 
 
 def slow_displacement(times: Array, position: Array, period: float) -> Array:

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from slider_resonator.checks.compare import Check, Value
+from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.deviation_plot import deviation_png
 from slider_resonator.checks.validate import Curves, Validation, worst_of_sweeps
-from slider_resonator.checks.verdict import TITLE, place, sentence, title
+from slider_resonator.checks.verdict import TITLE, place, sentence, title, value_text
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
-from slider_resonator.output.readable import readable
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_PICTURES = 40
 """Maximum pictures for each FMU, one per sweep: a very faulty FMU fails everywhere."""
+DIGITS = 8
 COLUMNS = (
     *texts("scene", "quantity"),
     *numbers("FMU", "reference", "off by", "allowed"),
@@ -71,13 +71,6 @@ def _row(check: Check) -> Row:
     of_peak = " of peak" if QUANTITIES[check.quantity].relative_to_peak else ""
     sizes = ["-" if s is None else f"{s:.2g}{of_peak}" for s in (check.deviation, check.allowed)]
     unit = f" [{check.unit}]" if check.unit not in ("", "1") else ""
-    return (
-        *(check.scene, title(check) + unit, _value(check.fmu), _value(check.reference), *sizes),
-        *(verdict(check.passed), check.why),
-    )
-
-
-def _value(value: Value) -> str:
-    if value is None:
-        return "none"
-    return value if isinstance(value, str) else readable(value, 8)
+    values = [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
+    where = (check.scene, title(check) + unit)
+    return (*where, *values, *sizes, verdict(check.passed), check.why)

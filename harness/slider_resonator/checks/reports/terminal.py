@@ -7,10 +7,9 @@ from collections.abc import Mapping, Sequence
 from rich.console import Console
 from rich.text import Text
 
-from slider_resonator.checks.compare import Check, Value
+from slider_resonator.checks.compare import Check
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
-from slider_resonator.checks.verdict import place, sentence
-from slider_resonator.output.readable import readable
+from slider_resonator.checks.verdict import place, sentence, value_text
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.output.terminal import STYLES, escaped, rendered
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -93,7 +92,8 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
             scene = check.scene
             rows.append([Cell(f"{scene}, {points} points" if points > 1 else scene, Style.HEADING)])
         cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
-        cells += [_value(check.fmu), _value(check.reference), check.against.split("_")[0]]
+        cells += [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
+        cells.append(check.against.split("_")[0])
         cells += [_size(check.deviation), _size(check.allowed)]
         rows.append((*cells, verdict(check.passed)))
         if details:
@@ -109,12 +109,6 @@ def _quantity(check: Check) -> str:
 
 def _of_peak(check: Check) -> bool:
     return QUANTITIES[check.quantity].relative_to_peak
-
-
-def _value(value: Value) -> str:
-    if value is None:
-        return "none"
-    return value if isinstance(value, str) else readable(value, DIGITS)
 
 
 def _size(size: float | None) -> str:

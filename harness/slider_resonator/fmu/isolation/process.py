@@ -13,7 +13,6 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from time import monotonic
-from types import TracebackType
 from typing import IO, Any
 
 from slider_resonator.errors import FmuError
@@ -82,12 +81,7 @@ class IsolatedFmu:
         """Return the isolated FMU."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         """Free the FMU and end its process, at once after an error."""
         if error is None:
             self.close()

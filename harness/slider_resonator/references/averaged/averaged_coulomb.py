@@ -16,15 +16,14 @@ from scipy.optimize import brentq
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.vibrating_contact import (
     check_amplitude_ratio,
-    check_never_lifts,
     closed_spans,
     mean_load,
     turning_angle,
     turns_until_repeat,
 )
 from slider_resonator.references.closed_forms import (
-    REFERENCE_FREQUENCY,
     EquivalentForce,
+    check_never_lifts,
     check_strength,
     equivalent_force,
 )
@@ -163,17 +162,9 @@ def device_steady_velocity_at_ratio(
     Raises ValueError as `equivalent_force` and `steady_velocity_at_ratio` do.
     """
     force = equivalent_force(device)
-    return (
-        steady_velocity_at_ratio(
-            force.strength,
-            device.amplitude_ratio,
-            phase_to_force(force, phase, ratio),
-            ratio,
-            load / device.mean_friction,
-        )
-        * force.length_scale
-        * REFERENCE_FREQUENCY
-    )
+    lag, share = phase_to_force(force, phase, ratio), load / device.mean_friction
+    fast = force.velocity_amplitude
+    return steady_velocity_at_ratio(fast, device.amplitude_ratio, lag, ratio, share)
 
 
 def phase_to_force(force: EquivalentForce, phase: float, ratio: float) -> float:

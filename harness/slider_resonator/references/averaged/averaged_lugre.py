@@ -13,17 +13,15 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.references.averaged.slow_equilibria import stable_velocity
 from slider_resonator.references.averaged.vibrating_contact import (
-    check_never_lifts,
     closed_spans,
     mean_load,
     turning_angle,
 )
-
-Array = NDArray[np.float64]
+from slider_resonator.references.closed_forms import check_never_lifts
 
 
 @dataclass(frozen=True)

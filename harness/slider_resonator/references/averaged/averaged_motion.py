@@ -13,8 +13,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
@@ -24,8 +24,6 @@ from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
-
-Array = NDArray[np.float64]
 
 MAX_DETUNING = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow. For a

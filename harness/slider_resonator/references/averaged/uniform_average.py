@@ -13,8 +13,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.averaged.slow_equilibria import stable_velocity
@@ -24,8 +24,6 @@ from slider_resonator.references.averaged.vibrating_contact import (
     turns_until_repeat,
 )
 from slider_resonator.references.closed_forms import equivalent_force
-
-Array = NDArray[np.float64]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 _GRADED_PANELS = 30

@@ -70,12 +70,3 @@ def check_amplitude_ratio(amplitude_ratio: float) -> None:
         raise ValueError(
             f"amplitude_ratio = {amplitude_ratio!r}: must be a finite number of at least 0"
         )
-
-
-def check_never_lifts(amplitude_ratio: float) -> None:
-    """Raise ValueError unless an amplitude ratio keeps the contact closed."""
-    if not 0.0 <= amplitude_ratio <= 1.0:
-        raise ValueError(
-            f"amplitude_ratio = {amplitude_ratio!r} must lie between 0 and 1: above 1 the contact "
-            "lifts, which this closed form does not cover"
-        )

@@ -22,26 +22,19 @@ def mode_at_rest(needed_force: float, friction_limit: float) -> int:
     return SLIP_FORWARD if needed_force > 0.0 else SLIP_BACKWARD
 
 
-def time_to_lift_off(preload: float, amplitude: float, angle: float, rate: float) -> float:
-    """Return the time in s until ``preload + amplitude sin(angle + rate t)`` falls through zero.
+def time_to_contact_change(
+    lifted: bool, preload: float, amplitude: float, angle: float, rate: float
+) -> float:
+    """Return the time in s until ``preload + amplitude sin(angle + rate t)`` crosses zero.
 
-    Infinite if it never does. A contact that only touches zero does not lift.
+    That is upward, the touchdown, of a ``lifted`` contact and downward, the lift-off, of a closed
+    one. Infinite if it never does. A contact that only touches zero does not lift.
     """
     if amplitude <= preload or rate == 0.0:
         return math.inf
-    half_flight = math.acos(preload / amplitude)
-    return _time_to_angle(1.5 * math.pi - math.copysign(half_flight, rate), angle, rate)
-
-
-def time_to_touchdown(preload: float, amplitude: float, angle: float, rate: float) -> float:
-    """Return the time in s until ``preload + amplitude sin(angle + rate t)`` rises through zero.
-
-    Infinite if it never does.
-    """
-    if amplitude <= preload or rate == 0.0:
-        return math.inf
-    half_flight = math.acos(preload / amplitude)
-    return _time_to_angle(1.5 * math.pi + math.copysign(half_flight, rate), angle, rate)
+    half_flight = math.copysign(math.acos(preload / amplitude), rate)
+    target = 1.5 * math.pi + (half_flight if lifted else -half_flight)
+    return math.copysign(1.0, rate) * (target - angle) % _TURN / abs(rate)
 
 
 def is_lifted(preload: float, amplitude: float, angle: float, rate: float) -> bool:
@@ -50,10 +43,7 @@ def is_lifted(preload: float, amplitude: float, angle: float, rate: float) -> bo
         return preload + amplitude * math.sin(angle) <= 0.0
     # The order of the next two crossings decides, not the sign of the normal load: at a crossing
     # that sign is rounding, and a decision against the crossing times would lose a whole flight.
-    touchdown = time_to_touchdown(preload, amplitude, angle, rate)
-    lift_off = time_to_lift_off(preload, amplitude, angle, rate)
+    touchdown, lift_off = (
+        time_to_contact_change(lifted, preload, amplitude, angle, rate) for lifted in (True, False)
+    )
     return lift_off == 0.0 or 0.0 < touchdown < lift_off
-
-
-def _time_to_angle(target: float, angle: float, rate: float) -> float:
-    return math.copysign(1.0, rate) * (target - angle) % _TURN / abs(rate)

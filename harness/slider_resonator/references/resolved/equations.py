@@ -11,13 +11,14 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 
 State = tuple[float, float, float, float]
 """Position m, velocity m/s, resonator displacement m, resonator velocity m/s."""
 
-Number = TypeVar("Number", float, NDArray[np.float64])
+Number = TypeVar("Number", float, Array)
 
 _RESONANCE_RESOLUTION = 1e-12
 
@@ -83,7 +84,7 @@ class Equations:
         angle: float,
         frequency_ratio: float,
         width: float = 0.0,
-    ) -> Callable[[float, NDArray[np.float64]], list[float]]:
+    ) -> Callable[[float, Array], list[float]]:
         """Return the time derivative of the state as a function of time (s) and state (4).
 
         ``theta`` and ``angle`` are those at time 0. Within a contact mode the derivative is smooth;
@@ -100,7 +101,7 @@ class Equations:
         slides = mode != STICK
         fixed_direction = 0 if mode is None or mode == LIFTED else mode
 
-        def slopes(time: float, state: NDArray[np.float64]) -> list[float]:
+        def slopes(time: float, state: Array) -> list[float]:
             _, velocity, displacement, resonator_velocity = state.tolist()
             sine = sin(theta + rate * time)
             resonator = base * sine - damping * resonator_velocity - stiffness * displacement
@@ -128,10 +129,10 @@ class Equations:
         self,
         mode: int,
         load: float,
-        theta: NDArray[np.float64],
-        angle: NDArray[np.float64],
-        states: NDArray[np.float64],
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        theta: Array,
+        angle: Array,
+        states: Array,
+    ) -> tuple[Array, Array]:
         """Return normal and friction force in N along states of shape (n, 4) in one mode."""
         if mode == LIFTED:
             return np.zeros(len(theta)), np.zeros(len(theta))
@@ -140,9 +141,7 @@ class Equations:
             return normal, self.needed_force(load, theta, states[:, 2], states[:, 3])
         return normal, mode * np.maximum(0.0, self.friction_limit(angle))
 
-    def resonator_motion(
-        self, theta: NDArray[np.float64], states: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def resonator_motion(self, theta: Array, states: Array) -> tuple[Array, Array]:
         """Return the displacement in m and velocity in m/s of the resonator along states (n, 4)."""
         if self.steady_resonator is None:
             return states[:, 2], states[:, 3]
@@ -156,7 +155,7 @@ class Equations:
         root = 0.5 * damping + cmath.sqrt(0.25 * damping**2 - stiffness)
         return max(self.drive_frequency * max(1.0, abs(frequency_ratio)), abs(root))
 
-    def state_scales(self, load: float) -> NDArray[np.float64]:
+    def state_scales(self, load: float) -> Array:
         """Return characteristic sizes of the state, shape (4,), for absolute tolerances.
 
         They are what the forces, apart from the resonator's, would reach in 1 / drive_frequency.

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
+
+from slider_resonator.arrays import Array
 
 Function = Callable[[float], tuple[float, float]]
 """Value and slope of a function of time."""
@@ -15,9 +16,9 @@ _HALVINGS = 60
 
 
 def first_crossing(
-    grid: NDArray[np.float64],
-    values: NDArray[np.float64],
-    slopes: NDArray[np.float64],
+    grid: Array,
+    values: Array,
+    slopes: Array,
     function: Function,
     floor: float,
 ) -> float | None:

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
@@ -26,10 +26,8 @@ from slider_resonator.references.resolved.scipy_methods import (
     scipy_method,
     take_step,
 )
-from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
+from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
-
-Array = NDArray[np.float64]
 
 STEPS_PER_FASTEST_PERIOD = 16
 _SEARCHED_PER_STEP = 8
@@ -56,18 +54,12 @@ def simulate(
     cover the whole span of the inputs. Raises ValueError for a device that the equations do not
     cover, another method, inputs with gaps, and times outside them.
     """
-    equations = equations_of(device)
-    follow = _follow_with(equations, scipy_method(method), rtol, atol, steps_per_period)
-    return ModeSequence(equations, follow, initial_state(device), times).run(held)
+    equations, solver = equations_of(device), scipy_method(method)
 
-
-def _follow_with(
-    equations: Equations, method: Method, rtol: float, atol: float, steps_per_period: int
-) -> Follow:
     def follow(segment: Segment) -> SegmentResult:
-        return _Motion(equations, segment).follow(method, rtol, atol, steps_per_period)
+        return _Motion(equations, segment).follow(solver, rtol, atol, steps_per_period)
 
-    return follow
+    return ModeSequence(equations, follow, initial_state(device), times).run(held)
 
 
 class _Motion:
@@ -119,14 +111,10 @@ class _Motion:
                 sampled = end
         states = np.concatenate([np.empty((0, 4)), *samples])
         states[:, 0] += segment.state[0]
+        displacement, *motion = state.tolist()
         return SegmentResult(
             duration=float(time),
-            state=(
-                segment.state[0] + float(state[0]),
-                float(state[1]),
-                float(state[2]),
-                float(state[3]),
-            ),
+            state=(segment.state[0] + displacement, *motion),
             event=event,
             samples=states,
             steps=steps,

@@ -6,12 +6,10 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.references.resolved.equations import Equations, equations_of
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -10,18 +10,16 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.scipy_methods import Method, scipy_method, take_step
-
-Array = NDArray[np.float64]
+from slider_resonator.references.resolved.trajectory import LugreTrajectory
 
 _STEPS_PER_FASTEST_PERIOD = 16
 
@@ -58,10 +56,7 @@ class _Run:
         self.recorder = Recorder(times)
         self._lugre = lugre
         self._equations = lugre.equations
-        self._stiffness = device.bristle_stiffness
-        self._damping = device.bristle_damping
-        self._coefficient = device.friction_coefficient
-        self._faces = device.friction_faces
+        self._device = device
         self._state = np.array([*initial_state(device), device.initial_bristle_deflection])
         self._theta = 0.0
         self._psi = 0.0
@@ -69,7 +64,7 @@ class _Run:
     def follow(self, inputs: HeldInputs, method: Method, rtol: float, atol: float) -> None:
         equations = self._equations
         ratio = inputs.frequency_ratio
-        scales = np.append(equations.state_scales(inputs.load), self._coefficient / self._stiffness)
+        scales = np.append(equations.state_scales(inputs.load), self._lugre.max_deflection)
         start = self._state[0]
         solver = method(
             self._slopes(inputs),
@@ -103,12 +98,9 @@ class _Run:
         theta, angle = self._theta, self._psi + inputs.phase
         rate = equations.drive_frequency
         angle_rate = inputs.frequency_ratio * rate
-        preload, amplitude, faces = (
-            equations.normal_preload,
-            equations.normal_amplitude,
-            self._faces,
-        )
-        stiffness, damping, coefficient = self._stiffness, self._damping, self._coefficient
+        preload, amplitude = equations.normal_preload, equations.normal_amplitude
+        faces, coefficient = self._device.friction_faces, self._device.friction_coefficient
+        stiffness, damping = self._device.bristle_stiffness, self._device.bristle_damping
 
         def slopes(time: float, state: Array) -> list[float]:
             _, velocity, displacement, resonator_velocity, deflection = state.tolist()
@@ -140,15 +132,11 @@ class _Run:
         angle = self._psi + inputs.phase + angle_rate * time
         load = equations.normal_preload + equations.normal_amplitude * np.sin(angle)
         velocity, deflection = states[:, 1], states[:, 4]
-        deflection_rate = velocity - self._stiffness * np.abs(velocity) * deflection / (
-            self._coefficient
-        )
-        friction = self._stiffness * deflection + self._damping * deflection_rate
-        normal = np.maximum(0.0, load)
+        stretch = deflection / self._lugre.max_deflection
         self.recorder.keep(
             states,
             equations.resonator_motion(theta, states),
-            (normal, self._faces * normal * friction),
+            (np.maximum(0.0, load), self._lugre.friction_force(velocity, stretch, angle)),
             np.where(load > 0.0, np.sign(velocity), float(LIFTED)),
             deflection,
         )

@@ -12,20 +12,14 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.phase import Elapsed, advanced
-from slider_resonator.references.resolved.contact import (
-    LIFTED,
-    is_lifted,
-    time_to_lift_off,
-    time_to_touchdown,
-)
+from slider_resonator.references.resolved.contact import LIFTED, is_lifted, time_to_contact_change
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.polynomial_roots import first_fall
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.taylor_system import (
@@ -41,8 +35,7 @@ from slider_resonator.references.resolved.taylor_system import (
     series_values,
     taylor_integrator,
 )
-
-Array = NDArray[np.float64]
+from slider_resonator.references.resolved.trajectory import LugreTrajectory
 
 Bristle = Literal["path", "state"]
 """Whether the bristle follows from the path since the start of a step, or is a state."""
@@ -121,8 +114,7 @@ class _Run:
         lifted = is_lifted(*load_of, self._psi + inputs.phase, ratio)
         elapsed = Elapsed()
         while (remaining := elapsed.until(span)) > 0.0:
-            time_to = time_to_touchdown if lifted else time_to_lift_off
-            change = time_to(*load_of, self._psi + inputs.phase, ratio)
+            change = time_to_contact_change(lifted, *load_of, self._psi + inputs.phase, ratio)
             self._integrator.pars[HELD] = held_parameters(
                 equations, inputs.load, ratio, force, LIFTED if lifted else None
             )

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import (
@@ -17,8 +17,7 @@ from slider_resonator.references.resolved.contact import (
     STICK,
     is_lifted,
     mode_at_rest,
-    time_to_lift_off,
-    time_to_touchdown,
+    time_to_contact_change,
 )
 from slider_resonator.references.resolved.equations import Equations, State
 from slider_resonator.references.resolved.recorder import Recorder
@@ -31,9 +30,7 @@ _MAX_EVENTS_AT_ONE_INSTANT = 20
 class ModeSequence:
     """Follows the motion through held inputs, from theta = psi = 0 at the first start."""
 
-    def __init__(
-        self, equations: Equations, follow: Follow, state: State, times: NDArray[np.float64]
-    ) -> None:
+    def __init__(self, equations: Equations, follow: Follow, state: State, times: Array) -> None:
         self.state = state
         self._equations = equations
         self._follow = follow
@@ -110,8 +107,8 @@ class ModeSequence:
         self,
         mode: int,
         inputs: HeldInputs,
-        local: NDArray[np.float64],
-        states: NDArray[np.float64],
+        local: Array,
+        states: Array,
     ) -> None:
         equations = self._equations
         theta = self._theta + equations.drive_frequency * local
@@ -122,7 +119,7 @@ class ModeSequence:
         forces = equations.contact_forces(mode, inputs.load, theta, angle, states)
         self._recorder.keep(states, resonator, forces, mode)
 
-    def _keep_present(self, mode: int, inputs: HeldInputs, times: NDArray[np.float64]) -> None:
+    def _keep_present(self, mode: int, inputs: HeldInputs, times: Array) -> None:
         """Keep the present state as the sample of each of the times."""
         count = len(times)
         self._keep(mode, inputs, np.zeros(count), np.tile(self.state, (count, 1)))
@@ -158,8 +155,8 @@ class ModeSequence:
 
     def _time_to_contact_change(self, mode: int, inputs: HeldInputs) -> float:
         equations = self._equations
-        time_to = time_to_touchdown if mode == LIFTED else time_to_lift_off
-        return time_to(
+        return time_to_contact_change(
+            mode == LIFTED,
             equations.normal_preload,
             equations.normal_amplitude,
             self._psi + inputs.phase,

@@ -11,10 +11,9 @@ from functools import cache
 from math import comb
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-Array = NDArray[np.float64]
+from slider_resonator.arrays import Array
 
 _HALVINGS = 40
 

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.references.resolved.contact_record import ContactRecord
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
-from slider_resonator.references.resolved.trajectory import Trajectory
-
-Array = NDArray[np.float64]
+from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
 
 
 class Recorder:

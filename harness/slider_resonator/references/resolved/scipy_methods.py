@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import DOP853, LSODA, Radau
 
-Array = NDArray[np.float64]
+from slider_resonator.arrays import Array
+
 Dense = Callable[[float | Array], Array]
 """States, shape (k,) or (k, n), at a time or at times (n,) within a step."""
 
@@ -24,10 +23,6 @@ class Solver(Protocol):
     @property
     def t(self) -> float:
         """Time at the end of the last step, s."""
-
-    @property
-    def t_old(self) -> float | None:
-        """Time at its start, s."""
 
     @property
     def y(self) -> Array:

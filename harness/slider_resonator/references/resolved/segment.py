@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from slider_resonator.arrays import Array
 from slider_resonator.references.resolved.equations import State
 
 
@@ -28,7 +26,7 @@ class Segment:
     load: float
     frequency_ratio: float
     span: float
-    samples: NDArray[np.float64]
+    samples: Array
 
 
 @dataclass(frozen=True)
@@ -43,7 +41,7 @@ class SegmentResult:
     duration: float
     state: State
     event: int
-    samples: NDArray[np.float64]
+    samples: Array
     steps: int
     evaluations: int
 

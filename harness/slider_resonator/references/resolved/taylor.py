@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.phase import Elapsed, advanced
@@ -32,8 +32,6 @@ from slider_resonator.references.resolved.taylor_system import (
     taylor_integrator,
 )
 from slider_resonator.references.resolved.trajectory import Trajectory
-
-Array = NDArray[np.float64]
 
 
 def simulate(

@@ -11,12 +11,10 @@ from functools import cache
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.equations import Equations
-
-Array = NDArray[np.float64]
 
 Friction = Literal["coulomb", "path", "state"]
 """Coulomb, or LuGre with the bristle from the path since the start of a step or as a state."""

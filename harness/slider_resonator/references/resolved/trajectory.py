@@ -1,4 +1,4 @@
-"""The sampled motion that every reference integrator returns."""
+"""The sampled motion that every reference integrator returns, of either friction law."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from slider_resonator.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -19,17 +21,29 @@ class Trajectory:
     ``event_times`` are the instants of every change of contact mode, s; ``stick_time`` is in s.
     """
 
-    time: NDArray[np.float64]
-    position: NDArray[np.float64]
-    velocity: NDArray[np.float64]
-    resonator_displacement: NDArray[np.float64]
-    resonator_velocity: NDArray[np.float64]
-    normal_force: NDArray[np.float64]
-    friction_force: NDArray[np.float64]
+    time: Array
+    position: Array
+    velocity: Array
+    resonator_displacement: Array
+    resonator_velocity: Array
+    normal_force: Array
+    friction_force: Array
     contact_mode: NDArray[np.int64]
     reversals: int
     sticks: int
     stick_time: float
-    event_times: NDArray[np.float64]
+    event_times: Array
     steps: int
     evaluations: int
+
+
+@dataclass(frozen=True)
+class LugreTrajectory(Trajectory):
+    """A ``Trajectory`` with ``bristle_deflection``, z of (8) in m, shape (n,).
+
+    Bristles never stick: ``contact_mode`` is the sign of the velocity (2 while lifted), ``sticks``
+    and ``stick_time`` are 0. ``reversals`` counts every change of sign of the velocity, those in
+    flight too.
+    """
+
+    bristle_deflection: Array

@@ -10,9 +10,8 @@ import numpy as np
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import Array, HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 from slider_resonator.references.resolved.taylor import simulate
-from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
 from slider_resonator.trials.extremes import averaged_reference
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.observe import NAMES, Observation

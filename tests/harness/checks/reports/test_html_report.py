@@ -5,6 +5,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 from slider_resonator.checks.reports.html_report import write_html
+from slider_resonator.checks.validate import Validation
 from tests.harness.verdicts import BAD, BROKEN, GOOD, TIMES
 
 
@@ -21,9 +22,9 @@ class Tags(HTMLParser):
         self.loaded += [value or "" for name, value in attrs if name in ("src", "href")]
 
 
-def page(folder: Path, *validations: object, error: str = "") -> tuple[str, Tags]:
+def page(folder: Path, *validations: Validation) -> tuple[str, Tags]:
     path = folder / "report.html"
-    write_html(path, validations, error)  # type: ignore[arg-type]
+    write_html(path, validations)
     text = path.read_text(encoding="utf-8")
     tags = Tags()
     tags.feed(text)
@@ -49,8 +50,3 @@ def test_output_of_an_fmu_is_escaped_in_markup(tmp_path: Path) -> None:
     assert "b" not in tags.tags
     assert "could not be run" in text
     assert "lift_off at phase 0.4: the FMU crashed" in text
-
-
-def test_an_error_before_any_fmu_is_shown(tmp_path: Path) -> None:
-    text, _ = page(tmp_path, error="mine.toml: not TOML")
-    assert "Could not run: mine.toml: not TOML" in text

@@ -30,10 +30,3 @@ def test_output_of_an_fmu_cannot_break_the_file(tmp_path: Path) -> None:
     write_junit(path, [BROKEN])
     (error,) = ET.parse(path).getroot().iter("error")
     assert error.get("message") == "the FMU crashed in fmi2DoStep: \ufffd | <b>"
-
-
-def test_an_error_before_any_fmu_is_a_test_case_too(tmp_path: Path) -> None:
-    path = tmp_path / "report.xml"
-    write_junit(path, [], "mine.toml: not TOML")
-    (error,) = ET.parse(path).getroot().iter("error")
-    assert error.get("message") == "mine.toml: not TOML"

@@ -3,10 +3,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import pytest
-
 from slider_resonator.checks.reports.step_summary import MAX_ROWS, append_summary
-from slider_resonator.errors import HarnessError
 from tests.harness.verdicts import BAD, BROKEN, GOOD, SLOWER
 
 
@@ -35,14 +32,3 @@ def test_a_hopeless_fmu_does_not_flood_the_page(tmp_path: Path) -> None:
     append_summary(path, [replace(BAD, checks=(SLOWER,) * 500)])
     assert path.read_text().count("steady_velocity") == MAX_ROWS
     assert "and 450 more" in path.read_text()
-
-
-def test_an_error_before_any_fmu_is_reported(tmp_path: Path) -> None:
-    path = tmp_path / "summary.md"
-    append_summary(path, [], "mine.toml: not TOML")
-    assert "Could not run: mine.toml: not TOML" in path.read_text()
-
-
-def test_a_page_that_cannot_be_written_is_an_error(tmp_path: Path) -> None:
-    with pytest.raises(HarnessError, match="GITHUB_STEP_SUMMARY"):
-        append_summary(tmp_path, [GOOD])

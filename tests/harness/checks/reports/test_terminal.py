@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import io
 from dataclasses import replace
-from typing import Any
 
 from rich.console import Console
 
@@ -10,35 +9,24 @@ from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import Validation
 from slider_resonator.output.console import LOG_WIDTH
+from tests.harness.verdicts import NONE, PASSED, WORD
 
+BAD = replace(NONE, reference=0.15, note="no steady motion")
 
-def check(*fields: Any) -> Check:
-    return Check(*fields)
-
-
-GOOD = check(
-    *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),
-    *(1e-10, 1e-7, True, "both must agree", "", {"phase": 0.0}),
-)
-BAD = check(
-    *("phase_sweep", "steady_velocity", "m/s", None, "located_events", 0.15),
-    *(None, None, False, "both must agree", "no steady motion", {"phase": 0.4}),
-)
-
-
+LONG = "load_above_friction"
+FARTHEST = replace(PASSED, deviation=1.2e-10, allowed=1.3e-07, at={"phase": 2.4083})
+FORCE, LENGTH = -1.2345678e-05, 0.00012345678
 WIDEST = (
-    check(
-        *("table_1_high_frequency", "steady_status", "", "load_above_friction", "value"),
-        *("load_above_friction", None, None, True, "why", "", {}),
+    replace(WORD, scene="table_1_high_frequency", fmu=LONG, reference=LONG, passed=True),
+    replace(
+        FARTHEST,
+        quantity="predicted_blocking_force",
+        unit="N",
+        against="at least",
+        fmu=FORCE,
+        reference=FORCE,
     ),
-    check(
-        *("phase_sweep", "predicted_blocking_force", "N", -1.2345678e-05, "at least"),
-        *(-1.2345678e-05, 1.2e-10, 1.3e-07, True, "why", "", {"phase": 2.4083}),
-    ),
-    check(
-        *("phase_sweep", "resonator_displacement", "m", 0.00012345678, "located_events"),
-        *(0.00012345678, 1.2e-10, 1.3e-07, True, "why", "", {"phase": 2.4083}),
-    ),
+    replace(FARTHEST, quantity="resonator_displacement", unit="m", fmu=LENGTH, reference=LENGTH),
 )
 
 
@@ -50,7 +38,7 @@ def printed(*checks: Check, details: bool = False, fmu: str = "my.fmu") -> str:
 
 
 def test_the_table_shows_units_and_the_summary() -> None:
-    text = printed(GOOD)
+    text = printed(PASSED)
     assert "steady_velocity, m/s" in text
     assert "located" in text
     assert "1 of 1 checks passed" in text
@@ -59,7 +47,7 @@ def test_the_table_shows_units_and_the_summary() -> None:
 
 def test_the_summary_is_one_line_with_the_file_name() -> None:
     fmu = f"a{'/very' * 40}/long/path[old].fmu"
-    assert printed(GOOD, fmu=fmu).splitlines()[-1] == f"{fmu}: 1 of 1 checks passed in 1.5 s"
+    assert printed(PASSED, fmu=fmu).splitlines()[-1] == f"{fmu}: 1 of 1 checks passed in 1.5 s"
 
 
 def test_the_longest_rows_fit_a_log_unwrapped() -> None:
@@ -71,8 +59,8 @@ def test_the_longest_rows_fit_a_log_unwrapped() -> None:
     assert text.count("load_above_friction") == 2
 
 
-def test_output_of_an_fmu_cannot_command_the_terminal() -> None:
-    text = printed(replace(GOOD, fmu="\x1b[2Jstuck", passed=False), fmu="\x1b[31m.fmu")
+def test_what_an_fmu_gives_cannot_command_the_terminal() -> None:
+    text = printed(replace(PASSED, fmu="\x1b[2Jstuck", passed=False), fmu="\x1b[31m.fmu")
     assert "\x1b" not in text
     assert "\ufffd[2Jstuck" in text
     assert "\ufffd[31m.fmu: 1 failed, 0 of 1 checks passed" in text
@@ -81,14 +69,14 @@ def test_output_of_an_fmu_cannot_command_the_terminal() -> None:
 def test_minus_zero_and_noise_are_0() -> None:
     (row,) = [
         line
-        for line in printed(replace(GOOD, fmu=-0.0, reference=-1.7e-14)).splitlines()
+        for line in printed(replace(PASSED, fmu=-0.0, reference=-1.7e-14)).splitlines()
         if "steady_velocity" in line
     ]
     assert row.split()[4:6] == ["0", "0"], row
 
 
 def test_of_a_sweep_the_worst_point_is_shown_with_its_reason() -> None:
-    text = printed(GOOD, BAD)
+    text = printed(PASSED, BAD)
     assert "phase_sweep, 2 points" in text
     assert "worst at" in text
     assert text.count("phase 0.4") == 2, "in the table and as a failure"
@@ -99,14 +87,16 @@ def test_of_a_sweep_the_worst_point_is_shown_with_its_reason() -> None:
 
 
 def test_details_show_every_point_and_why() -> None:
-    text = printed(GOOD, BAD, details=True)
+    text = printed(PASSED, BAD, details=True)
     assert "phase 0 " in text
     assert text.count("both must agree") >= 2
+    many = printed(*(replace(PASSED, scene=f"scene_{n}") for n in range(9)), details=True)
+    assert many.count("both must agree") == 9, "of many scenes too"
 
 
 def test_many_scenes_have_a_line_each_and_their_failures_in_full() -> None:
-    good = [replace(GOOD, scene=f"scene_{n}", why=f"reason {n}") for n in range(9)]
-    near = replace(GOOD, scene="scene_0", quantity="blocking_force", deviation=0.9e-7)
+    good = [replace(PASSED, scene=f"scene_{n}", why=f"reason {n}") for n in range(9)]
+    near = replace(PASSED, scene="scene_0", quantity="blocking_force", deviation=0.9e-7)
     text = printed(*good, near, replace(BAD, scene="scene_9"))
     rows = [line.split() for line in text.splitlines() if " of " in line and "pass" in line[-6:]]
     assert len(rows) == 9, "one line a scene"
@@ -115,8 +105,3 @@ def test_many_scenes_have_a_line_each_and_their_failures_in_full() -> None:
     assert text.count("steady_velocity") == 9 + 2, "a line each, and two of what fails"
     assert "10 of 11 checks passed" in text
     assert "reason" not in text
-
-
-def test_with_details_many_scenes_are_shown_check_by_check() -> None:
-    text = printed(*(replace(GOOD, scene=f"scene_{n}") for n in range(9)), details=True)
-    assert text.count("both must agree") == 9

@@ -14,13 +14,6 @@ from slider_resonator.fmu.isolation import process
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 
-REPOSITORY = Path(__file__).resolve().parents[4]
-
-
-@pytest.fixture(autouse=True)
-def importable_tasks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(REPOSITORY))
-
 
 @pytest.fixture
 def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:

@@ -5,23 +5,15 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import Finished, run_tasks
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 
-REPOSITORY = Path(__file__).resolve().parents[4]
 MOVE = partial(tasks.position_after, time=0.01)
 
 
 Named = tuple[str, Callable[[Instance], Any]]
-
-
-@pytest.fixture(autouse=True)
-def importable_tasks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(REPOSITORY))
 
 
 def outcome(finished: Finished[str]) -> str:

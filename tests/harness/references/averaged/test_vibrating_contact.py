@@ -42,12 +42,6 @@ def test_invalid_amplitudes_are_refused(value: float) -> None:
         contact.closed_spans(0.0, 1.0, value, 0.0, 1.0)
 
 
-def test_lifting_contact_is_refused_by_closed_forms() -> None:
-    contact.check_never_lifts(1.0)
-    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
-        contact.check_never_lifts(1.5)
-
-
 @pytest.mark.parametrize(
     ("amplitude_ratio", "ratio", "turns"),
     [(1.0, 2.0, 1), (1.0, 1.5, 0), (1.1, 1.5, 2), (3.0, -2 / 3, 3), (3.0, 0.25, 4), (3.0, 0.2, 0)],

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
@@ -9,6 +10,7 @@ from slider_resonator.references.averaged.averaged_lugre import (
     mean_friction,
 )
 from slider_resonator.references.averaged.slow_equilibria import stable_velocity
+from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 
 
 def test_monotonic_friction_has_one_velocity() -> None:
@@ -35,3 +37,10 @@ def test_lugre_friction_holds_loads_above_sliding_friction() -> None:
 def test_load_above_all_friction_is_refused() -> None:
     with pytest.raises(ValueError, match="load = 2"):
         stable_velocity(lambda v: v, 1.0, 2.0)
+
+
+def test_trajectory_decays_toward_a_terminal_velocity() -> None:
+    times = np.linspace(0.0, 3.0, 7)
+    position, velocity = slow_trajectory(lambda time, v: 1.0 - v, times, velocity=0.5)
+    assert velocity == pytest.approx(1.0 - 0.5 * np.exp(-times), abs=1e-6)
+    assert position == pytest.approx(times - 0.5 * (1.0 - np.exp(-times)), abs=1e-6)
