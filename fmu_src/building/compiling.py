@@ -15,6 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from fmu_src.building.build_error import BuildError
+from fmu_src.building.c_sources import write_sources
 from fmu_src.building.platforms import Platform
 from fmu_src.building.universal_binary import universal_binary
 
@@ -69,13 +70,13 @@ def named_compiler(name: str) -> Compiler:
 
 
 def compile_binaries(
-    sources: Mapping[str, bytes],
+    sources: Mapping[str, str],
     model: str,
     platforms: Sequence[Platform],
     compiler: Compiler,
     progress: Callable[[str], None],
 ) -> dict[str, bytes]:
-    """Compile C files and headers (path -> bytes); return path in the FMU -> binary by platform.
+    """Compile C files and headers (name -> text); return path in the FMU -> binary by platform.
 
     Raises BuildError with the compiler's messages.
     """
@@ -102,7 +103,7 @@ def compile_binaries(
 
 
 def _compile(
-    sources: Mapping[str, bytes],
+    sources: Mapping[str, str],
     model: str,
     platform: Platform,
     target: str | None,
@@ -110,10 +111,7 @@ def _compile(
 ) -> bytes:
     """Compile one binary, from relative names, so that it contains no path of this machine."""
     with TemporaryDirectory(prefix="slider_resonator_") as folder:
-        for name, data in sources.items():
-            path = Path(folder, name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(data)
+        write_sources(sources, Path(folder))
         output = f"{model}{platform.suffix}"
         command = [*compiler.command, *(("-target", target) if target else ()), *FLAGS]
         command += [*LINKING[platform.name], "-o", output]

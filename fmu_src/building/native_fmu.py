@@ -11,6 +11,7 @@ from typing import Any
 from fmu_src import __version__
 from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
+from fmu_src.building.c_sources import GUID_HEADER, guid_header, slider_sources
 from fmu_src.building.compiling import (
     Compiler,
     compile_binaries,
@@ -23,24 +24,20 @@ from fmu_src.building.platforms import HOST, host_platform, platforms_named
 from fmu_src.documentation import documentation_page
 from fmu_src.model_description import DESCRIPTION, model_description
 from fmu_src.python.slider_component.variables import VARIABLES
-from fmu_src.sources import C_SOURCES
 
 MODEL = "SliderResonator"
-
-GUID_HEADER = "model_guid.h"
-_NO_GUID = "00000000-0000-0000-0000-000000000000"
 
 
 @dataclass(frozen=True)
 class NativeModel:
     """What distinguishes one native FMU from another.
 
-    `code` is its C sources: path in the folder `sources` -> bytes. `details` are arguments of both
+    `code` is its C sources: name in the folder `sources` -> text. `details` are arguments of both
     the model description and the documentation page, `page` of the page alone.
     """
 
     name: str
-    code: Mapping[str, bytes]
+    code: Mapping[str, str]
     details: Mapping[str, Any]
     page: str
 
@@ -50,13 +47,12 @@ def build_native(
     *,
     platforms: Sequence[str] = (),
     compiler: str | None = None,
-    sources: Path = C_SOURCES,
+    code: Mapping[str, str] | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Path:
-    """Build the native slider from the C code in `sources`; otherwise like `build_model`."""
+    """Build the native slider, from other C sources if `code` is given; see `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
-    code = read_sources(sources)
-    model = NativeModel(MODEL, code, about, "page.html")
+    model = NativeModel(MODEL, code or slider_sources(), about, "page.html")
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
 
@@ -73,9 +69,9 @@ def build_model(
     `platforms` are names of FMI 2.0 or `host`; none means all, or `host` with a `compiler`. The
     default compiler is ziglang, which compiles for all; `compiler` is one for this machine.
 
-    The file is replaced atomically. Its bytes depend on the sources, the compiler, the version of
-    zlib and the environment variable SOURCE_DATE_EPOCH, which sets the date in the description; for
-    macOS zig's linker leaves random bytes in the padding.
+    The file is replaced atomically. Its bytes depend on the sources, the compiler, the FMI headers
+    of fmpy, the version of zlib and the environment variable SOURCE_DATE_EPOCH, which sets the date
+    in the description; for macOS zig's linker leaves random bytes in the padding.
 
     Raises BuildError.
     """
@@ -89,9 +85,8 @@ def build_model(
             f"compiler {compiler!r} refused for {names}: must be {host_platform().name}, the "
             "platform of this machine; ziglang compiles for the others"
         )
-    code = dict(model.code)
     generation_tool = _generation_tool(tool)
-    files = icon_and_licences("license.txt", "fmi2.txt")
+    files = icon_and_licences("license.txt", "fmi2.txt", "fmpy.txt")
     files["documentation/index.html"] = documentation_page(
         model=model.name,
         generation_tool=generation_tool,
@@ -100,34 +95,17 @@ def build_model(
         **model.details,
     )
     undated = _description(model, generation_tool, "", EPOCH)
-    hashed = files | {f"sources/{name}": data for name, data in code.items()}
-    guid = guid_of(digest_of(hashed | {"modelDescription.xml": undated}))
-    code[GUID_HEADER] = _with_guid(code[GUID_HEADER], guid)
-    files |= {f"sources/{name}": data for name, data in code.items()}
+    hashed = files | _encoded(model.code) | {"modelDescription.xml": undated}
+    guid = guid_of(digest_of(hashed))
+    code = {**model.code, GUID_HEADER: guid_header(guid)}
+    files |= _encoded(code)
     files |= compile_binaries(code, model.name, chosen, tool, progress)
     files["modelDescription.xml"] = _description(model, generation_tool, guid, date)
     return write_archive(dest, model.name, files)
 
 
-def read_sources(folder: Path, patterns: Sequence[str] = ("*.c", "*.h")) -> dict[str, bytes]:
-    """Return path below the folder -> bytes of C files and headers that match one of the patterns.
-
-    Raises BuildError if the header of the GUID is not among them.
-    """
-    code = {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for pattern in patterns
-        for path in sorted(folder.rglob(pattern))
-    }
-    if GUID_HEADER not in code:
-        raise BuildError(f"{folder} has no C sources of the FMU: {GUID_HEADER} is missing")
-    return code
-
-
-def _with_guid(header: bytes, guid: str) -> bytes:
-    if header.count(_NO_GUID.encode()) != 1:
-        raise BuildError(f"{GUID_HEADER} has no place for the GUID: {_NO_GUID} must be in it once")
-    return header.replace(_NO_GUID.encode(), guid.encode())
+def _encoded(code: Mapping[str, str]) -> dict[str, bytes]:
+    return {f"sources/{name}": text.encode() for name, text in code.items()}
 
 
 def _generation_tool(compiler: Compiler) -> str:

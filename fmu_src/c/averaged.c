@@ -52,8 +52,7 @@ static Balance balance_of(const Law *law, Complex force, double normal_lead) {
     Balance balance = {.law = law, .opposing = law->inputs.load};
     double ratio = law->inputs.frequency_ratio, faces = device->friction_faces;
     double delta = law->inputs.phase + normal_lead + ratio * force_lag(force);
-    balance.fast.velocity = fast_velocity(device, force);
-    balance.fast.frequency = device->drive_frequency;
+    balance.fast = (FastMotion){fast_velocity(device, force), device->drive_frequency};
     balance.load = vibrating_load_of(device, ratio, delta);
     balance.closed = !friction->is_expensive && !balance.load.is_constant &&
                      device->normal_amplitude <= device->normal_preload;
@@ -76,8 +75,7 @@ static double friction_at(const Balance *balance, double turning) {
 }
 
 static Point point_at(const Balance *balance, double turning) {
-    Point point = {turning, friction_at(balance, turning) + balance->opposing};
-    return point;
+    return (Point){turning, friction_at(balance, turning) + balance->opposing};
 }
 
 /* The same, by a form that takes less time where there is one. */
@@ -88,9 +86,8 @@ static Point point_near(const Balance *balance, double turning) {
     const Law *law = balance->law;
     FrictionMeans means = law->friction->averaged->means(&law->bristle, &balance->fast,
                                                          balance->load.ratio, turning);
-    Point point = {turning, balance->preload * means.plain + balance->sine * means.sine +
+    return (Point){turning, balance->preload * means.plain + balance->sine * means.sine +
                                 balance->cosine * means.cosine + balance->opposing};
-    return point;
 }
 
 /* Takes in a point; returns whether its sign is certain. */
@@ -183,25 +180,20 @@ static double balanced_turning(const Balance *balance, Point low, Point halfway,
 }
 
 Averaged averaged(const Law *law, double normal_lead) {
-    Averaged theory = {0.0, 0.0};
     Complex force;
     Refusal refusal;
     if (!equivalent_force(&law->device, &force, &refusal) || (force.re == 0.0 && force.im == 0.0)) {
-        return theory;
+        return (Averaged){0.0, 0.0};
     }
     Balance balance = balance_of(law, force, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
     double load = law->inputs.load;
     if (first == last) {
         /* Nothing holds the slider back: every velocity is steady, or with a load none. */
-        theory.steady_velocity =
-            load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
-        return theory;
+        return (Averaged){load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0, 0.0};
     }
     double middle = friction_at(&balance, 0.5 * PI);
     Point low = {0.0, first + load}, halfway = {0.5 * PI, middle + load}, high = {PI, last + load};
-    theory.steady_velocity =
-        balance.fast.velocity * cos(balanced_turning(&balance, low, halfway, high));
-    theory.blocking_force = -middle;
-    return theory;
+    double turning = balanced_turning(&balance, low, halfway, high);
+    return (Averaged){balance.fast.velocity * cos(turning), -middle};
 }

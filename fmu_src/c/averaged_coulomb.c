@@ -19,10 +19,9 @@ static double mean(const Bristle *bristle, const FastMotion *fast, const Vibrati
 static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, double n,
                            double turning) {
     double mu = bristle->coefficient;
-    FrictionMeans over_turn = {mu * (1.0 - 2.0 / PI * turning), 0.0,
-                               -2.0 * mu / (n * PI) * sin(n * turning)};
     (void)fast;
-    return over_turn;
+    return (FrictionMeans){mu * (1.0 - 2.0 / PI * turning), 0.0,
+                           -2.0 * mu / (n * PI) * sin(n * turning)};
 }
 
 const AveragedFriction AVERAGED_COULOMB = {

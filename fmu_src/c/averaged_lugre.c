@@ -89,8 +89,7 @@ static Way way(const Quadrature *over, const Arc *arc, double ahead) {
     double beyond = beyond_sine(ahead, 2.0 * half_sine * half_cosine);
     double moved = arc->cosine * beyond + 2.0 * arc->sine * half_sine * half_sine;
     double reach = over->fast->velocity / over->fast->frequency;
-    Way way = {arc->direction * 2.0 * half_sine * turned, arc->direction * reach * moved};
-    return way;
+    return (Way){arc->direction * 2.0 * half_sine * turned, arc->direction * reach * moved};
 }
 
 /* How far ahead in the arc [rad] the bristle is fully bent. */
@@ -229,9 +228,8 @@ static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, doubl
     Quadrature over = {.bristle = bristle, .fast = fast, .waves = waves, .sum = &sum};
     over.gather = gather_wavy;
     integrate_turn(&over, turning);
-    FrictionMeans over_turn = {sum.means.plain / TAU, sum.means.sine / TAU,
-                               sum.means.cosine / TAU};
-    return over_turn;
+    return (FrictionMeans){sum.means.plain / TAU, sum.means.sine / TAU,
+                           sum.means.cosine / TAU};
 }
 
 static double drag(const Bristle *bristle, double fast_velocity) {

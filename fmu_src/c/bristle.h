@@ -12,9 +12,8 @@ typedef struct {
 } Bristle;
 
 static inline Bristle bristle_of(const Device *device) {
-    Bristle bristle = {device->friction_coefficient, device->bristle_stiffness,
-                       device->bristle_damping};
-    return bristle;
+    return (Bristle){device->friction_coefficient, device->bristle_stiffness,
+                     device->bristle_damping};
 }
 
 /* sigma_0 z after `travel` [m] in one direction (its sign), from `friction` on. */

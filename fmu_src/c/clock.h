@@ -8,8 +8,7 @@ typedef struct {
 } Clock;
 
 static inline Clock clock_of(double duration) {
-    Clock clock = {duration, 0.0, 0.0};
-    return clock;
+    return (Clock){duration, 0.0, 0.0};
 }
 
 /* Counts `t` [s] and returns what is left [s]; two-sum keeps the rounding. */

@@ -10,8 +10,7 @@ typedef struct {
 } Complex;
 
 static inline Complex complex_of(double re, double im) {
-    Complex z = {re, im};
-    return z;
+    return (Complex){re, im};
 }
 
 /* length * exp(i angle) */

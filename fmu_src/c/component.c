@@ -95,11 +95,8 @@ bool component_setup_experiment(Component *component, const Experiment *experime
 }
 
 bool component_enter_initialization(Component *component, Refusal *refusal) {
-    if (!require("enterInitializationMode", component->now.lifecycle, INSTANTIATED, refusal)) {
-        return false;
-    }
-    component->now.lifecycle = INITIALIZATION;
-    return true;
+    return lifecycle_change(&component->now.lifecycle, "enterInitializationMode", INSTANTIATED,
+                            INITIALIZATION, refusal);
 }
 
 bool component_exit_initialization(Component *component, Refusal *refusal) {
@@ -114,11 +111,8 @@ bool component_exit_initialization(Component *component, Refusal *refusal) {
 }
 
 bool component_terminate(Component *component, Refusal *refusal) {
-    if (!require("terminate", component->now.lifecycle, STEP_COMPLETE, refusal)) {
-        return false;
-    }
-    component->now.lifecycle = TERMINATED;
-    return true;
+    return lifecycle_change(&component->now.lifecycle, "terminate", STEP_COMPLETE, TERMINATED,
+                            refusal);
 }
 
 bool component_set(Component *component, const unsigned *references, const double *values,
@@ -175,7 +169,9 @@ bool component_get(Component *component, const unsigned *references, double *val
         found[i] = output_value(references[i], present_law(component), moment,
                                 component->now.last_event_time, &component->theory);
     }
-    memcpy(values, found, count * sizeof *values);
+    if (count > 0) { /* of none `values` may be null */
+        memcpy(values, found, count * sizeof *values);
+    }
     return true;
 }
 

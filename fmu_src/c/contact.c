@@ -10,19 +10,14 @@
 #define REACHED 1e-12
 
 FlightWindow flight_window(const Plant *plant) {
-    FlightWindow window = {false, 0.0, 0.0};
     if (plant->preload_share >= 1.0) {
-        return window;
+        return (FlightWindow){false, 0.0, 0.0};
     }
-    window.exists = true;
     if (plant->preload_share < 0.0) {
-        window.last = TAU;
-        return window;
+        return (FlightWindow){true, 0.0, TAU};
     }
     double dip = asin(plant->preload_share);
-    window.first = PI + dip;
-    window.last = TAU - dip;
-    return window;
+    return (FlightWindow){true, PI + dip, TAU - dip};
 }
 
 bool is_lifted(const FlightWindow *window, double chi, double frequency) {

@@ -32,9 +32,8 @@ bool fast_vibration_prepare(FastVibration *fast, const Device *device, Refusal *
 /* Displacement [m] and velocity [m/s] of `amplitude` e at drive phase `theta` [rad]. */
 static inline Response steady_swing(Complex amplitude, double theta, double frequency) {
     double sine = sin(theta), cosine = cos(theta);
-    Response swing = {amplitude.re * sine + amplitude.im * cosine,
+    return (Response){amplitude.re * sine + amplitude.im * cosine,
                       frequency * (amplitude.re * cosine - amplitude.im * sine)};
-    return swing;
 }
 
 #endif

@@ -55,7 +55,6 @@ typedef struct {
 
 /* The downward zero near `expected` if Newton's method finds one soon. */
 static Candidate zero_near(const Watch *watch, double start, double expected) {
-    Candidate candidate = {NO_ZERO, 0.0};
     double resolved = resolution(watch);
     for (int i = 0; i < MAX_EXPECTING_STEPS && expected > start; i++) {
         Signal at = watch->signal(watch->motion, expected);
@@ -65,12 +64,10 @@ static Candidate zero_near(const Watch *watch, double start, double expected) {
         double step = -at.value / at.slope;
         expected += step;
         if (is_last(at, step, resolved)) {
-            candidate.time = expected;
-            candidate.slope = at.slope;
-            break;
+            return (Candidate){expected, at.slope};
         }
     }
-    return candidate;
+    return (Candidate){NO_ZERO, 0.0};
 }
 
 /* Whether the candidate is the first zero after `t`, where the signal is `at` and sure to be

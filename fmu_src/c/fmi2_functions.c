@@ -101,22 +101,18 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
                                fmi2Real stopTime) {
     Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
     Experiment experiment = {startTime, stopTimeDefined != fmi2False, stopTime,
                              toleranceDefined != fmi2False, tolerance};
-    bool done = component_setup_experiment(&instance->component, &experiment, &refusal);
+    bool done = instance != NULL
+                && component_setup_experiment(&instance->component, &experiment, &refusal);
     return answer(instance, done, &refusal);
 }
 
 static fmi2Status change_lifecycle(fmi2Component c, bool (*change)(Component *, Refusal *)) {
     Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    return answer(instance, change(&instance->component, &refusal), &refusal);
+    bool done = instance != NULL && change(&instance->component, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {

@@ -5,7 +5,7 @@
 static fmi2Status refuse_model_exchange(fmi2Component c, const char *call) {
     Refusal refusal;
     refuse(&refusal, "%s refused: this FMU is for co-simulation", call);
-    return not_offered(c, refusal.text);
+    return report(c, fmi2Error, refusal.text);
 }
 
 fmi2Status fmi2EnterEventMode(fmi2Component c) {

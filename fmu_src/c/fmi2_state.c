@@ -28,10 +28,8 @@ static bool copy_out(const Instance *instance, const Snapshot *snapshot, const c
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
     Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = pointer_check("fmi2GetFMUstate", "FMUstate", FMUstate, &refusal)
+    bool done = instance != NULL
+                && pointer_check("fmi2GetFMUstate", "FMUstate", FMUstate, &refusal)
                 && copy_out(instance, &instance->component.now, "fmi2GetFMUstate", FMUstate,
                             &refusal);
     return answer(instance, done, &refusal);
@@ -40,10 +38,8 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
     Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = pointer_check("fmi2SetFMUstate", "FMUstate", FMUstate, &refusal)
+    bool done = instance != NULL
+                && pointer_check("fmi2SetFMUstate", "FMUstate", FMUstate, &refusal)
                 && component_restore(&instance->component, FMUstate, &refusal);
     return answer(instance, done, &refusal);
 }
@@ -63,10 +59,8 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size) {
     const Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = pointer_check("fmi2SerializedFMUstateSize", "FMUstate", FMUstate, &refusal)
+    bool done = instance != NULL
+                && pointer_check("fmi2SerializedFMUstateSize", "FMUstate", FMUstate, &refusal)
                 && pointer_check("fmi2SerializedFMUstateSize", "size", size, &refusal);
     if (done) {
         *size = snapshot_size();
@@ -78,10 +72,8 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate,
                                  fmi2Byte serializedState[], size_t size) {
     const Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = pointer_check("fmi2SerializeFMUstate", "FMUstate", FMUstate, &refusal)
+    bool done = instance != NULL
+                && pointer_check("fmi2SerializeFMUstate", "FMUstate", FMUstate, &refusal)
                 && pointer_check("fmi2SerializeFMUstate", "serializedState", serializedState,
                                  &refusal);
     if (done && size != snapshot_size()) {
@@ -99,10 +91,8 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedSta
     const Instance *instance = c;
     Refusal refusal;
     Snapshot snapshot;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = pointer_check("fmi2DeSerializeFMUstate", "serializedState", serializedState,
+    bool done = instance != NULL
+                && pointer_check("fmi2DeSerializeFMUstate", "serializedState", serializedState,
                               &refusal)
                 && pointer_check("fmi2DeSerializeFMUstate", "FMUstate", FMUstate, &refusal)
                 && snapshot_read(&snapshot, (const unsigned char *)serializedState, size, &refusal)

@@ -25,10 +25,8 @@ fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
                        fmi2Real value[]) {
     Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = references_check("fmi2GetReal", vr, nvr, value, REAL_TYPE, &refusal)
+    bool done = instance != NULL
+                && references_check("fmi2GetReal", vr, nvr, value, REAL_TYPE, &refusal)
                 && component_get(&instance->component, vr, value, nvr, &refusal);
     return answer(instance, done, &refusal);
 }
@@ -38,10 +36,8 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
     Instance *instance = c;
     Refusal refusal;
     double found[VARIABLE_COUNT];
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = references_check("fmi2GetInteger", vr, nvr, value, INTEGER_TYPE, &refusal)
+    bool done = instance != NULL
+                && references_check("fmi2GetInteger", vr, nvr, value, INTEGER_TYPE, &refusal)
                 && component_get(&instance->component, vr, found, nvr, &refusal);
     for (size_t i = 0; done && i < nvr; i++) {
         value[i] = (fmi2Integer)found[i];
@@ -53,10 +49,8 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
                        const fmi2Real value[]) {
     Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = references_check("fmi2SetReal", vr, nvr, value, REAL_TYPE, &refusal)
+    bool done = instance != NULL
+                && references_check("fmi2SetReal", vr, nvr, value, REAL_TYPE, &refusal)
                 && component_set(&instance->component, vr, value, nvr, &refusal);
     return answer(instance, done, &refusal);
 }
@@ -66,10 +60,8 @@ fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
     Instance *instance = c;
     Refusal refusal;
     double changes[VARIABLE_COUNT];
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool done = references_check("fmi2SetInteger", vr, nvr, value, INTEGER_TYPE, &refusal);
+    bool done = instance != NULL
+                && references_check("fmi2SetInteger", vr, nvr, value, INTEGER_TYPE, &refusal);
     for (size_t i = 0; done && i < nvr; i++) {
         changes[i] = value[i];
     }
@@ -79,13 +71,10 @@ fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 
 /* There are no variables of the other types: only an empty call passes. */
 static fmi2Status other_type(fmi2Component c, const char *call, const fmi2ValueReference *vr,
-                                 size_t nvr, const void *values, ValueType type) {
-    const Instance *instance = c;
+                             size_t nvr, const void *values, ValueType type) {
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    return answer(instance, references_check(call, vr, nvr, values, type, &refusal), &refusal);
+    bool done = c != NULL && references_check(call, vr, nvr, values, type, &refusal);
+    return answer(c, done, &refusal);
 }
 
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,

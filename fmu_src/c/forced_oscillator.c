@@ -79,9 +79,8 @@ static Response forced_from_rest(const ForcedOscillator *motion, int i, double t
         turn.im = frequency > 0.0 ? turn.im : -turn.im;
         unit = response_from_rest(motion->oscillator, fabs(frequency), t, free, turn);
     }
-    Response response = {complex_mul(amplitude, unit.displacement).re,
-                         complex_mul(amplitude, unit.rate).re};
-    return response;
+    return (Response){complex_mul(amplitude, unit.displacement).re,
+                      complex_mul(amplitude, unit.rate).re};
 }
 
 Response forced_oscillator_response(const ForcedOscillator *motion, double t, const Complex *turn) {

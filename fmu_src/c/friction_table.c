@@ -38,9 +38,8 @@ static double polynomial_at(const MeanPolynomial *polynomial, double x) {
 }
 
 static FrictionMeans panel_at(const FrictionPanel *panel, double x) {
-    FrictionMeans means = {polynomial_at(&panel->plain, x), polynomial_at(&panel->sine, x),
+    return (FrictionMeans){polynomial_at(&panel->plain, x), polynomial_at(&panel->sine, x),
                            polynomial_at(&panel->cosine, x)};
-    return means;
 }
 
 static FrictionMeans means_in(const TabulatedMeans *table, const Part *part, double x) {
@@ -135,10 +134,8 @@ static void fill(TabulatedMeans *table) {
         bool full = table->panels + waiting + 1 >= MAX_PANELS;
         if (error > MAX_ERROR && part.halvings < MAX_HALVINGS && !full) {
             double middle = 0.5 * (part.low + part.high);
-            Part lower = {part.halvings + 1, part.low, middle};
-            Part upper = {part.halvings + 1, middle, part.high};
-            todo[waiting++] = upper;
-            todo[waiting++] = lower;
+            todo[waiting++] = (Part){part.halvings + 1, middle, part.high};
+            todo[waiting++] = (Part){part.halvings + 1, part.low, middle};
         } else {
             table->ends[++table->panels] = part.high;
         }

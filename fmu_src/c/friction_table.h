@@ -24,8 +24,8 @@ typedef struct {
     MeanPolynomial plain, sine, cosine;
 } FrictionPanel;
 
-/* `panels` of them, for a friction law, its bristle, a fast motion and `n` waves of the normal load: those between
- * `ends` [k] and [k + 1], which rise from 0 to pi / 2 [rad]. */
+/* `panels` of them, for a friction law, its bristle, a fast motion and `n` waves of the normal load:
+ * those between `ends` [k] and [k + 1], which rise from 0 to pi / 2 [rad]. */
 typedef struct {
     const AveragedFriction *friction;
     Bristle bristle;

@@ -85,7 +85,8 @@ void send_message(const fmi2CallbackFunctions *host, const char *instance_name, 
 }
 
 fmi2Status report(const Instance *instance, fmi2Status status, const char *text) {
-    if (instance->enabled[category_of(status)] || instance->enabled[ALL_MESSAGES]) {
+    if (instance != NULL
+        && (instance->enabled[category_of(status)] || instance->enabled[ALL_MESSAGES])) {
         send_message(&instance->host, instance->name, status, text);
     }
     return status;
@@ -93,8 +94,4 @@ fmi2Status report(const Instance *instance, fmi2Status status, const char *text)
 
 fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal) {
     return done ? fmi2OK : report(instance, fmi2Error, refusal->text);
-}
-
-fmi2Status not_offered(fmi2Component component, const char *text) {
-    return component == NULL ? fmi2Error : report(component, fmi2Error, text);
 }

@@ -6,8 +6,16 @@
 #include <stddef.h>
 
 #include "component.h"
-#include "fmi2/fmi2Functions.h"
+#include "fmi2Functions.h"
 #include "refusal.h"
+
+/* The header of fmpy leaves out the prefix of FMI 2.0 for static linking. */
+#ifdef FMI2_FUNCTION_PREFIX
+#undef fmi2FullName
+#define fmi2Paste(a, b) a##b
+#define fmi2PasteB(a, b) fmi2Paste(a, b)
+#define fmi2FullName(name) fmi2PasteB(FMI2_FUNCTION_PREFIX, name)
+#endif
 
 /* The log categories, in the order of the model description. */
 typedef enum {
@@ -46,13 +54,11 @@ bool enable_messages(Instance *instance, const char *category, Refusal *refusal)
 void send_message(const fmi2CallbackFunctions *host, const char *instance_name, fmi2Status status,
                   const char *text);
 
-/* Send a text if its category is enabled; return the status. */
+/* Send a text if there is an instance and its category is enabled; return the status. */
 fmi2Status report(const Instance *instance, fmi2Status status, const char *text);
 
-/* Return fmi2OK for a call that is `done`; otherwise report the refusal and return fmi2Error. */
+/* Return fmi2OK for a call that is `done`; otherwise report the refusal and return fmi2Error. A call
+ * without an instance is never done. */
 fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal);
-
-/* Report that this FMU does not have a function, and return fmi2Error. */
-fmi2Status not_offered(fmi2Component component, const char *text);
 
 #endif

@@ -34,9 +34,9 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
 /* The first moment, at drive and normal phase 0, from the initial values of the device. */
 Moment law_start(const Law *law);
 
-/* The moment `duration` > 0 [s] later, another than `moment`, inputs held. Refuses, with `after` undefined, where time
- * does not get on or averaged motion needs too many steps. Numbers that leave the range of floating
- * point show as non-finite entries of `after`, never as an endless loop. */
+/* The moment `duration` > 0 [s] later, another than `moment`, inputs held. Refuses, with `after`
+ * undefined, where time does not get on or averaged motion needs too many steps. Numbers that leave
+ * the range of floating point show as non-finite entries of `after`, never as an endless loop. */
 bool law_advance(const Law *law, const Moment *moment, double duration, Moment *after,
                  Refusal *refusal);
 

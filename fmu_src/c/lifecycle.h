@@ -22,4 +22,14 @@ static inline bool require(const char *call, Lifecycle state, Lifecycle required
            || refuse_wrong_state(refusal, call, lifecycle_name(state), lifecycle_name(required));
 }
 
+/* Go from one state to the next; refuse the call in any other state. */
+static inline bool lifecycle_change(Lifecycle *state, const char *call, Lifecycle from,
+                                    Lifecycle to, Refusal *refusal) {
+    if (!require(call, *state, from, refusal)) {
+        return false;
+    }
+    *state = to;
+    return true;
+}
+
 #endif

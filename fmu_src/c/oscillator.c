@@ -43,24 +43,17 @@ bool resonates(const Oscillator *oscillator, double frequency) {
 Response free_response(const Oscillator *oscillator, double t) {
     double decay = oscillator->decay, stiffness = oscillator->stiffness;
     double difference = stiffness - decay * decay;
-    Response response;
     if (difference > 0.0) {
         double damped = sqrt(difference), envelope = exp(-decay * t);
-        response.displacement = envelope * cos(damped * t);
-        response.rate = envelope * sin(damped * t) / damped;
-        return response;
+        return (Response){envelope * cos(damped * t), envelope * sin(damped * t) / damped};
     }
     double spread = sqrt(-difference);
     double slow = decay > 0.0 ? exp(-stiffness / (decay + spread) * t) : 1.0;
     if (spread * t < 1e-150) {
-        response.displacement = slow;
-        response.rate = slow * t;
-        return response;
+        return (Response){slow, slow * t};
     }
     double gap = -expm1(-2.0 * spread * t);
-    response.displacement = slow * (1.0 - 0.5 * gap);
-    response.rate = slow * gap / (2.0 * spread);
-    return response;
+    return (Response){slow * (1.0 - 0.5 * gap), slow * gap / (2.0 * spread)};
 }
 
 /* exp(z) - 1 without cancellation for small z */
@@ -93,9 +86,8 @@ ComplexResponse response_from_rest(const Oscillator *oscillator, double frequenc
     Complex far = divided_difference(conjugate, complex_conj(grown), forcing, turn, t);
     Complex width = complex_of(0.0, 2.0 * eigenvalue.im);
     Complex moved = complex_sub(complex_mul(eigenvalue, near), complex_mul(conjugate, far));
-    ComplexResponse response = {complex_div(complex_sub(near, far), width),
-                                complex_div(moved, width)};
-    return response;
+    return (ComplexResponse){complex_div(complex_sub(near, far), width),
+                             complex_div(moved, width)};
 }
 
 Response step_response(const Oscillator *oscillator, double t, Response free) {

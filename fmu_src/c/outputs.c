@@ -14,8 +14,7 @@
 /* Displacement [m] and velocity [m/s] of the resonator. */
 static Response resonator_swing(const Plant *plant, const Moment *moment) {
     if (plant->resolves_resonator) {
-        Response own = {moment->state.displacement, moment->state.rate};
-        return own;
+        return (Response){moment->state.displacement, moment->state.rate};
     }
     return steady_swing(plant->resonator_amplitude, moment->theta, plant->drive_frequency);
 }

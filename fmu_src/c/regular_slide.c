@@ -18,10 +18,8 @@ void regular_slide_begin(RegularSlide *slide, const Plant *plant, int sign, cons
     slide->direction = direction;
     slide->start = *state;
     slide->deceleration = resisting / plant->total_mass;
-    slide->pair[0].frequency = w;
-    slide->pair[0].amplitude = complex_mul(plant->drive, drive_turn);
-    slide->pair[1].frequency = q;
-    slide->pair[1].amplitude = complex_scale(-1.0 / plant->total_mass, friction);
+    slide->pair[0] = (Forcing){w, complex_mul(plant->drive, drive_turn)};
+    slide->pair[1] = (Forcing){q, complex_scale(-1.0 / plant->total_mass, friction)};
     slide->pair_bound = complex_abs(slide->pair[0].amplitude) * w +
                         complex_abs(slide->pair[1].amplitude) * fabs(q);
     slide->own_bound = (complex_abs(plant->holding_drive) * w +
@@ -67,9 +65,8 @@ static Signal velocity_ahead(const void *motion, double t) {
     for (int i = 0; i < FORCINGS; i++) {
         acceleration += complex_mul(slide->pair[i].amplitude, sample.turn[i]).re;
     }
-    Signal signal = {slide->direction * velocity_at(slide, t, rate, sample.turn),
-                     slide->direction * acceleration, bound};
-    return signal;
+    return (Signal){slide->direction * velocity_at(slide, t, rate, sample.turn),
+                    slide->direction * acceleration, bound};
 }
 
 Watch regular_slide_watch(const RegularSlide *slide) {
@@ -89,8 +86,7 @@ Watch regular_slide_watch(const RegularSlide *slide) {
     if (rate < INFINITY) {
         scale += plant->mass_fraction * rate;
     }
-    Watch watch = {velocity_ahead, slide, 2.0 * EPSILON * scale, fastest, horizon};
-    return watch;
+    return (Watch){velocity_ahead, slide, 2.0 * EPSILON * scale, fastest, horizon};
 }
 
 static double travel_by(const RegularSlide *slide, double t, const Response *resonator) {
@@ -109,9 +105,8 @@ State regular_slide_end(const RegularSlide *slide, double t, double *travel) {
     turns_of(slide->pair, FORCINGS, t, turn);
     Response resonator = forced_oscillator_response(&slide->resonator, t, turn);
     *travel = travel_by(slide, t, &resonator);
-    State state = {velocity_at(slide, t, resonator.rate, turn), resonator.displacement,
+    return (State){velocity_at(slide, t, resonator.rate, turn), resonator.displacement,
                    resonator.rate};
-    return state;
 }
 
 double regular_slide_travel(const RegularSlide *slide, double t) {

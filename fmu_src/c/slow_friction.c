@@ -41,8 +41,7 @@ SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
         slow.friction = &AVERAGED_COULOMB;
     }
     slow.form = form_of(law, slow.friction, turns, n);
-    slow.fast.velocity = law->fast.velocity;
-    slow.fast.frequency = device->drive_frequency;
+    slow.fast = (FastMotion){law->fast.velocity, device->drive_frequency};
     slow.waves = n;
     slow.drift = (ratio - n) * device->drive_frequency;
     slow.phase = law->inputs.phase + psi - n * theta + n * law->fast.lag;
@@ -81,17 +80,13 @@ static double under_sine(const SlowFriction *slow, double t, double turning) {
            device->normal_amplitude * (cosine * means.sine + sine * means.cosine);
 }
 
-static VibratingLoad load_at(const SlowFriction *slow, double t) {
-    if (slow->drift == 0.0) {
-        return slow->load;
-    }
-    double phase = slow->phase + slow->drift * t;
-    return vibrating_load_of(&slow->law->device, slow->waves, phase);
-}
-
 /* The same under a load of any shape. */
 static double under_load(const SlowFriction *slow, double t, double turning) {
-    VibratingLoad load = load_at(slow, t);
+    VibratingLoad load = slow->load;
+    if (slow->drift != 0.0) {
+        double phase = slow->phase + slow->drift * t;
+        load = vibrating_load_of(&slow->law->device, slow->waves, phase);
+    }
     if (slow->form == UNDER_MEAN_LOAD) {
         return load.constant * means_at(slow, turning).plain;
     }

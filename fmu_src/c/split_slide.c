@@ -128,14 +128,12 @@ static Signal velocity_ahead(const void *motion, double t) {
         velocity += n.re;
         acceleration -= plant->normal_frequency * n.im;
     }
-    Signal signal = {slide->direction * velocity, slide->direction * acceleration,
-                     slide->bound + slide->free_bound * turns.envelope};
-    return signal;
+    return (Signal){slide->direction * velocity, slide->direction * acceleration,
+                    slide->bound + slide->free_bound * turns.envelope};
 }
 
 Watch split_slide_watch(const SplitSlide *slide) {
-    Watch watch = {velocity_ahead, slide, slide->noise, slide->split->fastest, INFINITY};
-    return watch;
+    return (Watch){velocity_ahead, slide, slide->noise, slide->split->fastest, INFINITY};
 }
 
 /* Integral of the real part of amplitude exp(i frequency s) from turn 1 on, frequency != 0. */

@@ -68,16 +68,13 @@ int stick_watches(const Stick *stick, Watch watches[2]) {
         return 0;
     }
     double noise = 4.0 * EPSILON * (limit + fmin(reach, 1e3 * limit));
-    Watch forward = {forward_margin, stick, noise, fastest, horizon};
-    Watch backward = {backward_margin, stick, noise, fastest, horizon};
-    watches[0] = forward;
-    watches[1] = backward;
+    watches[0] = (Watch){forward_margin, stick, noise, fastest, horizon};
+    watches[1] = (Watch){backward_margin, stick, noise, fastest, horizon};
     return 2;
 }
 
 State stick_state(const Stick *stick, double t) {
     Complex turn = complex_rect(1.0, stick->plant->drive_frequency * t);
     Response response = forced_oscillator_response(&stick->resonator, t, &turn);
-    State state = {0.0, response.displacement, response.rate};
-    return state;
+    return (State){0.0, response.displacement, response.rate};
 }

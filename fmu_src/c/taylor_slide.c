@@ -137,8 +137,7 @@ static Signal velocity_ahead(const void *motion, double t) {
         slope = slope * t + total;
         total = total * t + slide->velocity[k];
     }
-    Signal signal = {slide->direction * total, slide->direction * slope, slide->bound};
-    return signal;
+    return (Signal){slide->direction * total, slide->direction * slope, slide->bound};
 }
 
 Watch taylor_slide_watch(TaylorSlide *slide, double horizon) {
@@ -151,8 +150,7 @@ Watch taylor_slide_watch(TaylorSlide *slide, double horizon) {
         }
     }
     slide->bound = curvature;
-    Watch watch = {velocity_ahead, slide, 4.0 * EPSILON * scale, 1.0 / horizon, INFINITY};
-    return watch;
+    return (Watch){velocity_ahead, slide, 4.0 * EPSILON * scale, 1.0 / horizon, INFINITY};
 }
 
 double taylor_slide_travel(const void *slide, double t) {

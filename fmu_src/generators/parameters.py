@@ -1,21 +1,15 @@
-"""Parameters and inputs of the slider by name: a struct in C, a data class in Python."""
+"""Parameters and inputs of the slider by name: structs in C, data classes in Python."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-from fmu_src.generators.origin import origin
+from fmu_src.generators.c_header import c_header, generated_from
 from fmu_src.python.slider_component.variable import Variable
 
 _TABLE = "python/slider_component/variables.py"
 
-_C = """\
-/* Parameters and inputs by the names of the interface (SI units).
- *
- * {origin} */
-#ifndef SLIDER_PARAMETERS_H
-#define SLIDER_PARAMETERS_H
-
+_DECLARATIONS = """\
 typedef struct {{
 {parameters}
 }} Device;
@@ -25,13 +19,35 @@ typedef struct {{
 {inputs}
 }} Inputs;
 
-#endif
+/* Parameters and inputs from all values that can be set, by reference. */
+Device device_of(const double values[]);
+Inputs inputs_of(const double values[]);
+"""
+
+_DEFINITIONS = """\
+/* {origin} */
+#include "parameters.h"
+
+#include "variables.h"
+
+Device device_of(const double values[]) {{
+    return (Device){{
+{parameters}
+    }};
+}}
+
+Inputs inputs_of(const double values[]) {{
+    return (Inputs){{
+{inputs}
+    }};
+}}
 """
 
 _PYTHON = '''\
 """Parameters and inputs by the names of the interface (SI units).
 
 {origin}
+Then run `python -m fmu_src.generate`.
 """
 
 from __future__ import annotations
@@ -54,29 +70,40 @@ class Inputs:
 '''
 
 
-def c_parameters(variables: Sequence[Variable]) -> str:
-    """Return the text of parameters.h."""
-    return _C.format(
-        origin=origin(_TABLE),
-        parameters="\n".join(_c_field(v) for v in variables if v.causality == "parameter"),
-        inputs="\n".join(_c_field(v) for v in variables if v.causality == "input"),
-    )
+def c_parameters(variables: Sequence[Variable]) -> Mapping[str, str]:
+    """Return parameters.h and parameters.c: file name -> text."""
+    about = "Parameters and inputs by the names of the interface (SI units)."
+    declarations = _filled(_DECLARATIONS, variables, "    {c_type} {name};")
+    definitions = _filled(_DEFINITIONS, variables, "        .{name} = {cast}values[VR_{upper}],")
+    return {
+        "parameters.h": c_header("parameters", about, _TABLE, declarations),
+        "parameters.c": definitions,
+    }
 
 
 def python_parameters(variables: Sequence[Variable]) -> str:
     """Return the text of parameters.py."""
-    return _PYTHON.format(
-        origin=origin(_TABLE, ""),
-        parameters="\n".join(_python_field(v) for v in variables if v.causality == "parameter"),
-        inputs="\n".join(_python_field(v) for v in variables if v.causality == "input"),
+    return _filled(_PYTHON, variables, "    {name}: {type} = {start!r}")
+
+
+def _filled(template: str, variables: Sequence[Variable], line: str) -> str:
+    """Return `template` with one `line` per parameter and per input."""
+    lines: dict[str, list[str]] = {"parameter": [], "input": [], "output": []}
+    for v in variables:
+        integer = v.type == "Integer"
+        number = int if integer else float
+        lines[v.causality].append(
+            line.format(
+                name=v.name,
+                upper=v.name.upper(),
+                type=number.__name__,
+                c_type="int" if integer else "double",
+                cast="(int)" if integer else "",
+                start=number(v.start or 0),
+            )
+        )
+    return template.format(
+        origin=generated_from(_TABLE),
+        parameters="\n".join(lines["parameter"]),
+        inputs="\n".join(lines["input"]),
     )
-
-
-def _c_field(variable: Variable) -> str:
-    kind = "int" if variable.type == "Integer" else "double"
-    return f"    {kind} {variable.name};"
-
-
-def _python_field(variable: Variable) -> str:
-    kind = int if variable.type == "Integer" else float
-    return f"    {variable.name}: {kind.__name__} = {kind(variable.start or 0)!r}"

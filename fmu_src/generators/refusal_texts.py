@@ -11,26 +11,11 @@ from __future__ import annotations
 import inspect
 import json
 import re
-import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
-from fmu_src.generators.origin import origin
+from fmu_src.generators.c_header import c_header
 from fmu_src.python.slider_component import refusal_texts
-
-_SOURCE = "python/slider_component/refusal_texts.py"
-
-_FILE = """\
-/* Refusals that the twins share: each function writes its text and returns false.
- *
- * {origin} */
-#ifndef SLIDER_REFUSAL_TEXTS_H
-#define SLIDER_REFUSAL_TEXTS_H
-
-#include "refusal.h"
-{functions}
-#endif
-"""
 
 _C_TYPES = {
     "str": "const char *",
@@ -39,7 +24,6 @@ _C_TYPES = {
     "int": "long long ",
 }
 _MARK = re.compile("\0([^\0]+)\0")
-_WIDTH = 100
 
 
 @dataclass(frozen=True)
@@ -63,12 +47,14 @@ class _Placeholder:
 
 def c_refusal_texts() -> str:
     """Return the text of refusal_texts.h."""
-    return _FILE.format(origin=origin(_SOURCE), functions="".join(map(c_function, _texts())))
-
-
-def _texts() -> list[Callable[..., str]]:
     functions = filter(inspect.isfunction, vars(refusal_texts).values())
-    return [function for function in functions if function.__module__ == refusal_texts.__name__]
+    own = [f for f in functions if f.__module__ == refusal_texts.__name__]
+    return c_header(
+        "refusal_texts",
+        "Refusals that the twins share: each function writes its text and returns false.",
+        "python/slider_component/refusal_texts.py",
+        '#include "refusal.h"\n' + "".join(map(c_function, own)),
+    )
 
 
 def c_function(text: Callable[..., str]) -> str:
@@ -79,34 +65,14 @@ def c_function(text: Callable[..., str]) -> str:
     numbers = [name for name in order if kinds[name] == "float"]
     parameters = ["Refusal *refusal", *(f"{_C_TYPES[kind]}{name}" for name, kind in kinds.items())]
     arguments = [f"number_text({name}, {name}_text)" if name in numbers else name for name in order]
-    return "\n".join(
-        (
-            f"\n/* {inspect.getdoc(text)} */",
-            _listed(f"static inline bool refuse_{text.__name__}(", parameters, ") {"),
-            *(f"    char {name}_text[NUMBER_SIZE];" for name in numbers),
-            _call("    return refuse(", form, arguments),
-            "}\n",
-        )
+    lines = ["refusal", json.dumps(form), *([", ".join(arguments)] if arguments else [])]
+    call = ",\n                  ".join(lines)
+    return (
+        f"\n/* {inspect.getdoc(text)} */\n"
+        f"static inline bool refuse_{text.__name__}({', '.join(parameters)}) {{\n"
+        + "".join(f"    char {name}_text[NUMBER_SIZE];\n" for name in numbers)
+        + f"    return refuse({call});\n}}\n"
     )
-
-
-def _call(start: str, form: str, arguments: Sequence[str]) -> str:
-    whole = f"{start}{', '.join(('refusal', json.dumps(form), *arguments))});"
-    if len(whole) <= _WIDTH:
-        return whole
-    indent = " " * len(start)
-    pieces = textwrap.wrap(f"{form} ", _WIDTH - len(start) - 3, drop_whitespace=False)
-    pieces[-1] = pieces[-1].removesuffix(" ")
-    quoted = f"\n{indent}".join(map(json.dumps, pieces))
-    rest = f",\n{_listed(indent, arguments, ');')}" if arguments else ");"
-    return f"{start}refusal,\n{indent}{quoted}{rest}"
-
-
-def _listed(start: str, items: Sequence[str], end: str) -> str:
-    """Return the items between `start` and `end`, further lines indented as far as the first."""
-    whole = ", ".join(item.replace(" ", "\0") for item in items) + end.replace(" ", "\0")
-    lines = textwrap.wrap(whole, _WIDTH, initial_indent=start, subsequent_indent=" " * len(start))
-    return "\n".join(lines).replace("\0", " ")
 
 
 def _format(shown: str, kinds: dict[str, str]) -> tuple[str, list[str]]:

@@ -10,10 +10,11 @@ import pytest
 from fmpy import simulate_fmu
 
 from fmu_src.building import native_fmu
+from fmu_src.building.c_sources import slider_sources
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
-from fmu_src.sources import C_SOURCES, PACKAGE
+from fmu_src.sources import PACKAGE
 from tests.fmu.host import OUTPUTS, Instance, Unpacked, unpack
 from tests.fmus import both_fmus
 
@@ -39,13 +40,11 @@ def _python_build(folder: Path) -> Path:
 
 
 def _native_build(folder: Path) -> Path:
-    shutil.copytree(C_SOURCES, folder / "c")
-    _edit(
-        folder / "c" / "variables.c",
-        '{"friction_coefficient", false, false, 0.1',
-        '{"friction_coefficient", false, false, 0.2',
-    )
-    return build_native(folder / "dist", platforms=[HOST], sources=folder / "c")
+    code = slider_sources()
+    old, new = (f'{{"friction_coefficient", false, false, {start}' for start in (0.1, 0.2))
+    assert code["variables.c"].count(old) == 1
+    code["variables.c"] = code["variables.c"].replace(old, new)
+    return build_native(folder, platforms=[HOST], code=code)
 
 
 def _edit(file: Path, old: str, new: str) -> None:

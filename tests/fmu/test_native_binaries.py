@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import os
 import re
+import subprocess
 import zipfile
 from pathlib import Path
 
 import pytest
 
+from fmu_src.building.c_sources import slider_sources, write_sources
+from fmu_src.building.compiling import FLAGS, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import PLATFORMS
-from fmu_src.sources import C_SOURCES
 from tests.fmu.binary_files import elf_exports, elf_needed_versions, mach_libraries, pe_exports
 
 MEGABYTE = 1_000_000
@@ -24,7 +26,7 @@ MODEL = "SliderResonator"
 
 def fmi_functions() -> set[str]:
     """All functions of the standard, those of model exchange too, by its header."""
-    header = (C_SOURCES / "fmi2" / "fmi2Functions.h").read_text()
+    header = slider_sources()["fmi2Functions.h"]
     return set(re.findall(r"FMI2_Export +(?:fmi2\w+TYPE) +(fmi2\w+);", header))
 
 
@@ -71,6 +73,17 @@ def test_linux_needs(linux_binary: bytes) -> None:
     newest = max(tuple(map(int, re.findall(r"\d+", v))) for v in versions)
     assert {v.split("_")[0] for v in versions} == {"GLIBC"}
     assert newest <= (2, 17), f"needs {newest}: Linux distributions since 2014 are to load it"
+
+
+def test_the_prefix_for_static_linking_is_that_of_the_host(tmp_path: Path) -> None:
+    write_sources(slider_sources(), tmp_path)
+    command = [*default_compiler().command, "-target", LINUX.targets[0], *FLAGS]
+    command += ["-fvisibility=default", "-DFMI2_FUNCTION_PREFIX=Slider_", "-o", "prefixed.so"]
+    command += [*(path.name for path in tmp_path.glob("*.c")), "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    exports = elf_exports((tmp_path / "prefixed.so").read_bytes())
+    found = {name for name in exports if "fmi2" in name}
+    assert found == {f"Slider_{name}" for name in fmi_functions()}
 
 
 @pytest.mark.slow

@@ -1,38 +1,59 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
-from fmu_src.generate import generated_files
+from fmu_src.building.c_sources import FMI_HEADERS, controller_sources, slider_sources
+from fmu_src.generate import main
+from fmu_src.generators.parameters import python_parameters
 from fmu_src.generators.refusal_texts import c_function
 from fmu_src.generators.variable_table import c_table
 from fmu_src.python.slider_component import constants
 from fmu_src.python.slider_component.parameters import Inputs, Parameters
 from fmu_src.python.slider_component.variables import VARIABLES
-from fmu_src.sources import C_SOURCES
+from fmu_src.sources import PACKAGE
 
-FILES = generated_files()
-TABLE = c_table(VARIABLES)
+CODE = slider_sources()
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.name}")
-def test_the_generated_file_is_current(path: Path) -> None:
-    assert path.read_text() == FILES[path], (
-        f"{path} is out of date: `python -m fmu_src.generate` writes it again"
+def test_the_committed_file_is_current() -> None:
+    assert (PACKAGE / "parameters.py").read_text() == python_parameters(VARIABLES), (
+        "parameters.py is out of date: `python -m fmu_src.generate` writes it again"
     )
 
 
+@pytest.mark.parametrize(
+    ("name", "sources"), [("slider", slider_sources), ("controller", controller_sources)]
+)
+def test_a_folder_gets_all_sources(
+    name: str,
+    sources: Callable[[], dict[str, str]],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("sys.argv", ["generate", str(tmp_path)])
+    main()
+    assert {p.name: p.read_text() for p in (tmp_path / name).iterdir()} == sources()
+
+
+def test_the_headers_of_fmi_are_whole_and_have_unix_line_ends() -> None:
+    for name in FMI_HEADERS:
+        assert "Modelica Association" in CODE[name]
+        assert "\r" not in CODE[name]
+
+
 def test_references_are_positions_in_the_table() -> None:
-    found = re.findall(r"VR_(\w+) = (\d+),", TABLE["variables.h"])
+    found = re.findall(r"VR_(\w+) = (\d+),", CODE["variables.h"])
     assert found == [(v.name.upper(), str(i)) for i, v in enumerate(VARIABLES)]
 
 
 def test_bounds_read_back_exactly() -> None:
     rows = re.findall(
-        r'\{"(\w+)", (true|false), (true|false), (\S+), (\S+), (\S+),\s+"', TABLE["variables.c"]
+        r'\{"(\w+)", (true|false), (true|false), (\S+), (\S+), (\S+),\s+"', CODE["variables.c"]
     )
     assert [r[0] for r in rows] == [v.name for v in VARIABLES]
     for variable, (_, integer, fixed, start, minimum, maximum) in zip(VARIABLES, rows, strict=True):
@@ -49,12 +70,11 @@ def test_bounds_read_back_exactly() -> None:
 
 def test_outputs_must_come_last() -> None:
     with pytest.raises(ValueError, match="outputs must come last"):
-        c_table(tuple(reversed(VARIABLES)))
+        c_table(tuple(reversed(VARIABLES)), "")
 
 
 def test_fields_of_the_twins_are_those_of_the_table() -> None:
-    header = FILES[C_SOURCES / "parameters.h"]
-    in_c = re.findall(r"^    (double|int) (\w+);", header, re.MULTILINE)
+    in_c = re.findall(r"^    (double|int) (\w+);", CODE["parameters.h"], re.MULTILINE)
     types = {"float": "double", "int": "int"}
     in_python = [(types[str(f.type)], f.name) for f in (*fields(Parameters), *fields(Inputs))]
     assert in_c == in_python
@@ -64,7 +84,7 @@ def test_fields_of_the_twins_are_those_of_the_table() -> None:
 
 
 def test_constants_read_back_exactly() -> None:
-    found = re.findall(r"^#define ([A-Z_]+) (\S+)$", FILES[C_SOURCES / "constants.h"], re.MULTILINE)
+    found = re.findall(r"^#define ([A-Z_]+) (\S+)$", CODE["constants.h"], re.MULTILINE)
     in_python = {name: value for name, value in vars(constants).items() if name.isupper()}
     assert {name: float(text) for name, text in found} == in_python
 
@@ -76,8 +96,8 @@ def out_of_stock(name: str, value: float, count: int, found: object) -> str:
 
 def test_a_refusal_in_c_takes_its_arguments_in_the_order_of_the_text() -> None:
     text = c_function(out_of_stock)
-    assert "(Refusal *refusal, const char *name, double value,\n" in text
-    assert "long long count, const char *found) {\n    char value_text[NUMBER_SIZE];\n" in text
+    assert "(Refusal *refusal, const char *name, double value, long long count, " in text
+    assert "const char *found) {\n    char value_text[NUMBER_SIZE];\n" in text
     assert "%lld %s: %s is 100 %% over %s, and" in text
     assert "count, name, number_text(value, value_text), found);\n}" in text
 

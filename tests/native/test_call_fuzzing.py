@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-import shutil
 from pathlib import Path
 
 import pytest
 
+from fmu_src.building.c_sources import UNBUILT_GUID, slider_sources, write_sources
 from fmu_src.controller.variables import VARIABLES
-from fmu_src.sources import C_SOURCES
 from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
-from tests.native.toolchain import PROGRAMS, UNBUILT_GUID, Binary, program, run, unpacked_binary
+from tests.native.toolchain import PROGRAMS, Binary, program, run, unpacked_binary
 
 CALLS = 300_000
 
@@ -52,12 +51,12 @@ def test_the_controller_stands_the_same(fuzzer: Path, controller_fmu: Path, tmp_
 @pytest.mark.slow
 def test_the_fuzzer_notices_a_refusal_that_is_not_logged(fuzzer: Path, tmp_path: Path) -> None:
     silent = tmp_path / "silent"
-    shutil.copytree(C_SOURCES, silent)
+    code = slider_sources()
     speaking = "done ? fmi2OK : report(instance, fmi2Error, refusal->text)"
-    text = (silent / "instance.c").read_text()
-    assert text.count(speaking) == 1
-    text = text.replace(speaking, "(void)instance, (void)refusal, done ? fmi2OK : fmi2Error")
-    (silent / "instance.c").write_text(text)
+    assert code["instance.c"].count(speaking) == 1
+    quiet = "(void)instance, (void)refusal, done ? fmi2OK : fmi2Error"
+    code["instance.c"] = code["instance.c"].replace(speaking, quiet)
+    write_sources(code, silent)
     library = tmp_path / "silent.so"
     sources = [str(path) for path in sorted(silent.glob("*.c"))]
     flags = ["-fPIC", "-shared", "-Wno-error", f"-I{silent}", *sources[1:]]

@@ -12,13 +12,12 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.sources import C_SOURCES
+from fmu_src.building.c_sources import UNBUILT_GUID, slider_sources, write_sources
 from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
 from slider_resonator.trials.hosts.driver_host import BINARY
 from slider_resonator.trials.hosts.job import describe
 
 PROGRAMS = Path(__file__).parent / "c"
-UNBUILT_GUID = "00000000-0000-0000-0000-000000000000"
 FAULT = 99
 """Exit code by which a tool says that it has found something."""
 
@@ -46,11 +45,12 @@ def program(source: Path, folder: Path, flags: Sequence[str] = ()) -> Path:
     return compile_program(compiler, source, folder / source.stem, flags)
 
 
-def sanitized_binary(folder: Path, flags: Sequence[str], sources: Path = C_SOURCES) -> Binary:
+def sanitized_binary(folder: Path, flags: Sequence[str]) -> Binary:
     """The C sources as a library with a sanitizer's flags."""
+    write_sources(slider_sources(), folder)
     library = folder / "SliderResonator.so"
     command = [*sanitizing_compiler(), "-std=c99", "-ffp-contract=off", *flags, "-fPIC", "-shared"]
-    command += [*(str(path) for path in sorted(sources.glob("*.c"))), "-o", str(library), "-lm"]
+    command += [*(str(path) for path in sorted(folder.glob("*.c"))), "-o", str(library), "-lm"]
     subprocess.run(command, check=True)
     return Binary(library, UNBUILT_GUID)
 

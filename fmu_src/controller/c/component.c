@@ -29,27 +29,19 @@ bool component_setup_experiment(Component *component, const Experiment *experime
     return true;
 }
 
-static bool change_lifecycle(Component *component, const char *call, Lifecycle from, Lifecycle to,
-                             Refusal *refusal) {
-    if (!require(call, component->now.lifecycle, from, refusal)) {
-        return false;
-    }
-    component->now.lifecycle = to;
-    return true;
-}
-
 bool component_enter_initialization(Component *component, Refusal *refusal) {
-    return change_lifecycle(component, "enterInitializationMode", INSTANTIATED, INITIALIZATION,
-                            refusal);
+    return lifecycle_change(&component->now.lifecycle, "enterInitializationMode", INSTANTIATED,
+                            INITIALIZATION, refusal);
 }
 
 bool component_exit_initialization(Component *component, Refusal *refusal) {
-    return change_lifecycle(component, "exitInitializationMode", INITIALIZATION, STEP_COMPLETE,
-                            refusal);
+    return lifecycle_change(&component->now.lifecycle, "exitInitializationMode", INITIALIZATION,
+                            STEP_COMPLETE, refusal);
 }
 
 bool component_terminate(Component *component, Refusal *refusal) {
-    return change_lifecycle(component, "terminate", STEP_COMPLETE, TERMINATED, refusal);
+    return lifecycle_change(&component->now.lifecycle, "terminate", STEP_COMPLETE, TERMINATED,
+                            refusal);
 }
 
 bool component_set(Component *component, const unsigned *references, const double *values,

@@ -105,7 +105,7 @@ def response_from_rest(
     """
     eigenvalue = oscillator.eigenvalue
     if eigenvalue is None:
-        raise ValueError(f"decay = {oscillator.decay!r}: must be oscillatory damping")
+        raise ValueError(f"decay = {oscillator.decay!r}: must be that of oscillatory damping")
     forcing = complex(0.0, frequency)
     conjugate = eigenvalue.conjugate()
     near = _divided_difference(eigenvalue, forcing, t)

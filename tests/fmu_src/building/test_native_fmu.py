@@ -12,6 +12,7 @@ import pytest
 from fmpy import simulate_fmu
 
 from fmu_src.building.build_error import BuildError
+from fmu_src.building.c_sources import slider_sources
 from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform
@@ -42,22 +43,17 @@ def source_files(fmu: Path) -> list[str]:
 
 
 @pytest.fixture
-def edited_sources(tmp_path: Path) -> Path:
-    """A copy of the C sources in which one comment differs."""
-    copy = tmp_path / "c"
-    shutil.copytree(C_SOURCES, copy)
-    with (copy / "values.c").open("a") as file:
-        file.write("/* one comment more */\n")
-    return copy
+def code() -> dict[str, str]:
+    """The C sources, to be edited."""
+    return slider_sources()
 
 
 def test_another_content_gets_another_guid(
-    native_fmu: Path, tmp_path: Path, edited_sources: Path
+    native_fmu: Path, tmp_path: Path, code: dict[str, str]
 ) -> None:
     messages: list[str] = []
-    other = build_native(
-        tmp_path / "dist", platforms=[HOST], sources=edited_sources, progress=messages.append
-    )
+    code["values.c"] += "/* one comment more */\n"
+    other = build_native(tmp_path, platforms=[HOST], code=code, progress=messages.append)
     assert guid(other) != guid(native_fmu), "hosts and states must tell builds apart"
     assert f"compiling for {host_platform().name} with ziglang" in messages[0]
 
@@ -68,11 +64,11 @@ def test_the_guid_is_in_the_sources_and_in_the_binary(native_fmu: Path) -> None:
         assert inside[name].count(guid(native_fmu).encode()) == 1, name
 
 
-def test_every_source_is_inside_and_listed(native_fmu: Path) -> None:
-    written = {p.relative_to(C_SOURCES).as_posix() for p in C_SOURCES.rglob("*.[ch]")}
+def test_every_source_is_inside_and_listed(native_fmu: Path, code: dict[str, str]) -> None:
+    assert {p.name for p in C_SOURCES.iterdir()} < code.keys()
     inside = {n.removeprefix("sources/") for n in contents(native_fmu) if n.startswith("sources/")}
-    assert inside == written
-    assert source_files(native_fmu) == sorted(n for n in written if n.endswith(".c"))
+    assert inside == code.keys()
+    assert source_files(native_fmu) == sorted(n for n in code if n.endswith(".c"))
 
 
 def test_nothing_of_python_is_inside(native_fmu: Path) -> None:
@@ -124,19 +120,14 @@ def test_a_compiler_for_another_platform_is_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "dist").exists()
 
 
-def test_compiler_messages_are_passed_on(tmp_path: Path, edited_sources: Path) -> None:
-    (edited_sources / "values.c").write_text("#error broken on purpose\n")
+def test_compiler_messages_are_passed_on(tmp_path: Path, code: dict[str, str]) -> None:
+    code["values.c"] = "#error broken on purpose\n"
     with pytest.raises(BuildError, match="broken on purpose"):
-        build_native(tmp_path / "dist", platforms=[HOST], sources=edited_sources)
+        build_native(tmp_path / "dist", platforms=[HOST], code=code)
     assert not (tmp_path / "dist").exists()
 
 
-def test_a_function_that_is_missing_is_noticed(tmp_path: Path, edited_sources: Path) -> None:
-    (edited_sources / "law.c").write_text("int nothing;\n")
+def test_a_function_that_is_missing_is_noticed(tmp_path: Path, code: dict[str, str]) -> None:
+    code["law.c"] = "int nothing;\n"
     with pytest.raises(BuildError, match="law_advance"):
-        build_native(tmp_path / "dist", platforms=[HOST], sources=edited_sources)
-
-
-def test_a_folder_without_the_sources_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(BuildError, match=r"model_guid\.h is missing"):
-        build_native(tmp_path / "dist", platforms=[HOST], sources=tmp_path)
+        build_native(tmp_path / "dist", platforms=[HOST], code=code)

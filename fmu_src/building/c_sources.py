@@ -1,0 +1,91 @@
+"""All C sources of the native FMUs: written by hand, generated, and the headers of FMI 2.0."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Mapping
+from fnmatch import fnmatch
+from pathlib import Path
+
+from fmu_src.building.build_error import BuildError
+from fmu_src.controller.variables import VARIABLES as CONTROLLER_VARIABLES
+from fmu_src.generators.c_header import c_header
+from fmu_src.generators.constants import c_constants
+from fmu_src.generators.parameters import c_parameters
+from fmu_src.generators.refusal_texts import c_refusal_texts
+from fmu_src.generators.variable_table import c_table
+from fmu_src.python.slider_component.variables import VARIABLES
+from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
+
+GUID_HEADER = "model_guid.h"
+UNBUILT_GUID = "00000000-0000-0000-0000-000000000000"
+
+FMI_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")
+
+SHARED = (
+    "component_functions.h",
+    "constants.h",
+    "experiment.[ch]",
+    "fmi2*.[ch]",
+    "instance.[ch]",
+    "lifecycle.h",
+    "model_guid.h",
+    "refusal.[ch]",
+    "refusal_texts.h",
+    "state_bytes.[ch]",
+    "values.[ch]",
+)
+"""The slider's C files that serve any table of variables."""
+
+
+def slider_sources() -> dict[str, str]:
+    """Return file name -> text of the slider's C files and headers, with UNBUILT_GUID.
+
+    Equal sources and equal headers of fmpy give equal texts. Raises BuildError without fmpy.
+    """
+    return {
+        **_read(C_SOURCES),
+        **c_table(VARIABLES, "python/slider_component/variables.py"),
+        **c_parameters(VARIABLES),
+        "constants.h": c_constants(),
+        "refusal_texts.h": c_refusal_texts(),
+        GUID_HEADER: guid_header(UNBUILT_GUID),
+        **_fmi_headers(),
+    }
+
+
+def controller_sources() -> dict[str, str]:
+    """Return file name -> text of the velocity controller's; otherwise like `slider_sources`."""
+    slider = slider_sources()
+    return {
+        **{name: slider[name] for name in slider if any(fnmatch(name, p) for p in SHARED)},
+        **_read(CONTROLLER_SOURCES),
+        **c_table(CONTROLLER_VARIABLES, "controller/variables.py"),
+    }
+
+
+def guid_header(guid: str) -> str:
+    """Return the text of the header with the GUID of the model description."""
+    about = "The GUID of the model description."
+    definition = f'#define MODEL_GUID "{guid}"\n'
+    return c_header("model_guid", about, "building/c_sources.py", definition)
+
+
+def write_sources(sources: Mapping[str, str], folder: Path) -> None:
+    """Write C files and headers into a folder, created if missing; line ends are those of Unix."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in sources.items():
+        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+
+
+def _read(folder: Path) -> dict[str, str]:
+    # In text mode: line ends do not depend on the checkout.
+    return {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.[ch]")}
+
+
+def _fmi_headers() -> dict[str, str]:
+    spec = importlib.util.find_spec("fmpy")
+    if spec is None or spec.origin is None:
+        raise BuildError("fmpy is not installed here; `make setup` installs it")
+    folder = Path(spec.origin).parent / "c-code"
+    return {name: (folder / name).read_text(encoding="utf-8") for name in FMI_HEADERS}
