@@ -1,4 +1,4 @@
-"""Write what is generated from the tables and texts of the Python component.
+"""Write the files that are generated from the tables and texts of the Python component.
 
 `python -m fmu_src.generate` rewrites parameters.py, which is committed: a test checks that it is
 current. `python -m fmu_src.generate FOLDER` also writes all C sources, as a build compiles them,

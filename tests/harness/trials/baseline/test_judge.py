@@ -83,4 +83,4 @@ def test_new_and_missing_quantities_are_changes(point: ScenePoint) -> None:
     ((gone, _),) = compare_golden(point, golden, {}, 1e-8)
     assert not new.passed
     assert not gone.passed
-    assert "does not allow it" in sentence(gone)
+    assert "no longer allows it" in sentence(gone)

@@ -71,7 +71,7 @@ def test_what_is_no_python_fmu_is_refused(fmu: PythonFmu, tmp_path: Path) -> Non
     with pytest.raises(FmuError, match="no such file"):
         read_python_fmu(tmp_path / "no.fmu")
     other = PythonFmu({**fmu.files, fmu.path_of("stick.py"): b""}, fmu.package)
-    with pytest.raises(FmuError, match=r"lacks what faults are made with: stick\.py: Stick"):
+    with pytest.raises(FmuError, match=r"lacks names that faults need: stick\.py: Stick"):
         fmu_mutants(other)
 
 
