@@ -7,9 +7,9 @@ from functools import cache
 
 import numpy as np
 import pytest
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
 
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from slider_resonator.references.resolved.trajectory import LugreTrajectory
 from tests.fmu.host import Instantiate
 from tests.fmu.trajectories import assert_equal, fmu_run
 from tests.fmus import both_fmus

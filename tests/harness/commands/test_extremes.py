@@ -18,7 +18,7 @@ WRONG = MatrixCell("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
 
 
 def extremes_of(
-    monkeypatch: pytest.MonkeyPatch, cells: list[Cell], *arguments: object
+    monkeypatch: pytest.MonkeyPatch, cells: list[MatrixCell], *arguments: object
 ) -> tuple[int, str]:
     monkeypatch.setattr(extremes, "all_cells", lambda *, long: cells)
     result = call("extremes", *arguments)

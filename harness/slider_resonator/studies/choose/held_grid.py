@@ -7,7 +7,7 @@ from math import tau
 
 import numpy as np
 
-from slider_resonator.device.held_inputs import Array
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule, Signal, communication_points, steps
 from slider_resonator.scenes.scene import Scene

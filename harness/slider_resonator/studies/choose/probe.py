@@ -8,7 +8,7 @@ from math import inf
 
 import numpy as np
 
-from slider_resonator.device.held_inputs import Array
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene

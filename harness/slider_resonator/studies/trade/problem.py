@@ -8,9 +8,10 @@ from math import pi
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import Array, HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.schedule import Schedule, Signal, communication_points, schedule
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.scenes.scene import Scene

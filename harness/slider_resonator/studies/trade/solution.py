@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.deviation import peak, share_of
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.slow import slow_displacement
-from slider_resonator.device.held_inputs import Array
 from slider_resonator.device.schedule import nearest
 from slider_resonator.studies.trade.problem import Problem
 

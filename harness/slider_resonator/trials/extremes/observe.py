@@ -9,7 +9,7 @@ from statistics import median
 
 import numpy as np
 
-from slider_resonator.device.held_inputs import Array
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance

@@ -14,8 +14,9 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.integrate import DOP853
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import Array, HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.scipy_methods import (
     Method,
     Solver,

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import Array, HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
 from slider_resonator.references.resolved.mode_sequence import ModeSequence

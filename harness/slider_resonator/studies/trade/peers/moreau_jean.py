@@ -14,8 +14,9 @@ from math import ceil, pi, sin
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import Array, HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import Equations
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.studies.trade.peers.without_events import RunWithoutEvents

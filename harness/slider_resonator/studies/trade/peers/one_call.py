@@ -10,10 +10,10 @@ from typing import Any, Literal
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import Array, HeldInputs
-from slider_resonator.references.resolved.lugre_trajectory import LugreTrajectory
-from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
 from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
 from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of

@@ -15,8 +15,9 @@ from typing import Any, Literal
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import Array, HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs
 
 Form = Literal["coulomb", "path", "state"]
 

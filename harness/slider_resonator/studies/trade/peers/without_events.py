@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import Array, HeldInputs, check_contiguous, check_times
+from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
