@@ -123,10 +123,11 @@ def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress
             write_text(out / RESULTS / f"{job.name}.json", results + "\n")
             if isinstance(job, PaperFigure):
                 _draw(job, found[job.name], out)
+    measured = [(table, found[table.name]) for table in tables]
     if figures:
         write_figures(out, figures, fmu_path.name, guid)
     if tables:
-        write_tables(out, [(table, found[table.name]) for table in tables], fmu_path.name, guid)
+        write_tables(out, measured, fmu_path.name, guid)
     claims = [(group.title, found[group.name]) for group in groups]
     if claims:
         write_claims(out, claims, fmu_path.name, guid)
@@ -135,7 +136,10 @@ def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress
         fmu=str(fmu_path),
         guid=guid,
         run=list(found),
-        tables=[_judged(table, found[table.name]) for table in tables],
+        tables=[
+            Judged(table.name, table.largest(data), table.bounds, table.confirmed(data))
+            for table, data in measured
+        ],
         claims=[claim for _, group in claims for claim in group],
         wall_time=perf_counter() - began,
     )
@@ -147,7 +151,3 @@ def _draw(figure: PaperFigure, data: Data, out: Path) -> None:
         for suffix in SUFFIXES:
             with replacing(out / f"{figure.name}{suffix}") as temporary:
                 save(drawing, temporary)
-
-
-def _judged(table: PaperTable, data: Data) -> Judged:
-    return Judged(table.name, table.largest(data), table.bounds, table.confirmed(data))

@@ -101,12 +101,10 @@ def measure(instance: Instance, task: Task, point: tuple[float, ...]) -> list[Ce
     statistics = _statistics(instance, task, values)
     cells: list[Cell] = []
     for name in task.measures:
-        if name == "steady_velocity":
-            motion = find_steady(instance, values, max_denominator=task.max_denominator)
-            cells += [motion.steady_velocity, motion.status]
-        elif name == "blocking_force":
-            blocking = find_blocking(instance, values, max_denominator=task.max_denominator)
-            cells += [blocking.blocking_force, blocking.status]
+        if name in SHOOTING:
+            find = find_steady if name == "steady_velocity" else find_blocking
+            found = find(instance, values, max_denominator=task.max_denominator)
+            cells += [getattr(found, name), found.status]
         else:
             cells.append(statistics[name])
     return cells

@@ -40,12 +40,9 @@ def standings(trade: Trade) -> list[Standing]:
     found = []
     for quantity, error in TARGETS:
         rows = trade.candidates(quantity)
-        best = {
-            kind: cheapest([row for row in rows if row.kind == kind], quantity, error)
-            for kind in CLASSES
-        }
-        for kind, row in best.items():
-            against = best[RESOLVED]
+        against = cheapest([row for row in rows if row.kind == RESOLVED], quantity, error)
+        for kind in CLASSES:
+            row = cheapest([row for row in rows if row.kind == kind], quantity, error)
             ratio = None if row is None or against is None else paired_ratio(row, against)
             found.append(Standing(quantity, error, kind, row, ratio))
     return found

@@ -43,6 +43,14 @@ def first_zero(*arguments):
     return zero if zero is None else 1.000001 * zero
 """
 
+_HELD_FOR_EVER = "\nStick.watches = lambda self, horizon: ()\n"
+_NOT_NOTICED = "\ntime_to_switch = lambda *arguments: inf\n"
+_GROUNDED = "\nis_lifted = lambda *arguments: False\n"
+_UNCOUNTED = (
+    "\nCounts.slid = lambda self, direction: Counts(direction, self.reversals, self.sticks)\n"
+)
+_STICKS = "\n_mode_in_contact = lambda plant, moment: STICK\n"
+
 _AFTER_SET = """
 _set = Component.set
 
@@ -119,23 +127,17 @@ _REPLACE = "from dataclasses import replace\n"
 def _events() -> Iterator[Fault]:
     every = "each 50th stop or release is skipped"
     late = "each stop or release is late by a millionth of the time to it"
-    yield Fault("leg.py", "event", every, ("first_zero",), _EVERY_50TH)
-    yield Fault("leg.py", "event", late, ("first_zero",), _LATE)
-    never = "\nStick.watches = lambda self, horizon: ()\n"
-    yield Fault("stick.py", "event", "a stick is never released", ("Stick",), never)
-    closed = "\ntime_to_switch = lambda *arguments: inf\n"
-    change = "lift-off and touchdown happen at the next step only"
-    yield Fault("contact.py", "event", change, ("time_to_switch", "inf"), closed)
-    grounded = "\nis_lifted = lambda *arguments: False\n"
-    yield Fault("contact.py", "event", "the contact never lifts", ("is_lifted",), grounded)
-    uncounted = (
-        "\nCounts.slid = lambda self, direction: Counts(direction, self.reversals, self.sticks)\n"
-    )
-    change = "reversals are not counted"
-    yield Fault("moment.py", "event", change, ("Counts",), uncounted)
-    held = "\n_mode_in_contact = lambda plant, moment: STICK\n"
-    change = "the slider sticks at each stop"
-    yield Fault("coulomb.py", "event", change, ("_mode_in_contact", "STICK"), held)
+    switch = "lift-off and touchdown happen at the next step only"
+    for file, change, needs, code in (
+        ("leg.py", every, ("first_zero",), _EVERY_50TH),
+        ("leg.py", late, ("first_zero",), _LATE),
+        ("stick.py", "a stick is never released", ("Stick",), _HELD_FOR_EVER),
+        ("contact.py", switch, ("time_to_switch", "inf"), _NOT_NOTICED),
+        ("contact.py", "the contact never lifts", ("is_lifted",), _GROUNDED),
+        ("moment.py", "reversals are not counted", ("Counts",), _UNCOUNTED),
+        ("coulomb.py", "the slider sticks at each stop", ("_mode_in_contact", "STICK"), _STICKS),
+    ):
+        yield Fault(file, "event", change, needs, code)
 
 
 def _inputs() -> Iterator[Fault]:

@@ -8,6 +8,7 @@ import pytest
 
 from slider_resonator.errors import Refusal, SceneError
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose import choose
 from slider_resonator.studies.choose.choosing import candidates, choose_with
 from tests.harness.scene_text import scene_of, table_1
@@ -42,13 +43,16 @@ def test_a_need_below_rounding_is_not_met(instance: Instance) -> None:
     assert len(choice.ruled_out) == 3
 
 
+def lugre(need: str, stiffness: float = 1e5, periods: int = 200) -> Scene:
+    return scene_of(
+        f"[device]\nfriction_law = 1\nbristle_stiffness = {stiffness}\n"
+        f"[run]\ndrive_periods = {periods}\nsteps_per_period = 1\n[need]\n{need}\n"
+    )
+
+
 def test_a_tighter_need_takes_a_tighter_tolerance(instance: Instance) -> None:
-    law = "[device]\nfriction_law = 1\n"
-    run = "[run]\ndrive_periods = 200\nsteps_per_period = 1\n"
     tolerances = [
-        choose_with(
-            instance, scene_of(f"{law}{run}[need]\nposition = {{ rel = {need} }}\n")
-        ).tolerance
+        choose_with(instance, lugre(f"position = {{ rel = {need} }}")).tolerance
         for need in (1e-4, 1e-6, 1e-8)
     ]
     assert tolerances == sorted(tolerances, reverse=True)
@@ -63,20 +67,13 @@ def test_a_free_law_is_coulombs_where_the_bristle_is_stiff(
     instance: Instance, stiffness: float, law: int
 ) -> None:
     """The laws differ for a share of 1e-4 of the time in the one case, of 0.01 in the other."""
-    scene = scene_of(
-        f"[device]\nfriction_law = 1\nbristle_stiffness = {stiffness}\n"
-        "[run]\ndrive_periods = 200\nsteps_per_period = 1\n"
-        '[need]\nposition = { rel = 1e-4 }\nfriction_law = "free"\n',
-    )
+    scene = lugre('position = { rel = 1e-4 }\nfriction_law = "free"', stiffness)
     choice = choose_with(instance, scene)
     assert (choice.meets, choice.fidelity, choice.friction_law) == (True, 2, law)
 
 
 def test_a_law_that_is_given_is_kept(instance: Instance) -> None:
-    scene = scene_of(
-        "[device]\nfriction_law = 1\nbristle_stiffness = 1e10\n"
-        "[run]\ndrive_periods = 100\nsteps_per_period = 1\n[need]\nposition = { rel = 1e-4 }\n",
-    )
+    scene = lugre("position = { rel = 1e-4 }", 1e10, 100)
     assert {candidate.model.friction_law for candidate, _ in candidates(instance, scene)} == {1}
     assert choose_with(instance, scene).friction_law == 1
 
@@ -113,29 +110,27 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
 
 
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("inputs", "need", "message"),
     [
-        ("[inputs]\nload = 1.0\n[need]\nsteady_velocity = { rel = 0.1 }\n", "load_above_friction"),
+        ("load = 1.0", "steady_velocity", "load_above_friction"),
         (
-            "[run]\ndrive_periods = 300\nsteps_per_period = 1\n[need]\nbeat = { rel = 0.1 }\n",
+            "",
+            "beat",
             "no beat at frequency_ratio = 1: at an integer the difference of the two phases is",
         ),
         (
-            "[inputs]\nfrequency_ratio = 1.5\n[run]\ndrive_periods = 300\nsteps_per_period = 1\n"
-            "[need]\nbeat = { rel = 0.1 }\n",
+            *("frequency_ratio = 1.5", "beat"),
             "no beat at frequency_ratio = 1.5: it is farther than 0.1 from an integer",
         ),
-        (
-            "[inputs]\nfrequency_ratio = 1.001\n[run]\ndrive_periods = 300\nsteps_per_period = 1\n"
-            "[need]\nbeat = { rel = 0.1 }\n",
-            "0.15 beats",
-        ),
+        ("frequency_ratio = 1.001", "beat", "0.15 beats"),
     ],
 )
 def test_a_quantity_that_does_not_exist_is_met_by_no_model(
-    instance: Instance, text: str, message: str
+    instance: Instance, inputs: str, need: str, message: str
 ) -> None:
-    choice = choose_with(instance, scene_of(text))
+    run = "[run]\ndrive_periods = 300\nsteps_per_period = 1\n" if need == "beat" else ""
+    scene = scene_of(f"[inputs]\n{inputs}\n{run}[need]\n{need} = {{ rel = 0.1 }}\n")
+    choice = choose_with(instance, scene)
     assert not choice.meets
     assert message in choice.reason
     assert len(choice.ruled_out) == 3

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from slider_resonator.studies.paper import figure_2
-from slider_resonator.studies.paper.claim import Claim, near
+from slider_resonator.studies.paper.claim import Claim, near, statements
 from slider_resonator.studies.paper.listing import (
     verdicts,
     write_claims,
@@ -25,6 +25,12 @@ def test_claims_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     table = (tmp_path / "claims.md").read_text(encoding="utf-8")
     assert "| It moves | (5) | v m per s 0.5 | agrees | it \\| does |" in table
     assert "**NOT CONFIRMED**" in table
+
+
+def test_every_statement_is_complete() -> None:
+    for name, statement in statements().items():
+        assert list(statement) == ["where", "statement", "verdict", "why"], name
+        assert statement["verdict"] in ("agrees", "agrees in part", "disagrees"), name
 
 
 def test_verdicts_are_counted() -> None:

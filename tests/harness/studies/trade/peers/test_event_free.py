@@ -88,6 +88,13 @@ def test_sgn_agrees_with_located_events_to_its_own_accuracy(
     assert (run.contact_mode == exact.contact_mode).mean() > 0.95
 
 
+def test_samples_do_not_influence_the_motion() -> None:
+    few = simulate_sgn(TABLE_1, until(4 * PERIOD), np.array([0.0, 4 * PERIOD]), atol=ATOL)
+    many = simulate_sgn(TABLE_1, until(4 * PERIOD), np.linspace(0.0, 4 * PERIOD, 333), atol=ATOL)
+    for name in SIGNALS:
+        assert getattr(few, name)[-1] == getattr(many, name)[-1], f"{name} at the end"
+
+
 def test_the_error_of_sgn_falls_with_the_tolerance_and_its_cost_grows() -> None:
     times = np.linspace(0.0, 5 * PERIOD, 201)
     held = until(5 * PERIOD)
