@@ -28,6 +28,9 @@ ROUNDING = 1e-11
 LEAST_FAST_VELOCITY = 1e-4
 """Of the devices below, in m/s."""
 
+SLIP_RESONANCE = {"resonator_mass": 3.0, "resonator_frequency": 1.0, "drive_frequency": 2.0}
+"""wn^2 = (1 - r_m) w^2."""
+
 Twins = tuple[Instance, Instance]
 
 
@@ -184,14 +187,7 @@ def refused(instance: Instance, values: Mapping[str, float]) -> str:
 @pytest.mark.parametrize(
     "values",
     [
-        # Undamped, and driven at the slip resonance: wn^2 = (1 - r_m) w^2.
-        {
-            "damping_ratio": 0.0,
-            "fidelity": 1,
-            "resonator_mass": 3.0,
-            "resonator_frequency": 1.0,
-            "drive_frequency": 2.0,
-        },
+        {**SLIP_RESONANCE, "damping_ratio": 0.0, "fidelity": 1},
         {"friction_law": 1, "friction_coefficient": 0.0},
         {"slider_mass": 0.0},
         {"base_amplitude": math.nan},

@@ -15,9 +15,7 @@ from slider_resonator.studies.closed_loop.prediction import predicted_errors
 pytestmark = pytest.mark.interop
 
 
-def test_libcosim_matches_fmpy_in_closed_loop(
-    closed_loop_package: Path,
-) -> None:
+def test_libcosim_matches_fmpy_in_closed_loop(closed_loop_package: Path) -> None:
     duty = Duty()
     fmpy, libcosim = (run_loop(closed_loop_package, host, duty) for host in HOSTS)
     for record in libcosim:
