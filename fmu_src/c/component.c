@@ -18,6 +18,7 @@ static bool all_finite(const double *numbers, size_t count) {
 }
 
 static bool law_is_finite(const Law *law) {
+    const TheoryRange theory = theory_range(law);
     const Plant *plant = &law->held.plant;
     const double coefficients[] = {
         plant->total_mass,      plant->mass_fraction,     plant->normal_frequency,
@@ -25,6 +26,7 @@ static bool law_is_finite(const Law *law) {
         plant->stick.stiffness, plant->drive.re,          plant->drive.im,
         plant->relative_drive,  plant->base_acceleration, plant->holding_drive.re,
         plant->spring,          plant->damper,            plant->holding_drive.im,
+        theory.velocity,        theory.drag,              theory.strongest,
     };
     return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
 }
@@ -174,6 +176,9 @@ bool component_get(Component *component, const unsigned *references, double *val
         }
         found[i] = output_value(references[i], present_law(component), moment,
                                 component->now.last_event_time, &component->theory);
+        if (!isfinite(found[i])) {
+            return refuse_infinite_output(refusal, VARIABLES[references[i]].name, found[i]);
+        }
     }
     memcpy(values, found, count * sizeof *values);
     return true;

@@ -148,6 +148,15 @@ static inline bool refuse_extreme_value(Refusal *refusal, const char *name, cons
                   name, value, start);
 }
 
+/* Refuse to return an output that leaves the range of floating point numbers. */
+static inline bool refuse_infinite_output(Refusal *refusal, const char *name, double value) {
+    char value_text[NUMBER_SIZE];
+    return refuse(refusal,
+                  "%s = %s refused: the output leaves the range of floating point numbers; values,"
+                  " inputs and state must be smaller",
+                  name, number_text(value, value_text));
+}
+
 /* Refuse an undamped resonator where its steady motion is unbounded. */
 static inline bool refuse_unbounded_resonance(Refusal *refusal, double damping_ratio,
                                               double drive_frequency) {

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from math import inf, isfinite, log10, remainder, tau, ulp
+from math import inf, isfinite, log10, nan, remainder, tau, ulp
 from typing import Any
 
 from . import refusal_texts
+from .averaged import theory_range
 from .constants import MAX_TURNS, STOP_TIME_SLACK, TIME_SLACK
 from .device import Device, Inputs
 from .held import LONGEST_ARC
@@ -99,7 +100,7 @@ class Component:
                 found.append(self._values[name])
             else:
                 view = view or self._view(name)
-                found.append(output(view))
+                found.append(_finite_output(name, output, view))
         return found
 
     def step(self, time: float, step_size: float) -> None:
@@ -212,12 +213,25 @@ def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
     inputs = replace(inputs, phase=remainder(inputs.phase, tau))
     try:
         law = law_of(device, inputs)
-        finite = all(map(isfinite, _coefficients(law.held.plant)))
+        finite = all(map(isfinite, (*_coefficients(law.held.plant), *theory_range(device))))
     except ArithmeticError:
         finite = False
     if not finite:
         raise _extreme(values)
     return device, inputs, law
+
+
+def _finite_output(name: str, output: Callable[[View], float], view: View) -> float:
+    """Return an output. Raises Refusal for one that is not a finite number."""
+    try:
+        value = output(view)
+    except Refusal:
+        raise
+    except (ArithmeticError, ValueError):
+        value = nan
+    if not isfinite(value):
+        raise Refusal(refusal_texts.infinite_output(name, value))
+    return value
 
 
 def _extreme(values: Mapping[str, Any]) -> Refusal:
