@@ -19,7 +19,7 @@ from .motion import State
 from .outputs import OUTPUTS, View
 from .plant import Plant
 from .refusal import Refusal
-from .snapshot import FORMAT, moment_from_plain, moment_to_plain
+from .snapshot import FORMAT, entries, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, checked, number
 from .variable import Variable
 
@@ -134,24 +134,26 @@ class Component:
             "moment": None if self._moment is None else moment_to_plain(self._moment),
         }
 
-    def restore(self, plain: Mapping[str, Any]) -> None:
+    def restore(self, plain: object) -> None:
         """Restore a snapshot, of this or another instance. Raises Refusal for anything else."""
+        try:
+            self._restore(plain)
+        except RecursionError:
+            raise Refusal("FMU state refused: its entries are nested too deeply") from None
+
+    def _restore(self, plain: object) -> None:
         if not isinstance(plain, Mapping) or plain.get("format") != FORMAT:
             found = plain.get("format") if isinstance(plain, Mapping) else type(plain).__name__
             raise Refusal(f"FMU state refused: its format is {found!r}; must be {FORMAT!r}")
+        entries("the state", plain, self.snapshot())
         try:
             lifecycle = Lifecycle(plain["lifecycle"])
-            time = number("time", plain["time"])
-            stop = plain["stop_time"]
-            stop_time = inf if stop is None else number("stop_time", stop)
-            last_event_time = number("last_event_time", plain["last_event_time"])
-            stored = dict(plain["values"])
-            moment = plain["moment"]
-        except (KeyError, TypeError, ValueError) as error:
-            raise Refusal(f"FMU state refused: it does not fit ({error!r})") from error
-        if stored.keys() != self._values.keys():
-            odd = ", ".join(sorted(stored.keys() ^ self._values.keys()))
-            raise Refusal(f"FMU state refused: variables that do not fit: {odd}")
+        except ValueError as error:
+            raise Refusal(f"FMU state refused: {error}") from error
+        time, stop = number("time", plain["time"]), plain["stop_time"]
+        stop_time = inf if stop is None else number("stop_time", stop)
+        last_event_time = number("last_event_time", plain["last_event_time"])
+        stored, moment = entries("values", plain["values"], self._values), plain["moment"]
         values = {name: checked(BY_NAME[name], value) for name, value in stored.items()}
         restored = None if moment is None else moment_from_plain(moment)
         if restored is None and lifecycle in (Lifecycle.STEP_COMPLETE, Lifecycle.TERMINATED):
