@@ -43,7 +43,7 @@ _SOURCE = """\
  * {origin} */
 #include "variables.h"
 
-#include <math.h>
+#include <float.h>
 
 const Variable VARIABLES[VARIABLE_COUNT] = {{
 {rows}
@@ -127,8 +127,8 @@ def _row(variable: Variable) -> str:
     numbers = ", ".join(
         (
             _number(variable.start, "0.0"),
-            _number(variable.minimum, "-INFINITY"),
-            _number(variable.maximum, "INFINITY"),
+            _number(variable.minimum, "-DBL_MAX"),
+            _number(variable.maximum, "DBL_MAX"),
         )
     )
     integer, fixed = variable.type == "Integer", variable.variability == "fixed"

@@ -4,12 +4,12 @@
  * controller/variables.py: edit that file instead. */
 #include "variables.h"
 
-#include <math.h>
+#include <float.h>
 
 const Variable VARIABLES[VARIABLE_COUNT] = {
-    {"velocity_reference", false, false, 0.0, -INFINITY, INFINITY,
+    {"velocity_reference", false, false, 0.0, -DBL_MAX, DBL_MAX,
      "a finite number"},
-    {"measured_velocity", false, false, 0.0, -INFINITY, INFINITY,
+    {"measured_velocity", false, false, 0.0, -DBL_MAX, DBL_MAX,
      "a finite number"},
     {"proportional_gain", false, false, 100.0, 0.0, 1000000000000.0,
      "a finite number from 0 to 1e+12 s/m"},
@@ -17,11 +17,11 @@ const Variable VARIABLES[VARIABLE_COUNT] = {
      "a finite number from 0 to 1e+12 1/m"},
     {"effort_limit", false, false, 1.0, 0.0, 1.0,
      "a finite number from 0 to 1"},
-    {"force_phase", false, false, 0.733313, -INFINITY, INFINITY,
+    {"force_phase", false, false, 0.733313, -DBL_MAX, DBL_MAX,
      "a finite number"},
     {"sample_time", false, true, 0.01, 1e-09, 1000000.0,
      "a finite number from 1e-09 to 1e+06 s"},
-    {"phase", false, false, 0.0, -INFINITY, INFINITY,
+    {"phase", false, false, 0.0, -DBL_MAX, DBL_MAX,
      "a finite number"},
     {"effort", false, false, 0.0, -1.0, 1.0,
      "a finite number from -1 to 1"},
