@@ -179,6 +179,22 @@ static double balanced_turning(const Balance *balance, Point low, Point halfway,
     return 0.5 * (low.turning + high.turning);
 }
 
+TheoryRange theory_range(const Law *law) {
+    const Device *device = &law->device;
+    TheoryRange range = {0.0, 0.0, 0.0};
+    Complex force;
+    Refusal refusal;
+    if (equivalent_force(device, &force, &refusal)) {
+        range.velocity = fast_velocity(device, force);
+    }
+    double mu = law->bristle.coefficient;
+    double drag = law->friction->averaged->drag(&law->bristle, range.velocity);
+    double normal = device->normal_preload + device->normal_amplitude;
+    range.drag = drag != 0.0 ? drag / mu : 0.0;
+    range.strongest = TAU * normal * (1.0 + device->friction_faces * (mu + drag));
+    return range;
+}
+
 Averaged averaged(const Law *law, double normal_lead) {
     Complex force;
     Refusal refusal;

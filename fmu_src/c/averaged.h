@@ -15,6 +15,14 @@ typedef struct {
     double steady_velocity, blocking_force;
 } Averaged;
 
+/* Numbers that are all finite where averaged theory stays in the range of floating point: the fast
+ * velocity [m/s], its drag over mu, and a bound on integrals of load and friction [N]. */
+typedef struct {
+    double velocity, drag, strongest;
+} TheoryRange;
+
+TheoryRange theory_range(const Law *law);
+
 /* Averaged theory of the device and inputs of a law (eqs 20-22 with both faces).
  *
  * `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where the

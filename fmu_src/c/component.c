@@ -18,6 +18,7 @@ static bool all_finite(const double *numbers, size_t count) {
 }
 
 static bool law_is_finite(const Law *law) {
+    const TheoryRange theory = theory_range(law);
     const Plant *plant = &law->held.plant;
     const double coefficients[] = {
         plant->total_mass,      plant->mass_fraction,     plant->normal_frequency,
@@ -25,6 +26,7 @@ static bool law_is_finite(const Law *law) {
         plant->stick.stiffness, plant->drive.re,          plant->drive.im,
         plant->relative_drive,  plant->base_acceleration, plant->holding_drive.re,
         plant->spring,          plant->damper,            plant->holding_drive.im,
+        theory.velocity,        theory.drag,              theory.strongest,
     };
     return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
 }
@@ -168,6 +170,9 @@ bool component_get(Component *component, const unsigned *references, double *val
         }
         found[i] = output_value(references[i], present_law(component), moment,
                                 component->now.last_event_time, &component->theory);
+        if (!isfinite(found[i])) {
+            return refuse_infinite_output(refusal, VARIABLES[references[i]].name, found[i]);
+        }
     }
     if (count > 0) { /* of none `values` may be null */
         memcpy(values, found, count * sizeof *values);
@@ -198,8 +203,9 @@ bool component_step(Component *component, double time, double step_size, Refusal
     if (!all_finite(reached, sizeof reached / sizeof reached[0])) {
         return refuse_infinite_motion(refusal, step_size);
     }
-    if (after.event_age <= step_size) {
-        now->last_event_time = time + (step_size - after.event_age);
+    /* Without an event the age grows by the step; rounding makes up far less than half of that. */
+    if (after.event_age < step_size + 0.5 * now->moment.event_age) {
+        now->last_event_time = time + fmax(0.0, step_size - after.event_age);
     }
     now->moment = after;
     now->time = end;

@@ -34,7 +34,10 @@ Moment law_start(const Law *law) {
     first.state.displacement = device->initial_resonator_displacement;
     first.state.rate = device->initial_resonator_velocity;
     first.mode = law_mode(law, &first);
-    if (!is_averaged(device)) {
+    if (is_averaged(device)) {
+        first.means.complete = true;
+        first.means.mean_velocity = slow_velocity(law, &first.state, first.theta);
+    } else {
         first.bristle = law->friction->first_bristle(law);
         first.counts.sliding = first.mode == LIFTED ? 0 : first.mode;
     }

@@ -58,8 +58,8 @@ static void follow_rest(Leg *leg, double turn) {
     }
 }
 
-/* Ends sliding at a stop. */
-static void follow_sliding(Leg *leg, double expected) {
+/* Ends sliding at a stop; tells whether it goes in another direction than `before`. */
+static void follow_sliding(Leg *leg, double expected, int before) {
     Watch watch = leg->kind == BENDS ? taylor_slide_watch(&leg->motion.series, leg->t)
                                      : slide_watch(&leg->motion.slide);
     double zero = first_zero_near(&watch, leg->t, leg->watched_from, expected);
@@ -67,12 +67,15 @@ static void follow_sliding(Leg *leg, double expected) {
         leg->t = zero;
         leg->zero_of = 0;
     }
+    leg->turns = leg->direction != before
+                 && watch.signal(watch.motion, 0.5 * leg->t).value > watch.noise;
 }
 
 void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
     double frequency = held->plant.drive_frequency;
     leg->t = leg->kind == BENDS ? fmin(longest, leg->motion.series.reach) : longest;
     leg->zero_of = -1;
+    leg->turns = false;
     if (!(leg->t > 0.0)) {
         return;
     }
@@ -80,7 +83,8 @@ void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
         follow_rest(leg, TAU / frequency);
     } else if (leg->direction != 0) {
         const Stop *stop = stop_after(&now->stops, leg->direction);
-        follow_sliding(leg, stop_expected(stop, now->theta, frequency));
+        follow_sliding(leg, stop_expected(stop, now->theta, frequency),
+                       now->counts.sliding);
     }
 }
 
@@ -120,7 +124,7 @@ void leg_finish(Leg *leg, const Held *held, Moment *now) {
     now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
     now->psi = within_turn(now->psi + plant->normal_frequency * leg->t);
     now->position += leg->travelled;
-    if (leg->travelled * leg->direction > 0.0 && leg->direction != now->counts.sliding) {
+    if (leg->turns) {
         now->counts = counts_slid(now->counts, leg->direction);
         now->event_age = 0.0;
     }

@@ -17,7 +17,8 @@ typedef enum { RESTS, SLIDES, BENDS } LegKind;
  * is watched (0 for none) from `watched_from` [s] on.
  *
  * Followed, it ends after `t` [s] and `travelled` [m], at the zero of a watched signal (`zero_of` >=
- * 0) or not. `departs` is known before it begins: from rest, and not thrown back by a reversal. */
+ * 0) or not; `turns` tells whether the slider really moves, beyond rounding, in another direction
+ * than it slid before. `departs` is known before it begins: from rest, and not thrown back by a reversal. */
 typedef struct {
     LegKind kind;
     int mode, direction;
@@ -29,7 +30,7 @@ typedef struct {
     } motion;
     double t, travelled;
     int zero_of;
-    bool departs;
+    bool turns, departs;
 } Leg;
 
 /* Rest. */

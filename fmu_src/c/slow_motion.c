@@ -79,6 +79,11 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
     return true;
 }
 
+double slow_velocity(const Law *law, const State *state, double theta) {
+    double momentum = state->velocity + device_mass_fraction(&law->device) * state->rate;
+    return momentum + law->fast.pair_velocity * cos(theta);
+}
+
 int slow_mode(const Law *law, const Moment *moment) {
     const Held *held = &law->held;
     return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
@@ -91,7 +96,7 @@ bool slow_advance(const Law *law, const Moment *moment, double duration, Moment 
     double share = device_mass_fraction(&law->device);
     double theta = moment->theta, psi = moment->psi;
     State state = moment->state;
-    Reached reached = {.velocity = state.velocity + share * state.rate + drive * cos(theta)};
+    Reached reached = {.velocity = slow_velocity(law, &state, theta)};
     double centre = moment->position + share * state.displacement + drive / w * sin(theta);
     SlowFriction friction = slow_friction_of(law, theta, psi);
     if (!pass(&friction, duration, &reached, refusal)) {

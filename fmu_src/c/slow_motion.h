@@ -19,6 +19,9 @@
 bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,
                   Refusal *refusal);
 
+/* Slow velocity V [m/s] of a state at drive phase `theta` [rad]. */
+double slow_velocity(const Law *law, const State *state, double theta);
+
 /* Contact mode: lifted, or the direction of sliding with the fast vibration; STICK only at rest. */
 int slow_mode(const Law *law, const Moment *moment);
 

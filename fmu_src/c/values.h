@@ -9,6 +9,11 @@
 #include "refusal.h"
 #include "variables.h"
 
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "compile without -ffast-math, -ffinite-math-only or /fp:fast: they remove the checks for NaN and infinity"
+#endif
+
 typedef enum { REAL_TYPE, INTEGER_TYPE, BOOLEAN_TYPE, STRING_TYPE } ValueType;
 
 /* Refuse a reference that no variable has, or one of another type. */

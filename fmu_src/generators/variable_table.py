@@ -33,7 +33,7 @@ _SOURCE = """\
 /* {origin} */
 #include "variables.h"
 
-#include <math.h>
+#include <float.h>
 
 const Variable VARIABLES[VARIABLE_COUNT] = {{
 {rows}
@@ -68,8 +68,8 @@ def _row(variable: Variable) -> str:
         json.dumps(variable.type == "Integer"),
         json.dumps(variable.variability == "fixed"),
         _number(variable.start, "0.0"),
-        _number(variable.minimum, "-INFINITY"),
-        _number(variable.maximum, "INFINITY"),
+        _number(variable.minimum, "-DBL_MAX"),
+        _number(variable.maximum, "DBL_MAX"),
     )
     return f"    {{{', '.join(cells)},\n     {json.dumps(variable.requirement)}}},"
 

@@ -107,6 +107,42 @@ def test_values_that_do_not_fit_each_other(instantiate: Instantiate, fidelity: i
         instance.set(friction_coefficient=0.0)
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "others"),
+    [
+        ("friction_coefficient", 1e308, {}),
+        ("friction_coefficient", 1e308, {"fidelity": 0}),
+        ("friction_coefficient", 1.7976931348623157e308, {"friction_law": 1}),
+        ("friction_coefficient", 5e-324, {"friction_law": 1}),
+        ("bristle_damping", 1e308, {"friction_law": 1}),
+        ("normal_preload", 1.7e308, {"normal_amplitude": 1.7e308, "friction_coefficient": 1e-200}),
+    ],
+)
+def test_forces_that_leave_the_range_of_numbers(
+    instantiate: Instantiate, name: str, value: float, others: dict[str, float]
+) -> None:
+    instance = instantiate()
+    instance.enter_initialization(**{name: value} | others)
+    with instance.refuses(f"{name} = {value!r} refused: together with the other values"):
+        instance.slave.exitInitializationMode()
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"initial_velocity": 1e308, "bristle_damping": 1e10},
+        {"bristle_stiffness": 1e308, "initial_bristle_deflection": 1e10},
+    ],
+)
+def test_output_that_leaves_the_range_of_numbers(
+    instantiate: Callable[[], Instance], values: dict[str, float]
+) -> None:
+    instance = instantiate().initialize(friction_law=1, **values)
+    with instance.refuses("friction_force = ", "the output leaves the range of floating point"):
+        instance.get("position", "friction_force")
+    assert instance.get("position", "normal_force") == (0.0, 1.0)
+
+
 @pytest.mark.parametrize("size", [0.0, -0.0, -1e-3, NAN, INF, -INF])
 def test_step_size(instance: Instance, size: float) -> None:
     instance.step(STEP)

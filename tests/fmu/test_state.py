@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from pathlib import Path
 
@@ -112,6 +113,18 @@ def test_foreign_or_damaged_bytes_are_refused(instance: Instance, kind: str) -> 
     data = _foreign(instance.state())[kind]
     with instance.refuses("state", "refused"):
         instance.restore(data)
+
+
+def test_a_deeply_nested_state_with_a_good_checksum_is_refused(
+    instance: Instance,
+) -> None:
+    """In the Python FMU such a state is JSON behind its SHA-256."""
+    instance.run(3, STEP)
+    for depth in (900, 100_000):
+        body = b'{"format": ' + b"[" * depth + b"]" * depth + b"}"
+        with instance.refuses("state", "refused"):
+            instance.restore(hashlib.sha256(body).hexdigest().encode() + b"\n" + body)
+    instance.run(3, STEP)
 
 
 def test_no_flipped_bit_goes_unnoticed(instance: Instance) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from cmath import phase as argument
 from dataclasses import dataclass
-from math import copysign, cos, pi, sin
+from math import copysign, cos, pi, sin, tau
 
 from .averaged_friction import FastMotion
 from .balance import Balance, Point, balanced_turning
@@ -36,6 +36,23 @@ ROUNDING = 8.0
 """Rounding error of a mean friction, in units of the last place of the largest friction."""
 
 NO_VIBRATION = Averaged(0.0, 0.0)
+
+
+def theory_range(device: Device) -> tuple[float, ...]:
+    """Return numbers that are all finite where `averaged` stays in the range of floating point.
+
+    The fast velocity [m/s], its drag over mu, and a bound on integrals of load and friction [N].
+    """
+    try:
+        force = equivalent_force(device)
+    except Refusal:
+        force = 0j
+    velocity = abs(force) / (device.total_mass * device.drive_frequency)
+    mu = device.friction_coefficient
+    drag = friction_law_of(device.friction_law).averaged.drag(bristle_of(device), velocity)
+    normal = device.normal_preload + device.normal_amplitude
+    strongest = tau * normal * (1.0 + device.friction_faces * (mu + drag))
+    return velocity, drag / mu if drag else 0.0, strongest
 
 
 def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:

@@ -16,8 +16,9 @@ from .stick import Stick
 class Leg:
     """A motion in contact mode `mode`, which ends after `t` [s] and `travelled` [m].
 
-    `direction` is that of sliding, 0 where it does not matter; `zero_of` is the watched signal that
-    ends the leg, or None.
+    `direction` is that of sliding, 0 where it does not matter, and `slides` tells whether the
+    slider really moves in it, beyond rounding; `zero_of` is the watched signal that ends the leg,
+    or None.
     """
 
     motion: Motion
@@ -26,6 +27,7 @@ class Leg:
     t: float
     travelled: float
     zero_of: int | None
+    slides: bool
 
     @property
     def rests(self) -> bool:
@@ -51,7 +53,7 @@ class Leg:
         )
         now.psi = (now.psi + plant.normal_frequency * t) % tau
         now.position += self.travelled
-        if self.travelled * self.direction > 0.0 and self.direction != now.counts.sliding:
+        if self.slides and self.direction != now.counts.sliding:
             now.counts, now.event_age = now.counts.slid(self.direction), 0.0
         now.event_age += t
         if self.stopped:
@@ -66,8 +68,10 @@ def followed(
     What it watches is watched from `watched_from` [s] on.
     """
     t, zero_of = longest, None
-    for index, watch in enumerate(motion.watches(longest) if longest > 0.0 else ()):
+    watches = motion.watches(longest) if longest > 0.0 else ()
+    for index, watch in enumerate(watches):
         zero = first_zero(watch, t, watched_from)
         if zero is not None:
             t, zero_of = zero, index
-    return Leg(motion, mode, direction, t, motion.travel(t), zero_of)
+    slides = direction != 0 and any(watch.signal(0.5 * t)[0] > watch.noise for watch in watches)
+    return Leg(motion, mode, direction, t, motion.travel(t), zero_of, slides)

@@ -112,6 +112,14 @@ def extreme_value(name: str, value: object, start: object) -> str:
     )
 
 
+def infinite_output(name: str, value: float) -> str:
+    """Refuse to return an output that leaves the range of floating point numbers."""
+    return (
+        f"{name} = {value!r} refused: the output leaves the range of floating point numbers; "
+        "values, inputs and state must be smaller"
+    )
+
+
 def unbounded_resonance(damping_ratio: float, drive_frequency: float) -> str:
     """Refuse an undamped resonator where its steady motion is unbounded."""
     return (

@@ -54,7 +54,8 @@ class SlowLaw:
     def start(self, state: State, position: float) -> Moment:
         """See Law. The initial velocities fix the momentum of the pair, not the vibration."""
         mode = self.held.mode_by_velocity(state.velocity, 0.0)
-        return Moment(state, position, 0.0, 0.0, mode, Counts(), inf, PeriodMeans())
+        means = PeriodMeans(complete=True, mean_velocity=self._slow_velocity(state, 0.0))
+        return Moment(state, position, 0.0, 0.0, mode, Counts(), inf, means)
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """See Law."""
@@ -62,7 +63,7 @@ class SlowLaw:
         w, q = held.plant.drive_frequency, held.plant.normal_frequency
         share, drive = held.device.mass_fraction, fast.pair_velocity
         theta, psi, state = moment.theta, moment.psi, moment.state
-        slow = state.velocity + share * state.rate + drive * cos(theta)
+        slow = self._slow_velocity(state, theta)
         centre = moment.position + share * state.displacement + drive / w * sin(theta)
         slow, moved = self._passed(slow, theta, psi, duration)
         theta = (theta + w * duration) % tau
@@ -73,6 +74,10 @@ class SlowLaw:
         means = PeriodMeans(complete=True, mean_velocity=slow)
         mode = held.mode_by_velocity(state.velocity, psi)
         return Moment(state, position, theta, psi, mode, moment.counts, inf, means)
+
+    def _slow_velocity(self, state: State, theta: float) -> float:
+        momentum = state.velocity + self.held.device.mass_fraction * state.rate
+        return momentum + self.fast.pair_velocity * cos(theta)
 
     def _passed(
         self, velocity: float, theta: float, psi: float, duration: float

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from math import inf
 from typing import Any
 
-from . import refusal_texts
-from .contact import BACKWARD, LIFTED
+from .contact import BACKWARD, FORWARD, LIFTED
 from .moment import Counts, Moment
 from .motion import State
 from .period import PeriodMeans
 from .refusal import Refusal
-from .values import integer, number
+from .values import flag, integer, integer_within, number
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
@@ -33,31 +32,44 @@ def moment_to_plain(moment: Moment) -> dict[str, Any]:
 
 
 def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
-    """Invert `moment_to_plain`. Raises Refusal for a missing entry or one that is not a number."""
-    try:
-        age = plain["event_age"]
-        means = dict(plain["means"])
-        complete = means.pop("complete")
-        moment = Moment(
-            State(**_numbers("state", plain["state"])),
-            number("position", plain["position"]),
-            number("theta", plain["theta"]),
-            number("psi", plain["psi"]),
-            integer("mode", plain["mode"]),
-            Counts(**{name: integer(name, value) for name, value in plain["counts"].items()}),
-            inf if age is None else number("event_age", age),
-            PeriodMeans(complete=bool(complete), **_numbers("means", means)),
-            number("bristle", plain["bristle"]),
-        )
-    except (KeyError, TypeError, AttributeError) as error:
-        raise Refusal(f"FMU state refused: its motion does not fit ({error!r})") from error
-    if not BACKWARD <= moment.mode <= LIFTED:
-        raise Refusal(refusal_texts.out_of_range_in_state("mode", moment.mode, BACKWARD, LIFTED))
-    return moment
+    """Invert `moment_to_plain`. Raises Refusal for entries that are missing, odd or unknown."""
+    plain = entries("moment", plain, [f.name for f in fields(Moment)])
+    state = entries("state", plain["state"], State._fields)
+    counts = entries("counts", plain["counts"], Counts._fields)
+    means = entries("means", plain["means"], PeriodMeans._fields)
+    age = plain["event_age"]
+    return Moment(
+        State(**{key: number(f"state.{key}", value) for key, value in state.items()}),
+        number("position", plain["position"]),
+        number("theta", plain["theta"]),
+        number("psi", plain["psi"]),
+        integer_within("mode", plain["mode"], BACKWARD, LIFTED),
+        Counts(
+            integer_within("counts.sliding", counts["sliding"], BACKWARD, FORWARD),
+            integer("counts.reversals", counts["reversals"]),
+            integer("counts.sticks", counts["sticks"]),
+        ),
+        inf if age is None else number("event_age", age),
+        PeriodMeans(
+            complete=flag("means.complete", means["complete"]),
+            **{
+                key: number(f"means.{key}", value)
+                for key, value in means.items()
+                if key != "complete"
+            },
+        ),
+        number("bristle", plain["bristle"]),
+    )
 
 
-def _numbers(name: str, plain: Mapping[str, Any]) -> dict[str, float]:
-    return {key: number(f"{name}.{key}", value) for key, value in plain.items()}
+def entries(name: str, plain: object, names: Iterable[str]) -> Mapping[str, Any]:
+    """Return a part of a stored state. Raises Refusal if its entries are not just `names`."""
+    if not isinstance(plain, Mapping):
+        raise Refusal(f"FMU state refused: {name} = {plain!r}; must be an object with entries")
+    odd = plain.keys() ^ set(names)
+    if odd:
+        raise Refusal(f"FMU state refused: entries of {name} that do not fit: {sorted(odd)!r}")
+    return plain
 
 
 def to_bytes(plain: Mapping[str, Any]) -> bytes:
@@ -77,7 +89,7 @@ def from_bytes(data: bytes) -> dict[str, Any]:
         return {"format": f"damaged: {len(data)} bytes that do not match their checksum"}
     try:
         plain = json.loads(body)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         return {"format": f"unreadable: {error}"}
     return plain if isinstance(plain, dict) else {"format": type(plain).__name__}
 

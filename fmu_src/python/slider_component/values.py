@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import isfinite
+from typing import TypeGuard
 
 from . import refusal_texts
 from .refusal import Refusal
@@ -16,7 +17,7 @@ SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "ou
 def checked(variable: Variable, value: object) -> float:
     """Return the value in the variable's type. Raises Refusal for one that the table excludes."""
     refused = Refusal(refusal_texts.out_of_bounds(variable.name, value, variable.requirement))
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not isfinite(value):
+    if not _is_finite_number(value):
         raise refused
     low, high = variable.minimum, variable.maximum
     if (low is not None and value < low) or (high is not None and value > high):
@@ -30,13 +31,37 @@ def checked(variable: Variable, value: object) -> float:
 
 def number(name: str, value: object) -> float:
     """Return a finite number of a stored state. Raises Refusal for anything else."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not isfinite(value):
+    if not _is_finite_number(value):
         raise Refusal(refusal_texts.infinite_in_state(name, value))
     return float(value)
 
 
 def integer(name: str, value: object) -> int:
-    """Return an integer of a stored state. Raises Refusal for anything else."""
-    if isinstance(value, bool) or not isinstance(value, int):
+    """Return an integer of a stored state that is also a finite float. Raises Refusal if not."""
+    if not _is_finite_number(value) or not isinstance(value, int):
         raise Refusal(f"FMU state refused: {name} = {value!r}; must be an integer")
     return value
+
+
+def integer_within(name: str, value: object, minimum: int, maximum: int) -> int:
+    """Return an integer of a stored state from a range. Raises Refusal for anything else."""
+    if isinstance(value, bool) or not isinstance(value, int) or not minimum <= value <= maximum:
+        raise Refusal(refusal_texts.out_of_range_in_state(name, value, minimum, maximum))
+    return value
+
+
+def flag(name: str, value: object) -> bool:
+    """Return true or false of a stored state. Raises Refusal for anything else."""
+    if not isinstance(value, bool):
+        raise Refusal(f"FMU state refused: {name} = {value!r}; must be true or false")
+    return value
+
+
+def _is_finite_number(value: object) -> TypeGuard[int | float]:
+    """Whether a value is a number that a float can hold; an int may be too large for one."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    try:
+        return isfinite(value)
+    except OverflowError:
+        return False

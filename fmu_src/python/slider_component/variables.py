@@ -281,7 +281,17 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
-        depends_initially_on=("initial_velocity",),
+        # At fidelity 0 what is left of the momentum of the pair without its vibration.
+        depends_initially_on=(
+            "fidelity",
+            "slider_mass",
+            "resonator_mass",
+            "base_amplitude",
+            "drive_frequency",
+            "tangential_force",
+            "initial_velocity",
+            "initial_resonator_velocity",
+        ),
     ),
     _output(
         "resonator_displacement",

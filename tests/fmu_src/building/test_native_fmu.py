@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -16,7 +17,7 @@ from fmu_src.building.c_sources import slider_sources
 from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform
-from fmu_src.sources import C_SOURCES
+from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
 
 # Those of this machine, each once; the build's own is always there.
 _FOUND = {os.path.realpath(p): n for n in ("clang", "gcc", "cc") if (p := shutil.which(n))}
@@ -100,6 +101,30 @@ def test_sources_compile_alone_without_a_warning(
         text=True,
         check=False,
     )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("flag", ["-ffast-math", "-ffinite-math-only"])
+def test_options_that_remove_the_checks_for_nan_do_not_compile(flag: str, tmp_path: Path) -> None:
+    source, object_file = str(C_SOURCES / "values.c"), str(tmp_path / "values.o")
+    command = [*default_compiler().command, "-std=c99", "-c", source, "-o", object_file]
+    assert subprocess.run(command, check=False).returncode == 0
+    done = subprocess.run([*command, flag], capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert "compile without -ffast-math" in done.stderr
+
+
+def test_static_initializers_are_constants_for_every_compiler() -> None:
+    """For some, as tcc, INFINITY and HUGE_VAL with a sign are none."""
+    tables = (C_SOURCES / "variables.c", CONTROLLER_SOURCES / "variables.c")
+    assert not [path for path in tables if re.search("INFINITY|HUGE_VAL", path.read_text())]
+
+
+@pytest.mark.skipif(shutil.which("tcc") is None, reason="needs tcc")
+def test_tcc_compiles_the_sources(tmp_path: Path) -> None:
+    sources = map(str, sorted(C_SOURCES.glob("*.c")))
+    command = ["tcc", "-std=c99", "-shared", "-o", str(tmp_path / "tcc.so"), *sources, "-lm"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import math
 from collections.abc import Callable
 from typing import Any
@@ -11,6 +13,8 @@ import pytest
 from fmu_src.python.slider_component.component import Component
 from fmu_src.python.slider_component.outputs import OUTPUTS
 from fmu_src.python.slider_component.refusal import Refusal
+from fmu_src.python.slider_component.snapshot import from_bytes
+from fmu_src.python.slider_component.values import BY_NAME, checked
 
 
 def running(start_time: float = 0.0, **values: float) -> Component:
@@ -50,6 +54,87 @@ def test_a_snapshot_that_is_none_changes_nothing(
     with pytest.raises(Refusal, match="refused"):
         component.restore(damage(before))
     assert component.snapshot() == before
+
+
+Path = tuple[str, ...]
+
+
+def changed(plain: dict[str, Any], path: Path, value: object) -> dict[str, Any]:
+    """A copy of a snapshot with another value at `path`."""
+    name, *rest = path
+    return plain | {name: changed(plain[name], tuple(rest), value) if rest else value}
+
+
+def without(plain: dict[str, Any], path: Path) -> dict[str, Any]:
+    """A copy of a snapshot that lacks the entry at `path`."""
+    name, *rest = path
+    if rest:
+        return plain | {name: without(plain[name], tuple(rest))}
+    return {key: value for key, value in plain.items() if key != name}
+
+
+def paths(plain: dict[str, Any]) -> list[Path]:
+    """Every entry of a snapshot, also those that hold others."""
+    inner = [(k, *p) for k, v in plain.items() if isinstance(v, dict) for p in paths(v)]
+    return [(key,) for key in plain] + inner
+
+
+def nested(depth: int) -> list[object]:
+    value: list[object] = []
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+def sealed(body: bytes) -> bytes:
+    return hashlib.sha256(body).hexdigest().encode() + b"\n" + body
+
+
+ODD = ["x", [], {}, True, 1.5, -7, 10**400, -(10**400), math.nan, math.inf, nested(900)]
+# The values that are good somewhere: null for no event, -7 for numbers, and so on.
+NUMBERS = {"time", "stop_time", "last_event_time", "position", "theta", "psi", "event_age"} | {
+    *("bristle", "velocity", "displacement", "rate", "travel", "elapsed", "sticking"),
+    *("mean_velocity", "stick_fraction"),
+}
+
+
+def fits(path: Path, value: object) -> bool:
+    """Whether an odd value is one that the entry at `path` may have."""
+    if path[-1] == "complete":
+        return value is True
+    if path[0] == "values":
+        variable = BY_NAME[path[-1]] if len(path) > 1 else None
+        try:
+            return variable is not None and checked(variable, value) == value
+        except Refusal:
+            return False
+    number = path[-1] in NUMBERS and value in (1.5, -7)
+    return number or (path[-1] in ("reversals", "sticks") and value == -7)
+
+
+def test_states_with_odd_entries_are_refused_and_change_nothing() -> None:
+    component = running()
+    component.step(0.0, 0.01)
+    before = component.snapshot()
+    for path in paths(before):
+        states = [changed(before, path, value) for value in ODD if not fits(path, value)]
+        for state in (without(before, path), changed(before, path, {"odd": 1}), *states):
+            with pytest.raises(Refusal, match="refused"):
+                component.restore(from_bytes(sealed(json.dumps(state).encode())))
+            assert component.snapshot() == before
+    for path in ((), ("moment",), ("moment", "state"), ("values",)):
+        with pytest.raises(Refusal, match=r"do not fit: \['odd'\]"):
+            component.restore(changed(before, (*path, "odd"), 1.0))
+        assert component.snapshot() == before
+
+
+@pytest.mark.parametrize("depth", [100, 900, 5000, 200_000])
+@pytest.mark.parametrize("start", [b"[", b'{"format":'])
+def test_a_deeply_nested_state_is_refused(depth: int, start: bytes) -> None:
+    end = b"]" if start == b"[" else b"}"
+    body = start * depth + b"1" + end * depth
+    with pytest.raises(Refusal, match="refused"):
+        running().restore(from_bytes(sealed(body)))
 
 
 def test_hosts_may_round_their_time() -> None:
