@@ -13,11 +13,11 @@ import pytest
 from fmpy import simulate_fmu
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.c_sources import slider_sources
+from fmu_src.building.c_sources import controller_sources, slider_sources, write_sources
 from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform
-from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
+from fmu_src.sources import C_SOURCES
 
 # Those of this machine, each once; the build's own is always there.
 _FOUND = {os.path.realpath(p): n for n in ("clang", "gcc", "cc") if (p := shutil.which(n))}
@@ -104,9 +104,19 @@ def test_sources_compile_alone_without_a_warning(
     assert done.returncode == 0, done.stderr
 
 
+@pytest.fixture
+def written_sources(tmp_path: Path) -> Path:
+    """A folder with all C sources of the slider."""
+    folder = tmp_path / "c"
+    write_sources(slider_sources(), folder)
+    return folder
+
+
 @pytest.mark.parametrize("flag", ["-ffast-math", "-ffinite-math-only"])
-def test_options_that_remove_the_checks_for_nan_do_not_compile(flag: str, tmp_path: Path) -> None:
-    source, object_file = str(C_SOURCES / "values.c"), str(tmp_path / "values.o")
+def test_options_that_remove_the_checks_for_nan_do_not_compile(
+    flag: str, written_sources: Path
+) -> None:
+    source, object_file = str(written_sources / "values.c"), str(written_sources / "values.o")
     command = [*default_compiler().command, "-std=c99", "-c", source, "-o", object_file]
     assert subprocess.run(command, check=False).returncode == 0
     done = subprocess.run([*command, flag], capture_output=True, text=True, check=False)
@@ -116,14 +126,15 @@ def test_options_that_remove_the_checks_for_nan_do_not_compile(flag: str, tmp_pa
 
 def test_static_initializers_are_constants_for_every_compiler() -> None:
     """For some, as tcc, INFINITY and HUGE_VAL with a sign are none."""
-    tables = (C_SOURCES / "variables.c", CONTROLLER_SOURCES / "variables.c")
-    assert not [path for path in tables if re.search("INFINITY|HUGE_VAL", path.read_text())]
+    for sources in (slider_sources(), controller_sources()):
+        assert not re.search("INFINITY|HUGE_VAL", sources["variables.c"])
 
 
 @pytest.mark.skipif(shutil.which("tcc") is None, reason="needs tcc")
-def test_tcc_compiles_the_sources(tmp_path: Path) -> None:
-    sources = map(str, sorted(C_SOURCES.glob("*.c")))
-    command = ["tcc", "-std=c99", "-shared", "-o", str(tmp_path / "tcc.so"), *sources, "-lm"]
+def test_tcc_compiles_the_sources(written_sources: Path) -> None:
+    sources = map(str, sorted(written_sources.glob("*.c")))
+    library = str(written_sources / "tcc.so")
+    command = ["tcc", "-std=c99", "-shared", "-o", library, *sources, "-lm"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
 
