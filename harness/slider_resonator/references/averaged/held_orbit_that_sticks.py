@@ -15,7 +15,11 @@ from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.held_orbit import HeldOrbit
+from slider_resonator.references.averaged.held_orbit import (
+    HeldOrbit,
+    NoSlidingOrbitError,
+    held_orbit,
+)
 from slider_resonator.references.averaged.hold import Hold
 from slider_resonator.references.resolved import located_events
 from slider_resonator.references.resolved.contact import STICK
@@ -29,6 +33,22 @@ _STEP = 1e-6
 
 _CONVERGED = 1e-12
 _MOST_ITERATIONS = 40
+
+
+def any_held_orbit(
+    hold: Hold, neighbour: HeldOrbit | None = None, simulate: Simulate = located_events.simulate
+) -> HeldOrbit:
+    """Return the orbit of a hold, by iteration where the slider slides, else by shooting.
+
+    Raises RuntimeError where neither finds it; under LuGre friction there is no shooting.
+    """
+    try:
+        return held_orbit(hold, neighbour)
+    except NoSlidingOrbitError:
+        if hold.device.friction_law:
+            return held_orbit(hold)
+        guess = -neighbour.mean_friction if neighbour else 0.0
+        return held_orbit_by_shooting(hold, guess, simulate)
 
 
 def held_orbit_by_shooting(
