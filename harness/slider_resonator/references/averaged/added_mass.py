@@ -1,17 +1,17 @@
 """The mass that LuGre friction adds to the slow motion: the bristle lags behind the velocity.
 
-Near a held orbit p = dx/dV is the change of the periodic motion x with V, F2' that of the mean
-friction. Under a unit of load on top of the steady one the motion drifts, and to first order it
-is the same motion after a period, shifted along p::
+Near a held orbit the slow motion decays by a multiplier rho over the period T of the orbit. The
+slow equation with the factor (1 + kappa_m) has this rho when, with F2' = dF2/dV::
+
+    1 + kappa_m = -Mt ln(rho) / (F2' T)
+
+rho belongs to the variation of the motion that after a period is rho times what it was, F2' to the
+one that repeats, p = dx/dV. Where F2' vanishes, so does the logarithm. There a unit of load lets
+the motion drift along p, by dV a period, and the limit is ``-Mt dV / T``::
 
     x(theta + T) = x(theta) + p(theta) dV,    mean(v) = dV / 2
 
-dV is what a unit of load adds to V in a period at first, and ``rho = 1 + F2' dV`` the multiplier of
-the slow motion. The slow equation with the factor (1 + kappa_m) has this rho when
-
-    1 + kappa_m = -Mt ln(1 + F2' dV) / (F2' T)
-
-Both motions are found as the orbit is: velocity to friction to velocity.
+All three are found as the orbit is: velocity to friction to velocity.
 """
 
 from __future__ import annotations
@@ -28,6 +28,9 @@ Array = NDArray[np.float64]
 
 _CONVERGED = 1e-13
 _MOST_ITERATIONS = 300
+
+_FLAT = 1e-5
+"""Decay of the slow motion over a period up to which its logarithm is the decay itself."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +65,12 @@ def slow_linearisation(orbit: HeldOrbit) -> SlowLinearisation:
     if hold.device.friction_law != 1:
         raise ValueError(f"friction_law = {hold.device.friction_law!r} must be 1 (LuGre)")
     slope, tangent = _tangent(orbit)
+    impulse = hold.period / hold.momentum_rate
+    if abs(slope * impulse) > _FLAT:
+        multiplier = _multiplier(orbit)
+        return SlowLinearisation(slope, multiplier, -math.log(multiplier) / (slope * impulse) - 1.0)
     gained = _drift(orbit, tangent)
-    duration = hold.period / hold.device.drive_frequency
-    decay = slope * gained
-    stretched = gained * (math.log1p(decay) / decay if decay else 1.0)
-    added = -hold.device.total_mass * stretched / duration - 1.0
-    return SlowLinearisation(slope, 1.0 + decay, added)
+    return SlowLinearisation(slope, 1.0 + slope * gained, -gained / impulse - 1.0)
 
 
 def _tangent(orbit: HeldOrbit) -> tuple[float, _Variation]:
@@ -90,6 +93,26 @@ def _tangent(orbit: HeldOrbit) -> tuple[float, _Variation]:
     raise RuntimeError(f"the tangent at {hold.velocity!r} m/s does not settle")
 
 
+def _multiplier(orbit: HeldOrbit) -> float:
+    """Return rho."""
+    hold, panels = orbit.hold, orbit.panels
+    limit, bristle = hold.friction_limit(panels.nodes), orbit.bristle
+    velocity = np.ones_like(panels.nodes)
+    multiplier = 1.0
+    for _ in range(_MOST_ITERATIONS):
+        _, friction = bristle.variation(velocity, multiplier=multiplier)
+        force = limit * friction / hold.momentum_rate
+        lost, at_edges = panels.integral(force)
+        multiplier = 1.0 - float(at_edges[-1])
+        _, swing = hold.resonator.response(panels, force, multiplier=multiplier)
+        fresh = 1.0 - lost - hold.device.mass_ratio * swing
+        change = float(np.abs(fresh - velocity).max())
+        velocity = fresh
+        if change <= _CONVERGED:
+            return multiplier
+    raise RuntimeError(f"the slow decay at {hold.velocity!r} m/s does not settle")
+
+
 def _drift(orbit: HeldOrbit, tangent: _Variation) -> float:
     """Return dV, what a unit of load adds to V in a period, in m/s."""
     hold, panels = orbit.hold, orbit.panels
@@ -103,12 +126,12 @@ def _drift(orbit: HeldOrbit, tangent: _Variation) -> float:
     gained = per_period
     velocity = np.zeros_like(panels.nodes)
     for _ in range(_MOST_ITERATIONS):
-        _, friction = bristle.variation(velocity, gained * stretch_there)
+        _, friction = bristle.variation(velocity, jump=gained * stretch_there)
         force = (limit * friction + 1.0) / hold.momentum_rate
         momentum, at_edges = panels.integral(-force)
         gained = float(at_edges[-1]) / momentum_there
         jump = gained * displacement_there, gained * swing_there
-        _, swing = hold.resonator.response(panels, force, jump)
+        _, swing = hold.resonator.response(panels, force, jump=jump)
         fresh = momentum - hold.device.mass_ratio * swing
         fresh += 0.5 * gained - panels.mean(fresh)
         change = float(np.abs(fresh - velocity).max())

@@ -47,10 +47,12 @@ class BristlePath:
         damping = self.device.bristle_damping / self.device.friction_coefficient
         return self.stretch + damping * (self.velocity - speed * self.stretch)
 
-    def variation(self, change: Array, jump: float = 0.0) -> tuple[Array, Array]:
+    def variation(
+        self, change: Array, *, multiplier: float = 1.0, jump: float = 0.0
+    ) -> tuple[Array, Array]:
         """Return the first variation of stretch and friction along a change of velocity (m/s).
 
-        The change of the stretch repeats, except that it is greater by ``jump`` after a period.
+        After a period that of the stretch is ``multiplier`` times what it was and ``jump`` more.
         """
         rate = self.device.bristle_stiffness / self.device.friction_coefficient
         moved, moved_at_edges = self.panels.integral(change / self.device.drive_frequency)
@@ -63,7 +65,7 @@ class BristlePath:
             kepts.append(kept)
             way = moved_at_edges[span.stop] - moved_at_edges[span.start]
             gain, kept = decay * (gain + rate * departed * way), decay * kept
-        first = (gain - jump) / (1.0 - kept)
+        first = (gain - jump) / (multiplier - kept)
         stretch = np.empty_like(change)
         for span, departed, gain, kept in zip(
             self.spans, self.departed, gains, kepts, strict=True

@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 _CONVERGED = 1e-13
 """Change of the velocity in the last iteration, over v_q."""
 
-_MOST_ITERATIONS = 300
+_MOST_ITERATIONS = 100
 
 
 class NoSlidingOrbitError(RuntimeError):

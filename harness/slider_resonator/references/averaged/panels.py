@@ -90,12 +90,17 @@ class Oscillator:
     stiffness: float
 
     def response(
-        self, panels: Panels, drive: Array, jump: tuple[float, float] = (0.0, 0.0)
+        self,
+        panels: Panels,
+        drive: Array,
+        *,
+        multiplier: float = 1.0,
+        jump: tuple[float, float] = (0.0, 0.0),
     ) -> tuple[Array, Array]:
-        """Return y and y' at the nodes, of the response that repeats except for a ``jump``.
+        """Return y and y' at the nodes, of the response that repeats.
 
-        ``drive`` is g at the nodes; after a period (y, y') is greater by ``jump``.
-        Solved by collocation of y'' on every panel.
+        ``drive`` is g at the nodes. After a period (y, y') is ``multiplier`` times what it was and
+        ``jump`` more. Solved by collocation of y'' on every panel.
         """
         half = panels.half_widths[:, :, np.newaxis]
         count = len(half)
@@ -124,7 +129,7 @@ class Oscillator:
             states[index + 1] = transfer @ states[index]
             states[index + 1, :, 0] += moved[index, 0], gained[index, 0]
         start = np.linalg.solve(
-            np.eye(2) - states[-1, :, 1:], states[-1, :, 0] - np.asarray(jump)
+            multiplier * np.eye(2) - states[-1, :, 1:], states[-1, :, 0] - np.asarray(jump)
         )
         at_edges = states[:-1] @ np.concatenate([[1.0], start])
         factors = np.column_stack([np.ones(count), at_edges])

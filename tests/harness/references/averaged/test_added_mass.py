@@ -1,0 +1,109 @@
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.averaged.added_mass import slow_linearisation
+from slider_resonator.references.averaged.held_orbit import HeldOrbit, held_orbit
+from slider_resonator.references.averaged.hold import Hold
+from slider_resonator.references.resolved import lugre_taylor
+
+BRISTLES = Device(friction_law=1)
+
+
+def period_map_multipliers(orbit: HeldOrbit) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    """The multipliers of (X', Y, Y', z) over a period under the load of an orbit, by differences."""
+    hold = orbit.hold
+    device = hold.device
+    speed = hold.vibration.velocity_amplitude
+    reach = speed / device.drive_frequency
+    deflection = device.friction_coefficient / device.bristle_stiffness
+    scales = np.array([speed, reach, speed, deflection])
+    origin = np.zeros(1)
+    start = np.array(
+        [
+            orbit.panels.at(values, origin)[0]
+            for values in (
+                orbit.slider_velocity,
+                orbit.resonator_displacement,
+                orbit.resonator_velocity,
+                deflection * orbit.bristle.stretch,
+            )
+        ]
+    )
+    stop = hold.period / device.drive_frequency
+    held = [HeldInputs(0.0, stop, hold.lead, -orbit.mean_friction, hold.ratio)]
+
+    def after(state: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> list[float]:
+        begun = replace(
+            device,
+            initial_velocity=state[0],
+            initial_resonator_displacement=state[1],
+            initial_resonator_velocity=state[2],
+            initial_bristle_deflection=state[3],
+        )
+        end = lugre_taylor.simulate_lugre(begun, held, np.array([stop]))
+        return [
+            end.velocity[0],
+            end.resonator_displacement[0],
+            end.resonator_velocity[0],
+            end.bristle_deflection[0],
+        ]
+
+    step = 1e-5
+    slopes = [
+        (np.array(after(start + step * unit * scales)) - after(start - step * unit * scales))
+        / (2.0 * step * scales)
+        for unit in np.eye(4)
+    ]
+    return np.linalg.eigvals(np.column_stack(slopes))
+
+
+@pytest.mark.parametrize("stiffness", [1e3, 1e4, 1e6])
+def test_the_multiplier_is_that_of_the_period_map(stiffness: float) -> None:
+    device = replace(BRISTLES, friction_coefficient=1.0, bristle_stiffness=stiffness)
+    orbit = held_orbit(Hold(device, 0.1, 0.7))
+    multipliers = period_map_multipliers(orbit)
+    slow = multipliers[np.argmax(multipliers.real)]
+    found = slow_linearisation(orbit)
+    assert found.multiplier == pytest.approx(slow.real, abs=2e-9)
+    duration = orbit.hold.period / device.drive_frequency
+    added = -device.total_mass * math.log(slow.real) / (duration * found.friction_slope) - 1.0
+    assert found.added_mass == pytest.approx(added, abs=1e-6)
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e5])
+def test_the_slope_is_that_of_the_mean_friction(stiffness: float) -> None:
+    device = replace(BRISTLES, bristle_stiffness=stiffness)
+    step = 1e-5
+    above, below = (held_orbit(Hold(device, 0.1 + sign * step)) for sign in (1.0, -1.0))
+    slope = (above.mean_friction - below.mean_friction) / (2.0 * step)
+    found = slow_linearisation(held_orbit(Hold(device, 0.1))).friction_slope
+    assert found == pytest.approx(slope, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "largest"), [(1e3, 7e-3), (1e4, 8.1e-4), (1e5, 6e-5), (1e7, 1.3e-6)]
+)
+def test_the_added_mass_falls_with_the_stiffness(stiffness: float, largest: float) -> None:
+    device = replace(BRISTLES, bristle_stiffness=stiffness)
+    added = slow_linearisation(held_orbit(Hold(device, 0.1))).added_mass
+    assert abs(added) == pytest.approx(largest, rel=0.1)
+
+
+def test_it_stays_finite_where_the_friction_is_flat() -> None:
+    device = replace(BRISTLES, bristle_stiffness=1e4)
+    found = slow_linearisation(held_orbit(Hold(device, 0.3)))
+    assert abs(found.friction_slope) < 1e-9
+    assert found.multiplier == pytest.approx(1.0, abs=1e-9)
+    assert found.added_mass == pytest.approx(0.0, abs=1e-9)
+
+
+def test_coulomb_friction_is_refused() -> None:
+    with pytest.raises(ValueError, match="friction_law = 0"):
+        slow_linearisation(held_orbit(Hold(Device(), 0.1)))
