@@ -7,7 +7,7 @@ slow equation with the factor (1 + kappa_m) has this rho when, with F2' = dF2/dV
 
 rho belongs to the variation of the motion that after a period is rho times what it was, F2' to the
 one that repeats, p = dx/dV. Where F2' vanishes, so does the logarithm. There a unit of load lets
-the motion drift along p, by dV a period, and the limit is ``-Mt dV / T``::
+the motion drift along p, by dV a period, and ``rho = 1 + F2' dV`` up to the square of 1 - rho::
 
     x(theta + T) = x(theta) + p(theta) dV,    mean(v) = dV / 2
 
@@ -30,7 +30,7 @@ _CONVERGED = 1e-13
 _MOST_ITERATIONS = 300
 
 _FLAT = 1e-5
-"""Decay of the slow motion over a period up to which its logarithm is the decay itself."""
+"""Decay of the slow motion over a period up to which it is taken from the drift."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,8 @@ class _Variation:
 def slow_linearisation(orbit: HeldOrbit) -> SlowLinearisation:
     """Return the slow linearisation about an orbit under LuGre friction.
 
-    Raises ValueError for another friction law, RuntimeError where the iteration does not settle.
+    Raises ValueError for another friction law, RuntimeError where the iteration does not settle and
+    where the motion is not slow against the vibration.
     """
     hold = orbit.hold
     if hold.device.friction_law != 1:
@@ -68,9 +69,16 @@ def slow_linearisation(orbit: HeldOrbit) -> SlowLinearisation:
     impulse = hold.period / hold.momentum_rate
     if abs(slope * impulse) > _FLAT:
         multiplier = _multiplier(orbit)
+        if not multiplier > 0.0:
+            raise RuntimeError(
+                f"friction stops the motion at {hold.velocity!r} m/s within a period: nothing is "
+                "slow"
+            )
         return SlowLinearisation(slope, multiplier, -math.log(multiplier) / (slope * impulse) - 1.0)
     gained = _drift(orbit, tangent)
-    return SlowLinearisation(slope, 1.0 + slope * gained, -gained / impulse - 1.0)
+    decay = slope * gained
+    stretched = gained * (math.log1p(decay) / decay if decay else 1.0)
+    return SlowLinearisation(slope, 1.0 + decay, -stretched / impulse - 1.0)
 
 
 def _tangent(orbit: HeldOrbit) -> tuple[float, _Variation]:

@@ -58,18 +58,14 @@ class BristlePath:
         moved, moved_at_edges = self.panels.integral(change / self.device.drive_frequency)
         gain, kept = 0.0, 1.0
         gains, kepts = [], []
-        for span, decay, departed in zip(
-            self.spans, self.decay_across, self.departed, strict=True
-        ):
+        for span, decay, departed in zip(self.spans, self.decay_across, self.departed, strict=True):
             gains.append(gain)
             kepts.append(kept)
             way = moved_at_edges[span.stop] - moved_at_edges[span.start]
             gain, kept = decay * (gain + rate * departed * way), decay * kept
         first = (gain - jump) / (multiplier - kept)
         stretch = np.empty_like(change)
-        for span, departed, gain, kept in zip(
-            self.spans, self.departed, gains, kepts, strict=True
-        ):
+        for span, departed, gain, kept in zip(self.spans, self.departed, gains, kepts, strict=True):
             way = moved[span] - moved_at_edges[span.start]
             stretch[span] = self.decay[span] * (gain + kept * first + rate * departed * way)
         damping = self.device.bristle_damping / self.device.friction_coefficient

@@ -51,9 +51,7 @@ class HeldCurve:
 
     def __post_init__(self) -> None:
         device = self.hold.device
-        self._full = (
-            device.friction_faces * device.friction_coefficient * device.normal_preload
-        )
+        self._full = device.friction_faces * device.friction_coefficient * device.normal_preload
         scale = self.hold.vibration.velocity_amplitude
         beyond = [held_orbit(replace(self.hold, velocity=4.0 * sign * scale)) for sign in (-1, 1)]
         self._sliding = [orbit.mean_friction for orbit in beyond]

@@ -34,6 +34,9 @@ _CONVERGED = 1e-13
 
 _MOST_ITERATIONS = 100
 
+_PATIENCE = 12
+"""Iterations within which the change has to fall to a tenth: close to sticking it does not."""
+
 
 class NoSlidingOrbitError(RuntimeError):
     """The slider sticks in the held orbit, or the iteration does not settle."""
@@ -77,9 +80,7 @@ class HeldOrbit:
     @property
     def bristle(self) -> BristlePath:
         """The bristle of LuGre friction along this orbit."""
-        return bristle_path(
-            self.hold.device, self.panels, self.slider_velocity, self.reversals
-        )
+        return bristle_path(self.hold.device, self.panels, self.slider_velocity, self.reversals)
 
 
 def held_orbit(hold: Hold, neighbour: HeldOrbit | None = None) -> HeldOrbit:
@@ -91,6 +92,7 @@ def held_orbit(hold: Hold, neighbour: HeldOrbit | None = None) -> HeldOrbit:
     scale = hold.vibration.velocity_amplitude
     panels = neighbour.panels if neighbour else hold.panels(np.empty(0), 0.0)
     answer = neighbour.friction_answer if neighbour else np.zeros_like(panels.nodes)
+    changes: list[float] = []
     for iteration in range(1, _MOST_ITERATIONS + 1):
 
         def velocity_at(theta: Array, panels: Panels = panels, answer: Array = answer) -> Array:
@@ -106,7 +108,8 @@ def held_orbit(hold: Hold, neighbour: HeldOrbit | None = None) -> HeldOrbit:
         swing = device.drive_frequency * swing
         answer = momentum_answer(hold, panels, friction - mean) - device.mass_ratio * swing
         fresh = hold.velocity + hold.forced_velocity(panels.nodes) + answer
-        if np.abs(fresh - velocity).max() <= _CONVERGED * scale:
+        change = float(np.abs(fresh - velocity).max())
+        if change <= _CONVERGED * scale:
             forced_displacement, forced_swing = hold.forced_resonator(panels.nodes)
             orbit = HeldOrbit(
                 hold=hold,
@@ -121,6 +124,9 @@ def held_orbit(hold: Hold, neighbour: HeldOrbit | None = None) -> HeldOrbit:
             )
             _check_slides(orbit)
             return orbit
+        changes.append(change)
+        if iteration > _PATIENCE and change > 0.1 * changes[-1 - _PATIENCE]:
+            break
     raise NoSlidingOrbitError(
         f"the orbit at {hold.velocity!r} m/s with lead {hold.lead!r} rad does not settle"
     )

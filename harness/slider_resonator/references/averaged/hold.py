@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,7 +108,7 @@ class Hold:
         stops = np.unique(start + (np.asarray(breaks) - start) % self.period)
         stops = np.concatenate([[start], stops[stops > start], [start + self.period]])
         edges = [np.array([start])]
-        for left, right in zip(stops[:-1], stops[1:], strict=True):
+        for left, right in pairwise(stops.tolist()):
             edges.append(left + _graded(right - left, finest, widest))
         return Panels(np.concatenate(edges))
 

@@ -57,7 +57,7 @@ class Panels:
         return float(np.sum(self.half_widths * _WEIGHTS * values)) / self.period
 
     def integral(self, values: Array) -> tuple[Array, Array]:
-        """Return the integral from the start to the nodes, and to all edges, shape (panels + 1,)."""
+        """Return the integral from the start to the nodes, and to the edges, (panels + 1,)."""
         across = (self.half_widths * _WEIGHTS * values).sum(axis=1)
         at_edges = np.concatenate([[0.0], np.cumsum(across)])
         within = self.half_widths * (values @ _ANTIDERIVATIVE.T)

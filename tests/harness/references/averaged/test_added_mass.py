@@ -8,6 +8,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.averaged import added_mass
 from slider_resonator.references.averaged.added_mass import slow_linearisation
 from slider_resonator.references.averaged.held_orbit import HeldOrbit, held_orbit
 from slider_resonator.references.averaged.hold import Hold
@@ -17,7 +18,7 @@ BRISTLES = Device(friction_law=1)
 
 
 def period_map_multipliers(orbit: HeldOrbit) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-    """The multipliers of (X', Y, Y', z) over a period under the load of an orbit, by differences."""
+    """The multipliers of (X', Y, Y', z) over a period under an orbit's load, by differences."""
     hold = orbit.hold
     device = hold.device
     speed = hold.vibration.velocity_amplitude
@@ -88,12 +89,24 @@ def test_the_slope_is_that_of_the_mean_friction(stiffness: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("stiffness", "largest"), [(1e3, 7e-3), (1e4, 8.1e-4), (1e5, 6e-5), (1e7, 1.3e-6)]
+    ("stiffness", "size"), [(1e3, 7e-3), (1e4, 8.1e-4), (1e5, 6e-5), (1e7, 9e-7)]
 )
-def test_the_added_mass_falls_with_the_stiffness(stiffness: float, largest: float) -> None:
+def test_the_added_mass_falls_with_the_stiffness(stiffness: float, size: float) -> None:
     device = replace(BRISTLES, bristle_stiffness=stiffness)
     added = slow_linearisation(held_orbit(Hold(device, 0.1))).added_mass
-    assert abs(added) == pytest.approx(largest, rel=0.1)
+    assert abs(added) == pytest.approx(size, rel=0.1)
+
+
+def test_the_drift_of_a_period_gives_the_same_where_the_decay_is_slow(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    orbit = held_orbit(Hold(replace(BRISTLES, bristle_stiffness=1e4), 0.1))
+    exact = slow_linearisation(orbit)
+    monkeypatch.setattr(added_mass, "_FLAT", 1.0)
+    drifted = slow_linearisation(orbit)
+    decay = 1.0 - exact.multiplier
+    assert drifted.added_mass == pytest.approx(exact.added_mass, abs=decay**2)
+    assert drifted.multiplier == pytest.approx(exact.multiplier, abs=decay**3)
 
 
 def test_it_stays_finite_where_the_friction_is_flat() -> None:
@@ -107,3 +120,11 @@ def test_it_stays_finite_where_the_friction_is_flat() -> None:
 def test_coulomb_friction_is_refused() -> None:
     with pytest.raises(ValueError, match="friction_law = 0"):
         slow_linearisation(held_orbit(Hold(Device(), 0.1)))
+
+
+def test_a_motion_that_friction_stops_at_once_is_not_slow() -> None:
+    device = replace(
+        BRISTLES, normal_preload=600.0, normal_amplitude=100.0, resonator_frequency=900.0
+    )
+    with pytest.raises(RuntimeError, match=r"nothing is slow|does not settle"):
+        slow_linearisation(held_orbit(Hold(device, 0.0)))

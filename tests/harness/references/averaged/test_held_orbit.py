@@ -14,11 +14,11 @@ from slider_resonator.references.averaged.held_orbit import (
     NoSlidingOrbitError,
     held_orbit,
 )
-from slider_resonator.references.averaged.hold import Hold
 from slider_resonator.references.averaged.held_orbit_that_sticks import (
     any_held_orbit,
     held_orbit_by_shooting,
 )
+from slider_resonator.references.averaged.hold import Hold
 from slider_resonator.references.resolved import lugre_taylor, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
 
@@ -161,7 +161,7 @@ STICKY = replace(TABLE_1, friction_coefficient=150.0)
 @pytest.mark.parametrize("velocity", [0.0, 0.15])
 def test_where_the_slider_sticks_the_orbit_is_shot_for(velocity: float) -> None:
     hold = Hold(STICKY, velocity, 0.7)
-    with pytest.raises(NoSlidingOrbitError, match="sticks|settle"):
+    with pytest.raises(NoSlidingOrbitError, match=r"sticks|settle"):
         held_orbit(hold)
     orbit = any_held_orbit(hold, simulate=taylor.simulate)
     assert (orbit.slider_velocity == 0.0).any()

@@ -43,9 +43,7 @@ def test_the_response_to_a_sine_is_the_known_one() -> None:
 def test_the_response_that_drifts_gains_the_jump() -> None:
     oscillator = Oscillator(inertia=0.9, damping=0.1, stiffness=1.7)
     ramp = PANELS.nodes - 0.3
-    displacement, velocity = oscillator.response(
-        PANELS, 0.1 + 1.7 * ramp, jump=(2.0 * np.pi, 0.0)
-    )
+    displacement, velocity = oscillator.response(PANELS, 0.1 + 1.7 * ramp, jump=(2.0 * np.pi, 0.0))
     assert displacement == pytest.approx(ramp, abs=1e-12)
     assert velocity == pytest.approx(np.ones_like(ramp), abs=1e-12)
 
