@@ -35,8 +35,8 @@ def sign_changes(function: Callable[[Array], Array], period: float) -> Array:
     size = np.abs(values[:-1])
     lowest = (size <= np.roll(size, 1)) & (size <= np.roll(size, -1)) & (size < _NEAR * size.max())
     width = grid[1]
-    for index in np.flatnonzero(lowest):
-        around = values[[index - 1 if index else -2, index, index + 1]] > 0.0
+    for index in np.flatnonzero(lowest).tolist():
+        around = np.take(values[:-1], [index - 1, index, index + 1], mode="wrap") > 0.0
         if around.all() or not around.any():
             sign = 1.0 if around[0] else -1.0
             dip = minimize_scalar(
