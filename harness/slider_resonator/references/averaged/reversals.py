@@ -47,5 +47,11 @@ def sign_changes(function: Callable[[Array], Array], period: float) -> Array:
             )
             if dip.fun < 0.0:
                 brackets += [(grid[index] - width, dip.x), (dip.x, grid[index] + width)]
-    roots = [brentq(single, *bracket, xtol=1e-15, rtol=8.9e-16) % period for bracket in brackets]
-    return np.unique(roots)
+    return np.unique([_root(single, *bracket) % period for bracket in brackets])
+
+
+def _root(function: Callable[[float], float], left: float, right: float) -> float:
+    at_left, at_right = function(left), function(right)
+    if at_left * at_right >= 0.0:  # the sign on the grid was one of rounding
+        return left if abs(at_left) < abs(at_right) else right
+    return float(brentq(function, left, right, xtol=1e-15, rtol=8.9e-16))

@@ -44,6 +44,7 @@ _LEADS = 9
 _LEAD_DIGITS = 12
 """Decimal places to which leads are equal: inputs that come back then find their curve."""
 
+_MOST_STARTS = 60
 _RELATIVE, _ABSOLUTE = 1e-12, 1e-14
 
 
@@ -178,13 +179,15 @@ class _Slow:
 
     def begin(self, momentum: float, centre: float) -> None:
         """Take over W in m/s and the centre in m at time 0."""
+        scale = self._curve(self._lead).hold.vibration.velocity_amplitude
         velocity = momentum
-        for _ in range(60):
+        for _ in range(_MOST_STARTS):
             excess, way, *_ = self._fast(0.0, velocity)
             before, velocity = velocity, momentum - excess
-            if abs(velocity - before) <= 1e-15 * abs(momentum):
-                break
-        self._velocity, self._centre = velocity, centre - way
+            if abs(velocity - before) <= 1e-13 * scale:
+                self._velocity, self._centre = velocity, centre - way
+                return
+        raise RuntimeError(f"no slow velocity belongs to W = {momentum!r} m/s")
 
     def run(self, grid: Array) -> tuple[Array, Array]:
         """Return the integral of V in m and V in m/s at times in s from 0."""
