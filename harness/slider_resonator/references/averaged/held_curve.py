@@ -39,6 +39,8 @@ _DEEPEST = 8
 class HeldCurve:
     """Mean friction and added mass of the holds that differ from ``hold`` in velocity alone.
 
+    Where the slider sticks the added mass is left out.
+
     ``accuracy`` is that of the table, over full friction; ``simulate`` the resolved motion for
     orbits in which the slider sticks.
     """
@@ -109,6 +111,6 @@ class HeldCurve:
 
     def _at(self, velocity: float) -> tuple[float, float]:
         orbit = self.orbit(velocity)
-        if self.hold.device.friction_law == 0:
+        if orbit.shot:
             return orbit.mean_friction, 1.0
         return orbit.mean_friction, 1.0 + slow_linearisation(orbit).added_mass

@@ -48,6 +48,7 @@ class HeldOrbit:
 
     ``slider_velocity`` is X', whose mean is the held velocity, ``mean_friction`` F2 in N;
     ``reversals`` are the angles in rad at which X' changes sign. ``iterations`` were needed.
+    ``shot`` says that the resolved motion was shot for, as where the slider sticks.
     """
 
     hold: Hold
@@ -59,6 +60,7 @@ class HeldOrbit:
     mean_friction: float
     reversals: Array
     iterations: int
+    shot: bool = False
 
     @cached_property
     def momentum_excess(self) -> Array:

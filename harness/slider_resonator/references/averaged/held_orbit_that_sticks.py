@@ -140,4 +140,5 @@ def _orbit(hold: Hold, values: Array, simulate: Simulate, iteration: int) -> Hel
         mean_friction=-load,
         reversals=panels.nodes.ravel()[sliding][turned],
         iterations=iteration,
+        shot=True,
     )

@@ -73,6 +73,10 @@ class Panels:
         basis = np.polynomial.legendre.legvander(local, NODES - 1)
         return np.asarray(np.sum(basis * coefficients, axis=1), dtype=np.float64)
 
+    def at_ends(self, values: Array) -> Array:
+        """Return the values at the right end of each panel, shape (panels,)."""
+        return np.asarray((values @ _ANALYSIS.T).sum(axis=1), dtype=np.float64)
+
     def slopes_at_edges(self, values: Array) -> tuple[Array, Array]:
         """Return the derivative at the left and the right end of each panel, (panels,) each."""
         coefficients = np.polynomial.legendre.legder((values @ _ANALYSIS.T).T, axis=0)
@@ -93,14 +97,16 @@ class Oscillator:
         self,
         panels: Panels,
         drive: Array,
+        impulses: Array | None = None,
         *,
         multiplier: float = 1.0,
         jump: tuple[float, float] = (0.0, 0.0),
     ) -> tuple[Array, Array]:
         """Return y and y' at the nodes, of the response that repeats.
 
-        ``drive`` is g at the nodes. After a period (y, y') is ``multiplier`` times what it was and
-        ``jump`` more. Solved by collocation of y'' on every panel.
+        ``drive`` is g at the nodes, ``impulses`` (panels,) come at the ends of panels. After a
+        period (y, y') is ``multiplier`` times what it was and ``jump`` more. Solved by collocation
+        of y'' on every panel.
         """
         half = panels.half_widths[:, :, np.newaxis]
         count = len(half)
@@ -121,13 +127,14 @@ class Oscillator:
         moved = np.einsum("pn,pnk->pk", weights, velocity)
         gained[:, 2] += 1.0
         moved[:, 1] += 1.0
+        struck = np.zeros(count) if impulses is None else impulses / self.inertia
         # State at the edges: affine in the state at the start, which the condition then fixes.
         states = np.zeros((count + 1, 2, 3))
         states[0, :, 1:] = np.eye(2)
         for index in range(count):
             transfer = np.array([moved[index, 1:], gained[index, 1:]])
             states[index + 1] = transfer @ states[index]
-            states[index + 1, :, 0] += moved[index, 0], gained[index, 0]
+            states[index + 1, :, 0] += moved[index, 0], gained[index, 0] + struck[index]
         start = np.linalg.solve(
             multiplier * np.eye(2) - states[-1, :, 1:], states[-1, :, 0] - np.asarray(jump)
         )

@@ -3,7 +3,7 @@
 With W = X' + r Y' + D / (Mt w) cos(theta), D = m A w^2 + f_t, exactly ``Mt W' = -F - load``. On the
 held orbit W = V + w1, and the slow velocity V obeys ::
 
-    Mt V' = -(1 + kappa_m) (F2(V, lead) + load)         kappa_m = 0 for Coulomb friction
+    Mt V' = -(1 + kappa_m) (F2(V, lead) + load)
     V(0) = W(0) - w1(theta(0), lead; V(0))
 
 Near a ratio p/q the lead of the normal load drifts by (ratio - p/q) w. Changed inputs keep W: a

@@ -11,8 +11,9 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged import added_mass
 from slider_resonator.references.averaged.added_mass import slow_linearisation
 from slider_resonator.references.averaged.held_orbit import HeldOrbit, held_orbit
+from slider_resonator.references.averaged.held_orbit_that_sticks import any_held_orbit
 from slider_resonator.references.averaged.hold import Hold
-from slider_resonator.references.resolved import lugre_taylor
+from slider_resonator.references.resolved import lugre_taylor, taylor
 
 BRISTLES = Device(friction_law=1)
 
@@ -24,19 +25,13 @@ def period_map_multipliers(orbit: HeldOrbit) -> np.ndarray[tuple[int, ...], np.d
     speed = hold.vibration.velocity_amplitude
     reach = speed / device.drive_frequency
     deflection = device.friction_coefficient / device.bristle_stiffness
-    scales = np.array([speed, reach, speed, deflection])
+    scales = np.array([speed, reach, speed, deflection])[: 4 if device.friction_law else 3]
     origin = np.zeros(1)
-    start = np.array(
-        [
-            orbit.panels.at(values, origin)[0]
-            for values in (
-                orbit.slider_velocity,
-                orbit.resonator_displacement,
-                orbit.resonator_velocity,
-                deflection * orbit.bristle.stretch,
-            )
-        ]
-    )
+    bristles = device.friction_law == 1
+    signals = [orbit.slider_velocity, orbit.resonator_displacement, orbit.resonator_velocity]
+    if bristles:
+        signals.append(deflection * orbit.bristle.stretch)
+    start = np.array([orbit.panels.at(values, origin)[0] for values in signals])
     stop = hold.period / device.drive_frequency
     held = [HeldInputs(0.0, stop, hold.lead, -orbit.mean_friction, hold.ratio)]
 
@@ -46,28 +41,38 @@ def period_map_multipliers(orbit: HeldOrbit) -> np.ndarray[tuple[int, ...], np.d
             initial_velocity=state[0],
             initial_resonator_displacement=state[1],
             initial_resonator_velocity=state[2],
-            initial_bristle_deflection=state[3],
+            initial_bristle_deflection=state[3] if bristles else 0.0,
         )
-        end = lugre_taylor.simulate_lugre(begun, held, np.array([stop]))
-        return [
-            end.velocity[0],
-            end.resonator_displacement[0],
-            end.resonator_velocity[0],
-            end.bristle_deflection[0],
-        ]
+        simulate = lugre_taylor.simulate_lugre if bristles else taylor.simulate
+        end = simulate(begun, held, np.array([stop]))
+        names = ["velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection"]
+        return [getattr(end, name)[0] for name in names[: len(state)]]
 
     step = 1e-5
     slopes = [
         (np.array(after(start + step * unit * scales)) - after(start - step * unit * scales))
         / (2.0 * step * scales)
-        for unit in np.eye(4)
+        for unit in np.eye(len(start))
     ]
     return np.linalg.eigvals(np.column_stack(slopes))
 
 
-@pytest.mark.parametrize("stiffness", [1e3, 1e4, 1e6])
-def test_the_multiplier_is_that_of_the_period_map(stiffness: float) -> None:
-    device = replace(BRISTLES, friction_coefficient=1.0, bristle_stiffness=stiffness)
+COULOMB = Device(friction_coefficient=5.0, resonator_frequency=3340.0, damping_ratio=0.02)
+
+
+@pytest.mark.parametrize(
+    "device",
+    [
+        *(
+            replace(BRISTLES, friction_coefficient=1.0, bristle_stiffness=stiffness)
+            for stiffness in (1e3, 1e4, 1e6)
+        ),
+        COULOMB,
+        replace(COULOMB, normal_amplitude=1.8),
+    ],
+    ids=["soft", "medium", "hard", "Coulomb", "Coulomb, flight"],
+)
+def test_the_multiplier_is_that_of_the_period_map(device: Device) -> None:
     orbit = held_orbit(Hold(device, 0.1, 0.7))
     multipliers = period_map_multipliers(orbit)
     slow = multipliers[np.argmax(multipliers.real)]
@@ -78,9 +83,11 @@ def test_the_multiplier_is_that_of_the_period_map(stiffness: float) -> None:
     assert found.added_mass == pytest.approx(added, abs=1e-6)
 
 
-@pytest.mark.parametrize("stiffness", [1e2, 1e5])
-def test_the_slope_is_that_of_the_mean_friction(stiffness: float) -> None:
-    device = replace(BRISTLES, bristle_stiffness=stiffness)
+@pytest.mark.parametrize(
+    "device",
+    [COULOMB, replace(BRISTLES, bristle_stiffness=1e2), replace(BRISTLES, bristle_stiffness=1e5)],
+)
+def test_the_slope_is_that_of_the_mean_friction(device: Device) -> None:
     step = 1e-5
     above, below = (held_orbit(Hold(device, 0.1 + sign * step)) for sign in (1.0, -1.0))
     slope = (above.mean_friction - below.mean_friction) / (2.0 * step)
@@ -117,9 +124,10 @@ def test_it_stays_finite_where_the_friction_is_flat() -> None:
     assert found.added_mass == pytest.approx(0.0, abs=1e-9)
 
 
-def test_coulomb_friction_is_refused() -> None:
-    with pytest.raises(ValueError, match="friction_law = 0"):
-        slow_linearisation(held_orbit(Hold(Device(), 0.1)))
+def test_an_orbit_that_was_shot_for_is_refused() -> None:
+    sticky = Hold(Device(friction_coefficient=150.0), 0.1, 0.7)
+    with pytest.raises(ValueError, match="shot for"):
+        slow_linearisation(any_held_orbit(sticky, simulate=taylor.simulate))
 
 
 def test_a_motion_that_friction_stops_at_once_is_not_slow() -> None:
