@@ -22,12 +22,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.references.averaged.held_orbit import HeldOrbit
 from slider_resonator.references.averaged.panels import Panels
-
-Array = NDArray[np.float64]
 
 _CONVERGED = 1e-13
 _MOST_ITERATIONS = 300

@@ -15,12 +15,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.panels import Panels
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

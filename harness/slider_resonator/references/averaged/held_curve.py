@@ -12,8 +12,8 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.references.averaged.added_mass import slow_linearisation
 from slider_resonator.references.averaged.held_orbit import (
     HeldOrbit,
@@ -25,8 +25,6 @@ from slider_resonator.references.averaged.held_orbit_that_sticks import (
 )
 from slider_resonator.references.averaged.hold import Hold
 from slider_resonator.references.resolved import located_events
-
-Array = NDArray[np.float64]
 
 _NODES = 12
 _ANGLES = (np.arange(_NODES) + 0.5) * math.pi / _NODES

@@ -20,14 +20,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.references.averaged.bristle_path import BristlePath, bristle_path
 from slider_resonator.references.averaged.hold import Hold
 from slider_resonator.references.averaged.panels import Panels
 from slider_resonator.references.averaged.reversals import sign_changes
-
-Array = NDArray[np.float64]
 
 _CONVERGED = 1e-13
 """Change of the velocity in the last iteration, over v_q."""

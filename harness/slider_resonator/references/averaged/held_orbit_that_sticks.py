@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.held_orbit import (
@@ -25,7 +25,6 @@ from slider_resonator.references.resolved import located_events
 from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.trajectory import Trajectory
 
-Array = NDArray[np.float64]
 Simulate = Callable[[Device, Sequence[HeldInputs], Array], Trajectory]
 
 _STEP = 1e-6

@@ -10,14 +10,12 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.panels import Oscillator, Panels
 from slider_resonator.references.averaged.vibrating_contact import closed_spans
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
-
-Array = NDArray[np.float64]
 
 _WIDEST_PANEL = 0.8
 """Width of a panel in rad of the fastest oscillation, which its nodes then resolve to rounding."""

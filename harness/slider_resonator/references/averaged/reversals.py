@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 
-Array = NDArray[np.float64]
+from slider_resonator.arrays import Array
 
 _GRID_PER_TURN = 256
 _NEAR = 1e-3

@@ -18,12 +18,12 @@ from collections.abc import Sequence
 from dataclasses import astuple, dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
-from slider_resonator.references.averaged.averaged_motion import NEAR_AN_INTEGER
+from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.references.averaged.held_curve import HeldCurve
 from slider_resonator.references.averaged.held_orbit import HeldOrbit
 from slider_resonator.references.averaged.held_orbit_that_sticks import (
@@ -36,15 +36,13 @@ from slider_resonator.references.phase import advanced
 from slider_resonator.references.resolved import located_events
 from slider_resonator.references.resolved.equations import State, initial_state
 
-Array = NDArray[np.float64]
-
 _LEADS = 9
 """Leads of the normal load between which F2 is interpolated while the phase drifts."""
 
 _LEAD_DIGITS = 12
 """Decimal places to which leads are equal: inputs that come back then find their curve."""
 
-_MOST_STARTS = 60
+_MAX_STARTS = 60
 _RELATIVE, _ABSOLUTE = 1e-12, 1e-14
 
 
@@ -168,7 +166,7 @@ class _Slow:
         device = curves.device
         ratio = inputs.frequency_ratio
         amplitude_ratio = device.normal_amplitude / device.normal_preload
-        self._turns = turns_until_repeat(amplitude_ratio, ratio, NEAR_AN_INTEGER)
+        self._turns = turns_until_repeat(amplitude_ratio, ratio, MAX_DETUNING)
         if not self._turns:
             raise ValueError(f"frequency_ratio = {ratio!r}: the normal load has no slow phase")
         self._ratio = round(self._turns * ratio) / self._turns
@@ -181,7 +179,7 @@ class _Slow:
         """Take over W in m/s and the centre in m at time 0."""
         scale = self._curve(self._lead).hold.vibration.velocity_amplitude
         velocity = momentum
-        for _ in range(_MOST_STARTS):
+        for _ in range(_MAX_STARTS):
             excess, way, *_ = self._fast(0.0, velocity)
             before, velocity = velocity, momentum - excess
             if abs(velocity - before) <= 1e-13 * scale:

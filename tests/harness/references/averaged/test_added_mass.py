@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
@@ -18,7 +19,7 @@ from slider_resonator.references.resolved import lugre_taylor, taylor
 BRISTLES = Device(friction_law=1)
 
 
-def period_map_multipliers(orbit: HeldOrbit) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def period_map_multipliers(orbit: HeldOrbit) -> NDArray[np.complex128]:
     """The multipliers of (X', Y, Y', z) over a period under an orbit's load, by differences."""
     hold = orbit.hold
     device = hold.device
@@ -54,7 +55,7 @@ def period_map_multipliers(orbit: HeldOrbit) -> np.ndarray[tuple[int, ...], np.d
         / (2.0 * step * scales)
         for unit in np.eye(len(start))
     ]
-    return np.linalg.eigvals(np.column_stack(slopes))
+    return np.linalg.eigvals(np.column_stack(slopes)).astype(np.complex128)
 
 
 COULOMB = Device(friction_coefficient=5.0, resonator_frequency=3340.0, damping_ratio=0.02)
