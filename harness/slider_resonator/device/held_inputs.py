@@ -3,22 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
 
 
 @dataclass(frozen=True)
 class HeldInputs:
-    """Inputs constant over ``[start, stop]`` (s): phase (rad), load (N), frequency_ratio (1)."""
+    """Inputs constant over ``[start, stop]`` (s): phase (rad), load (N), frequency_ratio (1).
+
+    ``tuned`` are the tunable parameters that a run changes, by name, as they are there.
+    """
 
     start: float
     stop: float
     phase: float = 0.0
     load: float = 0.0
     frequency_ratio: float = 1.0
+    tuned: tuple[tuple[str, float], ...] = ()
+
+    def tuned_device(self, device: Device) -> Device:
+        """Return the device of a run as it is over these inputs."""
+        return replace(device, **dict(self.tuned)) if self.tuned else device
 
 
 def check_contiguous(held: Sequence[HeldInputs]) -> None:
