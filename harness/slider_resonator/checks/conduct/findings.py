@@ -53,8 +53,8 @@ def differences(
     seen, right = np.array(rows[:count]), np.array(expected[:count])
     places = np.argwhere(seen.reshape(count, -1) != right.reshape(count, -1))
     shown = [
-        f"{what}: {outputs[column]} at {times[row]:.9g} s is {seen[row, column]!r}, was "
-        f"{right[row, column]!r}"
+        f"{what}: {outputs[column]} at {times[row]:.9g} s is {float(seen[row, column])!r}, was "
+        f"{float(right[row, column])!r}"
         for row, column in places[:SHOWN].tolist()
     ]
     lengths = abs(len(rows) - len(expected))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from dataclasses import replace
 
 from fmpy.fmi1 import FMICallException
@@ -22,8 +22,8 @@ Rows = Sequence[Sequence[float]]
 
 SAVED_AT = (0.0, 0.37, 0.81)
 """Shares of the steps of a run after which its state is saved."""
-TRANSFERRED_AT = 0.53
-"""Share of the steps after which another instance takes over."""
+TRANSFERRED_AT = (0.22, 0.53, 0.87)
+"""Shares of the steps after which another instance takes over."""
 DETOUR = 3
 """Steps under other values before a state is restored."""
 
@@ -135,7 +135,7 @@ def _detour(running: Running, step: int) -> None:
 
 
 def transferred_differences(fmu: FmuSide) -> Findings:
-    """Go on in another instance, new and used, from a serialised state."""
+    """Go on in another instance, at first new and then used, from serialised states."""
     fmu.instance.fmu.require("canGetAndSetFMUstate")
     fmu.instance.fmu.require("canSerializeFMUstate")
     plain = _Comparison(fmu)
@@ -143,31 +143,23 @@ def transferred_differences(fmu: FmuSide) -> Findings:
     found = NOTHING
     with _another(instance) as other, instance.explained():
         running = _started(instance, plain.parameters, plain.schedule)
-        half = int(TRANSFERRED_AT * running.steps)
-        for step in range(half):
-            running.advance(step)
-        with closing(_Freed(SavedState.of(instance))) as saved:
-            taken = Running(other, plain.schedule)
-            begin = len(running.rows) - 1
-            for what in ("a new instance", "a used instance"):
-                saved.state.transfer(other)
+        taken = Running(other, plain.schedule)
+        steps = {int(share * running.steps) for share in TRANSFERRED_AT}
+        for step in range(running.steps):
+            if step in steps:
+                state = SavedState.of(instance)
+                try:
+                    state.transfer(other)
+                finally:
+                    state.free()
                 taken.rows = []
                 taken.read()
-                _finish(taken, half)
-                found += plain.of(f"in {what}", taken.rows, begin=begin)
-        _finish(running, half)
+                _finish(taken, step)
+                what = f"in another instance from step {step} on"
+                found += plain.of(what, taken.rows, begin=len(running.rows) - 1)
+            running.advance(step)
         found += plain.of("while its state is taken over", running.rows)
     return found
-
-
-class _Freed:
-    """A state that is freed at the end of a block."""
-
-    def __init__(self, state: SavedState) -> None:
-        self.state = state
-
-    def close(self) -> None:
-        self.state.free()
 
 
 def beside_differences(fmu: FmuSide) -> Findings:
