@@ -184,6 +184,11 @@ class Instance:
             self.slave.setInteger([reference], [int(values[name])])
         plan.block.write([values[name] for name in plan.reals])
 
+    def terminate(self) -> None:
+        """End a run."""
+        call(self.slave, "fmi2Terminate")
+        self._initialised = False
+
     def resumed(self, time: float) -> None:
         """Note that a state of a run was set, at a time in s."""
         self.time = time

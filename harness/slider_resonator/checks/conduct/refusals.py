@@ -168,7 +168,7 @@ def refusal_faults(fmu: FmuSide) -> Findings:
         lambda: call(instance.slave, "fmi2DoStep", instance.time, beyond, True),
     )
     with instance.explained():
-        call(instance.slave, "fmi2Terminate")
+        instance.terminate()
     trial.refuses_calls("after a run")
     what = "a run with refused calls"
     outputs, times = instance.fmu.outputs, schedule.readings()

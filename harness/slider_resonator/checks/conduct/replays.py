@@ -88,7 +88,7 @@ def reset_differences(fmu: FmuSide) -> Findings:
         running = _started(instance, first.parameters, schedule)
         for step in range(running.steps // 2):
             running.advance(step)
-        call(instance.slave, "fmi2Terminate")
+        instance.terminate()
     again = _plain(instance, first.parameters, schedule)
     return found + first.of("after a run that was terminated and reset", again)
 

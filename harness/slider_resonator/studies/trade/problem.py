@@ -134,8 +134,9 @@ def problem_of(
     """Return the problem of a scene; `varied` are the values of its sweep.
 
     `max_periods` cuts the run short. Raises SceneError for a scene without a run whose inputs
-    vary.
+    vary, and as `Scene.check_plain` does.
     """
+    scene.check_plain("trade")
     full = replace(scene.device, fidelity=2)
     period = 2.0 * pi / full.drive_frequency
     varying = any(len(set(signal.values)) > 1 for signal in scene.signals.values())
