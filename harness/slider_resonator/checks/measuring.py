@@ -131,9 +131,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "reading_differences": reading_differences,
     "refusal_faults": refusal_faults,
     "start_faults": start_faults,
-    "description_faults": lambda fmu: Findings.of(
-        description_faults(fmu.instance.fmu.description)
-    ),
+    "description_faults": lambda fmu: Findings.of(description_faults(fmu.instance.fmu.description)),
     "dependency_faults": dependency_faults,
 }
 """Quantity to the function that measures it; None stands for a value that does not exist."""

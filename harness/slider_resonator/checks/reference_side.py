@@ -187,7 +187,7 @@ class ReferenceSide:
         return ReferenceSide(self.scene, inputs, now.tuned_device(self.scene.device))
 
     def predictions(self, name: str) -> Array:
-        """Return `predicted_velocity` (m/s) or `predicted_blocking_force` (N) over the run, (n,)."""
+        """Return a prediction over the run, by its name, shape (n,); m/s or N."""
         held = self.scene.schedule().held()
         values = np.array([getattr(self._under(held[: i + 1]), name) for i in range(len(held))])
         starts = np.array([inputs.start for inputs in held[1:]])

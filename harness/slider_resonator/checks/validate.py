@@ -85,7 +85,7 @@ class Validation:
 
     @property
     def exit_code(self) -> int:
-        """0 for a pass, 1 for a failed check, 2 when a scene could not be run or nothing applies."""
+        """0 for a pass, 1 for a failed check, 2 when a scene could not run or nothing applies."""
         if self.run_failures or not self.checks:
             return 2
         return int(not all(check.passed for check in self.checks))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -13,21 +14,29 @@ from slider_resonator.device.device import Device
 
 @dataclass(frozen=True)
 class HeldInputs:
-    """Inputs constant over ``[start, stop]`` (s): phase (rad), load (N), frequency_ratio (1).
-
-    ``tuned`` are the tunable parameters that a run changes, by name, as they are there.
-    """
+    """Inputs constant over ``[start, stop]`` (s): phase (rad), load (N), frequency_ratio (1)."""
 
     start: float
     stop: float
     phase: float = 0.0
     load: float = 0.0
     frequency_ratio: float = 1.0
-    tuned: tuple[tuple[str, float], ...] = ()
 
     def tuned_device(self, device: Device) -> Device:
         """Return the device of a run as it is over these inputs."""
-        return replace(device, **dict(self.tuned)) if self.tuned else device
+        return device
+
+
+@dataclass(frozen=True)
+class TunedInputs(HeldInputs):
+    """Held inputs together with the tunable parameters that a run changes, by name."""
+
+    tuned: tuple[tuple[str, float], ...] = ()
+
+    def tuned_device(self, device: Device) -> Device:
+        """Return the device of a run with the parameters as they are over these inputs."""
+        values: dict[str, Any] = dict(self.tuned)
+        return replace(device, **values)
 
 
 def check_contiguous(held: Sequence[HeldInputs]) -> None:

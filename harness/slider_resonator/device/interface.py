@@ -7,7 +7,7 @@ that came after version `FIRST` of the interface may be missing; the FMU is judg
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
@@ -48,14 +48,14 @@ _count = partial(Variable, causality="output", variability="discrete")
 _INPUTS = ("phase", "load", "frequency_ratio")
 
 
-def _parameter(name: str, start: float, kind: str) -> Variable:
+def _parameter(name: str, start: float) -> Variable:
     bounds: Bounds = Device.__dataclass_fields__[name].metadata["bounds"]
     return Variable(
         name,
         "parameter",
         "tunable" if bounds.tunable else "fixed",
         bounds.unit,
-        "Integer" if kind == "int" else "Real",
+        "Integer" if isinstance(start, int) else "Real",
         start,
         bounds.minimum,
         bounds.maximum,
@@ -69,7 +69,7 @@ _ALL = (
     _input("phase", unit="rad", start=0.0, nominal=1.0),
     _input("load", unit="N", start=0.0, nominal=0.1),
     _input("frequency_ratio", unit="1", start=1.0, nominal=1.0),
-    *(_parameter(field.name, field.default, str(field.type)) for field in fields(Device)),
+    *(_parameter(name, start) for name, start in vars(Device()).items()),
     _output("position", unit="m", nominal=1e-3),
     _output("velocity", unit="m/s", nominal=0.1),
     _output("mean_velocity", unit="m/s", nominal=0.1),

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs, TunedInputs
 from slider_resonator.device.interface import INPUT_STARTS
 
 GRID_TOLERANCE = 1e-9
@@ -101,7 +101,7 @@ def communication_points(stop: float, step: Steps, jumps: Iterable[float] = ()) 
     A grid point next to a jump is replaced by it, so that no step starts just
     before a jump and holds the old value throughout. Raises ValueError as `step_count` does.
     """
-    sizes = [step] if isinstance(step, float | int) else step
+    sizes = [step] if isinstance(step, float | int) else list(step)
     grid = sizes[0] * np.arange(step_count(stop, step), dtype=np.float64)
     if len(sizes) > 1:
         grid = np.cumsum([0.0, *sizes * (len(grid) // len(sizes))])
@@ -161,6 +161,7 @@ class Schedule:
         default_factory=lambda: constant(INPUT_STARTS["frequency_ratio"])
     )
 
+    _: KW_ONLY
     tuning: Mapping[str, Signal] = field(default_factory=dict)
     start_time: float = 0.0
     reads_twice: bool = False
@@ -230,37 +231,41 @@ class Schedule:
         changes = self.changes().tolist()
         starts = [0, *changes]
         stops = [*changes, len(sampled) - 1]
-        return [
-            HeldInputs(
-                float(self.times[i]),
-                float(self.times[j]),
-                *map(float, sampled[i]),
-                tuned=tuple(zip(self.tuning, tuned[i].tolist(), strict=True)),
-            )
+        held = [
+            HeldInputs(float(self.times[i]), float(self.times[j]), *map(float, sampled[i]))
             for i, j in zip(starts, stops, strict=True)
+        ]
+        if not self.tuning:
+            return held
+        names = tuple(self.tuning)
+        return [
+            TunedInputs(**vars(inputs), tuned=tuple(zip(names, tuned[i].tolist(), strict=True)))
+            for inputs, i in zip(held, starts, strict=True)
         ]
 
 
 def schedule(
-    stop: float,
-    step: Steps,
-    *,
-    phase: Signal | None = None,
-    load: Signal | None = None,
-    frequency_ratio: Signal | None = None,
-    tuning: Mapping[str, Signal] | None = None,
-    start_time: float = 0.0,
-    reads_twice: bool = False,
+    stop: float, step: Steps, tuning: Mapping[str, Signal] | None = None, /, **signals: Signal
 ) -> Schedule:
-    """Return the schedule over [0, stop] (s) with a step (s) and all jumps as points."""
-    given = {"phase": phase, "load": load, "frequency_ratio": frequency_ratio}
-    signals = {name: signal for name, signal in given.items() if signal is not None}
+    """Return the schedule over [0, stop] (s) with a step (s) and all jumps as points.
+
+    `signals` are the inputs by name, `tuning` the tunable parameters that change.
+    """
     tuning = tuning or {}
     jumps = [time for signal in (*signals.values(), *tuning.values()) for time in signal.jumps]
-    return Schedule(
-        communication_points(stop, step, jumps),
-        **signals,
-        tuning=tuning,
-        start_time=start_time,
-        reads_twice=reads_twice,
+    times = communication_points(stop, step, jumps)
+    return Schedule(times, *in_order(signals), tuning=tuning)
+
+
+def in_order(signals: Mapping[str, Signal]) -> tuple[Signal, Signal, Signal]:
+    """Return phase, load and frequency ratio; those left out keep their start.
+
+    Raises ValueError for another name.
+    """
+    unknown = signals.keys() - INPUT_STARTS.keys()
+    if unknown:
+        raise ValueError(f"inputs {', '.join(sorted(unknown))}: must be {', '.join(INPUT_STARTS)}")
+    phase, load, ratio = (
+        signals.get(name) or constant(start) for name, start in INPUT_STARTS.items()
     )
+    return phase, load, ratio

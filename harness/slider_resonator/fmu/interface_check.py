@@ -41,7 +41,9 @@ def description_faults(description: ModelDescription) -> list[str]:
             faults += _other_values(found, VARIABLES[found.name])
     declared = {unknown.variable.name: unknown.dependencies for unknown in description.outputs}
     for name, variable in VARIABLES.items():
-        if variable.causality != "output" or all(v.name != name for v in description.modelVariables):
+        if variable.causality != "output" or all(
+            v.name != name for v in description.modelVariables
+        ):
             continue
         if name not in declared:
             faults.append(f"{name} is not among the outputs of ModelStructure")

@@ -124,9 +124,7 @@ def lacking(path: Path) -> tuple[str, ...]:
 
 def _lacking(names: Iterable[str]) -> tuple[str, ...]:
     present = set(names)
-    return tuple(
-        name for name, v in VARIABLES.items() if v.since != FIRST and name not in present
-    )
+    return tuple(name for name, v in VARIABLES.items() if v.since != FIRST and name not in present)
 
 
 def _read_description(path: Path) -> ModelDescription:

@@ -17,7 +17,6 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import (
     Schedule,
     Signal,
-    Steps,
     constant,
     ramp,
     schedule,
@@ -126,14 +125,8 @@ class Scene:
                 "scenes shows which can"
             )
         assert self.run is not None
-        return schedule(
-            self.stop_time,
-            self._steps,
-            **self.signals,
-            tuning=self.tuning,
-            start_time=self.run.start_time,
-            reads_twice=self.run.read_twice,
-        )
+        plan = schedule(self.stop_time, self._steps, self.tuning, **self.signals)
+        return replace(plan, start_time=self.start_time, reads_twice=self.run.read_twice)
 
     def check_plain(self, command: str) -> None:
         """Raise SceneError where a command ignores what the scene says of its run."""

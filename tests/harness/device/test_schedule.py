@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -43,15 +45,15 @@ def test_a_tuned_parameter_parts_the_inputs() -> None:
     plan = schedule(
         1.0,
         0.25,
+        {"normal_preload": steps([(0.0, 1.0), (0.3, 2.0)])},
         load=steps([(0.0, 0.1), (0.5, 0.2)]),
-        tuning={"normal_preload": steps([(0.0, 1.0), (0.3, 2.0)])},
     )
     assert plan.times.tolist() == [0.0, 0.25, 0.3, 0.5, 0.75, 1.0]
     assert plan.changes().tolist() == [2, 3]
     assert plan.readings().tolist() == plan.times.tolist(), "read once unless it is asked"
     held = plan.held()
     check_contiguous(held)
-    assert [(h.start, h.load, dict(h.tuned)["normal_preload"]) for h in held] == [
+    assert [(h.start, h.load, h.tuned_device(Device()).normal_preload) for h in held] == [
         (0.0, 0.1, 1.0),
         (0.3, 0.1, 2.0),
         (0.5, 0.2, 2.0),
@@ -63,7 +65,8 @@ def test_a_tuned_parameter_parts_the_inputs() -> None:
 
 
 def test_outputs_are_read_before_and_after_a_change() -> None:
-    plan = schedule(1.0, 0.5, load=steps([(0.0, 0.1), (0.5, 0.2), (1.0, 0.3)]), reads_twice=True)
+    plan = schedule(1.0, 0.5, load=steps([(0.0, 0.1), (0.5, 0.2), (1.0, 0.3)]))
+    plan = replace(plan, reads_twice=True)
     before, after = 0.5, float(np.nextafter(0.5, 1.0))
     assert plan.readings().tolist() == [0.0, before, after, 1.0], "nothing is set at the stop"
     finer = plan.refined(0.5, 0.25)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs, TunedInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
@@ -23,13 +23,14 @@ TUNED: tuple[tuple[tuple[str, float], ...], ...] = (
     (("normal_preload", 1.3), ("base_amplitude", 1e-4), ("drive_frequency", 3300.0)),
     (("normal_preload", 1.3), ("base_amplitude", 6e-5), ("drive_frequency", 3600.0)),
 )
+MU = (0.2, 0.5, 0.3)
 EDGES = (0.0, 2.1e-3, 4.7e-3, 7e-3)
 Simulate = Callable[..., Trajectory]
 
 
 def held(*tuned: tuple[tuple[str, float], ...]) -> list[HeldInputs]:
     return [
-        HeldInputs(start, stop, phase=0.4, tuned=own)
+        TunedInputs(start, stop, phase=0.4, tuned=own)
         for (start, stop), own in zip(pairwise(EDGES), tuned, strict=True)
     ]
 
@@ -72,13 +73,16 @@ def test_the_resolved_references_agree(fidelity: int) -> None:
 
 def test_the_references_with_bristles_agree() -> None:
     device = Device(friction_law=1, bristle_stiffness=1e4, initial_bristle_deflection=1e-5)
-    friction = [(("friction_coefficient", mu), *own[:2]) for mu, own in zip((0.2, 0.5, 0.3), TUNED)]
+    friction = [(("friction_coefficient", mu), *own[:2]) for mu, own in zip(MU, TUNED, strict=True)]
     times = np.linspace(0.0, EDGES[-1], 50)
     series = simulate_lugre(device, held(*friction), times)
     states = lugre_scipy.simulate_lugre(device, held(*friction), times)
     assert_equal(series, states, 1e-7)
-    jump = np.diff(simulate_lugre(device, held(*friction), np.array([2.1e-3 - 1e-9, 2.1e-3 + 1e-9])
-        ).bristle_deflection)
+    jump = np.diff(
+        simulate_lugre(
+            device, held(*friction), np.array([2.1e-3 - 1e-9, 2.1e-3 + 1e-9])
+        ).bristle_deflection
+    )
     assert np.abs(jump) < 1e-8, "the bristle keeps its deflection when friction is tuned"
 
 
@@ -87,8 +91,8 @@ def test_a_block_slows_down_by_the_friction_of_the_moment() -> None:
     block = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
     block = replace(block, drive_frequency=1.0, initial_velocity=0.5)
     inputs = [
-        HeldInputs(0.0, 1.0, tuned=(("friction_coefficient", 0.1),)),
-        HeldInputs(1.0, 2.0, tuned=(("friction_coefficient", 0.3),)),
+        TunedInputs(0.0, 1.0, tuned=(("friction_coefficient", 0.1),)),
+        TunedInputs(1.0, 2.0, tuned=(("friction_coefficient", 0.3),)),
     ]
     motion = located_events.simulate(block, inputs, np.array([0.5, 1.0, 1.25, 2.0]))
     assert motion.velocity == pytest.approx([0.4, 0.3, 0.15, 0.0], abs=1e-12)
@@ -99,8 +103,8 @@ def test_another_drive_frequency_changes_a_rate_and_no_phase() -> None:
     """Without friction a rigid slider under F sin(theta) has M v = F (1 - cos theta) / w."""
     slider = Device(resonator_mass=0.0, friction_coefficient=0.0, tangential_force=2.0)
     inputs = [
-        HeldInputs(0.0, 0.3, tuned=(("drive_frequency", 10.0),)),
-        HeldInputs(0.3, 0.6, tuned=(("drive_frequency", 17.0),)),
+        TunedInputs(0.0, 0.3, tuned=(("drive_frequency", 10.0),)),
+        TunedInputs(0.3, 0.6, tuned=(("drive_frequency", 17.0),)),
     ]
     motion = taylor.simulate(slider, inputs, np.array([0.3, 0.6]))
     first = 2.0 * (1.0 - math.cos(3.0)) / 10.0
@@ -115,8 +119,8 @@ def test_averaged_motion_takes_over_what_the_resolved_device_has(at: float) -> N
     """Whatever the angle at which the drive changes, the slow velocity must be that of the pair."""
     device = Device(damping_ratio=0.2)
     inputs = [
-        HeldInputs(0.0, at, tuned=(("base_amplitude", 1e-4), ("drive_frequency", 3500.0))),
-        HeldInputs(at, 0.15, tuned=(("base_amplitude", 5e-5), ("drive_frequency", 3200.0))),
+        TunedInputs(0.0, at, tuned=(("base_amplitude", 1e-4), ("drive_frequency", 3500.0))),
+        TunedInputs(at, 0.15, tuned=(("base_amplitude", 5e-5), ("drive_frequency", 3200.0))),
     ]
     period = 2.0 * math.pi / 3200.0
     times = 0.15 - np.array([1.0, 0.0]) * period
@@ -130,8 +134,8 @@ def test_averaged_motion_takes_over_what_the_resolved_device_has(at: float) -> N
 def test_motion_is_read_before_and_after_a_change_of_the_drive() -> None:
     device = Device(fidelity=0)
     inputs = [
-        HeldInputs(0.0, 0.01, tuned=(("base_amplitude", 1e-4),)),
-        HeldInputs(0.01, 0.02, tuned=(("base_amplitude", 5e-5),)),
+        TunedInputs(0.0, 0.01, tuned=(("base_amplitude", 1e-4),)),
+        TunedInputs(0.01, 0.02, tuned=(("base_amplitude", 5e-5),)),
     ]
     times = np.array([0.01, np.nextafter(0.01, 1.0), 0.01 + 1e-9])
     motion = simulate_averaged(device, inputs, times)

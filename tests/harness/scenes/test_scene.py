@@ -97,19 +97,17 @@ def test_tuned_parameters_start_as_the_tuning_says_and_a_value_replaces_it(tmp_p
     assert scene.device.normal_preload == 2.0
     schedule = scene.schedule()
     assert 0.01 in schedule.times, "a step of a parameter is a communication point"
-    assert [inputs.tuned for inputs in schedule.held()] == [
-        (("normal_preload", 2.0),),
-        (("normal_preload", 3.0),),
-    ]
+    devices = [inputs.tuned_device(scene.device) for inputs in schedule.held()]
+    assert [device.normal_preload for device in devices] == [2.0, 3.0]
     replaced = scene.with_values({"normal_preload": 5.0})
     assert replaced.device.normal_preload == 5.0
-    assert replaced.schedule().held()[0].tuned == ()
+    assert not replaced.schedule().tuning
 
 
 def test_commands_that_ignore_the_tuning_refuse_it(tmp_path: Path) -> None:
     run = "[run]\nstop_time = 1.0\nstep_sizes = [0.1, 0.2]\nstart_time = 3.0\n"
     scene = read_scene(write(tmp_path, HEAD + run))
-    with pytest.raises(SceneError, match="choose takes no scene with run.start_time, run.step_"):
+    with pytest.raises(SceneError, match="choose takes no scene with run"):
         scene.check_plain("choose")
     read_scene(write(tmp_path, HEAD + RUN)).check_plain("choose")
 
@@ -184,7 +182,7 @@ def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Pa
         ),
         (
             RUN
-            + '[tuning]\nnormal_preload = { steps = [[0, 1], [0.1, 2]] }\n[[expect]]\n'
+            + "[tuning]\nnormal_preload = { steps = [[0, 1], [0.1, 2]] }\n[[expect]]\n"
             + 'quantity = "steady_status"\nvalue = "steady"\nwhy = "x"\n',
             ["steady_status needs constant inputs and parameters"],
         ),

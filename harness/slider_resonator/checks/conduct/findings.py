@@ -51,7 +51,8 @@ def differences(
     """
     count = min(len(rows), len(expected))
     seen, right = np.array(rows[:count]), np.array(expected[:count])
-    places = np.argwhere(seen.reshape(count, -1) != right.reshape(count, -1))
+    shape = count, len(outputs)
+    places = np.argwhere(seen.reshape(shape) != right.reshape(shape))
     shown = [
         f"{what}: {outputs[column]} at {times[row]:.9g} s is {float(seen[row, column])!r}, was "
         f"{float(right[row, column])!r}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
@@ -13,6 +14,7 @@ from slider_resonator.checks.conduct.findings import Findings, differences
 from slider_resonator.checks.conduct.other_values import other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
+from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance, call
 from slider_resonator.fmu.run import Running
 
@@ -20,7 +22,9 @@ STEP = 1.7e-3
 """Size of a good step, s."""
 
 _LIFECYCLE: Mapping[str, Callable[[Instance], object]] = {
-    "fmi2SetupExperiment": lambda i: call(i.slave, "fmi2SetupExperiment", False, 0.0, 0.0, False, 0.0),
+    "fmi2SetupExperiment": lambda i: call(
+        i.slave, "fmi2SetupExperiment", False, 0.0, 0.0, False, 0.0
+    ),
     "fmi2EnterInitializationMode": lambda i: call(i.slave, "fmi2EnterInitializationMode"),
     "fmi2ExitInitializationMode": lambda i: call(i.slave, "fmi2ExitInitializationMode"),
     "fmi2DoStep": lambda i: call(i.slave, "fmi2DoStep", i.time, STEP, True),
@@ -86,7 +90,7 @@ class _Trial:
         for variable in variables:
             for bad in bad_values(variable):
                 what = f"{variable.name} = {bad!r} {when}"
-                self.refuses(what, lambda v=variable, b=bad: self._set(v, b), variable.name)
+                self.refuses(what, partial(self._set, variable, bad), variable.name)
 
     def refuses_all(self, when: str, variables: Iterator[Variable]) -> None:
         """Set variables, which must not be set at all, to other values."""
@@ -95,12 +99,12 @@ class _Trial:
             if variable.start is not None:
                 value = other_value(variable.name, variable.start)
             what = f"{variable.name} = {value!r} {when}"
-            self.refuses(what, lambda v=variable, b=value: self._set(v, b), variable.name)
+            self.refuses(what, partial(self._set, variable, value), variable.name)
 
     def refuses_calls(self, when: str) -> None:
         """Make the calls that are out of order."""
         for name in OUT_OF_ORDER[when]:
-            self.refuses(f"{name} {when}", lambda n=name: _LIFECYCLE[n](self.instance))
+            self.refuses(f"{name} {when}", partial(_LIFECYCLE[name], self.instance))
 
     def accepts_bounds(self, variables: Iterator[Variable]) -> None:
         """Set variables to their bounds, which they can have."""
@@ -136,8 +140,7 @@ def bad_values(variable: Variable) -> list[float]:
 def refusal_faults(fmu: FmuSide) -> Findings:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
     instance, schedule = fmu.instance, fmu.scene.schedule()
-    quiet = Running(instance, schedule)
-    running = Running(instance, schedule)
+    quiet, running = Running(instance, schedule), Running(instance, schedule)
     start = {**fmu.scene.parameters, **quiet.first}
     with instance.explained():
         instance.start(start, quiet.stop_time, start_time=schedule.start_time)
@@ -145,11 +148,28 @@ def refusal_faults(fmu: FmuSide) -> Findings:
         for step in range(quiet.steps):
             quiet.advance(step)
     trial = _Trial(instance, [])
+    try:
+        _try_all(trial, running, start, schedule.start_time)
+    except Refusal as error:
+        if not trial.faults:
+            raise
+        return Findings.of([*trial.faults, f"and then {error}"])
+    what = "a run with refused calls"
+    outputs, times = instance.fmu.outputs, schedule.readings()
+    found = differences(what, outputs, times, running.rows, quiet.rows)
+    return Findings.of(trial.faults) + found
+
+
+def _try_all(
+    trial: _Trial, running: Running, start: Mapping[str, float], start_time: float
+) -> None:
+    """Try what must be refused; Refusal when the FMU then refuses what it must do."""
+    instance = trial.instance
     present = [v for name, v in VARIABLES.items() if name in instance.fmu.variables]
     settable = [v for v in present if v.causality != "output"]
     _before_the_run(trial, settable)
     with instance.explained():
-        instance.set_up(running.stop_time, start_time=schedule.start_time)
+        instance.set_up(running.stop_time, start_time=start_time)
         instance.set(start)
         call(instance.slave, "fmi2EnterInitializationMode")
     trial.refuses_values("in initialisation mode", iter(settable))
@@ -162,18 +182,11 @@ def refusal_faults(fmu: FmuSide) -> Findings:
             _in_the_run(trial, present)
         with instance.explained():
             running.advance(step)
-    beyond = STEP + 1e-3 * abs(quiet.stop_time)
-    trial.refuses(
-        "a step beyond the stop time",
-        lambda: call(instance.slave, "fmi2DoStep", instance.time, beyond, True),
-    )
+    beyond = STEP + 1e-3 * abs(running.stop_time)
+    trial.refuses("a step beyond the stop", partial(_step, instance, instance.time, beyond))
     with instance.explained():
         instance.terminate()
     trial.refuses_calls("after a run")
-    what = "a run with refused calls"
-    outputs, times = instance.fmu.outputs, schedule.readings()
-    found = differences(what, outputs, times, running.rows, quiet.rows)
-    return Findings.of(trial.faults) + found
 
 
 def _before_the_run(trial: _Trial, settable: list[Variable]) -> None:
@@ -182,9 +195,7 @@ def _before_the_run(trial: _Trial, settable: list[Variable]) -> None:
         instance.set_up()
         call(instance.slave, "fmi2Reset")
     for what, arguments in EXPERIMENTS.items():
-        trial.refuses(
-            what, lambda a=arguments: call(instance.slave, "fmi2SetupExperiment", *a)
-        )
+        trial.refuses(what, partial(call, instance.slave, "fmi2SetupExperiment", *arguments))
     trial.refuses_values("before a run", iter(settable))
     trial.refuses_calls("before a run")
     trial.accepts_bounds(iter(settable))
@@ -201,10 +212,14 @@ def _in_the_run(trial: _Trial, present: list[Variable]) -> None:
     for size in STEP_SIZES:
         trial.refuses(
             f"a step of {size!r} s",
-            lambda s=size: call(instance.slave, "fmi2DoStep", instance.time, s, True),
+            partial(_step, instance, instance.time, size),
         )
     for jump in JUMPS:
         trial.refuses(
             f"a step {jump!r} s away from the present time",
-            lambda j=jump: call(instance.slave, "fmi2DoStep", instance.time + j, STEP, True),
+            partial(_step, instance, instance.time + jump, STEP),
         )
+
+
+def _step(instance: Instance, time: float, size: float) -> None:
+    call(instance.slave, "fmi2DoStep", time, size, True)

@@ -13,7 +13,7 @@ from slider_resonator.checks.conduct.findings import NOTHING, Findings, differen
 from slider_resonator.checks.conduct.other_values import other_inputs, other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import TUNABLES
-from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.schedule import Schedule, in_order
 from slider_resonator.fmu.instance import Instance, call, instantiate
 from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
@@ -44,9 +44,7 @@ class _Comparison:
         return differences(what, outputs, self._times[begin:], rows, self.rows[begin:])
 
 
-def _started(
-    instance: Instance, parameters: Mapping[str, float], schedule: Schedule
-) -> Running:
+def _started(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Running:
     """Return a run that has been started, with its first reading."""
     running = Running(instance, schedule)
     values = {**parameters, **running.first}
@@ -167,7 +165,8 @@ def beside_differences(fmu: FmuSide) -> Findings:
     assert fmu.scene.beside is not None
     beside = fmu.scene.beside
     plain = _Comparison(fmu)
-    own = replace(plain.schedule, **beside.signals, tuning={})
+    phase, load, ratio = in_order(beside.signals)
+    own = replace(plain.schedule, phase=phase, load=load, frequency_ratio=ratio, tuning={})
     with _another(fmu.instance) as other, fmu.instance.explained(), other.explained():
         alone = _plain(other, beside.parameters, own)
         first = _started(fmu.instance, plain.parameters, plain.schedule)

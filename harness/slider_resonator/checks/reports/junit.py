@@ -8,7 +8,14 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 from slider_resonator.checks.validate import RunFailure, Validation
-from slider_resonator.checks.verdict import TITLE, judged_without, not_applied, place, sentence, title
+from slider_resonator.checks.verdict import (
+    TITLE,
+    judged_without,
+    not_applied,
+    place,
+    sentence,
+    title,
+)
 from slider_resonator.output.atomic import replacing
 
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

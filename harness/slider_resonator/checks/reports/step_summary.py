@@ -6,7 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from slider_resonator.checks.validate import Validation
-from slider_resonator.checks.verdict import TITLE, judged_without, not_applied, place, sentence, title
+from slider_resonator.checks.verdict import (
+    TITLE,
+    judged_without,
+    not_applied,
+    place,
+    sentence,
+    title,
+)
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts

@@ -78,9 +78,7 @@ class _Run:
     in the present direction, kept apart because it decays far below the rounding of the stretch.
     """
 
-    def __init__(
-        self, device: Device, times: Array, bristle: Bristle, tolerance: float
-    ) -> None:
+    def __init__(self, device: Device, times: Array, bristle: Bristle, tolerance: float) -> None:
         self.recorder = Recorder(times)
         self._device = device
         self._lugre = lugre = lugre_equations_of(device)

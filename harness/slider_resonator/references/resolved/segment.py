@@ -13,9 +13,9 @@ from slider_resonator.references.resolved.equations import Equations, State
 class Segment:
     """A contact mode with constant inputs, to be followed for at most ``span`` s.
 
-    It obeys ``equations``, begins ``start`` s into the run, at the drive angle ``theta`` and the angle ``angle`` of the
-    normal load, rad. The motion is sampled at ``samples`` (shape (n,), ascending, within (0, span],
-    s from its start).
+    It obeys ``equations`` and begins ``start`` s into the run, at the drive angle ``theta`` and the
+    angle ``angle`` of the normal load, rad. The motion is sampled at ``samples`` (shape (n,), ascending,
+    within (0, span], s from its start).
     """
 
     equations: Equations

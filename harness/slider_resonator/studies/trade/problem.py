@@ -12,7 +12,13 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.device.schedule import Schedule, Signal, communication_points, schedule
+from slider_resonator.device.schedule import (
+    Schedule,
+    Signal,
+    communication_points,
+    in_order,
+    schedule,
+)
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.scenes.scene import Scene
 
@@ -125,7 +131,7 @@ class Problem:
             name: Signal(begins, tuple(signal.over(middles).tolist()))
             for name, signal in self.signals.items()
         }
-        return Schedule(times, **held).held()
+        return Schedule(times, *in_order(held)).held()
 
 
 def problem_of(
