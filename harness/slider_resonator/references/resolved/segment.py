@@ -14,8 +14,8 @@ class Segment:
     """A contact mode with constant inputs, to be followed for at most ``span`` s.
 
     It obeys ``equations`` and begins ``start`` s into the run, at the drive angle ``theta`` and the
-    angle ``angle`` of the normal load, rad. The motion is sampled at ``samples`` (shape (n,), ascending,
-    within (0, span], s from its start).
+    angle ``angle`` of the normal load, rad. The motion is sampled at ``samples`` (shape (n,),
+    ascending, within (0, span], s from its start).
     """
 
     equations: Equations
