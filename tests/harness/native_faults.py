@@ -23,9 +23,8 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
     "another drive frequency restarts the drive": (
         "component.c",
         _PREPARED,
-        _PREPARED
-        + "    if (changed[VR_DRIVE_FREQUENCY] != component->now.values[VR_DRIVE_FREQUENCY])\n"
-        "        component->now.moment.theta = 0.0;\n",
+        _PREPARED + "    const double was = component->now.values[VR_DRIVE_FREQUENCY];\n"
+        "    if (changed[VR_DRIVE_FREQUENCY] != was) component->now.moment.theta = 0.0;\n",
         "tuned",
     ),
     "a turn of two frequencies lasts as long as one of the last": (
