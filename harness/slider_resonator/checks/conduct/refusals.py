@@ -178,7 +178,7 @@ def _try_all(
         instance.begin()
         running.read()
     for step in range(running.steps):
-        if step in (0, running.steps // 2):
+        if step in (1, running.steps // 2 + 1):
             _in_the_run(trial, present)
         with instance.explained():
             running.advance(step)
