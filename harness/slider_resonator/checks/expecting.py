@@ -8,7 +8,7 @@ from typing import Any
 from slider_resonator.checks.measures.slow import slow_displacement
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES, RESOLVED
 
 Expected = Callable[[ReferenceSide], Any]

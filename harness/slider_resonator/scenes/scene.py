@@ -25,16 +25,11 @@ from slider_resonator.device.schedule import (
 )
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.csv_signal import csv_points
+from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
-from slider_resonator.scenes.schema import (
-    ExpectTable,
-    InputsTable,
-    InputTable,
-    NeedTable,
-    RunTable,
-    SceneTable,
-    SweepTable,
-)
+from slider_resonator.scenes.input_tables import InputsTable, InputTable
+from slider_resonator.scenes.need_table import NeedTable
+from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
 
 
 @dataclass(frozen=True)

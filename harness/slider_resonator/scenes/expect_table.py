@@ -1,0 +1,90 @@
+"""The table [[expect]] of a scene file."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Annotated
+
+from pydantic import Field, field_validator, model_validator
+
+from slider_resonator.errors import unknown_name
+from slider_resonator.scenes.key_table import KeyTable, NotNegative, Number, exactly_one
+from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, Quantity
+
+
+class ExpectTable(KeyTable):
+    """One expectation: a quantity of the FMU against a reference, a value or a bound.
+
+    The allowed deviation is `absolute + relative * |reference|`; for a signal it is `relative`, a
+    share of the reference's peak, and an `absolute` beside it is for a reference near zero.
+    Without an `absolute` a reference counts as no smaller than a hundredth of its natural scale.
+    A real number needs a tolerance, be it 0. A `tube` allows a signal to be early or late by a
+    share of the drive period; for event times it is the tolerance.
+    """
+
+    quantity: str
+    reference: str | None = None
+    value: float | str | None = None
+    at_most: Number | None = None
+    at_least: Number | None = None
+    absolute: NotNegative = 0.0
+    relative: NotNegative = 0.0
+    tube: Annotated[float, Field(strict=True, gt=0.0, lt=MAX_TUBE)] | None = None
+    why: str
+
+    @field_validator("quantity")
+    @classmethod
+    def _known_quantity(cls, name: str) -> str:
+        if name not in QUANTITIES:
+            raise ValueError(unknown_name("quantity", name, QUANTITIES))
+        return name
+
+    @field_validator("value", mode="before")
+    @classmethod
+    def _number_or_word(cls, value: object) -> object:
+        number = isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+        if not (number or isinstance(value, str)):
+            raise ValueError("must be a finite number or a text in quotes")
+        return value
+
+    @model_validator(mode="after")
+    def _comparable(self) -> ExpectTable:
+        kinds = ("reference", "value", "at_most", "at_least")
+        given = [kind for kind in kinds if getattr(self, kind) is not None]
+        exactly_one("expect", given, ", ".join(kinds))
+        quantity = QUANTITIES.get(self.quantity)
+        if quantity is None:
+            return self
+        if self.reference is not None and self.reference not in quantity.references:
+            name = f"reference for {self.quantity}"
+            raise ValueError(unknown_name(name, self.reference, quantity.references))
+        if quantity.kind == "signal" and self.reference is None:
+            raise ValueError(f"{self.quantity} is a signal: it needs a reference")
+        if isinstance(self.value, str) != (quantity.kind == "word") and self.value is not None:
+            raise ValueError(
+                f"{self.quantity} is a {quantity.kind}, the value {self.value!r} is not"
+            )
+        if given in (["at_most"], ["at_least"]) and quantity.kind != "number":
+            raise ValueError(f"{self.quantity} is a {quantity.kind}: it cannot have a bound")
+        if given in (["reference"], ["value"]):
+            self._check_tolerance(quantity)
+        return self
+
+    def _check_tolerance(self, quantity: Quantity) -> None:
+        if quantity.in_periods:
+            given = sorted(self.model_fields_set & {"absolute", "relative"})
+            if self.tube is None or given:
+                raise ValueError(f"{self.quantity} needs a tube, a share of the period, alone")
+            return
+        if self.tube is not None and self.reference not in quantity.tube_references:
+            allowed = ", ".join(quantity.tube_references) or "none"
+            raise ValueError(
+                f"tube = {self.tube!r}: references of {self.quantity} that allow one: {allowed}"
+            )
+        signal = quantity.kind == "signal"
+        alone = quantity.exact or not self.relative > 0.0
+        if signal and "absolute" in self.model_fields_set and alone:
+            raise ValueError(f"{self.quantity} is a signal: must be relative, not absolute alone")
+        if not quantity.exact and not self.model_fields_set & {"absolute", "relative"}:
+            needed = "relative, a share of the peak" if signal else "relative or absolute"
+            raise ValueError(f"{self.quantity} is a real number: it needs a tolerance, {needed}")
