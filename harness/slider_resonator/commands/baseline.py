@@ -13,6 +13,7 @@ from slider_resonator.commands.reports import (
     print_verdicts,
     report_options,
 )
+from slider_resonator.commands.results import print_text
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import progress_bar
@@ -76,7 +77,7 @@ def record_command(
         names, run_failures = record(
             fmu, files, folder, progress, replace=replace, time_limit=time_limit
         )
-    click.echo(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {folder}")
+    print_text(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {folder}")
     print_run_failures(str(fmu), run_failures)
     context.exit(2 if run_failures else 0)
 
@@ -155,4 +156,4 @@ def accept_command(fmu: Path, folder: Path, scenes: tuple[str, ...]) -> None:
       slider-resonator baseline accept my.fmu --dir baseline --scene table_1 --scene lift_off
     """
     names = accept(fmu, folder, scenes)
-    click.echo(f"accepted {', '.join(names) or 'nothing: nothing has changed'}")
+    print_text(f"accepted {', '.join(names) or 'nothing: nothing has changed'}")

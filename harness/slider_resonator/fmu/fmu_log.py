@@ -24,6 +24,11 @@ from fmpy.logging import addLoggerProxy
 
 _collectors: dict[bytes, list[str]] = {}
 
+MAX_MESSAGES = 100
+"""Maximum number of messages that are kept of a call, the first ones."""
+MAX_LENGTH = 10_000
+"""Maximum characters of a message that are kept."""
+
 _PYTHON_EXCEPTION = re.compile(
     r"""\w+ py exception encountered: .*\n\w+\((?P<text>(['"]).*\2),?\)\Z""", re.DOTALL
 )
@@ -47,8 +52,9 @@ def _dispatch(
     collector = _collectors.get(instance_name)
     if collector is None:
         printLogMessage(environment, instance_name, status, category, message)
-    else:
-        collector.append(plain_words(message.decode("utf-8", errors="replace").strip()))
+    elif len(collector) < MAX_MESSAGES:
+        text = (message or b"")[:MAX_LENGTH].decode("utf-8", errors="replace").strip()
+        collector.append(plain_words(text))
 
 
 _logger = fmi2CallbackLoggerTYPE(_dispatch)

@@ -63,12 +63,21 @@ def test_an_ended_command_ends_the_fmu_and_leaves_nothing(
     temporary = tmp_path / "temporary"
     temporary.mkdir()
     command = subprocess.Popen(
-        [sys.executable, "-m", "slider_resonator", "run", str(fmu), "table_1"],
+        [
+            sys.executable,
+            "-m",
+            "slider_resonator",
+            "run",
+            str(fmu),
+            "table_1",
+            "--time-limit",
+            "30",
+        ],
         env={**os.environ, "TMPDIR": str(temporary)},
         stderr=subprocess.PIPE,
         text=True,
     )
-    while not list(temporary.glob("*/*/binaries")):
+    while not list(temporary.glob("*/*/unpacked/binaries")):
         assert command.poll() is None
         time.sleep(0.1)
     time.sleep(0.5)  # until it is in the loop

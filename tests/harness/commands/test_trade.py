@@ -18,6 +18,7 @@ from slider_resonator.studies.trade.peer_methods import peer_methods
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import Omission, Trade
 from tests.harness.calling import call, refused
+from tests.harness.in_process import InProcess
 from tests.harness.public_json import assert_public_keys
 from tests.harness.studies.trade.problems import HEAD, TABLE_1, problem
 from tests.harness.studies.trade.test_needs import TRADE
@@ -45,7 +46,10 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     assert len(omissions) == len(document["trade"]["omissions"])
     short = problem(tmp_path, TABLE_1, max_periods=8)
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
-        methods = [*FmuMethods(short, "native", instance).methods(), *peer_methods(short)]
+        methods = [
+            *FmuMethods(short, "native", InProcess(instance)).methods(),
+            *peer_methods(short),
+        ]
     followed = {row["method"] for row in rows if row["answer"] == "run"}
     omitted = {o["method"] for o in omissions if o["quantity"] == "all"}
     assert {method.label.name for method in methods} == followed | omitted
