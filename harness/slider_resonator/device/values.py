@@ -12,6 +12,8 @@ LARGEST_INTEGER = 2**31 - 1
 
 POSITIVE = frozenset({"slider_mass", "resonator_frequency", "drive_frequency"})
 """Parameters that the harness itself divides by, for instance to count drive periods."""
+NOT_NEGATIVE = frozenset({"resonator_mass", "normal_preload"})
+"""Parameters whose sums and roots it takes before an FMU sees them."""
 
 
 def check_value(name: str, value: float) -> None:
@@ -20,6 +22,8 @@ def check_value(name: str, value: float) -> None:
         check_integer(name, value)
     elif not isfinite(value):
         raise ValueError(f"{name} = {value!r}: must be a finite number")
+    elif name in NOT_NEGATIVE and value < 0.0:
+        raise ValueError(f"{name} = {value!r}: must be a number from 0 on")
     elif name in POSITIVE and not value > 0.0:
         raise ValueError(f"{name} = {value!r}: must be a number above 0")
 

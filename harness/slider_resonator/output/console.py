@@ -54,6 +54,16 @@ def open_closed_streams() -> None:
 
 
 @contextmanager
+def noting_on_interrupt(note: Callable[[], str]) -> Iterator[None]:
+    """Add to an interruption within the block what is kept, and how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt as error:
+        error.add_note(note())
+        raise
+
+
+@contextmanager
 def progress_bar() -> Iterator[Callable[[str, float], None]]:
     """Yield a function that takes the current task and the share of the work done, 0 to 1."""
     if not sys.stderr.isatty():

@@ -36,7 +36,7 @@ if sys.platform != "win32":
     import resource
 
 
-MAX_WRITTEN = 2**28
+MAX_WRITTEN = 2**26
 """Maximum size (bytes) of a file that the FMU writes, also of what it prints."""
 
 

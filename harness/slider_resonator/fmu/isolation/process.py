@@ -36,7 +36,7 @@ TIME_LIMIT = 120.0
 LOADING = 60.0
 """Longest time (s) in which Python and the modules of a task must be loaded, also on a busy
 machine."""
-GRACE = 3.0
+GRACE = 2.0
 """Seconds beyond the time limit after which a process that did not end itself is killed."""
 POLL_INTERVAL = 0.5
 """Interval (s) at which the process is polled."""
