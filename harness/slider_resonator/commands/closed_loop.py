@@ -23,6 +23,7 @@ from slider_resonator.output.atomic import replacing
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
+from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.studies.closed_loop.judge import (
     Agreement,
@@ -111,7 +112,7 @@ def closed_loop_command(
         print_json({**facts, "held": held, "agreements": agreements})
     else:
         _print(held, agreements)
-        print_text(f"written  {out / 'closed_loop.png'}, {out / 'closed_loop.csv'}")
+        print_text(f"written  {one_line(f'{out}/closed_loop.png, {out}/closed_loop.csv')}")
     context.exit(0 if passed else 1)
 
 

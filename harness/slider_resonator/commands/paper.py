@@ -15,6 +15,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.output.console import progress_bar
+from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.paper.listing import verdicts
 from slider_resonator.studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce
 
@@ -58,7 +59,7 @@ def paper_command(
 
 
 def _sentences(outcome: Outcome) -> str:
-    lines = [f"written  {outcome.out} in {outcome.wall_time:.1f} s"]
+    lines = [f"written  {one_line(outcome.out)} in {outcome.wall_time:.1f} s"]
     lines.append(f"run      {', '.join(outcome.run)}")
     for table in outcome.tables:
         for name, size in table.largest.items():

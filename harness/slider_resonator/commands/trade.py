@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 import click
@@ -17,8 +18,9 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.fmu.isolation.process import IsolatedFmu
-from slider_resonator.output.console import progress_bar
+from slider_resonator.output.console import noting_on_interrupt, progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
+from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import find_scene, read_scene
 from slider_resonator.studies.trade.files import write_omissions, write_rows
 from slider_resonator.studies.trade.measure import BUDGET, REPEATS, measure_trade
@@ -114,6 +116,7 @@ def trade_command(
             build = "native" if fmu.runs_without_python else "Python"
             instances[build if build not in instances else f"{build} {path.name}"] = fmu
         make_folder(out)
+        stack.enter_context(noting_on_interrupt(partial(_kept, trades, problems, out)))
         for problem in problems:
             trades.append(
                 measure_trade(problem, instances, progress, repeats=repeats, budget=budget)
@@ -121,7 +124,7 @@ def trade_command(
             # After each scene, so that a later failure does not lose minutes of measurement.
             write_rows(out / "trade.csv", trades)
             write_omissions(out / "omissions.csv", trades)
-    write_trades(out / "index.html", trades)
+            write_trades(out / "index.html", trades)
     if picture is not None:
         draw_picture(trades[0], picture)
     for page in pages:
@@ -131,7 +134,7 @@ def trade_command(
     else:
         for trade in trades:
             _print(trade)
-        print_text(f"written {out / 'index.html'}")
+        print_text(f"written {one_line(str(out / 'index.html'))}")
 
 
 def _problems(scenes: Sequence[str], periods: int | None) -> list[Problem]:
@@ -141,14 +144,21 @@ def _problems(scenes: Sequence[str], periods: int | None) -> list[Problem]:
     return problems
 
 
+def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> str:
+    if not trades:
+        return "no scene is finished; nothing is kept"
+    rest = ", ".join(dict.fromkeys(problem.name for problem in problems[len(trades) :]))
+    return f"{len(trades)} of {len(problems)} scenes are kept in {out}; not measured: {rest}"
+
+
 def _entry(trade: Trade) -> dict[str, object]:
     return {"trade": trade, "standings": standings(trade)}
 
 
 def _print(trade: Trade) -> None:
-    print_text(title(trade))
+    print_text(one_line(title(trade)))
     for target, sentences in comparisons(trade):
-        print_text(f"  {target}")
+        print_text(f"  {one_line(target)}")
         for line in sentences:
-            print_text(f"    {line}")
+            print_text(f"    {one_line(line)}")
     print_text(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")

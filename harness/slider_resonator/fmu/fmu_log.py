@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterable
 from ctypes import byref
 from typing import Any
 
@@ -44,6 +45,11 @@ def plain_words(message: str) -> str:
         return str(ast.literal_eval(found["text"]))
     except (SyntaxError, ValueError):
         return message
+
+
+def in_one_line(messages: Iterable[str]) -> str:
+    """Return messages in one line, each once."""
+    return "; ".join(dict.fromkeys(" ".join(message.split()) for message in messages))
 
 
 def _dispatch(

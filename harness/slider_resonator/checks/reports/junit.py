@@ -50,7 +50,7 @@ def _suite(root: ET.Element, validation: Validation) -> None:
         time=f"{validation.wall_time:.3f}",
     )
     for check in validation.checks:
-        case = ET.SubElement(suite, "testcase", classname=check.scene, name=title(check))
+        case = ET.SubElement(suite, "testcase", classname=check.scene, name=_text(title(check)))
         if not check.passed:
             failure = ET.SubElement(case, "failure", message=_text(sentence(check)))
             failure.text = _text(f"{sentence(check)}\nexpected because: {check.why}")

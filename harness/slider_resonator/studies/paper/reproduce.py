@@ -13,6 +13,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.output.atomic import replacing, write_text
+from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.targets import make_folder
@@ -124,7 +125,7 @@ def reproduce(
     groups = GROUPS if CLAIMS in chosen else ()
     jobs: list[PaperFigure | PaperTable | ClaimGroup] = [*figures, *tables, *groups]
     found: dict[str, Any] = {}
-    with IsolatedFmu(fmu_path, time_limit) as fmu:
+    with noting_on_interrupt(lambda: _kept(found, out)), IsolatedFmu(fmu_path, time_limit) as fmu:
         guid = fmu.guid
         for index, job in enumerate(jobs):
             progress(job.name, index / len(jobs))
@@ -153,6 +154,11 @@ def reproduce(
         claims=[claim for _, group in claims for claim in group],
         wall_time=perf_counter() - began,
     )
+
+
+def _kept(found: Mapping[str, Any], out: Path) -> str:
+    kept = f"kept in {out}: {', '.join(found)}" if found else "nothing is finished"
+    return f"{kept}; --only makes the others"
 
 
 def _measure(name: str, instance: Instance) -> Any:
