@@ -16,7 +16,7 @@ import click
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.limits import DEFAULTS, MEMORY, UNPACKED
+from slider_resonator.fmu.limits import DEFAULTS, MEMORY, UNPACKED
 from slider_resonator.output.console import exit_with, open_closed_streams
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.terminal import escaped, indented

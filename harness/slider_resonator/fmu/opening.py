@@ -15,7 +15,7 @@ from fmpy.model_description import ModelDescription, ModelVariable, read_model_d
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import FmuError, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
-from slider_resonator.fmu.isolation.limits import MAX_ENTRIES, max_unpacked
+from slider_resonator.fmu.limits import MAX_ENTRIES, max_unpacked
 from slider_resonator.output.temporary import temporary_folder
 
 

@@ -114,3 +114,19 @@ def test_the_public_keys_stay(
     monkeypatch.setattr(command, "measure_trade", lambda *_, **__: measured)
     arguments = ["--out", tmp_path, "--fmu", native_fmu, "--json"]
     assert_public_keys("trade", call("trade", *arguments).stdout)
+
+
+def test_an_interruption_says_what_is_kept(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def measure(problem: Problem, *_: object, **__: object) -> Trade:
+        if problem.name == "lugre":
+            raise KeyboardInterrupt
+        return TRADE
+
+    monkeypatch.setattr(command, "measure_trade", measure)
+    out = tmp_path / "out"
+    result = call("trade", "table_1", "lugre", "--out", out, "--fmu", native_fmu)
+    assert result.exit_code == 130
+    assert f"interrupted\n  1 of 2 scenes are kept in {out}; not measured: lugre" in result.stderr
+    assert (out / "index.html").is_file()

@@ -6,8 +6,8 @@ import re
 import signal
 from collections.abc import Mapping
 
-from slider_resonator.fmu.isolation.limits import max_memory
 from slider_resonator.fmu.isolation.supervised import Ending
+from slider_resonator.fmu.limits import max_memory
 
 MAX_PRINTED = 500
 """Maximum characters of the FMU's own output in the report."""

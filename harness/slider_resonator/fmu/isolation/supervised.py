@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import IO
 
 from slider_resonator.fmu.isolation.child_environment import FOLDER
-from slider_resonator.fmu.isolation.limits import max_memory
+from slider_resonator.fmu.limits import max_memory
 
 SUPERVISOR = Path(__file__).with_name("supervisor.py")
 MAX_ENDING = 10.0

@@ -3,8 +3,8 @@ from __future__ import annotations
 import pytest
 
 from slider_resonator.fmu.isolation.crash_report import crash_report, missed_limit
-from slider_resonator.fmu.isolation.limits import MEMORY
 from slider_resonator.fmu.isolation.supervised import Ending
+from slider_resonator.fmu.limits import MEMORY
 
 TRACE = (
     "Fatal Python error: Aborted\n\nCurrent thread 0x1 (most recent call first):\n"
