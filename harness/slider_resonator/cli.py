@@ -28,6 +28,7 @@ COMMANDS = (
     "baseline",
     "bench",
     "blocking",
+    "build",
     "choose",
     "closed-loop",
     "extremes",

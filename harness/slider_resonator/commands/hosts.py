@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
-from zipfile import BadZipFile
 
 import click
 
@@ -87,7 +85,7 @@ def hosts_command(
     if everyone[0] in missing or (missing and (chosen or out)):
         raise HarnessError("; ".join(dict.fromkeys(missing.values())))
     for fmu in (native, python_fmu):
-        _check_size(fmu)
+        check_unpacked_size(fmu)
     selected = [host for host in selected if host not in missing]
     results: list[HostResult] = []
     with progress_bar() as progress:
@@ -114,12 +112,6 @@ def _missing(selected: Sequence[Host]) -> dict[Host, str]:
         except HarnessError as error:
             missing[host] = str(error)
     return missing
-
-
-def _check_size(fmu: Path) -> None:
-    """Raise FmuError for an archive that is too large; what is none is left to the hosts."""
-    with suppress(BadZipFile):
-        check_unpacked_size(fmu)
 
 
 def _entry(result: HostResult) -> dict[str, object]:

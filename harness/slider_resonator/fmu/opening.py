@@ -92,7 +92,12 @@ def _read_description(path: Path) -> ModelDescription:
 
 
 def check_unpacked_size(path: Path) -> None:
-    """Raise FmuError for an archive that unpacks to more than the limits, before it is unpacked."""
+    """Raise FmuError for an archive that unpacks to more than the limits, before it is unpacked.
+
+    A file that is no archive is left to who opens it.
+    """
+    if not zipfile.is_zipfile(path):
+        return
     with zipfile.ZipFile(path) as archive:
         entries = archive.infolist()
     size = sum(entry.file_size for entry in entries)
