@@ -95,7 +95,7 @@ def _watch(
         if time.monotonic() > next_tree:
             processes = _descendants()
             next_tree = time.monotonic() + TREE_INTERVAL
-        memory = sum(map(_memory, processes))
+        memory = sum(map(_memory if len(processes) == 1 else _share, processes))
         if memory > max_memory:
             return None, memory
 
@@ -148,6 +148,15 @@ def _memory(process: int) -> int:
     """Return the bytes of a process that are in memory, 0 where there is no /proc."""
     with suppress(OSError), open(f"/proc/{process}/statm", "rb") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    return 0
+
+
+def _share(process: int) -> int:
+    """Return the bytes of a process that are in memory; what a fork shares counts once for all."""
+    with suppress(OSError), open(f"/proc/{process}/smaps_rollup", "rb") as file:
+        for line in file:
+            if line.startswith(b"Pss:"):
+                return int(line.split()[1]) * 1024
     return 0
 
 
