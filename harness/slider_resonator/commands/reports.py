@@ -111,7 +111,7 @@ def print_verdicts(
     if as_json:
         click.echo(validations_as_json(validations))
     for validation in validations:
-        if validation.checks and not as_json:
+        if (validation.checks or validation.not_applied) and not as_json:
             print_validation(output(), validation, details=details, only_failed=only_failed)
         print_run_failures(validation.fmu, validation.run_failures)
 

@@ -20,6 +20,19 @@ def scenes_command(quantities: bool, as_json: bool) -> None:
     The command run takes scenes with a length, in simulated seconds; validate takes all.
 
     \b
+    The tables of a scene file, of which only name and title are needed:
+      name, title, description
+      [device]    parameters that differ from table 1
+      [inputs]    phase, load, frequency_ratio: a number, { steps }, { ramp } or { csv }
+      [tuning]    tunable parameters that change in the run, given as inputs are
+      [beside]    device and inputs of a second instance
+      [run]       stop_time or drive_periods; step_size, steps_per_period or step_sizes;
+                  start_time; read_twice: also after values change, before the step
+      [[expect]]  quantity; reference, value, at_most or at_least; relative, absolute, tube; why
+      [sweep]     variable, values
+      [need]      accuracy that the command choose meets
+
+    \b
     Examples:
       slider-resonator scenes
       slider-resonator scenes --json

@@ -82,6 +82,7 @@ class _Choosing:
                 f"{scene.source}: scene {scene.name} has no [need]; must have a table of what it "
                 "needs, such as mean_velocity = { rel = 0.01 }"
             )
+        scene.check_plain("choose")
         self.instance = instance
         self.scene = scene
         self.needs = scene.need.needs
