@@ -19,7 +19,7 @@ from slider_resonator.checks.verdict import place
 from slider_resonator.commands.options import Target
 from slider_resonator.output.console import output
 from slider_resonator.output.targets import distinct
-from slider_resonator.output.terminal import escaped
+from slider_resonator.output.terminal import indented
 
 PRINTED = Path("-")
 """The value of `--json` without a file."""
@@ -121,4 +121,4 @@ def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:
     for failure in run_failures:
         scene = f"{failure.scene}{place(failure.at, ' at ')}"
         where = f"{fmu}: scene {scene}: " if failure.scene else ""
-        click.echo(escaped(f"error: {where}{failure.reason}"), err=True)
+        click.echo(indented(f"error: {where}{failure.reason}"), err=True)

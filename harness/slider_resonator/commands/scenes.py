@@ -5,8 +5,7 @@ from __future__ import annotations
 import click
 
 from slider_resonator.commands.options import json_option
-from slider_resonator.commands.results import print_table
-from slider_resonator.output.json_output import to_json
+from slider_resonator.commands.results import print_json, print_table
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene import built_in_scenes, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -58,7 +57,7 @@ def _list_quantities(as_json: bool) -> None:
             }
             for name, quantity in QUANTITIES.items()
         ]
-        click.echo(to_json(rows))
+        print_json(rows)
         return
     cells = [
         (name, q.kind, q.unit, q.meaning, ", ".join(q.references) or "-")
@@ -81,7 +80,7 @@ def _list_scenes(as_json: bool) -> None:
             }
             for scene in scenes
         ]
-        click.echo(to_json(rows))
+        print_json(rows)
         return
     cells = []
     for scene in scenes:

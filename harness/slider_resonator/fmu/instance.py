@@ -71,7 +71,7 @@ class _Explained:
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if isinstance(error, FMICallException):
             instance = self.instance
-            logged = "; ".join(dict.fromkeys(instance.messages))
+            logged = fmu_log.in_one_line(instance.messages)
             reason = logged or f"{error} The FMU logged no reason."
             where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
             raise Refusal(f"{where}: {reason}") from error
@@ -122,7 +122,7 @@ class Instance:
             )
             self.slave.instantiate(callbacks=callbacks, loggingOn=True)
         except Exception as error:  # fmpy raises bare Exception for every error here
-            reason = "; ".join([str(error), *self.messages])
+            reason = fmu_log.in_one_line([str(error), *self.messages])
             fmu_log.forget(self._name)
             raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
         self.time = 0.0

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -17,6 +15,8 @@ from fmpy.model_description import ModelDescription, ModelVariable, read_model_d
 from slider_resonator.device.interface import FIRST, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.errors import FmuError, NotApplicable, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
+from slider_resonator.fmu.limits import MAX_ENTRIES, max_unpacked
+from slider_resonator.output.temporary import temporary_folder
 
 
 @dataclass(frozen=True)
@@ -96,21 +96,20 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
     """Unpack the FMU at `path` for the length of the block.
 
     Raises FmuError when it is no FMI 2.0 co-simulation FMU, lacks a variable of the interface,
-    gives one of them another causality, type or unit, or has no binary for this platform.
+    gives one of them another causality, type or unit, has no binary for this platform, or is too
+    large unpacked.
     """
     path = Path(path)
     description = _read_description(path)
     variables = {variable.name: variable for variable in description.modelVariables}
     _check_interface(path, description)
-    folder = Path(tempfile.mkdtemp(prefix="slider-resonator-"))
-    try:
+    with temporary_folder() as folder:
+        unpacked = folder / "unpacked"
         try:
-            fmpy.extract(path, folder)
+            fmpy.extract(path, unpacked)
         except Exception as error:  # fmpy raises bare Exception for illegal paths
             raise FmuError(f"{path}: cannot be unpacked: {error}") from error
-        yield Fmu(path, folder, description, variables)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        yield Fmu(path, unpacked, description, variables)
 
 
 def lacking(path: Path) -> tuple[str, ...]:
@@ -135,6 +134,7 @@ def _read_description(path: Path) -> ModelDescription:
     if not zipfile.is_zipfile(path):
         raise FmuError(f"{path}: not an FMU: it is no zip archive")
     try:
+        check_unpacked_size(path)
         version = _fmi_version(path)
         if version != "2.0":
             raise FmuError(f"{path}: FMI version {version}; must be 2.0")
@@ -143,6 +143,25 @@ def _read_description(path: Path) -> ModelDescription:
         raise
     except Exception as error:  # fmpy, lxml and the schema each raise their own
         raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
+
+
+def check_unpacked_size(path: Path) -> None:
+    """Raise FmuError for an archive that unpacks to more than the limits, before it is unpacked.
+
+    A file that is no archive is left to who opens it.
+    """
+    if not zipfile.is_zipfile(path):
+        return
+    with zipfile.ZipFile(path) as archive:
+        entries = archive.infolist()
+    size = sum(entry.file_size for entry in entries)
+    if len(entries) > MAX_ENTRIES:
+        raise FmuError(f"{path}: {len(entries)} files; must be at most {MAX_ENTRIES}")
+    if size > max_unpacked():
+        raise FmuError(
+            f"{path}: {size >> 20} MiB unpacked; must be at most {max_unpacked() >> 20} MiB "
+            "(--max-unpacked)"
+        )
 
 
 def _fmi_version(path: Path) -> str:

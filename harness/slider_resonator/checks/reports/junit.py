@@ -67,7 +67,7 @@ def _suite(root: ET.Element, validation: Validation) -> None:
         case = ET.SubElement(suite, "testcase", classname=scene, name=quantity)
         ET.SubElement(case, "skipped", message=_text(f"not applicable: {reason}"))
     for check in validation.checks:
-        case = ET.SubElement(suite, "testcase", classname=check.scene, name=title(check))
+        case = ET.SubElement(suite, "testcase", classname=check.scene, name=_text(title(check)))
         if not check.passed:
             failure = ET.SubElement(case, "failure", message=_text(sentence(check)))
             failure.text = _text(f"{sentence(check)}\nexpected because: {check.why}")
