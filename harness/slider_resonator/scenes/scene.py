@@ -42,7 +42,8 @@ class Beside:
 
 @dataclass(frozen=True)
 class Scene:
-    """A valid scene; it can be pickled. Raises SceneError for a run of too many steps.
+    """A valid scene; it can be pickled. Raises SceneError for a run of too many steps, or one that goes
+    beyond the values of a CSV file.
 
     `parameters` are the device parameters that differ from their start, `signals` the inputs by
     name, `tuning` the parameters that change in the run. `beside` is what a second instance runs.
@@ -64,12 +65,23 @@ class Scene:
     beside: Beside | None = None
 
     def __post_init__(self) -> None:
-        if self.stop_time is None or self.step_size is None:
-            return
-        try:
-            step_count(self.stop_time, self._steps)
-        except ValueError as error:
-            raise SceneError(f"{self.source}: run: {error}") from error
+        if self.stop_time is not None:
+            try:
+                step_count(self.stop_time, self._steps)
+            except ValueError as error:
+                raise SceneError(f"{self.source}: run: {error}") from error
+        for key, signal in self._all_signals.items():
+            try:
+                signal.check_covers(self.stop_time or 0.0)
+            except ValueError as error:
+                raise SceneError(f"{self.source}: {key}: {error}") from error
+
+    @property
+    def _all_signals(self) -> dict[str, Signal]:
+        """All values over time, by the key of the scene file."""
+        beside = self.beside.signals if self.beside else {}
+        tables = (("inputs", self.signals), ("tuning", self.tuning), ("beside.inputs", beside))
+        return {f"{t}.{name}": signal for t, signals in tables for name, signal in signals.items()}
 
     @property
     def device(self) -> Device:
@@ -241,7 +253,8 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
             return ramp(table.ramp)
         if table.csv is not None:
             points = csv_points(folder / table.csv, table.column or name)
-            return steps(points) if table.between == "hold" else ramp(points)
+            signal = steps(points) if table.between == "hold" else ramp(points)
+            return replace(signal, file=folder / table.csv)
         return constant(table.constant or 0.0)
     except ValueError as error:
         raise SceneError(f"{where}: {error}") from error
