@@ -23,7 +23,7 @@ def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path
 
 def test_a_csv_that_the_scene_reads_is_not_overwritten(python_fmu: Path, tmp_path: Path) -> None:
     points = tmp_path / "load.csv"
-    points.write_text("time,load\n0,0\n")
+    points.write_text("time,load\n0,0\n0.01,0\n")
     scene = tmp_path / "mine.toml"
     scene.write_text(
         'name = "mine"\ntitle = "Mine"\n[inputs]\nload = { csv = "load.csv" }\n'
