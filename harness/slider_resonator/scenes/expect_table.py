@@ -3,34 +3,62 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field, field_validator, model_validator
 
 from slider_resonator.errors import unknown_name
-from slider_resonator.scenes.key_table import KeyTable, NotNegative, Number, exactly_one
-from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, Quantity
+from slider_resonator.scenes.key_table import (
+    KeyTable,
+    NotNegative,
+    Number,
+    exactly_one,
+    key,
+    required,
+)
+from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, REFERENCES, Quantity
 
 
 class ExpectTable(KeyTable):
-    """One expectation: a quantity of the FMU against a reference, a value or a bound.
+    """One expectation: a quantity of the FMU against a reference, a value or a bound."""
 
-    The allowed deviation is `absolute + relative * |reference|`; for a signal it is `relative`, a
-    share of the reference's peak, and an `absolute` beside it is for a reference near zero.
-    Without an `absolute` a reference counts as no smaller than a hundredth of its natural scale.
-    A real number needs a tolerance, be it 0. A `tube` allows a signal to be early or late by a
-    share of the drive period; for event times it is the tolerance.
-    """
+    rules: ClassVar[tuple[str, ...]] = (
+        "Exactly one of `reference`, `value`, `at_most` and `at_least`. A signal needs a "
+        "reference, a word a `value`; only numbers have bounds.",
+        "The allowed deviation of a number is `absolute + relative * |reference|`. Without "
+        "`absolute` a reference counts as no smaller than a hundredth of its natural scale: v_q, "
+        "full friction, the fast amplitude.",
+        "The allowed deviation of a signal is `relative`, a share of the reference's peak; "
+        "`absolute` beside it is for a reference near zero.",
+        "A real number needs a tolerance, be it 0; counts, words and contact modes need none.",
+        "`tube` allows a signal to be early or late, with the references `located_events`, "
+        "`taylor` and `bristle_state`. For `event_times` it is the tolerance, alone.",
+        "`absolute = 0.001` with a unit of m means 1 mm: all values are in the unit of the "
+        "quantity.",
+    )
 
-    quantity: str
-    reference: str | None = None
-    value: float | str | None = None
-    at_most: Number | None = None
-    at_least: Number | None = None
-    absolute: NotNegative = 0.0
-    relative: NotNegative = 0.0
-    tube: Annotated[float, Field(strict=True, gt=0.0, lt=MAX_TUBE)] | None = None
-    why: str
+    quantity: str = Field(
+        description="what is compared; the list is below",
+        examples=["position"],
+        json_schema_extra={"enum": list(QUANTITIES)},
+    )
+    reference: str | None = Field(
+        default=None,
+        description="reference that gives the expected value; which the quantity has is below",
+        examples=["located_events"],
+        json_schema_extra={"enum": list(REFERENCES)},
+    )
+    value: float | str | None = key("expected number or word", 0.126667)
+    at_most: Number | None = key("upper bound of a number", 100.0)
+    at_least: Number | None = key("lower bound of a number", 0.12)
+    absolute: NotNegative = key("allowed deviation", 1e-9, unit="unit of the quantity", default=0.0)
+    relative: NotNegative = key("allowed deviation, as a share", 1e-8, unit="1", default=0.0)
+    tube: Annotated[float, Field(strict=True, gt=0.0, lt=MAX_TUBE)] | None = key(
+        "allowed shift in time", 0.01, unit="drive periods"
+    )
+    why: str = required(
+        "the reason for the expectation, for the report", "the step must arrive when it is due"
+    )
 
     @field_validator("quantity")
     @classmethod

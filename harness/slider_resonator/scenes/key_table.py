@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -17,9 +17,26 @@ Point = tuple[Number, Number]
 
 
 class KeyTable(BaseModel):
-    """A table of a scene file; a key that it does not list is refused."""
+    """A table of a scene file; a key that it does not list is refused.
+
+    `rules` are those that hold between its keys.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    rules: ClassVar[tuple[str, ...]] = ()
+
+
+def key(meaning: str, example: Any, *, unit: str = "", default: Any = None) -> Any:
+    """Return the field of a key that may be left out; `example` is a value that it may have."""
+    unit_of: dict[str, Any] = {"unit": unit} if unit else {}
+    return Field(
+        default=default, description=meaning, examples=[example], json_schema_extra=unit_of
+    )
+
+
+def required(meaning: str, example: Any) -> Any:
+    """Return the field of a key that must be given, as `key` does."""
+    return Field(description=meaning, examples=[example])
 
 
 def exactly_one(table: str, given: list[str], choices: str) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import model_validator
 
-from slider_resonator.scenes.key_table import KeyTable, Positive
+from slider_resonator.scenes.key_table import KeyTable, Positive, key
 
 STEADY_NEEDS = ("steady_velocity", "blocking_force")
 """Needs in the steady motion under constant inputs."""
@@ -21,8 +21,15 @@ class AllowedTable(KeyTable):
     the drive period for event times.
     """
 
-    abs: Positive | None = None
-    rel: Positive | None = None
+    rules: ClassVar[tuple[str, ...]] = ("At least one of `abs` and `rel`.",)
+
+    abs: Positive | None = key("allowed error", 2e-3, unit="unit of the quantity")
+    rel: Positive | None = key(
+        "allowed error as a share of the size: the magnitude of a number, the peak of a signal, "
+        "the drive period for event times",
+        0.01,
+        unit="1",
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -43,19 +50,36 @@ class AllowedTable(KeyTable):
 
 
 class NeedTable(KeyTable):
-    """The quantities that the scene needs, and how accurately.
+    """The quantities that the scene needs, and how accurately: the command choose meets them."""
 
-    `friction_law = "free"` allows either law.
-    """
+    rules: ClassVar[tuple[str, ...]] = (
+        "At least one quantity, each with `abs`, `rel` or both.",
+        "`steady_velocity` and `blocking_force` need constant inputs and parameters; the others "
+        "need a [run].",
+    )
 
-    mean_velocity: AllowedTable | None = None
-    position: AllowedTable | None = None
-    velocity: AllowedTable | None = None
-    steady_velocity: AllowedTable | None = None
-    blocking_force: AllowedTable | None = None
-    event_times: AllowedTable | None = None
-    beat: AllowedTable | None = None
-    friction_law: Literal["given", "free"] = "given"
+    mean_velocity: AllowedTable | None = key(
+        "mean velocity over the last drive period of the run", {"rel": 0.02}, unit="m/s"
+    )
+    position: AllowedTable | None = key(
+        "position at each communication point", {"abs": 2e-3}, unit="m"
+    )
+    velocity: AllowedTable | None = key(
+        "velocity at each communication point", {"rel": 0.01}, unit="m/s"
+    )
+    steady_velocity: AllowedTable | None = key(
+        "mean velocity of the steady motion", {"rel": 0.01}, unit="m/s"
+    )
+    blocking_force: AllowedTable | None = key(
+        "load under which the mean velocity is zero", {"abs": 1e-3}, unit="N"
+    )
+    event_times: AllowedTable | None = key("time of each event", {"rel": 0.01}, unit="s")
+    beat: AllowedTable | None = key(
+        "slow velocity beside an integer frequency ratio", {"rel": 0.05}, unit="m/s"
+    )
+    friction_law: Literal["given", "free"] = key(
+        "whether either friction law may be chosen", "free", default="given"
+    )
 
     @model_validator(mode="after")
     def _some_need(self) -> NeedTable:

@@ -30,6 +30,7 @@ from slider_resonator.scenes.explanations import explanations
 from slider_resonator.scenes.input_tables import InputsTable, InputTable
 from slider_resonator.scenes.need_table import NeedTable
 from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
+from slider_resonator.scenes.toml_mistakes import toml_mistake
 
 
 @dataclass(frozen=True)
@@ -42,8 +43,9 @@ class Beside:
 
 @dataclass(frozen=True)
 class Scene:
-    """A valid scene; it can be pickled. Raises SceneError for a run of too many steps, or one that goes
-    beyond the values of a CSV file.
+    """A valid scene; it can be pickled.
+
+    Raises SceneError for a run of too many steps, or one that goes beyond the values of a CSV file.
 
     `parameters` are the device parameters that differ from their start, `signals` the inputs by
     name, `tuning` the parameters that change in the run. `beside` is what a second instance runs.
@@ -193,12 +195,14 @@ def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
     """
     source = str(path)
     try:
-        with path.open("rb") as file:
-            content = tomllib.load(file)
+        text = path.read_bytes().decode()
+        content = tomllib.loads(text)
     except OSError as error:
         raise SceneError(f"{source}: cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise SceneError(f"{source}: not TOML: {error}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"{source}: {toml_mistake(text, str(error))}") from error
+    except UnicodeDecodeError as error:
+        raise SceneError(f"{source}: not TOML: {error}; must be UTF-8 text") from error
     scene = scene_from(content, source, path.parent)
     return replace(scene, files=(path, *scene.files)).with_values(values or {})
 

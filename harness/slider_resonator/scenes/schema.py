@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field, field_validator, model_validator
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
+from slider_resonator.scenes.device_keys import device_schema
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import BesideTable, InputsTable, TuningTable
 from slider_resonator.scenes.key_table import (
@@ -17,26 +18,43 @@ from slider_resonator.scenes.key_table import (
     Positive,
     checked_device,
     exactly_one,
+    key,
+    required,
 )
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS, NeedTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
 class RunTable(KeyTable):
-    """How long the scene runs and in which communication steps, in seconds or drive periods.
+    """How long the scene runs and in which communication steps, in seconds or drive periods."""
 
-    `step_sizes` (s) follow each other over and over; the last step ends at the stop. `start_time`
-    (s) is the time at which the FMU starts; all other times of a scene count from there. With
-    `read_twice` outputs are read before and after values change, and both are compared.
-    """
+    rules: ClassVar[tuple[str, ...]] = (
+        "Exactly one of `stop_time` and `drive_periods`.",
+        "Exactly one of `step_size`, `steps_per_period` and `step_sizes`.",
+        "A run has at most 3 000 000 steps.",
+        "Without [run] only quantities of the steady motion can be expected.",
+    )
 
-    stop_time: Positive | None = None
-    drive_periods: Positive | None = None
-    step_size: Positive | None = None
-    steps_per_period: Positive | None = None
-    step_sizes: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
-    start_time: Number = 0.0
-    read_twice: Annotated[bool, Field(strict=True)] = False
+    stop_time: Positive | None = key("length of the run", 0.1, unit="s")
+    drive_periods: Positive | None = key("length of the run", 100.0, unit="drive periods")
+    step_size: Positive | None = key("communication step", 1e-3, unit="s")
+    steps_per_period: Positive | None = key("communication steps in a drive period", 8.0)
+    step_sizes: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = key(
+        "communication steps that follow each other over and over; the last ends at the stop",
+        [1e-9, 2e-4, 7e-3],
+        unit="s",
+    )
+    start_time: Number = key(
+        "time at which the FMU starts; all other times of a scene count from there",
+        1e4,
+        unit="s",
+        default=0.0,
+    )
+    read_twice: Annotated[bool, Field(strict=True)] = key(
+        "also read outputs after values change, before the step, and compare both",
+        True,
+        default=False,
+    )
 
     @model_validator(mode="after")
     def _one_of_each(self) -> RunTable:
@@ -50,8 +68,14 @@ class RunTable(KeyTable):
 class SweepTable(KeyTable):
     """One parameter or input and its values; every expectation must hold at each."""
 
-    variable: str
-    values: tuple[Number, ...]
+    rules: ClassVar[tuple[str, ...]] = ("At least one value.",)
+
+    variable: str = Field(
+        description="the parameter or input that varies",
+        examples=["load"],
+        json_schema_extra={"enum": [*PARAMETERS, *INPUTS]},
+    )
+    values: tuple[Number, ...] = required("its values, SI units", [0.0, 0.02, 0.04])
 
     @field_validator("variable")
     @classmethod
@@ -78,17 +102,44 @@ class SweepTable(KeyTable):
 class SceneTable(KeyTable):
     """A whole scene file."""
 
-    name: str = Field(pattern=r"^[A-Za-z0-9_\-]+$")
-    title: str
-    description: str = ""
-    device: dict[str, Number] = Field(default={})
-    inputs: InputsTable = InputsTable()
-    tuning: TuningTable = TuningTable()
-    beside: BesideTable | None = None
-    run: RunTable | None = None
-    expect: tuple[ExpectTable, ...] = ()
-    sweep: SweepTable | None = None
-    need: NeedTable | None = None
+    rules: ClassVar[tuple[str, ...]] = (
+        "Only `name` and `title` are needed. Any key that is not listed is refused.",
+        "All values are in SI units.",
+    )
+
+    name: str = Field(
+        pattern=r"^[A-Za-z0-9_\-]+$",
+        description="name in reports: letters, digits, _ and -",
+        examples=["my_step"],
+    )
+    title: str = required("one line for lists and plots", "The load steps up")
+    description: str = key("what the scene shows, and why", "A step of load.", default="")
+    device: dict[str, Number] = Field(
+        default={},
+        description="parameters that differ from table 1",
+        examples=[{"friction_coefficient": 0.12}],
+        json_schema_extra=device_schema(),
+    )
+    inputs: InputsTable = key("inputs over time", {"phase": 0.4}, default=InputsTable())
+    tuning: TuningTable = key(
+        "tunable parameters that change in the run",
+        {"normal_preload": {"steps": [[0.0, 1.0], [0.02, 1.4]]}},
+        default=TuningTable(),
+    )
+    beside: BesideTable | None = key("a second instance", {"device": {"damping_ratio": 0.02}})
+    run: RunTable | None = key("length and steps", {"stop_time": 0.1, "step_size": 1e-3})
+    expect: tuple[ExpectTable, ...] = key(
+        "what must hold; each is headed [[expect]]",
+        [{"quantity": "reversals", "value": 200, "why": "two in each period"}],
+        default=(),
+    )
+    sweep: SweepTable | None = key(
+        "values of one variable; every expectation must hold at each",
+        {"variable": "load", "values": [0.0, 0.02]},
+    )
+    need: NeedTable | None = key(
+        "accuracy that the command choose meets", {"position": {"abs": 2e-3}}
+    )
 
     @field_validator("device")
     @classmethod
@@ -99,17 +150,19 @@ class SceneTable(KeyTable):
     def _runnable(self) -> SceneTable:
         for name in self.tuning.given:
             if name in self.device:
-                raise ValueError(f"{name} is in [device] and in [tuning]; must be in one of them")
+                raise ValueError(
+                    f"tuning.{name} is in [device] and in [tuning]; must be in one of them"
+                )
             if self.run is None:
                 raise ValueError(f"tuning.{name} is for a run: [run] is missing")
-        for expect in self.expect:
-            quantity = QUANTITIES[expect.quantity]
+        for index, expect in enumerate(self.expect):
+            quantity, key = QUANTITIES[expect.quantity], f"expect[{index}]: {expect.quantity}"
             if quantity.needs_run and self.run is None:
-                raise ValueError(f"{expect.quantity} is measured in a run: [run] is missing")
+                raise ValueError(f"{key} is measured in a run: [run] is missing")
             if quantity.needs_constants and not self._constant():
-                raise ValueError(f"{expect.quantity} needs constant inputs and parameters")
+                raise ValueError(f"{key} needs constant inputs and parameters")
             if quantity.needs_beside and self.beside is None:
-                raise ValueError(f"{expect.quantity} needs a second instance: [beside] is missing")
+                raise ValueError(f"{key} needs a second instance: [beside] is missing")
         for need in self.need.needs if self.need else ():
             if need in RUN_NEEDS and self.run is None:
                 raise ValueError(f"need.{need} is measured in a run: [run] is missing")
