@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "orbit_equations.h"
 #include "orbit_linearisation.h"
 #include "state.h"
 
@@ -12,122 +13,11 @@
 #define LUGRE_CONVERGED 1e-12
 #define ROUNDED 1e-9
 
-/* Steps of a Jacobian in the scales of the unknowns. */
-#define COULOMB_STEP 1e-6
-#define LUGRE_STEP 1e-5
+/* Velocity against the direction of a section, in v_q, up to which the section serves. */
+#define SECTION_REACH 0.5
 
 /* Smallest part of a step that is tried. */
 #define SMALLEST_PART 0.015
-
-/* W, displacement and velocity of the resonator, friction of the bristle if there is one, load; each in
- * its scale. */
-typedef struct {
-    double at[UNKNOWNS];
-} Unknowns;
-
-/* The equations of an orbit: that the state repeats, and that the mean velocity, or where `loaded` the
- * load, is what is `given` in its scale. `maps` counts. */
-typedef struct {
-    const PeriodMap *map;
-    double lead, given;
-    bool loaded;
-    int states, maps;
-    Stops stops;
-} Equations;
-
-/* By how much the states change in a period, the mean velocity, and the moments at both ends. */
-typedef struct {
-    double values[UNKNOWNS];
-    Moment section, after;
-} Trial;
-
-static Moment section_of(const Equations *equations, const Unknowns *unknowns) {
-    const PeriodMap *map = equations->map;
-    const Plant *plant = &map->law.held.plant;
-    const double *at = unknowns->at;
-    Moment section = {.stops = equations->stops};
-    section.state.displacement = map->swing * at[1];
-    section.state.rate = map->swing * plant->drive_frequency * at[2];
-    section.state.velocity =
-        map->speed * at[0] - plant->mass_fraction * section.state.rate - map->fast.pair_velocity;
-    section.bristle = map->states > 3 ? map->law.bristle.coefficient * at[3] : 0.0;
-    section_enter(map, equations->lead, &section);
-    return section;
-}
-
-static Unknowns unknowns_of(const PeriodMap *map, const Moment *section, double load) {
-    Unknowns unknowns = {{0.0}};
-    unknowns.at[0] = section_momentum(map, &section->state) / map->speed;
-    unknowns.at[1] = section->state.displacement / map->swing;
-    unknowns.at[2] = section->state.rate / (map->swing * map->law.held.plant.drive_frequency);
-    if (map->states > 3) {
-        unknowns.at[3] = section->bristle / map->law.bristle.coefficient;
-    }
-    unknowns.at[map->states] = load / map->force;
-    return unknowns;
-}
-
-static bool try_unknowns(Equations *equations, const Unknowns *unknowns, Trial *trial) {
-    const PeriodMap *map = equations->map;
-    int states = equations->states;
-    double load = map->force * unknowns->at[states];
-    trial->section = section_of(equations, unknowns);
-    equations->maps++;
-    if (!period_map_apply(map, equations->lead, load, &trial->section, &trial->after)) {
-        return false;
-    }
-    Unknowns reached = unknowns_of(map, &trial->after, load);
-    for (int i = 0; i < states; i++) {
-        trial->values[i] = reached.at[i] - unknowns->at[i];
-    }
-    trial->values[states] = trial->after.position / (map->period * map->speed);
-    return true;
-}
-
-/* The Jacobian of the values by differences about a trial. */
-static bool differentiate(Equations *equations, const Unknowns *unknowns, const Trial *trial,
-                          double jacobian[UNKNOWNS][UNKNOWNS]) {
-    double step = equations->states > 3 ? LUGRE_STEP : COULOMB_STEP;
-    for (int j = 0; j <= equations->states; j++) {
-        Unknowns moved = *unknowns;
-        Trial other;
-        moved.at[j] += step;
-        if (!try_unknowns(equations, &moved, &other)) {
-            return false;
-        }
-        for (int i = 0; i <= equations->states; i++) {
-            jacobian[i][j] = (other.values[i] - trial->values[i]) / (moved.at[j] - unknowns->at[j]);
-        }
-    }
-    return true;
-}
-
-/* The step of Newton's method that leads from `values` at `unknowns` to 0 and to what is given. Returns
- * the largest entry; infinite where the Jacobian is singular. */
-static double newton_step(const Equations *equations, double jacobian[UNKNOWNS][UNKNOWNS],
-                          const double values[UNKNOWNS], const Unknowns *unknowns,
-                          double step[UNKNOWNS]) {
-    int last = equations->states;
-    double matrix[UNKNOWNS][UNKNOWNS], largest = 0.0;
-    memcpy(matrix, jacobian, sizeof matrix);
-    for (int i = 0; i < last; i++) {
-        step[i] = -values[i];
-    }
-    step[last] = equations->given - values[last];
-    if (equations->loaded) {
-        step[last] = equations->given - unknowns->at[last];
-        for (int j = 0; j <= last; j++) {
-            matrix[last][j] = j == last ? 1.0 : 0.0;
-        }
-    }
-    if (!solve_linear(matrix, step, last + 1)) {
-        return INFINITY;
-    }
-    for (int i = 0; i <= last; i++) {
-        largest = fmax(largest, fabs(step[i]));
-    }
-    return isfinite(largest) ? largest : INFINITY;
-}
 
 /* Broyden's update: the Jacobian that takes `moved` to the change of the values, and is else the same. */
 static void update_jacobian(double jacobian[UNKNOWNS][UNKNOWNS], int count,
@@ -158,11 +48,11 @@ static Unknowns advanced(const Unknowns *unknowns, const double step[UNKNOWNS], 
 
 /* Newton's method from `unknowns`, damped, with `jacobian` kept as long as it serves; `fresh` where it was
  * taken at `unknowns`. Leaves unknowns, trial and Jacobian at the orbit. */
-static OrbitStatus solve(Equations *equations, Unknowns *unknowns, Trial *trial,
+static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *trial,
                          double jacobian[UNKNOWNS][UNKNOWNS], bool fresh) {
-    int count = equations->states + 1;
-    double accuracy = equations->states > 3 ? LUGRE_CONVERGED : COULOMB_CONVERGED;
-    double smallest_update = equations->states > 3 ? LUGRE_STEP : COULOMB_STEP;
+    int count = equations->map->states + 1;
+    double accuracy = equations->map->states > 3 ? LUGRE_CONVERGED : COULOMB_CONVERGED;
+    double smallest_update = difference_step(equations->map);
     double before = INFINITY;
     while (equations->maps < MAX_MAPS) {
         double step[UNKNOWNS] = {0.0}, part = 1.0;
@@ -214,94 +104,117 @@ static OrbitStatus solve(Equations *equations, Unknowns *unknowns, Trial *trial,
     return ORBIT_NOT_CONVERGED;
 }
 
-/* The vibration without friction: where the search begins that has no neighbour. */
-static Unknowns vibration_alone(const Equations *equations) {
+/* The vibration without friction at the section: where the search begins that has no neighbour. */
+static Unknowns vibration_alone(const OrbitEquations *equations, int direction) {
     const PeriodMap *map = equations->map;
-    Moment section = {0};
-    Response swing = steady_swing(map->fast.resonator, 0.0, map->law.held.plant.drive_frequency);
-    double velocity = equations->loaded ? 0.0 : equations->given * map->speed;
+    const Plant *plant = &map->law.held.plant;
+    Response swing = steady_swing(map->fast.resonator, equations->theta, plant->drive_frequency);
+    double velocity = equations->loaded ? 0.0 : equations->given;
+    Moment section = {.bristle = direction * map->law.bristle.coefficient};
     section.state.displacement = swing.displacement;
     section.state.rate = swing.rate;
-    section.state.velocity = velocity - map->law.held.plant.mass_fraction * swing.rate -
-                             map->fast.pair_velocity;
-    return unknowns_of(map, &section, equations->loaded ? equations->given * map->force : 0.0);
+    section.state.velocity = map->speed * (velocity + direction);
+    return unknowns_of(equations, &section, equations->loaded ? equations->given * map->force : 0.0);
 }
 
-static OrbitStatus find(Equations *equations, const HeldOrbit *neighbour, HeldOrbit *orbit) {
+/* Where the tangent at a neighbour leads, and its Jacobian; false where it has none. */
+static bool along_tangent(OrbitEquations *equations, const HeldOrbit *neighbour,
+                          Unknowns *unknowns, double jacobian[UNKNOWNS][UNKNOWNS]) {
+    double values[UNKNOWNS] = {0.0}, step[UNKNOWNS] = {0.0};
+    *unknowns = unknowns_of(equations, &neighbour->section, -neighbour->friction);
+    memcpy(jacobian, neighbour->jacobian, sizeof neighbour->jacobian);
+    equations->stops = neighbour->section.stops;
+    values[equations->map->states] = neighbour->velocity / equations->map->speed;
+    if (!isfinite(newton_step(equations, jacobian, values, unknowns, step))) {
+        return false;
+    }
+    *unknowns = advanced(unknowns, step, 1.0);
+    return true;
+}
+
+static OrbitStatus find(OrbitEquations *equations, int direction, const HeldOrbit *neighbour,
+                        HeldOrbit *orbit) {
     const PeriodMap *map = equations->map;
+    int states = map->states;
     Unknowns unknowns;
     Trial trial;
     double jacobian[UNKNOWNS][UNKNOWNS] = {{0.0}};
-    bool fresh = false;
-    if (neighbour != NULL) {
-        unknowns = unknowns_of(map, &neighbour->section, -neighbour->friction);
-        memcpy(jacobian, neighbour->jacobian, sizeof jacobian);
-        equations->stops = neighbour->section.stops;
-        double values[UNKNOWNS] = {0.0}, step[UNKNOWNS] = {0.0};
-        values[equations->states] = neighbour->velocity / map->speed;
-        if (isfinite(newton_step(equations, jacobian, values, &unknowns, step))) {
-            unknowns = advanced(&unknowns, step, 1.0);
-        }
-    } else {
-        unknowns = vibration_alone(equations);
-        if (map->states > 3 && try_unknowns(equations, &unknowns, &trial)) {
-            unknowns.at[3] = trial.after.bristle / map->law.bristle.coefficient;
-        }
+    equations->theta = section_phase(map, direction);
+    bool follows =
+        neighbour != NULL && along_tangent(equations, neighbour, &unknowns, jacobian);
+    if (!follows) {
+        unknowns = vibration_alone(equations, direction);
     }
-    if (!try_unknowns(equations, &unknowns, &trial)) {
+    if (!try_unknowns(equations, &unknowns, &trial) ||
+        (!follows && !differentiate(equations, &unknowns, &trial, jacobian))) {
         return ORBIT_NOT_CONVERGED;
     }
-    if (neighbour == NULL) {
-        fresh = differentiate(equations, &unknowns, &trial, jacobian);
-        if (!fresh) {
-            return ORBIT_NOT_CONVERGED;
-        }
-    }
-    OrbitStatus status = solve(equations, &unknowns, &trial, jacobian, fresh);
+    OrbitStatus status = solve(equations, &unknowns, &trial, jacobian, !follows);
     if (status != ORBIT_FOUND) {
         return status;
     }
+    equations->stops = trial.after.stops;
     memset(orbit, 0, sizeof *orbit);
     orbit->lead = equations->lead;
-    orbit->velocity = map->speed * (equations->loaded ? trial.values[equations->states]
-                                                      : equations->given);
-    orbit->friction = -map->force * unknowns.at[equations->states];
-    equations->stops = trial.after.stops;
+    orbit->velocity = map->speed * (equations->loaded ? trial.values[states] : equations->given);
+    orbit->friction = -map->force * unknowns.at[states];
     orbit->section = section_of(equations, &unknowns);
-    orbit->offset = map->speed * unknowns.at[0] - orbit->velocity;
+    orbit->direction = direction;
     orbit->reversals = trial.after.counts.reversals;
     orbit->sticks = trial.after.counts.sticks > 0.0;
-    memcpy(orbit->jacobian, jacobian, sizeof jacobian);
     orbit->factor = 1.0;
+    orbit->maps = equations->maps;
+    memcpy(orbit->jacobian, jacobian, sizeof jacobian);
     return ORBIT_FOUND;
 }
 
-static OrbitStatus find_checked(Equations *equations, const HeldOrbit *neighbour,
-                                HeldOrbit *orbit) {
-    if (!(equations->map->law.device.damping_ratio > 0.0)) {
+/* Why there can be no orbit at all. */
+static OrbitStatus precondition(const PeriodMap *map) {
+    if (!(map->law.device.damping_ratio > 0.0)) {
         return ORBIT_UNDAMPED;
     }
-    return equations->map->speed > 0.0 ? find(equations, neighbour, orbit) : ORBIT_STILL;
+    return map->speed > 0.0 ? ORBIT_FOUND : ORBIT_STILL;
+}
+
+/* Whether the section in `direction` serves orbits at `velocity` [m/s]. */
+static bool section_serves(const PeriodMap *map, int direction, double velocity) {
+    return direction * velocity > -SECTION_REACH * map->speed;
 }
 
 OrbitStatus held_orbit_at(const PeriodMap *map, double lead, double velocity,
                           const HeldOrbit *neighbour, HeldOrbit *orbit) {
-    Equations equations = {.map = map, .lead = lead, .given = velocity / map->speed,
-                           .states = map->states};
-    return find_checked(&equations, neighbour, orbit);
+    OrbitEquations equations = {.map = map, .lead = lead, .given = velocity / map->speed};
+    OrbitStatus status = precondition(map);
+    if (status != ORBIT_FOUND) {
+        return status;
+    }
+    if (neighbour != NULL && section_serves(map, neighbour->direction, velocity)) {
+        return find(&equations, neighbour->direction, neighbour, orbit);
+    }
+    return find(&equations, velocity >= 0.0 ? FORWARD : BACKWARD, NULL, orbit);
 }
 
 OrbitStatus steady_orbit_at(const PeriodMap *map, double lead, double load,
                             const HeldOrbit *neighbour, HeldOrbit *orbit) {
-    Equations equations = {.map = map, .lead = lead, .given = load / map->force, .loaded = true,
-                           .states = map->states};
-    return find_checked(&equations, neighbour, orbit);
+    OrbitEquations equations = {.map = map, .lead = lead, .given = load / map->force, .loaded = true};
+    OrbitStatus status = precondition(map);
+    if (status != ORBIT_FOUND) {
+        return status;
+    }
+    int direction = neighbour != NULL ? neighbour->direction : FORWARD;
+    status = find(&equations, direction, neighbour, orbit);
+    if (status == ORBIT_FOUND && !section_serves(map, direction, orbit->velocity)) {
+        HeldOrbit before = *orbit;
+        status = held_orbit_at(map, lead, before.velocity, &before, orbit);
+        status = status == ORBIT_FOUND ? find(&equations, orbit->direction, orbit, orbit) : status;
+    }
+    return status;
 }
 
 OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit) {
-    Equations equations = {.map = map, .lead = orbit->lead, .states = map->states,
-                           .stops = orbit->section.stops, .maps = orbit->maps};
-    Unknowns unknowns = unknowns_of(map, &orbit->section, -orbit->friction);
+    OrbitEquations equations = {.map = map, .lead = orbit->lead, .theta = orbit->section.theta,
+                                .maps = orbit->maps, .stops = orbit->section.stops};
+    Unknowns unknowns = unknowns_of(&equations, &orbit->section, -orbit->friction);
     OrbitLinearisation linear;
     Trial trial;
     if (!try_unknowns(&equations, &unknowns, &trial) ||
@@ -314,4 +227,19 @@ OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit) {
     orbit->slope = linear.slope * map->force / map->speed;
     orbit->fast_multiplier = linear.fast_multiplier;
     return orbit->fast_multiplier < 1.0 ? ORBIT_FOUND : ORBIT_UNSTABLE;
+}
+
+bool held_orbit_moment(const PeriodMap *map, const HeldOrbit *orbit, double theta, Moment *moment) {
+    double ahead = theta - orbit->section.theta;
+    ahead -= TAU * map->turns * floor(ahead / (TAU * map->turns));
+    double duration = ahead / map->law.held.plant.drive_frequency;
+    if (!(duration > 0.0)) {
+        *moment = orbit->section;
+        return true;
+    }
+    return orbit_advance(map, orbit->lead, -orbit->friction, &orbit->section, duration, moment);
+}
+
+double held_orbit_offset(const PeriodMap *map, const HeldOrbit *orbit, const Moment *moment) {
+    return momentum_velocity(map, &moment->state, moment->theta) - orbit->velocity;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "angle.h"
 #include "contact.h"
 #include "events.h"
 #include "friction_law.h"
@@ -33,9 +34,13 @@ bool period_map_prepare(PeriodMap *map, const Device *device, double ratio, int 
     return true;
 }
 
-double section_momentum(const PeriodMap *map, const State *state) {
+double section_phase(const PeriodMap *map, int direction) {
+    return within_turn(map->fast.lag + (direction > 0 ? PI : 0.0));
+}
+
+double momentum_velocity(const PeriodMap *map, const State *state, double theta) {
     return state->velocity + map->law.held.plant.mass_fraction * state->rate +
-           map->fast.pair_velocity;
+           map->fast.pair_velocity * cos(theta);
 }
 
 /* The law with the phase and the load of an orbit. */
@@ -46,28 +51,23 @@ static Law law_under(const PeriodMap *map, double lead, double load) {
     return law;
 }
 
-static void enter(const Law *law, Moment *section) {
-    section->position = section->theta = section->psi = 0.0;
-    section->event_age = INFINITY;
-    section->means = (PeriodMeans){0};
-    section->counts = (Counts){0};
-    section->mode = STICK;
-    section->mode = law_mode(law, section);
-    section->counts.sliding = section->mode == LIFTED ? STICK : section->mode;
-}
-
-void section_enter(const PeriodMap *map, double lead, Moment *section) {
+void orbit_enter(const PeriodMap *map, double lead, double theta, Moment *moment) {
     Law law = law_under(map, lead, 0.0);
-    enter(&law, section);
+    moment->position = 0.0;
+    moment->theta = theta;
+    moment->psi = within_turn(map->law.inputs.frequency_ratio * theta);
+    moment->event_age = INFINITY;
+    moment->means = (PeriodMeans){0};
+    moment->counts = (Counts){0};
+    moment->mode = law_mode(&law, moment);
+    moment->counts.sliding = moment->mode == LIFTED ? STICK : moment->mode;
 }
 
-bool period_map_apply(const PeriodMap *map, double lead, double load, const Moment *section,
-                      Moment *after) {
+bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment *moment,
+                   double duration, Moment *after) {
     Law law = law_under(map, lead, load);
-    Moment start = *section;
     Refusal refusal;
-    enter(&law, &start);
-    return events_advance(&law, &start, map->period, after, &refusal) &&
+    return events_advance(&law, moment, duration, after, &refusal) &&
            isfinite(after->position + after->state.velocity + after->state.displacement +
                     after->state.rate + after->bristle);
 }

@@ -1,8 +1,11 @@
 /* The map of the full device over the period of a periodic motion, under a load that is held.
  *
- * The section is drive phase theta = 0; the phase of the normal load there is `lead`. A period is `turns`
- * of the drive, after which the normal load repeats too. The loop over events resolves the motion with
- * two degrees of freedom, whatever the fidelity of the device. */
+ * A period is `turns` of the drive, after which the normal load repeats too; at drive phase theta = 0 the
+ * phase of the normal load is `lead`. The loop over events resolves the motion with two degrees of
+ * freedom, whatever the fidelity of the device.
+ *
+ * The map begins at a section, where the vibration without friction is fastest forward, or backward: next
+ * to it the slider neither turns back nor sticks, and a bristle has forgotten how it was bent. */
 #ifndef SLIDER_PERIOD_MAP_H
 #define SLIDER_PERIOD_MAP_H
 
@@ -28,17 +31,20 @@ typedef struct {
 bool period_map_prepare(PeriodMap *map, const Device *device, double ratio, int turns,
                         Refusal *refusal);
 
-/* Momentum over total mass without that of the drive, W = X' + r Y' + D / (Mt w) [m/s], of a state at
- * the section. */
-double section_momentum(const PeriodMap *map, const State *state);
+/* Drive phase [rad] of the section where the vibration is fastest in `direction`, 1 or -1. */
+double section_phase(const PeriodMap *map, int direction);
 
-/* Bring `section`, with its state, bristle and stops, to the section: phases, mode and counts. */
-void section_enter(const PeriodMap *map, double lead, Moment *section);
+/* Momentum over total mass without that of the drive, W = X' + r Y' + D / (Mt w) cos(theta) [m/s]. */
+double momentum_velocity(const PeriodMap *map, const State *state, double theta);
 
-/* The moment a period after `section` under `load` [N]; its position is the way since. False where time
- * does not get on or numbers leave the range of floating point. */
-bool period_map_apply(const PeriodMap *map, double lead, double load, const Moment *section,
-                      Moment *after);
+/* Begin at drive phase `theta` [rad] with the state, the bristle and the stops that `moment` has: its
+ * phases, mode and counts; its position is 0. */
+void orbit_enter(const PeriodMap *map, double lead, double theta, Moment *moment);
+
+/* The moment `duration` [s] after one that orbit_enter began, under `load` [N]. False where time does not
+ * get on or numbers leave the range of floating point. */
+bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment *moment,
+                   double duration, Moment *after);
 
 /* Friction [N] while the slider slides forward all the time: its mean over a period. */
 double sliding_friction(const PeriodMap *map, double lead);
