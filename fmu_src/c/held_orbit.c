@@ -132,6 +132,20 @@ static bool along_tangent(OrbitEquations *equations, const HeldOrbit *neighbour,
     return true;
 }
 
+/* Whether the slider stays at rest on a resonator that vibrates steadily. */
+static bool stays_at_rest(const OrbitEquations *equations) {
+    const PeriodMap *map = equations->map;
+    const Plant *plant = &map->law.held.plant;
+    double load = equations->loaded ? equations->given * map->force : 0.0;
+    Complex swing =
+        complex_scale(plant->base_acceleration, transfer(&plant->stick, plant->drive_frequency));
+    Response start = steady_swing(swing, 0.0, plant->drive_frequency);
+    Moment rest = {.state = {0.0, start.displacement, start.rate}}, after;
+    orbit_enter(map, equations->lead, 0.0, &rest);
+    return orbit_advance(map, equations->lead, load, &rest, map->period, &after) &&
+           after.mode == STICK && after.position == 0.0;
+}
+
 static OrbitStatus find(OrbitEquations *equations, int direction, const HeldOrbit *neighbour,
                         HeldOrbit *orbit) {
     const PeriodMap *map = equations->map;
@@ -151,7 +165,7 @@ static OrbitStatus find(OrbitEquations *equations, int direction, const HeldOrbi
     }
     OrbitStatus status = solve(equations, &unknowns, &trial, jacobian, !follows);
     if (status != ORBIT_FOUND) {
-        return status;
+        return stays_at_rest(equations) ? ORBIT_STILL : status;
     }
     equations->stops = trial.after.stops;
     memset(orbit, 0, sizeof *orbit);
@@ -165,6 +179,9 @@ static OrbitStatus find(OrbitEquations *equations, int direction, const HeldOrbi
     orbit->factor = 1.0;
     orbit->maps = equations->maps;
     memcpy(orbit->jacobian, jacobian, sizeof jacobian);
+    if (!equations->loaded && orbit->reversals == 0.0 && !orbit->sticks) {
+        orbit->friction = copysign(sliding_friction(map, equations->lead), orbit->velocity);
+    }
     return ORBIT_FOUND;
 }
 
@@ -211,8 +228,23 @@ OrbitStatus steady_orbit_at(const PeriodMap *map, double lead, double load,
     return status;
 }
 
+static SectionRate section_rate(const PeriodMap *map, double theta, const double change[UNKNOWNS],
+                                double per) {
+    OrbitEquations equations = {.map = map, .theta = theta};
+    const Unknowns none = {{0.0}};
+    Unknowns unknowns = none;
+    for (int i = 0; i < map->states; i++) {
+        unknowns.at[i] = change[i] / per;
+    }
+    Moment from = section_of(&equations, &none), to = section_of(&equations, &unknowns);
+    return (SectionRate){{to.state.velocity - from.state.velocity, to.state.displacement,
+                          to.state.rate},
+                         to.bristle};
+}
+
 OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit) {
-    OrbitEquations equations = {.map = map, .lead = orbit->lead, .theta = orbit->section.theta,
+    double theta = orbit->section.theta;
+    OrbitEquations equations = {.map = map, .lead = orbit->lead, .theta = theta,
                                 .maps = orbit->maps, .stops = orbit->section.stops};
     Unknowns unknowns = unknowns_of(&equations, &orbit->section, -orbit->friction);
     OrbitLinearisation linear;
@@ -222,24 +254,15 @@ OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit) {
         !linearise_orbit(orbit->jacobian, map->states, &linear)) {
         return ORBIT_NOT_CONVERGED;
     }
+    bool drifts = linear.is_slow && !orbit->sticks;
     orbit->maps = equations.maps;
-    orbit->factor = linear.is_slow && !orbit->sticks ? linear.factor : 1.0;
     orbit->slope = linear.slope * map->force / map->speed;
     orbit->fast_multiplier = linear.fast_multiplier;
-    return orbit->fast_multiplier < 1.0 ? ORBIT_FOUND : ORBIT_UNSTABLE;
-}
-
-bool held_orbit_moment(const PeriodMap *map, const HeldOrbit *orbit, double theta, Moment *moment) {
-    double ahead = theta - orbit->section.theta;
-    ahead -= TAU * map->turns * floor(ahead / (TAU * map->turns));
-    double duration = ahead / map->law.held.plant.drive_frequency;
-    if (!(duration > 0.0)) {
-        *moment = orbit->section;
-        return true;
+    orbit->tangent = section_rate(map, theta, linear.tangent, map->speed);
+    if (drifts) {
+        orbit->factor = linear.factor;
+        orbit->lag = section_rate(map, theta, linear.lag, map->force);
     }
-    return orbit_advance(map, orbit->lead, -orbit->friction, &orbit->section, duration, moment);
-}
-
-double held_orbit_offset(const PeriodMap *map, const HeldOrbit *orbit, const Moment *moment) {
-    return momentum_velocity(map, &moment->state, moment->theta) - orbit->velocity;
+    orbit->linearised = true;
+    return orbit->fast_multiplier < 1.0 ? ORBIT_FOUND : ORBIT_UNSTABLE;
 }

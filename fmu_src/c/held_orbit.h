@@ -29,25 +29,32 @@ typedef enum {
     ORBIT_UNDETERMINED
 } OrbitStatus;
 
+/* A change of the state at the section and of the friction of the bristle there. */
+typedef struct {
+    State state;
+    double bristle;
+} SectionRate;
+
 /* An orbit of mean velocity [m/s] and mean friction F2 [N], `lead` [rad] being the phase of the normal load
  * at drive phase 0.
  *
- * `section` is the moment at the section, in `direction`: motion under the load -friction goes on from there,
- * see held_orbit_moment. `reversals` in a period, and whether the slider `sticks` in it. `maps` is how
- * often the period was mapped for this orbit. `jacobian` is that of its equations, in their scales.
+ * `section` is the moment at the section, in `direction`: motion under the load -friction goes on from there.
+ * `reversals` in a period, and whether the slider `sticks` in it. `maps` is how often the period was mapped
+ * for this orbit. `jacobian` is that of its equations, in their scales.
  *
- * Known once it is linearised: `factor` 1 + kappa_m, 1 until then and where the slider sticks; `slope` F2' =
- * dF2/dV [N s/m]; `fast_multiplier`, the largest one by which vibration about the orbit decays in a
- * period; `error` [m/s], the estimate of the error that slow motion on it has. */
+ * Known once it is `linearised`: `factor` 1 + kappa_m, 1 until then and where the slider sticks; `slope` F2' =
+ * dF2/dV [N s/m]; `fast_multiplier`, the largest one by which vibration about the orbit decays in a period;
+ * `tangent` by velocity [m/s]; and the `lag` of a motion that drifts, by the excess F2 + load [N] of force. */
 typedef struct {
     double lead, velocity, friction;
     int direction;
     Moment section;
     double reversals;
-    bool sticks;
+    bool sticks, linearised;
     int maps;
     double jacobian[UNKNOWNS][UNKNOWNS];
-    double factor, slope, fast_multiplier, error;
+    double factor, slope, fast_multiplier;
+    SectionRate tangent, lag;
 } HeldOrbit;
 
 /* Finds the orbit at `velocity` [m/s], from that of a neighbour unless it is NULL; `orbit` may be the
@@ -60,14 +67,7 @@ OrbitStatus steady_orbit_at(const PeriodMap *map, double lead, double load,
                             const HeldOrbit *neighbour, HeldOrbit *orbit);
 
 /* Adds what is known once an orbit is linearised, at the cost of as many maps as it has unknowns, and one:
- * needed under LuGre friction, and under Coulomb friction for the slope, the error and low damping. */
+ * needed under LuGre friction, and under Coulomb friction for slope, lag and low damping. */
 OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit);
-
-/* The moment of an orbit at drive phase `theta` [rad], from 0 up to 2 pi `turns`; its position is the way
- * since the section. False where the map fails. */
-bool held_orbit_moment(const PeriodMap *map, const HeldOrbit *orbit, double theta, Moment *moment);
-
-/* w1 = W - V [m/s] at a moment of the orbit. */
-double held_orbit_offset(const PeriodMap *map, const HeldOrbit *orbit, const Moment *moment);
 
 #endif

@@ -1,7 +1,11 @@
 #include "orbit_linearisation.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
+
+/* Decay in a period below which its series serves. */
+#define SMALL_DECAY 1e-3
 
 /* Iterations of the slow multiplier, each of which leaves the share of the coupling that is left, and
  * squarings of a matrix that leave its spectral radius to 1e-7. */
@@ -72,6 +76,30 @@ static double fast_multiplier(double jacobian[UNKNOWNS][UNKNOWNS], int states,
     return spectral_radius(fast, states - 1);
 }
 
+/* By how much the mean of an exponential decay over a period is above its start, over its change: 1 / ln(1 -
+ * d) + 1 / d. */
+static double mean_share(double decay) {
+    return fabs(decay) < SMALL_DECAY ? 0.5 + decay / 12.0 : 1.0 / log1p(-decay) + 1.0 / decay;
+}
+
+/* The lag xi behind the orbit. */
+static bool find_lag(double jacobian[UNKNOWNS][UNKNOWNS], int states, OrbitLinearisation *result) {
+    double matrix[UNKNOWNS][UNKNOWNS] = {{0.0}}, right[UNKNOWNS] = {0.0};
+    double decay = 1.0 - result->multiplier;
+    for (int i = 0; i <= states; i++) {
+        for (int j = 0; j < states; j++) {
+            matrix[i][j] = jacobian[i][j] + (i == j ? decay : 0.0);
+        }
+        matrix[i][states] = i < states ? -result->tangent[i] : -mean_share(decay);
+        right[i] = -jacobian[i][states];
+    }
+    if (!solve_linear(matrix, right, states + 1)) {
+        return false;
+    }
+    memcpy(result->lag, right, (size_t)states * sizeof right[0]);
+    return true;
+}
+
 bool linearise_orbit(double jacobian[UNKNOWNS][UNKNOWNS], int states, OrbitLinearisation *result) {
     double left[UNKNOWNS], decay, tangent[UNKNOWNS] = {0.0};
     tangent[states] = 1.0;
@@ -84,12 +112,11 @@ bool linearise_orbit(double jacobian[UNKNOWNS][UNKNOWNS], int states, OrbitLinea
         gained -= left[i] * jacobian[i][states];
         moved += left[i] * tangent[i];
     }
-    memcpy(result->tangent, tangent, sizeof tangent);
-    result->slope = -tangent[states];
-    result->multiplier = 1.0 - decay;
+    *result = (OrbitLinearisation){.slope = -tangent[states], .multiplier = 1.0 - decay};
+    memcpy(result->tangent, tangent, (size_t)states * sizeof tangent[0]);
     result->fast_multiplier = fast_multiplier(jacobian, states, left);
     result->is_slow = decay < 1.0;
     double stretch = result->is_slow && decay != 0.0 ? -log1p(-decay) / decay : 1.0;
     result->factor = result->is_slow ? gained / moved * stretch : 1.0;
-    return true;
+    return !result->is_slow || find_lag(jacobian, states, result);
 }

@@ -9,15 +9,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from math import inf, tau
+from math import copysign, inf
+from typing import NamedTuple
 
-from .contact import BACKWARD, FORWARD
+from .contact import BACKWARD, FORWARD, STICK
 from .fast_vibration import steady_swing
 from .linear_system import Matrix, Vector
 from .moment import Moment
 from .motion import State
 from .orbit_equations import OrbitEquations, Trial, largest
 from .orbit_linearisation import linearised
+from .oscillator import transfer
 from .period_map import PeriodMap
 
 MAX_MAPS = 120
@@ -66,6 +68,16 @@ class NoOrbitError(RuntimeError):
         self.status = status
 
 
+class SectionRate(NamedTuple):
+    """A change of the state at the section and of the friction of the bristle there."""
+
+    state: State
+    bristle: float
+
+
+NO_RATE = SectionRate(State(0.0, 0.0, 0.0), 0.0)
+
+
 @dataclass(frozen=True, slots=True)
 class HeldOrbit:
     """An orbit of mean velocity [m/s] and mean friction F2 [N].
@@ -76,9 +88,10 @@ class HeldOrbit:
     how often the period was mapped for this orbit. `jacobian` is that of its equations, in their
     scales.
 
-    Known once it is linearised: `factor` 1 + kappa_m, 1 until then and where the slider sticks;
+    Known once it is `linearised`: `factor` 1 + kappa_m, 1 until then and where the slider sticks;
     `slope` F2' = dF2/dV [N s/m]; `fast_multiplier`, the largest one by which vibration about the
-    orbit decays in a period; `error` [m/s], the estimate of the error that slow motion on it has.
+    orbit decays in a period; `tangent` by velocity [m/s]; and the `lag` of a motion that drifts, by
+    the excess F2 + load [N] of force.
     """
 
     lead: float
@@ -93,7 +106,9 @@ class HeldOrbit:
     factor: float = 1.0
     slope: float = 0.0
     fast_multiplier: float = 0.0
-    error: float = 0.0
+    tangent: SectionRate = NO_RATE
+    lag: SectionRate = NO_RATE
+    linearised: bool = False
 
 
 def held_orbit_at(
@@ -143,34 +158,21 @@ def held_orbit_linearised(period_map: PeriodMap, orbit: HeldOrbit) -> HeldOrbit:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
     if not linear.fast_multiplier < 1.0:
         raise NoOrbitError(OrbitStatus.UNSTABLE)
+    drifts = linear.is_slow and not orbit.sticks
+    scales = period_map
     return replace(
         orbit,
         maps=equations.maps,
         jacobian=jacobian,
-        factor=linear.factor if linear.is_slow and not orbit.sticks else 1.0,
-        slope=linear.slope * period_map.force / period_map.speed,
+        factor=linear.factor if drifts else 1.0,
+        slope=linear.slope * scales.force / scales.speed,
         fast_multiplier=linear.fast_multiplier,
+        tangent=_section_rate(scales, orbit.section.theta, linear.tangent, scales.speed),
+        lag=_section_rate(scales, orbit.section.theta, linear.lag, scales.force)
+        if drifts
+        else NO_RATE,
+        linearised=True,
     )
-
-
-def held_orbit_moment(period_map: PeriodMap, orbit: HeldOrbit, theta: float) -> Moment:
-    """The moment of an orbit at drive phase `theta` [rad], from 0 up to 2 pi turns.
-
-    Its position is the way since the section. Raises NoOrbitError where the map fails.
-    """
-    ahead = (theta - orbit.section.theta) % (tau * period_map.turns)
-    duration = ahead / period_map.held.plant.drive_frequency
-    if not duration > 0.0:
-        return orbit.section
-    moment = period_map.advance(orbit.lead, -orbit.friction, orbit.section, duration)
-    if moment is None:
-        raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
-    return moment
-
-
-def held_orbit_offset(period_map: PeriodMap, orbit: HeldOrbit, moment: Moment) -> float:
-    """w1 = W - V [m/s] at a moment of the orbit."""
-    return period_map.momentum_velocity(moment.state, moment.theta) - orbit.velocity
 
 
 def _check(period_map: PeriodMap) -> None:
@@ -186,6 +188,16 @@ def _section_serves(period_map: PeriodMap, direction: int, velocity: float) -> b
     return direction * velocity > -SECTION_REACH * period_map.speed
 
 
+def _section_rate(period_map: PeriodMap, theta: float, change: Vector, per: float) -> SectionRate:
+    equations = OrbitEquations(period_map, 0.0, theta=theta)
+    none = equations.section([0.0] * (len(change) + 1))
+    moved = equations.section([*(value / per for value in change), 0.0])
+    state = State(
+        moved.state.velocity - none.state.velocity, moved.state.displacement, moved.state.rate
+    )
+    return SectionRate(state, moved.bristle)
+
+
 def _found(equations: OrbitEquations, direction: int, neighbour: HeldOrbit | None) -> HeldOrbit:
     scales = equations.map
     equations.theta = scales.section_phase(direction)
@@ -195,12 +207,19 @@ def _found(equations: OrbitEquations, direction: int, neighbour: HeldOrbit | Non
     trial = equations.attempt(unknowns)
     if trial is None:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
-    unknowns, trial, mean_velocity, jacobian = _solved(equations, unknowns, trial, jacobian)
-    given = mean_velocity if equations.loaded else equations.given
+    try:
+        unknowns, trial, mean_velocity, jacobian = _solved(equations, unknowns, trial, jacobian)
+    except NoOrbitError as error:
+        raise NoOrbitError(OrbitStatus.STILL) if _stays_at_rest(equations) else error from None
+    velocity = scales.speed * (mean_velocity if equations.loaded else equations.given)
+    friction = -scales.force * unknowns[-1]
+    slides = trial.after.counts.reversals == 0 and trial.after.counts.sticks == 0
+    if slides and not equations.loaded:
+        friction = copysign(scales.sliding_friction(equations.lead), velocity)
     return HeldOrbit(
         lead=equations.lead,
-        velocity=scales.speed * given,
-        friction=-scales.force * unknowns[-1],
+        velocity=velocity,
+        friction=friction,
         direction=direction,
         section=equations.section(unknowns),
         reversals=trial.after.counts.reversals,
@@ -228,6 +247,17 @@ def _vibration_alone(equations: OrbitEquations, direction: int) -> Vector:
     state = State(scales.speed * (velocity + direction), displacement, rate)
     load = equations.given * scales.force if equations.loaded else 0.0
     return equations.unknowns(state, direction * scales.held.bristle.coefficient, load)
+
+
+def _stays_at_rest(equations: OrbitEquations) -> bool:
+    """Whether the slider stays at rest on a resonator that vibrates steadily."""
+    scales, plant = equations.map, equations.map.held.plant
+    load = equations.given * scales.force if equations.loaded else 0.0
+    swing = plant.base_acceleration * transfer(plant.stick, plant.drive_frequency)
+    displacement, rate = steady_swing(swing, 0.0, plant.drive_frequency)
+    rest = scales.enter(equations.lead, 0.0, State(0.0, displacement, rate), 0.0)
+    after = scales.advance(equations.lead, load, rest, scales.period)
+    return after is not None and after.mode == STICK and after.position == 0.0
 
 
 def _solved(
