@@ -52,7 +52,6 @@ static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *t
                          double jacobian[UNKNOWNS][UNKNOWNS], bool fresh) {
     int count = equations->map->states + 1;
     double accuracy = equations->map->states > 3 ? LUGRE_CONVERGED : COULOMB_CONVERGED;
-    double smallest_update = difference_step(equations->map);
     double before = INFINITY;
     while (equations->maps < MAX_MAPS) {
         double step[UNKNOWNS] = {0.0}, part = 1.0;
@@ -76,7 +75,7 @@ static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *t
                 for (int i = 0; i < count; i++) {
                     moved[i] = next.at[i] - unknowns->at[i];
                 }
-                if (part * size > smallest_update) {
+                if (part * size > DIFFERENCE) {
                     update_jacobian(jacobian, count, moved, trial->values, other.values);
                 }
                 *unknowns = next;

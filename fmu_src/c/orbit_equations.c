@@ -3,14 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps of a Jacobian in the scales of the unknowns. */
-#define COULOMB_STEP 1e-6
-#define LUGRE_STEP 1e-5
-
-double difference_step(const PeriodMap *map) {
-    return map->states > 3 ? LUGRE_STEP : COULOMB_STEP;
-}
-
 Moment section_of(const OrbitEquations *equations, const Unknowns *unknowns) {
     const PeriodMap *map = equations->map;
     const Plant *plant = &map->law.held.plant;
@@ -59,11 +51,10 @@ bool try_unknowns(OrbitEquations *equations, const Unknowns *unknowns, Trial *tr
 
 bool differentiate(OrbitEquations *equations, const Unknowns *unknowns, const Trial *trial,
                           double jacobian[UNKNOWNS][UNKNOWNS]) {
-    double step = difference_step(equations->map);
     for (int j = 0; j <= equations->map->states; j++) {
         Unknowns moved = *unknowns;
         Trial other;
-        moved.at[j] += step;
+        moved.at[j] += DIFFERENCE;
         if (!try_unknowns(equations, &moved, &other)) {
             return false;
         }

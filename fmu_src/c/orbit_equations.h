@@ -11,6 +11,9 @@
 #include "moment.h"
 #include "period_map.h"
 
+/* Step of a Jacobian in the scales of the unknowns. */
+#define DIFFERENCE 1e-6
+
 /* The states at the section, which are W, displacement and velocity of the resonator and under LuGre
  * friction the friction of the bristle; after them the load. */
 typedef struct {
@@ -52,8 +55,5 @@ bool differentiate(OrbitEquations *equations, const Unknowns *unknowns, const Tr
 double newton_step(const OrbitEquations *equations, double jacobian[UNKNOWNS][UNKNOWNS],
                    const double values[UNKNOWNS], const Unknowns *unknowns,
                    double step[UNKNOWNS]);
-
-/* Step of a Jacobian. */
-double difference_step(const PeriodMap *map);
 
 #endif

@@ -17,7 +17,7 @@ from .fast_vibration import steady_swing
 from .linear_system import Matrix, Vector
 from .moment import Moment
 from .motion import State
-from .orbit_equations import OrbitEquations, Trial, largest
+from .orbit_equations import DIFFERENCE, OrbitEquations, Trial, largest
 from .orbit_linearisation import linearised
 from .oscillator import transfer
 from .period_map import PeriodMap
@@ -283,7 +283,7 @@ def _solved(
         accepted = _accepted(equations, unknowns, jacobian, step, fresh)
         if accepted is not None:
             following, other, part = accepted
-            if part * size > equations.difference_step:
+            if part * size > DIFFERENCE:
                 jacobian = _updated(jacobian, unknowns, trial, following, other)
             unknowns, trial, fresh, before = following, other, False, size
         elif size <= ROUNDED:

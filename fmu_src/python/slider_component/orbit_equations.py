@@ -16,11 +16,8 @@ from .moment import Moment
 from .motion import State
 from .period_map import PeriodMap
 
-COULOMB_STEP = 1e-6
-"""Step of a Jacobian in the scales of the unknowns, under Coulomb friction."""
-
-LUGRE_STEP = 1e-5
-"""The same under LuGre friction."""
+DIFFERENCE = 1e-6
+"""Step of a Jacobian in the scales of the unknowns."""
 
 
 class Trial(NamedTuple):
@@ -48,11 +45,6 @@ class OrbitEquations:
     given: float = 0.0
     loaded: bool = False
     maps: int = 0
-
-    @property
-    def difference_step(self) -> float:
-        """Step of a Jacobian."""
-        return LUGRE_STEP if self.map.states > 3 else COULOMB_STEP
 
     def section(self, unknowns: Vector) -> Moment:
         """The moment at the section."""
@@ -98,7 +90,7 @@ class OrbitEquations:
         columns = []
         for j in range(len(unknowns)):
             moved = list(unknowns)
-            moved[j] += self.difference_step
+            moved[j] += DIFFERENCE
             other = self.attempt(moved)
             if other is None:
                 return None
