@@ -7,8 +7,8 @@
 #include "orbit_linearisation.h"
 #include "state.h"
 
-/* Correction of the unknowns in their scales up to which an orbit is found, and that up to which it is
- * where rounding ends its decrease. */
+/* Correction of the unknowns in their scales up to which an orbit is found, and that up to which it
+ * is where rounding ends its decrease. */
 #define COULOMB_CONVERGED 1e-13
 #define LUGRE_CONVERGED 1e-12
 #define ROUNDED 1e-9
@@ -19,7 +19,8 @@
 /* Smallest part of a step that is tried. */
 #define SMALLEST_PART 0.015
 
-/* Broyden's update: the Jacobian that takes `moved` to the change of the values, and is else the same. */
+/* Broyden's update: the Jacobian that takes `moved` to the change of the values, and is else the
+ * same. */
 static void update_jacobian(double jacobian[UNKNOWNS][UNKNOWNS], int count,
                             const double moved[UNKNOWNS], const double before[UNKNOWNS],
                             const double after[UNKNOWNS]) {
@@ -46,8 +47,8 @@ static Unknowns advanced(const Unknowns *unknowns, const double step[UNKNOWNS], 
     return next;
 }
 
-/* Newton's method from `unknowns`, damped, with `jacobian` kept as long as it serves; `fresh` where it was
- * taken at `unknowns`. Leaves unknowns, trial and Jacobian at the orbit. */
+/* Newton's method from `unknowns`, damped, with `jacobian` kept as long as it serves; `fresh` where
+ * it was taken at `unknowns`. Leaves unknowns, trial and Jacobian at the orbit. */
 static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *trial,
                          double jacobian[UNKNOWNS][UNKNOWNS], bool fresh) {
     int count = equations->map->states + 1;
@@ -113,7 +114,8 @@ static Unknowns vibration_alone(const OrbitEquations *equations, int direction) 
     section.state.displacement = swing.displacement;
     section.state.rate = swing.rate;
     section.state.velocity = map->speed * (velocity + direction);
-    return unknowns_of(equations, &section, equations->loaded ? equations->given * map->force : 0.0);
+    double load = equations->loaded ? equations->given * map->force : 0.0;
+    return unknowns_of(equations, &section, load);
 }
 
 /* Where the tangent at a neighbour leads, and its Jacobian; false where it has none. */
@@ -212,7 +214,8 @@ OrbitStatus held_orbit_at(const PeriodMap *map, double lead, double velocity,
 
 OrbitStatus steady_orbit_at(const PeriodMap *map, double lead, double load,
                             const HeldOrbit *neighbour, HeldOrbit *orbit) {
-    OrbitEquations equations = {.map = map, .lead = lead, .given = load / map->force, .loaded = true};
+    OrbitEquations equations = {
+        .map = map, .lead = lead, .given = load / map->force, .loaded = true};
     OrbitStatus status = precondition(map);
     if (status != ORBIT_FOUND) {
         return status;

@@ -4,10 +4,11 @@
 
 #include "state.h"
 
-/* Error of slow motion over the square of the change of V in a period, both in v_q: with the root of the
- * waves of the normal load in a turn of the drive, one at least; with the periods that the resonator
- * remembers; with the added mass over the total one; and in flight, for the kinks of its curves, with that
- * change of V. Fitted to transients of random devices with a friction share up to 0.1. */
+/* Error of slow motion over the square of the change of V in a period, both in v_q: with the root
+ * of the waves of the normal load in a turn of the drive, one at least; with the periods that the
+ * resonator remembers; with the added mass over the total one; and in flight, for the kinks of its
+ * curves, with that change of V. Fitted to transients of random devices with a friction share up to
+ * 0.1. */
 #define ERROR_OF_WAVES 0.012
 #define ERROR_OF_MEMORY 0.0025
 #define ERROR_OF_ADDED_MASS 2.5

@@ -1,5 +1,5 @@
-/* The equations of a periodic motion: the state repeats after a period, and its mean velocity or its load
- * is given.
+/* The equations of a periodic motion: the state repeats after a period, and its mean velocity or
+ * its load is given.
  *
  * All numbers are in the scales of the period map. */
 #ifndef SLIDER_ORBIT_EQUATIONS_H
@@ -14,8 +14,8 @@
 /* Step of a Jacobian in the scales of the unknowns. */
 #define DIFFERENCE 1e-6
 
-/* The states at the section, which are W, displacement and velocity of the resonator and under LuGre
- * friction the friction of the bristle; after them the load. */
+/* The states at the section, which are W, displacement and velocity of the resonator and under
+ * LuGre friction the friction of the bristle; after them the load. */
 typedef struct {
     double at[UNKNOWNS];
 } Unknowns;
@@ -30,8 +30,8 @@ typedef struct {
     Stops stops;
 } OrbitEquations;
 
-/* What unknowns lead to: by how much the states change in a period, and then the mean velocity; the moments
- * at both ends. */
+/* What unknowns lead to: by how much the states change in a period, and then the mean velocity; the
+ * moments at both ends. */
 typedef struct {
     double values[UNKNOWNS];
     Moment section, after;
@@ -50,8 +50,8 @@ bool try_unknowns(OrbitEquations *equations, const Unknowns *unknowns, Trial *tr
 bool differentiate(OrbitEquations *equations, const Unknowns *unknowns, const Trial *trial,
                    double jacobian[UNKNOWNS][UNKNOWNS]);
 
-/* The step of Newton's method that leads from `values` at `unknowns` to what is asked for. Returns its
- * largest entry; infinite where the Jacobian is singular. */
+/* The step of Newton's method that leads from `values` at `unknowns` to what is asked for. Returns
+ * its largest entry; infinite where the Jacobian is singular. */
 double newton_step(const OrbitEquations *equations, double jacobian[UNKNOWNS][UNKNOWNS],
                    const double values[UNKNOWNS], const Unknowns *unknowns,
                    double step[UNKNOWNS]);

@@ -7,8 +7,8 @@
 /* Decay in a period below which its series serves. */
 #define SMALL_DECAY 1e-3
 
-/* Iterations of the slow multiplier, each of which leaves the share of the coupling that is left, and
- * squarings of a matrix that leave its spectral radius to 1e-7. */
+/* Iterations of the slow multiplier, each of which leaves the share of the coupling that is left,
+ * and squarings of a matrix that leave its spectral radius to 1e-7. */
 enum { MULTIPLIER_ITERATIONS = 6, SQUARINGS = 24 };
 
 /* The left eigenvector of the slow multiplier, its first entry 1, and 1 - rho in `decay`. */
@@ -76,8 +76,8 @@ static double fast_multiplier(double jacobian[UNKNOWNS][UNKNOWNS], int states,
     return spectral_radius(fast, states - 1);
 }
 
-/* By how much the mean of an exponential decay over a period is above its start, over its change: 1 / ln(1 -
- * d) + 1 / d. */
+/* By how much the mean of an exponential decay over a period is above its start, over its change: 1
+ * / ln(1 - d) + 1 / d. */
 static double mean_share(double decay) {
     return fabs(decay) < SMALL_DECAY ? 0.5 + decay / 12.0 : 1.0 / log1p(-decay) + 1.0 / decay;
 }

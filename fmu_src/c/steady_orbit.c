@@ -15,8 +15,8 @@ enum { SAMPLES = 12, MAX_HALVINGS = 60 };
 /* Force, over full friction, that is rounding or the tolerance of a map. */
 #define NOISE 1e-9
 
-/* What lies between two velocities [m/s], at the first of which friction and load together drive the
- * slider on, and at the second brake it. `orbit` is one of them. */
+/* What lies between two velocities [m/s], at the first of which friction and load together drive
+ * the slider on, and at the second brake it. `orbit` is one of them. */
 typedef struct {
     double low, high;
     HeldOrbit orbit;
@@ -42,9 +42,9 @@ static OrbitStatus refine(const PeriodMap *map, double lead, double load, Bracke
     return ORBIT_NOT_CONVERGED;
 }
 
-/* What the samples have shown so far: the highest velocity [m/s] at which friction and load drive the slider
- * on, whether one with a braking force may follow it, the samples in balance since, and how many brackets
- * there are. */
+/* What the samples have shown so far: the highest velocity [m/s] at which friction and load drive
+ * the slider on, whether one with a braking force may follow it, the samples in balance since, and
+ * how many brackets there are. */
 typedef struct {
     double low;
     bool drives;

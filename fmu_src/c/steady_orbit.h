@@ -6,9 +6,9 @@
 
 #include "held_orbit.h"
 
-/* Finds the steady motion under `load` [N] to which motion at other velocities tends. Orbits at a few
- * velocities tell how many there are: ORBIT_RUNS_AWAY for none, ORBIT_UNDETERMINED for several, and the
- * reason of the last failure where no orbit was found. */
+/* Finds the steady motion under `load` [N] to which motion at other velocities tends. Orbits at a
+ * few velocities tell how many there are: ORBIT_RUNS_AWAY for none, ORBIT_UNDETERMINED for several,
+ * and the reason of the last failure where no orbit was found. */
 OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrbit *orbit);
 
 /* The load [N] that stops the slider, in `force`. */
