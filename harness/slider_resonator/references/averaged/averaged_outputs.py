@@ -18,6 +18,7 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import (
     MAX_DETUNING,
     AveragedMotion,
+    full_friction,
     mean_friction,
 )
 from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
@@ -64,6 +65,10 @@ def averaged_outputs(
     normal = np.maximum(0.0, device.normal_preload + device.normal_amplitude * np.sin(chi))
     friction = np.empty_like(times)
     for index, (ratio, slow) in enumerate(zip(ratios[pieces], motion.mean_velocity, strict=True)):
+        if force.velocity_amplitude == 0.0:
+            full, load = full_friction(device, float(chi[index]), ratio), held[pieces[index]].load
+            friction[index] = np.clip(-load, -full, full) if slow == 0.0 else np.sign(slow) * full
+            continue
         turns = turns_until_repeat(device.amplitude_ratio, ratio, MAX_DETUNING)
         near = round(turns * ratio) / turns if turns else ratio
         lead = float(chi[index] - near * theta[index])
