@@ -146,9 +146,7 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: references.predictions(lambda r: r.predicted_velocity),
     },
     "predicted_blocking_forces": {
-        "averaged": lambda references: references.predictions(
-            lambda r: r.predicted_blocking_force
-        ),
+        "averaged": lambda references: references.predictions(lambda r: r.predicted_blocking_force),
     },
     "ripple_amplitude": {"closed_form": lambda references: references.ripple_amplitude},
     "ripple_frequency": {"closed_form": lambda references: 1.0 / references.drive_period},

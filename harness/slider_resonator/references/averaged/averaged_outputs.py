@@ -48,7 +48,8 @@ def averaged_outputs(
     """Return the outputs that go with an averaged motion under the same held inputs.
 
     A sample on a boundary between inputs belongs to the inputs before it. The resonator swings
-    steadily from the first instant on, whatever its initial values. Raises ValueError as `equivalent_force` does.
+    steadily from the first instant on, whatever its initial values. Raises ValueError as
+    `equivalent_force` does.
     """
     force, times = equivalent_force(device), motion.time
     rate = device.drive_frequency

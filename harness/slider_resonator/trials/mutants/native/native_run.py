@@ -94,7 +94,7 @@ def run_changes(
 
         def verdict(number: int) -> ChangeVerdict:
             change = changes[number]
-            faulty = workshop.build(f"change_{number}", {change.file: texts[number]})
+            faulty = workshop.build(change.name, {change.file: texts[number]})
             try:
                 seen = trial(faulty, points, time_limit)
             finally:
@@ -116,9 +116,7 @@ def run_changes(
     return NativeRun(str(path), verdicts, time.perf_counter() - began)
 
 
-def _by_cost(
-    fmu: Path, points: Sequence[ExpectedPoint], time_limit: float
-) -> list[ExpectedPoint]:
+def _by_cost(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> list[ExpectedPoint]:
     """Return the points, the cheapest first; FmuError unless the unchanged FMU passes all."""
     outcome = trial(fmu, points, time_limit)
     if isinstance(outcome, Rejection):

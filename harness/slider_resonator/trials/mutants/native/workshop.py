@@ -132,7 +132,9 @@ class Workshop:
         except subprocess.TimeoutExpired as error:
             raise HarnessError(f"{self._compiler} takes more than {TIME_LIMIT:.0f} s") from error
         if done.returncode != 0:
-            raise HarnessError(f"{self._compiler} cannot compile:\n{done.stderr.strip()}")
+            raise HarnessError(
+                f"{folder.name}: {self._compiler} cannot compile:\n{done.stderr.strip()}"
+            )
 
 
 def _compiler() -> str:
