@@ -7,14 +7,13 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
-    BUILT_FMUS,
     Target,
-    default_fmus,
     json_option,
     scenes_option,
     time_limit_option,
 )
-from slider_resonator.errors import FmuError, HarnessError, unknown_name
+from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.output.console import output, progress_bar
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import distinct
@@ -144,7 +143,7 @@ def mutants_command(
             raise click.UsageError("--native refused: must be without --kind and --html")
         context.exit(
             _native(
-                fmu or _built(BUILT_FMUS[0]),
+                fmu or finished_path(FMUS["native"], COMMANDS_LOOK_IN),
                 _chosen_changes(files, count, seed),
                 scenes,
                 only_list=only_list,
@@ -153,7 +152,7 @@ def mutants_command(
                 as_json=as_json,
             )
         )
-    path = fmu or _built(BUILT_FMUS[1])
+    path = fmu or finished_path(FMUS["python"], COMMANDS_LOOK_IN)
     distinct({"--html": html}, {f"the FMU {path}": path})
     original = read_python_fmu(path)
     made = [m for m in fmu_mutants(original, files) if not kinds or m.kind in kinds]
@@ -187,14 +186,6 @@ def mutants_command(
     else:
         print_run(output(), run)
     context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)
-
-
-def _built(wanted: Path) -> Path:
-    """Return a built FMU; FmuError where there is none."""
-    for path in default_fmus():
-        if path.name == wanted.name:
-            return path
-    raise FmuError(f"{wanted}: no such file; build it with: python build_fmu.py")
 
 
 def _chosen_changes(files: tuple[str, ...], count: int | None, seed: int) -> list[Change]:
