@@ -68,8 +68,8 @@ SceneLike = str | Path | Mapping[str, Any] | Scene
 class OpenFmu:
     """An FMU that runs in a process of its own: it may crash or hang and the script goes on.
 
-    Use it in a `with` block, or `close` it. Every method may take the `time_limit` (s) it was opened with, and
-    raises HarnessError where the FMU refuses, crashes or exceeds that.
+    Use it in a `with` block, or `close` it. Every method may take the `time_limit` (s) that it was
+    opened with, and raises HarnessError where the FMU refuses, crashes or exceeds that.
     """
 
     def __init__(self, fmu: Path, time_limit: float) -> None:
