@@ -129,23 +129,23 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         **_at_the_end(ReferenceSide.mean_velocity),
         "averaged": lambda references: float(references.averaged_motion.mean_velocity[-1]),
     },
-    "mean_velocities": {
+    "mean_velocity_in_run": {
         **_in_run(mean_velocities),
         "averaged": lambda references: references.averaged_motion.mean_velocity,
     },
     "stick_fraction": _at_the_end(ReferenceSide.stick_fraction),
-    "stick_fractions": {
+    "stick_fraction_in_run": {
         **_in_run(stick_fractions),
         "averaged": lambda references: np.zeros_like(references.times),
     },
     "reversals": {reference: _reversals(reference) for reference in RESOLVED},
-    "reversal_counts": {**_in_run(reversal_counts), "averaged": _without_events},
+    "reversals_in_run": {**_in_run(reversal_counts), "averaged": _without_events},
     "event_times": {**_in_run(last_events), "averaged": _without_events},
     "last_event_time": _at_the_end(ReferenceSide.last_event_time),
-    "predicted_velocities": {
+    "predicted_velocity_in_run": {
         "averaged": lambda references: references.predictions(lambda r: r.predicted_velocity),
     },
-    "predicted_blocking_forces": {
+    "predicted_blocking_force_in_run": {
         "averaged": lambda references: references.predictions(lambda r: r.predicted_blocking_force),
     },
     "ripple_amplitude": {"closed_form": lambda references: references.ripple_amplitude},

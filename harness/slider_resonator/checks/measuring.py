@@ -87,13 +87,13 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
         fmu.record.times, fmu.record["position"], fmu.drive_period
     ),
     "mean_velocity": _final("mean_velocity"),
-    "mean_velocities": _output("mean_velocity"),
+    "mean_velocity_in_run": _output("mean_velocity"),
     "stick_fraction": _final("stick_fraction"),
-    "stick_fractions": _output("stick_fraction"),
+    "stick_fraction_in_run": _output("stick_fraction"),
     "reversals": _final("reversals"),
-    "reversal_counts": _output("reversals"),
-    "predicted_velocities": _output("steady_velocity"),
-    "predicted_blocking_forces": _output("blocking_force"),
+    "reversals_in_run": _output("reversals"),
+    "predicted_velocity_in_run": _output("steady_velocity"),
+    "predicted_blocking_force_in_run": _output("blocking_force"),
     "event_times": lambda fmu: fmu.record["last_event_time"] / fmu.drive_period,
     "last_event_time": _final("last_event_time"),
     "ripple_amplitude": lambda fmu: ripple_amplitude(

@@ -72,7 +72,7 @@ class ReferenceSide:
         Its times are the communication points and the ends of drive periods that means need.
         """
         if reference not in self._trajectories:
-            every = any(expect.quantity == "mean_velocities" for expect in self.scene.expect)
+            every = any(expect.quantity == "mean_velocity_in_run" for expect in self.scene.expect)
             means = self.times if every else self.times[-1:]
             times = np.union1d(self.times, period_ends(means, self.drive_period))
             self._trajectories[reference] = self._simulate(reference, times)

@@ -120,7 +120,7 @@ QUANTITIES: Mapping[str, Quantity] = {
         "mean velocity over the last whole drive period of the run",
         *(*RESOLVED, "averaged"),
     ),
-    "mean_velocities": _signal(
+    "mean_velocity_in_run": _signal(
         "m/s",
         "mean velocity over the last whole drive period before each point, first since the start",
         *(*RESOLVED, "averaged"),
@@ -128,14 +128,14 @@ QUANTITIES: Mapping[str, Quantity] = {
     "stick_fraction": _number_of_run(
         "1", "share of the last whole drive period of the run spent sticking", *RESOLVED
     ),
-    "stick_fractions": _signal(
+    "stick_fraction_in_run": _signal(
         "1",
         "share of the last whole drive period before each point spent sticking, first since the "
         "start",
         *(*RESOLVED, "averaged"),
     ),
     "reversals": _number_of_run("1", "reversals of sliding during the run", *RESOLVED, exact=True),
-    "reversal_counts": _signal(
+    "reversals_in_run": _signal(
         "1",
         "share of points with another number of reversals so far",
         *(*RESOLVED, "averaged"),
@@ -150,8 +150,8 @@ QUANTITIES: Mapping[str, Quantity] = {
         in_periods=True,
     ),
     "last_event_time": _number_of_run("s", "time of the last event of the run", *RESOLVED),
-    "predicted_velocities": _signal("m/s", "the FMU's output steady_velocity", "averaged"),
-    "predicted_blocking_forces": _signal("N", "the FMU's output blocking_force", "averaged"),
+    "predicted_velocity_in_run": _signal("m/s", "the FMU's output steady_velocity", "averaged"),
+    "predicted_blocking_force_in_run": _signal("N", "the FMU's output blocking_force", "averaged"),
     "ripple_amplitude": _number_of_run(
         "m", "amplitude of the fast oscillation of the position", "closed_form"
     ),

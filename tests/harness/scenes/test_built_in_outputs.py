@@ -21,12 +21,12 @@ SHOWN_BY: Mapping[str, Sequence[str]] = {
             *("normal_force", "friction_force", "contact_mode"),
         )
     },
-    "mean_velocity": ("mean_velocities",),
-    "reversals": ("reversal_counts",),
-    "stick_fraction": ("stick_fractions", "stick_fraction"),
+    "mean_velocity": ("mean_velocity_in_run",),
+    "reversals": ("reversals_in_run",),
+    "stick_fraction": ("stick_fraction_in_run", "stick_fraction"),
     "last_event_time": ("event_times",),
-    "steady_velocity": ("predicted_velocities",),
-    "blocking_force": ("predicted_blocking_forces",),
+    "steady_velocity": ("predicted_velocity_in_run",),
+    "blocking_force": ("predicted_blocking_force_in_run",),
 }
 """Output to the quantities that compare it."""
 
