@@ -11,6 +11,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.slow import slow_displacement
 from slider_resonator.checks.measures.tube import Tube, no_tube
 from slider_resonator.checks.period_means import (
+    DriveTurns,
     last_events,
     mean_velocities,
     reversal_counts,
@@ -57,7 +58,7 @@ def _reversals(reference: str) -> Expected:
     return lambda references: references.trajectory(reference).reversals
 
 
-def _in_run(measure: Callable[[Trajectory, Array, float], Any]) -> Mapping[str, Expected]:
+def _in_run(measure: Callable[[Trajectory, Array, DriveTurns], Any]) -> Mapping[str, Expected]:
     def of(reference: str) -> Expected:
         return lambda references: references.in_run(reference, measure)
 
@@ -93,6 +94,12 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "predicted_blocking_force": {
         "closed_form": lambda references: references.averaged_blocking_force,
         "averaged": lambda references: references.predicted_blocking_force,
+    },
+    "predicted_velocity_in_run": {
+        "averaged": lambda references: references.predictions("predicted_velocity"),
+    },
+    "predicted_blocking_force_in_run": {
+        "averaged": lambda references: references.predictions("predicted_blocking_force"),
     },
     "final_predicted_velocity": {
         "averaged": lambda references: references.at_the_end.predicted_velocity,
@@ -142,12 +149,6 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "reversals_in_run": {**_in_run(reversal_counts), "averaged": _without_events},
     "event_times": {**_in_run(last_events), "averaged": _without_events},
     "last_event_time": _at_the_end(ReferenceSide.last_event_time),
-    "predicted_velocity_in_run": {
-        "averaged": lambda references: references.predictions(lambda r: r.predicted_velocity),
-    },
-    "predicted_blocking_force_in_run": {
-        "averaged": lambda references: references.predictions(lambda r: r.predicted_blocking_force),
-    },
     "ripple_amplitude": {"closed_form": lambda references: references.ripple_amplitude},
     "ripple_frequency": {"closed_form": lambda references: 1.0 / references.drive_period},
     "beat_frequency": {"closed_form": lambda references: references.difference_frequency},

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -11,11 +12,13 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.tube import Tube
 from slider_resonator.checks.period_means import (
+    DriveTurns,
     last_events,
     mean_velocities,
-    period_ends,
     stick_fractions,
 )
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
@@ -44,13 +47,18 @@ TUBE_POINTS = 3
 class ReferenceSide:
     """Trajectories, steady motion and closed forms for one scene, computed on first use.
 
-    Steady motion and closed forms are for constant `inputs` by name (rad, N, 1), by default those
-    at the start.
+    Steady motion and closed forms are for constant `inputs` by name (rad, N, 1) and a `device`, by
+    default those at the start.
     """
 
-    def __init__(self, scene: Scene, inputs: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        inputs: Mapping[str, float] | None = None,
+        device: Device | None = None,
+    ) -> None:
         self.scene = scene
-        self.device = scene.device
+        self.device = device or scene.device
         start = {name: signal.at(0.0) for name, signal in scene.signals.items()}
         self.inputs = start if inputs is None else inputs
         self._trajectories: dict[str, Trajectory] = {}
@@ -63,8 +71,8 @@ class ReferenceSide:
 
     @cached_property
     def times(self) -> Array:
-        """Communication points of the scene (s), shape (n,)."""
-        return self.scene.schedule().times
+        """Times of the scene (s) at which outputs are read, shape (n,)."""
+        return self.scene.schedule().readings()
 
     def trajectory(self, reference: str) -> Trajectory:
         """Return the trajectory of `located_events`, `taylor` or, for LuGre, `bristle_state`.
@@ -74,7 +82,7 @@ class ReferenceSide:
         if reference not in self._trajectories:
             every = any(expect.quantity == "mean_velocity_in_run" for expect in self.scene.expect)
             means = self.times if every else self.times[-1:]
-            times = np.union1d(self.times, period_ends(means, self.drive_period))
+            times = np.union1d(self.times, self.turns.ends(means))
             self._trajectories[reference] = self._simulate(reference, times)
         return self._trajectories[reference]
 
@@ -95,14 +103,17 @@ class ReferenceSide:
         window = values[np.searchsorted(run.time, around)]
         return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
 
-    def in_run(self, reference: str, measure: Callable[[Trajectory, Array, float], Any]) -> Any:
+    def in_run(
+        self, reference: str, measure: Callable[[Trajectory, Array, DriveTurns], Any]
+    ) -> Any:
         """Return a measure of `period_means` at the communication points."""
-        return measure(self.trajectory(reference), self.times, self.drive_period)
+        return measure(self.trajectory(reference), self.times, self.turns)
 
     def last_event_time(self, reference: str) -> float:
-        """Return the time (s) of the last event, 0 without any."""
+        """Return the time (s) of the last event, that of the start without any."""
         run, end = self.trajectory(reference), self.times[-1:]
-        return float(last_events(run, end, self.drive_period).middle[0]) * self.drive_period
+        last = float(last_events(run, end, self.turns).middle[0])
+        return self.scene.start_time + last * self.drive_period
 
     def _simulate(self, reference: str, times: Array) -> Trajectory:
         return _SIMULATORS[reference](self.device, self.scene.schedule().held(), times)
@@ -120,12 +131,12 @@ class ReferenceSide:
     def mean_velocity(self, reference: str) -> float:
         """Return the mean velocity (m/s) over the last whole drive period of the run."""
         run, end = self.trajectory(reference), self.times[-1:]
-        return float(mean_velocities(run, end, self.drive_period)[0])
+        return float(mean_velocities(run, end, self.turns)[0])
 
     def stick_fraction(self, reference: str) -> float:
         """Return the share of the last whole drive period of the run that is spent sticking."""
         run, end = self.trajectory(reference), self.times[-1:]
-        return float(stick_fractions(run, end, self.drive_period)[0])
+        return float(stick_fractions(run, end, self.turns)[0])
 
     @cached_property
     def steady_velocity(self) -> float | None:
@@ -162,30 +173,29 @@ class ReferenceSide:
 
     @property
     def at_the_end(self) -> ReferenceSide:
-        """The same device under the inputs at the end of the run.
+        """The device and the inputs at the end of the run, as constant ones."""
+        return self._under(self.scene.schedule().held())
+
+    def _under(self, held: Sequence[HeldInputs]) -> ReferenceSide:
+        """Return the references for the last of held inputs.
 
         The phase (rad) includes the lead of the normal force from earlier frequency ratios.
         """
-        return self._pieces[-1]
+        now = held[-1]
+        ratio = now.frequency_ratio
+        lead = sum(
+            (h.frequency_ratio - ratio) * _drive_frequency(h, self.device) * (h.stop - h.start)
+            for h in held
+        )
+        inputs = {"phase": now.phase + lead, "load": now.load, "frequency_ratio": ratio}
+        return ReferenceSide(self.scene, inputs, now.tuned_device(self.scene.device))
 
-    @cached_property
-    def _pieces(self) -> list[ReferenceSide]:
-        """The same device under each of the held inputs, as for `at_the_end`."""
-        pieces, led = [], 0.0
-        for held in self.scene.schedule().held():
-            ratio = held.frequency_ratio
-            phase = held.phase + (led - ratio * held.start) * self.device.drive_frequency
-            inputs = {"phase": phase, "load": held.load, "frequency_ratio": ratio}
-            pieces.append(ReferenceSide(self.scene, inputs))
-            led += ratio * (held.stop - held.start)
-        return pieces
-
-    def predictions(self, predict: Callable[[ReferenceSide], float]) -> Array:
-        """Return a prediction under the inputs before each communication point, shape (n,)."""
-        stops = [held.stop for held in self.scene.schedule().held()]
-        index = np.searchsorted(stops, self.times, side="left")
-        values = {piece: predict(self._pieces[piece]) for piece in np.unique(index).tolist()}
-        return np.array([values[piece] for piece in index.tolist()])
+    def predictions(self, name: str) -> Array:
+        """Return a prediction over the run, by its name, shape (n,); m/s or N."""
+        held = self.scene.schedule().held()
+        values = np.array([getattr(self._under(held[: i + 1]), name) for i in range(len(held))])
+        starts = np.array([inputs.start for inputs in held[1:]])
+        return np.asarray(values[np.searchsorted(starts, self.times, side="left")])
 
     @property
     def averaged_velocity(self) -> float:
@@ -214,7 +224,22 @@ class ReferenceSide:
         ratio = self.inputs["frequency_ratio"]
         return abs(ratio - round(ratio)) / self.drive_period
 
+    @cached_property
+    def turns(self) -> DriveTurns:
+        """The whole turns of the drive."""
+        if not self.scene.tuning:
+            return DriveTurns(self.drive_period)
+        held = self.scene.schedule().held()
+        rates = [_drive_frequency(inputs, self.device) for inputs in held]
+        turned = [r * (h.stop - h.start) / (2.0 * pi) for r, h in zip(rates, held, strict=True)]
+        times = (held[0].start, *(inputs.stop for inputs in held))
+        return DriveTurns(self.drive_period, times, (0.0, *np.cumsum(turned).tolist()))
+
     def _require_equal_frequencies(self) -> None:
         ratio = self.inputs["frequency_ratio"]
         if ratio != 1.0:
             raise ValueError(f"frequency_ratio = {ratio!r}: the closed form allows only 1")
+
+
+def _drive_frequency(inputs: HeldInputs, device: Device) -> float:
+    return inputs.tuned_device(device).drive_frequency

@@ -124,7 +124,7 @@ def test_predictions_follow_the_inputs_before_each_point() -> None:
         "frequency_ratio = { steps = [[0.0, 1.0], [0.002, 1.5], [0.003, 1.0]] }\n"
     )
     reference = side(inputs + "[run]\nstop_time = 0.004\nstep_size = 0.001\n")
-    found = reference.predictions(lambda r: r.predicted_velocity)
+    found = reference.predictions("predicted_velocity")
     at_start = side(RUN).predicted_velocity
     assert found[:2] == pytest.approx([at_start] * 2), "a point on a change is still before it"
     assert found[2] == side("[inputs]\nload = 0.02\n" + RUN).predicted_velocity

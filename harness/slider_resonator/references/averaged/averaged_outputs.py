@@ -22,7 +22,8 @@ from slider_resonator.references.averaged.averaged_motion import (
     mean_friction,
 )
 from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
+from slider_resonator.references.phase import advanced
 
 _LIFTED = 2
 
@@ -51,28 +52,56 @@ def averaged_outputs(
     steadily from the first instant on, whatever its initial values. Raises ValueError as
     `equivalent_force` does.
     """
-    force, times = equivalent_force(device), motion.time
-    rate = device.drive_frequency
-    pieces = np.searchsorted([inputs.stop for inputs in held], times, side="left")
-    starts = np.array([inputs.start for inputs in held])
-    ratios = np.array([inputs.frequency_ratio for inputs in held])
-    turned = np.append(0.0, np.cumsum(ratios[:-1] * np.diff(starts)))
-    theta = rate * (times - held[0].start)
-    psi = rate * (turned[pieces] + ratios[pieces] * (times - starts[pieces]))
-    chi = psi + np.array([inputs.phase for inputs in held])[pieces]
+    pieces = np.searchsorted([inputs.stop for inputs in held], motion.time, side="left")
+    rows = np.empty((len(motion.time), 5))
+    theta = psi = 0.0
+    for index, inputs in enumerate(held):
+        here = pieces == index
+        tuned = inputs.tuned_device(device)
+        frequency = tuned.drive_frequency
+        turned = frequency * (motion.time[here] - inputs.start)
+        at = theta + turned, psi + inputs.phase + inputs.frequency_ratio * turned
+        rows[here] = _rows(tuned, inputs, at, motion.velocity[here], motion.mean_velocity[here])
+        span = frequency * (inputs.stop - inputs.start)
+        theta, psi = advanced(theta, span), advanced(psi, inputs.frequency_ratio * span)
+    displacement, rate, normal, friction, mode = rows.T
+    return AveragedOutputs(displacement, rate, normal, friction, mode.astype(np.int64))
+
+
+def _rows(
+    device: Device, inputs: HeldInputs, angles: tuple[Array, Array], velocity: Array, slow: Array
+) -> Array:
+    """Return the outputs as columns under one of the held inputs, shape (n, 5).
+
+    ``angles`` (rad) are those of drive and normal load.
+    """
+    force = equivalent_force(device)
+    theta, chi = angles
     angle = theta - force.resonator_angle
     displacement = force.resonator_amplitude * np.sin(angle)
-    velocity = rate * force.resonator_amplitude * np.cos(angle)
+    rate = device.drive_frequency * force.resonator_amplitude * np.cos(angle)
     normal = np.maximum(0.0, device.normal_preload + device.normal_amplitude * np.sin(chi))
-    friction = np.empty_like(times)
-    for index, (ratio, slow) in enumerate(zip(ratios[pieces], motion.mean_velocity, strict=True)):
-        if force.velocity_amplitude == 0.0:
-            full, load = full_friction(device, float(chi[index]), ratio), held[pieces[index]].load
-            friction[index] = np.clip(-load, -full, full) if slow == 0.0 else np.sign(slow) * full
-            continue
-        turns = turns_until_repeat(device.amplitude_ratio, ratio, MAX_DETUNING)
-        near = round(turns * ratio) / turns if turns else ratio
-        lead = float(chi[index] - near * theta[index])
-        friction[index] = mean_friction(device, force, slow, lead, near)
-    mode = np.where(normal > 0.0, np.sign(motion.velocity), float(_LIFTED)).astype(np.int64)
-    return AveragedOutputs(displacement, velocity, normal, friction, mode)
+    friction = [
+        _friction(device, force, inputs, (float(t), float(c)), float(v))
+        for t, c, v in zip(theta, chi, slow, strict=True)
+    ]
+    mode = np.where(normal > 0.0, np.sign(velocity), float(_LIFTED))
+    return np.column_stack([displacement, rate, normal, friction, mode])
+
+
+def _friction(
+    device: Device,
+    force: EquivalentForce,
+    inputs: HeldInputs,
+    angles: tuple[float, float],
+    slow: float,
+) -> float:
+    """Return the mean friction (N) at a slow velocity (m/s); angles as for `_rows`."""
+    theta, chi = angles
+    ratio = inputs.frequency_ratio
+    if force.velocity_amplitude == 0.0:
+        full = full_friction(device, chi, ratio)
+        return float(np.clip(-inputs.load, -full, full) if slow == 0.0 else np.sign(slow) * full)
+    turns = turns_until_repeat(device.amplitude_ratio, ratio, MAX_DETUNING)
+    near = round(turns * ratio) / turns if turns else ratio
+    return mean_friction(device, force, slow, chi - near * theta, near)
