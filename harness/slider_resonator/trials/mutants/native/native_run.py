@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -12,6 +11,7 @@ from pathlib import Path
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measuring import measure_all
 from slider_resonator.errors import FmuError
+from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.native.changes import Change
 from slider_resonator.trials.mutants.native.workshop import Workshop, read_native_sources
 from slider_resonator.trials.mutants.points import scene_points
@@ -86,8 +86,8 @@ def run_changes(
     began = time.perf_counter()
     sources = read_native_sources(path)
     texts = [change.applied(sources.files) for change in changes]
-    with tempfile.TemporaryDirectory(prefix="slider-resonator-mutants-") as name:
-        workshop = Workshop(sources, Path(name))
+    with temporary_folder() as folder:
+        workshop = Workshop(sources, folder)
         points = scene_points(scene_files, progress)
         progress("the unchanged FMU", 0.0)
         points = _by_cost(workshop.build("unchanged", {}), points, time_limit)
