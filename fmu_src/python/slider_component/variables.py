@@ -380,6 +380,16 @@ VARIABLES: tuple[Variable, ...] = (
         depends_on=("phase", "frequency_ratio"),
         depends_initially_on=_AVERAGED_THEORY,
     ),
+    _count(
+        "prediction_valid",
+        "1: steady_velocity and blocking_force apply; 0: the load exceeds the mean friction of "
+        "sliding, or there is no steady vibration that overcomes this friction",
+        unit="1",
+        minimum=0.0,
+        maximum=1.0,
+        depends_on=_INPUTS,
+        depends_initially_on=(*_AVERAGED_THEORY, "load"),
+    ),
 )
 
 VALUE_REFERENCE: dict[str, int] = {v.name: i for i, v in enumerate(VARIABLES)}

@@ -36,5 +36,6 @@ OUTPUTS: Mapping[str, str] = {
     "last_event_time": "s",
     "steady_velocity": "m/s",
     "blocking_force": "N",
+    "prediction_valid": "1",
 }
 """Output name to unit."""
