@@ -228,8 +228,8 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _fixed(
         "initial_velocity",
-        "Slider velocity at the start; at fidelity 0 and 1, where the resonator vibrates at once, it "
-        "fixes with initial_resonator_velocity the momentum of the pair",
+        "Slider velocity at the start; at fidelity 0 and 1 it fixes, with "
+        "initial_resonator_velocity, the momentum of slider and resonator",
         start=0.0,
         unit="m/s",
         display_unit="mm/s",

@@ -117,8 +117,8 @@ class _ReferencePeriodMap:
         resonator = STATE[1:3] if device.fidelity == 2 else ()
         bristle = STATE[3:] if device.friction_law == 1 else ()
         self.names = (STATE[0], *resonator, *bristle)
-        at_rest = replace(device, **dict.fromkeys(_INITIAL, 0.0))
-        self._velocity_from_rest = initial_state(at_rest)[1]
+        at_rest: dict[str, Any] = dict.fromkeys(_INITIAL, 0.0)
+        self._velocity_from_rest = initial_state(replace(device, **at_rest))[1]
 
     def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
         """Run one common period."""

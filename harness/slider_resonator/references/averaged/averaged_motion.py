@@ -9,6 +9,7 @@ The fast motion is that of (32)-(34).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -28,6 +29,10 @@ from slider_resonator.references.phase import advanced
 MAX_DETUNING = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow. For a
 load that repeats after several turns: of turns times the ratio, times the turns."""
+
+STEPS_PER_BEAT = 32
+"""Steps of the integrator, at least, in the time in which the phase of the normal load drifts by a
+turn."""
 
 
 @dataclass(frozen=True)
@@ -84,8 +89,9 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     for inputs in held:
         local = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
         grid = np.union1d(local, [0.0, inputs.stop - inputs.start])
-        slope = _slow_acceleration(device, force, inputs, theta, psi)
-        moved, velocity = slow_trajectory(slope, grid, slow / force.velocity_amplitude)
+        slope, drift = _slow_acceleration(device, force, inputs, theta, psi)
+        max_step = 2.0 * math.pi / (STEPS_PER_BEAT * drift) if drift else math.inf
+        moved, velocity = slow_trajectory(slope, grid, slow / force.velocity_amplitude, max_step)
         moved, velocity = force.velocity_amplitude * moved, force.velocity_amplitude * velocity
         places = np.searchsorted(grid, local)
         angle = theta + device.drive_frequency * local - force.angle
@@ -104,11 +110,11 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
 
 def _slow_acceleration(
     device: Device, force: EquivalentForce, inputs: HeldInputs, theta: float, psi: float
-) -> Callable[[float, float], float]:
-    """Return the rate of V as a function of time and V, both V in units of the fast velocity.
+) -> tuple[Callable[[float, float], float], float]:
+    """Return the rate of V as a function of time and V, and how fast it varies with time (rad/s).
 
-    Time is that since the inputs were set, where base excitation and normal load have the angles
-    ``theta`` and ``psi``.
+    Both V are in units of the fast velocity. Time is that since the inputs were set, where base
+    excitation and normal load have the angles ``theta`` and ``psi``.
     """
     turns = turns_until_repeat(device.amplitude_ratio, inputs.frequency_ratio, MAX_DETUNING)
     ratio = inputs.frequency_ratio
@@ -124,4 +130,4 @@ def _slow_acceleration(
         )
         return -(friction + inputs.load) / momentum
 
-    return acceleration
+    return acceleration, abs(drift) * max(turns, 1)
