@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "angle.h"
+#include "constants.h"
 #include "dormand_prince.h"
 #include "settling.h"
 #include "slow_friction.h"
@@ -16,9 +17,13 @@
 /* What must be left, in first steps, for the motion to settle. */
 #define SETTLING 100.0
 
-/* Steps of averaged motion in one communication step up to which its work is accepted: of those that
- * cost a quadrature each fewer. Before each BLOCK of them it may turn out to have settled. */
-enum { MAX_STEPS = 20000, MAX_EXPENSIVE_STEPS = 1000, BLOCK = 16 };
+/* Waves of the normal load over a turn that double the cost of a quadrature, and those beyond which
+ * the load counts with its mean. */
+#define WAVES 10.0
+#define MAX_WAVES 1000.0
+
+/* Before each BLOCK of steps it may turn out that the motion has settled. */
+enum { BLOCK = 16 };
 
 /* Part of a beat that a step may have: its stages then see all phases of the normal load. */
 #define BEAT_SHARE 0.125
@@ -65,8 +70,8 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Reached
     const Plant *plant = &friction->law->held.plant;
     double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
     double pieces = ceil(duration / longest), piece = duration / pieces;
-    if (pieces > MAX_STEPS) {
-        return refuse_work(refusal, duration, MAX_STEPS * longest, MAX_STEPS,
+    if (pieces > MAX_SLOW_STEPS) {
+        return refuse_work(refusal, duration, MAX_SLOW_STEPS * longest, MAX_SLOW_STEPS,
                            "steps of averaged motion");
     }
     double moved = 0.0;
@@ -77,6 +82,15 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Reached
     }
     reached->moved = moved;
     return true;
+}
+
+/* Steps of averaged motion in one communication step up to which its work is accepted. */
+static int max_steps(const SlowFriction *friction) {
+    if (!slow_friction_is_expensive(friction)) {
+        return MAX_SLOW_STEPS;
+    }
+    double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
+    return (int)fmax(BLOCK, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
 }
 
 /* Largest friction [N] of Coulomb's law under the normal load at any phase. */
@@ -97,7 +111,7 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
     double strongest = strongest_friction(&friction->law->device) + fabs(plant->load);
     double step = strongest > 0.0 ? FIRST_STEP * fast * plant->total_mass / strongest : duration;
     double longest = BEAT_SHARE * friction->beat;
-    int most = slow_friction_is_expensive(friction) ? MAX_EXPENSIVE_STEPS : MAX_STEPS;
+    int most = max_steps(friction);
     Reached now = {.velocity = reached->velocity, .step = step};
     for (int count = 0; now.t < duration && isfinite(now.velocity); count += BLOCK) {
         if (count >= most) {

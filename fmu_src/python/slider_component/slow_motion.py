@@ -13,6 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil, copysign, cos, inf, isfinite, sin, tau
 
+from .averaged_lugre import MAX_WAVES
+from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .dormand_prince import Reached, integrate
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
 from .friction_law import FrictionLaw
@@ -30,14 +32,13 @@ TOLERANCE = 1e-9
 FIRST_STEP = 0.1
 """Step tried first, as a share of the time in which friction changes the fast velocity."""
 
-MAX_STEPS = 20_000
-"""Steps of averaged motion in one communication step up to which its work is accepted."""
-
-MAX_EXPENSIVE_STEPS = 1000
-"""The same where each costs a quadrature."""
+WAVES = 10.0
+"""Waves of the normal load over a turn that double the cost of a quadrature."""
 
 SETTLING = 100.0
 """What must be left, in first steps, for the motion to settle."""
+
+WORK = "steps of averaged motion"
 
 BLOCK = 16
 """Steps before each of which it may turn out that the motion has settled."""
@@ -103,7 +104,7 @@ class SlowLaw:
         strongest = self._strongest_friction() + abs(load)
         step = FIRST_STEP * fast * total / strongest if strongest > 0.0 else duration
         longest = BEAT_SHARE * friction.beat
-        most = MAX_EXPENSIVE_STEPS if friction.is_expensive else MAX_STEPS
+        most = _max_steps(friction.is_expensive, self.held.inputs.frequency_ratio)
         now = Reached(0.0, velocity, 0.0, step)
         for _ in range(0, most, BLOCK):
             if friction.drift == 0.0 and duration - now.t > SETTLING * step:
@@ -113,7 +114,7 @@ class SlowLaw:
             end = _end_of_smoothness(friction, now.t, duration)
             now = integrate(acceleration, now, end, TOLERANCE * fast, BLOCK, longest)
         if now.t < duration and isfinite(now.velocity):
-            raise too_much_work(duration, now.t, most, "steps of averaged motion")
+            raise too_much_work(duration, now.t, most, WORK)
         return now.velocity, now.moved
 
     def _strongest_friction(self) -> float:
@@ -144,6 +145,14 @@ def slow_law(held: Held, friction: FrictionLaw) -> SlowLaw:
     return SlowLaw(held, friction, fast_vibration(held.device))
 
 
+def _max_steps(is_expensive: bool, ratio: float) -> int:
+    """Steps of averaged motion in one communication step up to which its work is accepted."""
+    if not is_expensive:
+        return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
+    waves = min(abs(ratio), MAX_WAVES)
+    return max(BLOCK, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
+
+
 def _end_of_smoothness(friction: SlowFriction, t: float, end: float) -> float:
     """The next kink of the friction after `t`, or `end` [s]."""
     if friction.to_kink is None:
@@ -157,8 +166,9 @@ def _unshaken(
     """Velocity and displacement without vibration: under constant forces in each piece of time."""
     longest = duration if friction.to_kink is None else min(duration, friction.beat / PIECES)
     pieces = ceil(duration / longest)
-    if pieces > MAX_STEPS:
-        raise too_much_work(duration, MAX_STEPS * longest, MAX_STEPS, "steps of averaged motion")
+    most = _max_steps(is_expensive=False, ratio=0.0)
+    if pieces > most:
+        raise too_much_work(duration, most * longest, most, WORK)
     moved, piece = 0.0, duration / pieces
     for k in range(pieces):
         resisting = friction.at((k + 0.5) * piece, inf)
