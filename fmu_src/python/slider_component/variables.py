@@ -367,7 +367,8 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _output(
         "steady_velocity",
-        "Steady velocity that averaged theory predicts for the present inputs (eq. 20)",
+        "Steady velocity that averaged theory predicts for the present inputs (eq. 20); the "
+        "highest where friction and load balance over a range of velocities",
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
