@@ -183,7 +183,7 @@ bool component_get(Component *component, const unsigned *references, double *val
 static bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
     double frequency = LONGEST_ARC / law->held.arc;
     return law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)
-           || refuse_too_many_turns(refusal, step_size, frequency);
+           || refuse_too_many_turns(refusal, step_size, frequency, MAX_TURNS);
 }
 
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {

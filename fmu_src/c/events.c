@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "clock.h"
+#include "constants.h"
 #include "friction_law.h"
 #include "leg.h"
 
@@ -10,20 +11,27 @@
  * presliding on the hardest bristles takes. */
 enum { MAX_LEGS = 20000 };
 
-/* Legs since a turn of the fastest oscillation began at `began` [s]; a turn takes `turn` [s]. */
+/* Legs since a turn of the fastest oscillation began at `began` [s], and `all` legs of the step; a
+ * turn takes `turn` [s]. */
 typedef struct {
-    int legs;
+    int legs, all;
     double began, turn;
 } Work;
 
-/* Counts a leg that begins at `time` [s]; whether its work is accepted. */
-static bool work_count(Work *work, double time) {
+/* Counts a leg that begins at `time` [s] in a step of `duration` [s]. Refuses too much work. */
+static bool work_count(Work *work, double time, double duration, Refusal *refusal) {
     if (time - work->began > work->turn) {
         work->began = time;
         work->legs = 0;
     }
     work->legs++;
-    return work->legs <= MAX_LEGS;
+    work->all++;
+    if (work->legs > MAX_LEGS) {
+        return refuse_work(refusal, duration, time, MAX_LEGS,
+                           "legs in a turn of the fastest oscillation");
+    }
+    return work->all <= MAX_STEP_LEGS
+           || refuse_work(refusal, duration, time, MAX_STEP_LEGS, "legs of motion");
 }
 
 bool events_advance(const Law *law, const Moment *moment, double duration, Moment *now,
@@ -39,9 +47,8 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Momen
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {
-        if (!work_count(&work, clock.elapsed)) {
-            return refuse_work(refusal, duration, clock.elapsed, MAX_LEGS,
-                               "legs in a turn of the fastest oscillation");
+        if (!work_count(&work, clock.elapsed, duration, refusal)) {
+            return false;
         }
         double switching = time_to_switch(&held->window, now->psi + plant->phase,
                                           plant->normal_frequency, now->mode == LIFTED);

@@ -6,8 +6,6 @@ each of its arguments once: `float` and `object` with !r, `str` and `int` withou
 
 from __future__ import annotations
 
-from .constants import MAX_TURNS
-
 
 def out_of_bounds(name: str, value: object, requirement: str) -> str:
     """Refuse a value that the table of variables excludes."""
@@ -72,11 +70,11 @@ def step_beyond_stop(step_size: float, stop_time: float) -> str:
     )
 
 
-def too_many_turns(step_size: float, frequency: float) -> str:
+def too_many_turns(step_size: float, frequency: float, max_turns: int) -> str:
     """Refuse a step over more oscillations than its work is bounded by."""
     return (
         f"doStep: communicationStepSize = {step_size!r} refused: the fastest oscillation has "
-        f"{frequency!r} rad/s; the step must be at most {MAX_TURNS:g} turns of it"
+        f"{frequency!r} rad/s; the step must be at most {max_turns} turns of it"
     )
 
 
