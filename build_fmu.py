@@ -1,6 +1,7 @@
 """Build the FMUs: `python build_fmu.py` writes dist/SliderResonator.fmu and its Python twin.
 
-Besides these it writes a velocity controller, and slider and controller as a closed loop.
+Besides these it writes the native FMU for FMI 3.0, a velocity controller, and slider and controller
+as a closed loop.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ from fmu_src.building.build_error import BuildError
 from fmu_src.building.closed_loop_ssp import build_closed_loop
 from fmu_src.building.controller_fmu import build_controller
 from fmu_src.building.dates import EPOCH
-from fmu_src.building.native_fmu import build_native
-from fmu_src.building.platforms import HOST, PLATFORMS
+from fmu_src.building.native_fmu import build_native, build_native_3
+from fmu_src.building.platforms import HOST, PLATFORMS, PLATFORMS_3
 from fmu_src.building.python_fmu import build_python
 
 
@@ -50,6 +51,8 @@ def _builds(options: argparse.Namespace) -> Iterator[Callable[[], Path]]:
         yield lambda: build_python(options.out)
     if options.only in (None, "native"):
         yield lambda: build_native(options.out, **native)
+    if options.only in (None, "fmi3"):
+        yield lambda: build_native_3(options.out, **native)
     if options.only in (None, "system"):
         slider = options.out / f"{native_fmu.MODEL}.fmu"
         controller = options.out / f"{controller_fmu.MODEL}.fmu"
@@ -61,7 +64,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="build_fmu.py",
         description=f"Build {native_fmu.MODEL}.fmu (native, self-contained on the target) and "
-        f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation; then "
+        f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation; the native one "
+        f"for FMI 3.0, {native_fmu.MODEL_3}.fmu; then "
         f"{controller_fmu.MODEL}.fmu and, with both components, {closed_loop_ssp.MODEL}.ssp.",
         epilog="The same sources give the same bytes, except for random padding in the binary for "
         "macOS. The environment variable SOURCE_DATE_EPOCH (seconds since 1970-01-01) sets the "
@@ -77,15 +81,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--only",
-        choices=("native", "python", "system"),
-        help="build one of the two, or controller and closed loop around the native one",
+        choices=("native", "python", "fmi3", "system"),
+        help="build one of the three, or controller and closed loop around the native one",
     )
     parser.add_argument(
         "--platform",
         action="append",
         default=[],
-        choices=(*PLATFORMS, HOST),
-        help="platform of the native FMUs; may be given more than once (default: all)",
+        choices=(*PLATFORMS_3, HOST),
+        help="platform of the native FMUs; may be given more than once (default: all; those of FMI "
+        f"2.0 are {', '.join(PLATFORMS)})",
     )
     parser.add_argument(
         "--compiler",

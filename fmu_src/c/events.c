@@ -1,6 +1,7 @@
 #include "events.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "clock.h"
 #include "friction_law.h"
@@ -26,8 +27,31 @@ static bool work_count(Work *work, double time) {
     return work->legs <= MAX_LEGS;
 }
 
-bool events_advance(const Law *law, const Moment *moment, double duration, Moment *now,
-                    Refusal *refusal) {
+/* Ends a search with the event at the time of the clock, unless that is too soon. */
+static bool found_at(EventSearch *search, const Clock *clock) {
+    if (search == NULL || !(clock->elapsed >= search->from)) {
+        return false;
+    }
+    search->found = true;
+    search->elapsed = clock->elapsed;
+    search->carry = clock->carry;
+    return true;
+}
+
+/* Whether the finished leg is one of a slider that turned back where the leg began: only the leg
+ * shows whether a stop was a reversal. Then goes back `to` its begin. */
+static bool found_reversal(EventSearch *search, const Clock *clock, const Leg *leg,
+                           const Moment *to, Moment *now) {
+    if (!leg->turns || !found_at(search, clock)) {
+        return false;
+    }
+    *now = *to;
+    now->event_age = 0.0;
+    return true;
+}
+
+bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                    Moment *now, Refusal *refusal) {
     const FrictionLaw *friction = law->friction;
     const Held *held = &law->held;
     const Plant *plant = &held->plant;
@@ -35,6 +59,7 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Momen
     Clock clock = clock_of(duration);
     Work work = {.turn = TAU / LONGEST_ARC * held->arc};
     Leg leg;
+    Moment begin;
     *now = *moment;
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
@@ -46,11 +71,25 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Momen
         double switching = time_to_switch(&held->window, now->psi + plant->phase,
                                           plant->normal_frequency, now->mode == LIFTED);
         double longest = fmin(fmin(remaining, switching), held->arc);
+        if (search != NULL) {
+            begin = *now;
+        }
         friction->follow(&leg, law, now, longest, switching);
         leg_finish(&leg, held, now);
+        if (found_reversal(search, &clock, &leg, &begin, now)) {
+            break;
+        }
         friction->succeed(&leg, law, now, leg.zero_of < 0 && leg.t == switching);
         leg.departs = now->state.velocity == 0.0 && now->mode != -leg.mode;
         remaining = leg.t == remaining ? 0.0 : clock_advance(&clock, leg.t);
+        if (remaining == 0.0) {
+            clock = (Clock){duration, duration, 0.0};
+        }
+        /* At the end no further leg will show whether a stop is a reversal. */
+        bool event = now->event_age == 0.0 || (remaining == 0.0 && leg_stopped(&leg));
+        if (event && found_at(search, &clock)) {
+            break;
+        }
     }
     return true;
 }
