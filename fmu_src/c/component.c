@@ -245,7 +245,9 @@ bool component_step(Component *component, double time, double step_size, Refusal
 
 bool component_step_to_event(Component *component, double time, double step_size, bool *event,
                              Refusal *refusal) {
-    EventSearch search = event_search(time_resolution(time));
+    /* At an event the next one comes at a later time; elsewhere it may come at once. */
+    bool at_event = component->now.moment.event_age == 0.0;
+    EventSearch search = event_search(at_event ? time_resolution(time) : -1.0);
     bool done = step(component, time, step_size, &search, refusal);
     *event = done && search.found;
     return done;

@@ -47,10 +47,10 @@ static int mode_in_contact(const Plant *plant, const Moment *moment) {
     return needed < -limit ? BACKWARD : STICK;
 }
 
-/* Whether the slider was released right now: friction then still balances the other forces, and only
- * the mode that the moment keeps tells on which side of the balance it is. */
+/* Whether the slider was released right now: friction still balances the other forces, and only the
+ * mode that the moment keeps tells on which side of the balance it is. */
 static bool just_released(const Plant *plant, const Moment *moment) {
-    if (moment->event_age != 0.0 || moment->state.velocity != 0.0 ||
+    if (moment->state.velocity != 0.0 ||
         !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
         return false;
     }

@@ -4,17 +4,17 @@
 
 #include <stdbool.h>
 
-/* Events sooner than `from` > 0 [s] after the start are passed over: an event at which the motion
- * begins is none of its own. If one is `found`, the motion ended there, `elapsed` + `carry` [s] after
- * its start; `carry` is what rounding takes from `elapsed`. */
+/* Events up to `after` [s] from the start are passed over, none if that is negative: an event at which
+ * the motion begins is none of its own. If one is `found`, the motion ended there, `elapsed` + `carry` [s] from its start;
+ * `carry` is what rounding takes from `elapsed`. */
 typedef struct {
-    double from;
+    double after;
     bool found;
     double elapsed, carry;
 } EventSearch;
 
-static inline EventSearch event_search(double from) {
-    return (EventSearch){from, false, 0.0, 0.0};
+static inline EventSearch event_search(double after) {
+    return (EventSearch){after, false, 0.0, 0.0};
 }
 
 #endif

@@ -29,7 +29,7 @@ static bool work_count(Work *work, double time) {
 
 /* Ends a search with the event at the time of the clock, unless that is too soon. */
 static bool found_at(EventSearch *search, const Clock *clock) {
-    if (search == NULL || !(clock->elapsed >= search->from)) {
+    if (search == NULL || !(clock->elapsed > search->after)) {
         return false;
     }
     search->found = true;
@@ -38,16 +38,31 @@ static bool found_at(EventSearch *search, const Clock *clock) {
     return true;
 }
 
-/* Whether the finished leg is one of a slider that turned back where the leg began: only the leg
- * shows whether a stop was a reversal. Then goes back `to` its begin. */
+/* Whether the slider turned where the finished leg began, at the moment `begin`, which is then gone
+ * back to: only the leg shows whether a stop was a reversal. What sets out from rest at the start of the
+ * search does not turn. */
 static bool found_reversal(EventSearch *search, const Clock *clock, const Leg *leg,
-                           const Moment *to, Moment *now) {
-    if (!leg->turns || !found_at(search, clock)) {
+                           const Moment *begin, Moment *now) {
+    bool turns = leg->turns && begin->state.velocity == 0.0 && begin->event_age != 0.0;
+    bool moved = clock->elapsed > 0.0 || begin->counts.sliding == -leg->direction;
+    if (!turns || !moved || !found_at(search, clock)) {
         return false;
     }
-    *now = *to;
+    *now = *begin;
     now->event_age = 0.0;
     return true;
+}
+
+/* Takes the end of a motion for an event if it is one within rounding, or a stop: no further leg will
+ * show whether that is a reversal. */
+static void end_at_event(const Leg *leg, const Law *law, Moment *now) {
+    if (leg->direction * now->state.velocity < 0.0) {
+        now->state.velocity = 0.0;
+    }
+    moment_enter(now, law->friction->mode(law, now));
+    if (leg_stopped(leg) && now->mode != leg->mode) {
+        now->event_age = 0.0;
+    }
 }
 
 bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
@@ -82,12 +97,11 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Event
         friction->succeed(&leg, law, now, leg.zero_of < 0 && leg.t == switching);
         leg.departs = now->state.velocity == 0.0 && now->mode != -leg.mode;
         remaining = leg.t == remaining ? 0.0 : clock_advance(&clock, leg.t);
-        if (remaining == 0.0) {
+        if (search != NULL && !(remaining > 0.0)) {
             clock = (Clock){duration, duration, 0.0};
+            end_at_event(&leg, law, now);
         }
-        /* At the end no further leg will show whether a stop is a reversal. */
-        bool event = now->event_age == 0.0 || (remaining == 0.0 && leg_stopped(&leg));
-        if (event && found_at(search, &clock)) {
+        if (now->event_age == 0.0 && found_at(search, &clock)) {
             break;
         }
     }
