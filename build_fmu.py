@@ -1,7 +1,7 @@
 """Build the FMUs: `python build_fmu.py` writes dist/SliderResonator.fmu and its Python twin.
 
-Besides these it writes the native FMU for FMI 3.0, a velocity controller, and slider and controller
-as a closed loop.
+Besides these it writes the native FMU for FMI 3.0, a velocity controller, slider and controller as
+a closed loop, and a web page that runs the native slider.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from fmu_src.building import closed_loop_ssp, controller_fmu, native_fmu, python_fmu
+from fmu_src.building import closed_loop_ssp, controller_fmu, native_fmu, python_fmu, web_page
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.closed_loop_ssp import build_closed_loop
 from fmu_src.building.controller_fmu import build_controller
@@ -20,13 +20,14 @@ from fmu_src.building.dates import EPOCH
 from fmu_src.building.native_fmu import build_native, build_native_3
 from fmu_src.building.platforms import HOST, PLATFORMS, PLATFORMS_3
 from fmu_src.building.python_fmu import build_python
+from fmu_src.building.web_page import build_page
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit code."""
     parser = _parser()
     options = parser.parse_args(arguments)
-    if options.only == "python" and (options.platform or options.compiler):
+    if options.only in ("python", "page") and (options.platform or options.compiler):
         parser.error("--platform and --compiler refused: they are for the native FMU")
     try:
         for build in _builds(options):
@@ -58,15 +59,18 @@ def _builds(options: argparse.Namespace) -> Iterator[Callable[[], Path]]:
         controller = options.out / f"{controller_fmu.MODEL}.fmu"
         yield lambda: build_controller(options.out, **native)
         yield lambda: build_closed_loop(options.out, slider, controller)
+    if options.only == "page" or (options.only is None and options.compiler is None):
+        yield lambda: build_page(options.out, progress=_progress)
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="build_fmu.py",
         description=f"Build {native_fmu.MODEL}.fmu (native, self-contained on the target) and "
-        f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation; the native one "
-        f"for FMI 3.0, {native_fmu.MODEL_3}.fmu; then "
-        f"{controller_fmu.MODEL}.fmu and, with both components, {closed_loop_ssp.MODEL}.ssp.",
+        f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation; the native "
+        f"one for FMI 3.0, {native_fmu.MODEL_3}.fmu; then "
+        f"{controller_fmu.MODEL}.fmu, with both components {closed_loop_ssp.MODEL}.ssp, and "
+        f"{web_page.NAME}, a page that runs the component in a browser (needs ziglang).",
         epilog="The same sources give the same bytes, except for random padding in the binary for "
         "macOS. The environment variable SOURCE_DATE_EPOCH (seconds since 1970-01-01) sets the "
         f"date in the model description; without it the date is {EPOCH:%Y-%m-%d}. Exit code 0: "
@@ -81,8 +85,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--only",
-        choices=("native", "python", "fmi3", "system"),
-        help="build one of the three, or controller and closed loop around the native one",
+        choices=("native", "python", "fmi3", "system", "page"),
+        help="build one of the three, controller and closed loop, or the page",
     )
     parser.add_argument(
         "--platform",

@@ -145,6 +145,7 @@ def test_all_are_built_and_reported(tmp_path: Path, capsys: pytest.CaptureFixtur
         "SliderResonator3.fmu",
         "SliderResonatorPy.fmu",
         "VelocityController.fmu",
+        "slider-resonator.html",
     ]
     for name in names:
         assert str(tmp_path / name) in printed

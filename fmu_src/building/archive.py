@@ -21,11 +21,15 @@ def check_folder(dest: Path) -> None:
 
 def write_archive(dest: Path, model: str, files: Mapping[str, bytes], suffix: str = ".fmu") -> Path:
     """Write `dest`/`model` with `suffix` and return its path; the file is replaced atomically."""
-    dest.mkdir(parents=True, exist_ok=True)
-    target = dest / f"{model}{suffix}"
+    return replace_file(dest / f"{model}{suffix}", _archive(files))
+
+
+def replace_file(target: Path, content: bytes) -> Path:
+    """Write a file and return its path: it has its old content or the new, nothing between."""
+    target.parent.mkdir(parents=True, exist_ok=True)
     partial = target.with_suffix(f".{os.getpid()}.partial")
     try:
-        partial.write_bytes(_archive(files))
+        partial.write_bytes(content)
         partial.replace(target)
     finally:
         partial.unlink(missing_ok=True)

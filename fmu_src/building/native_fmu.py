@@ -84,8 +84,8 @@ def build_model(
 ) -> Path:
     """Build a native FMU in the folder `dest` (created if missing) and return its path.
 
-    `platforms` are names of `platforms_of` or `host`; none means all, or `host` with a `compiler`. The
-    default compiler is ziglang, which compiles for all; `compiler` is one for this machine.
+    `platforms` are names of `platforms_of` or `host`; none means all, or `host` with a `compiler`.
+    The default compiler is ziglang, which compiles for all; `compiler` is one for this machine.
 
     The file is replaced atomically. Its bytes depend on the sources, the compiler, the FMI headers
     of fmpy, the version of zlib and the environment variable SOURCE_DATE_EPOCH, which sets the date

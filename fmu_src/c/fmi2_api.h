@@ -22,8 +22,4 @@ static inline fmi2Status answer(const Instance *instance, bool done, const Refus
     return (fmi2Status)send_answer(instance, done, refusal);
 }
 
-/* Call the logger of a host of FMI 2.0. */
-void fmi2_log(const Host *host, const char *instance_name, Status status, const char *category,
-              const char *text);
-
 #endif

@@ -12,6 +12,26 @@ const char *fmi2GetVersion(void) {
     return fmi2Version;
 }
 
+/* The logger takes a format, in which % and # have a meaning unless they are doubled. */
+static void double_specials(const char *text, char *format, size_t size) {
+    size_t length = 0;
+    for (; *text != '\0' && length + 2 < size; text++) {
+        format[length++] = *text;
+        if (*text == '%' || *text == '#') {
+            format[length++] = *text;
+        }
+    }
+    format[length] = '\0';
+}
+
+static void log_message(const Host *host, const char *instance_name, Status status, const char *category,
+              const char *text) {
+    char format[2 * REFUSAL_SIZE];
+    double_specials(text, format, sizeof format);
+    fmi2CallbackLogger logger = (fmi2CallbackLogger)host->logger;
+    logger(host->environment, instance_name, (fmi2Status)status, category, format);
+}
+
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
                               fmi2String fmuResourceLocation,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible,
@@ -26,7 +46,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         .allocate = functions->allocateMemory,
         .release = functions->freeMemory,
         .logger = (void (*)(void))functions->logger,
-        .log = fmi2_log,
+        .log = log_message,
     };
     if (fmuType != fmi2CoSimulation) {
         Refusal refusal;

@@ -1,5 +1,4 @@
-/* FMI 2.0: names, and the host's logger. */
-#include "fmi2_api.h"
+/* The names of FMI 2.0. */
 #include "fmi_version.h"
 
 const FmiVersion FMI = {
@@ -10,23 +9,3 @@ const FmiVersion FMI = {
     .type_names = {"Real", "Integer", "Boolean", "String"},
     .token = "fmuGUID",
 };
-
-/* The logger takes a format, in which % and # have a meaning unless they are doubled. */
-static void double_specials(const char *text, char *format, size_t size) {
-    size_t length = 0;
-    for (; *text != '\0' && length + 2 < size; text++) {
-        format[length++] = *text;
-        if (*text == '%' || *text == '#') {
-            format[length++] = *text;
-        }
-    }
-    format[length] = '\0';
-}
-
-void fmi2_log(const Host *host, const char *instance_name, Status status, const char *category,
-              const char *text) {
-    char format[2 * REFUSAL_SIZE];
-    double_specials(text, format, sizeof format);
-    fmi2CallbackLogger logger = (fmi2CallbackLogger)host->logger;
-    logger(host->environment, instance_name, (fmi2Status)status, category, format);
-}

@@ -1,8 +1,21 @@
 /* FMI 3.0: functions for an instance as a whole.
  *
  * A refused call returns fmi3Error and leaves the instance as it was, ready for the next call. */
+#include <stddef.h>
+
 #include "fmi3_api.h"
 #include "lifecycle.h"
+
+static void log_message(const Host *host, const char *instance_name, Status status,
+                        const char *category, const char *text) {
+    (void)instance_name;
+    fmi3LogMessageCallback logger = (fmi3LogMessageCallback)host->logger;
+    logger(host->environment, (fmi3Status)status, category, text);
+}
+
+Host fmi3_host(fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger) {
+    return (Host){environment, NULL, NULL, (void (*)(void))logger, log_message};
+}
 
 const char *fmi3GetVersion(void) {
     return fmi3Version;

@@ -1,7 +1,4 @@
-/* FMI 3.0: names, and the host's logger. */
-#include <stddef.h>
-
-#include "fmi3_api.h"
+/* The names of FMI 3.0. */
 #include "fmi_version.h"
 
 /* Reference 1 is the time; the variables of the table follow. */
@@ -15,14 +12,3 @@ const FmiVersion FMI = {
                    "UInt16", "UInt32", "Int64", "UInt64", "Binary", "Clock"},
     .token = "instantiationToken",
 };
-
-static void log_message(const Host *host, const char *instance_name, Status status,
-                        const char *category, const char *text) {
-    (void)instance_name;
-    fmi3LogMessageCallback logger = (fmi3LogMessageCallback)host->logger;
-    logger(host->environment, (fmi3Status)status, category, text);
-}
-
-Host fmi3_host(fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger) {
-    return (Host){environment, NULL, NULL, (void (*)(void))logger, log_message};
-}

@@ -107,9 +107,7 @@ def test_other_interface_types_are_refused(instance: Instance3, kind: str) -> No
         ({"intermediate": [TIME]}, "nRequiredIntermediateVariables = 1 refused"),
     ],
 )
-def test_instantiation_is_refused(
-    unpacked_3: Unpacked, changes: dict[str, Any], text: str
-) -> None:
+def test_instantiation_is_refused(unpacked_3: Unpacked, changes: dict[str, Any], text: str) -> None:
     about = {
         "guid": unpacked_3.description.guid,
         "modelIdentifier": "SliderResonator3",

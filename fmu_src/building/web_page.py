@@ -1,0 +1,106 @@
+"""The page that runs the component: one HTML file with the C kernel inside as WebAssembly."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+import subprocess
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from fmu_src import __version__
+from fmu_src.building.archive import check_folder, replace_file
+from fmu_src.building.build_error import BuildError
+from fmu_src.building.c_sources import slider_sources, write_sources
+from fmu_src.building.compiling import Compiler, default_compiler
+from fmu_src.python.slider_component.variable import Variable
+from fmu_src.python.slider_component.variables import VARIABLES
+from fmu_src.units import UNITS
+
+NAME = "slider-resonator.html"
+
+FOLDER = Path(__file__).parents[1] / "page"
+SCRIPTS = ("component.js", "settings.js", "run.js", "plots.js", "sketch.js", "main.js")
+"""In this order they are one JavaScript module."""
+
+_FMI_SHELL = ("fmi2", "instance.", "state_access.")
+_NAMES_OF_FMI = "fmi2_version.c"
+"""All that the kernel needs of the shell."""
+
+_FLAGS = (
+    *("-target", "wasm32-wasi", "-mexec-model=reactor"),
+    *("-std=c99", "-O2", "-g0", "-ffp-contract=off", "-fno-math-errno", "-Wl,--strip-all"),
+)
+
+
+def page_files() -> dict[str, str]:
+    """Return name -> text of everything that makes the page but the kernel."""
+    paths = [*FOLDER.glob("*.*"), *(FOLDER / "vendor").glob("uPlot*")]
+    return {path.name: path.read_text(encoding="utf-8") for path in sorted(paths)}
+
+
+def build_page(dest: Path, *, progress: Callable[[str], None] = lambda _: None) -> Path:
+    """Write the page into the folder `dest` (created if missing) and return its path.
+
+    The file is replaced atomically. Raises BuildError.
+    """
+    check_folder(dest)
+    progress("compiling for WebAssembly")
+    return replace_file(dest / NAME, web_page(slider_sources(), default_compiler()))
+
+
+def web_page(code: Mapping[str, str], compiler: Compiler) -> bytes:
+    """Return the page as UTF-8 bytes, its kernel compiled from C sources (name -> text).
+
+    Needs no network and no other file; equal sources and compilers give equal bytes. Raises
+    BuildError with the compiler's messages.
+    """
+    files = page_files()
+    shell = {n for n in code if n.startswith(_FMI_SHELL)} - {_NAMES_OF_FMI}
+    sources = {name: text for name, text in code.items() if name not in shell}
+    kernel = _compile({**sources, "page.c": files["page.c"]}, compiler)
+    parts = {
+        "version": __version__,
+        "style": files["page.css"],
+        "uplot_style": files["uPlot.min.css"],
+        "uplot": files["uPlot.iife.min.js"],
+        "variables": json.dumps([_row(i, v) for i, v in enumerate(VARIABLES)]).replace(
+            "<", "\\u003c"
+        ),
+        "component": base64.b64encode(gzip.compress(kernel, mtime=0)).decode(),
+        "script": "\n".join(files[name] for name in SCRIPTS),
+    }
+    page = re.sub(r"\{\{(\w+)\}\}", lambda part: parts[part[1]], files["page.html"])
+    return page.encode()
+
+
+def _compile(sources: Mapping[str, str], compiler: Compiler) -> bytes:
+    """Return the WebAssembly module of C files and headers (name -> text)."""
+    with TemporaryDirectory(prefix="slider_resonator_") as folder:
+        write_sources(sources, Path(folder))
+        names = sorted(name for name in sources if name.endswith(".c"))
+        command = [*compiler.command, *_FLAGS, "-o", "page.wasm", *names, "-lm"]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        module = Path(folder, "page.wasm")
+        if done.returncode != 0 or not module.is_file():
+            raise BuildError(
+                f"{compiler.description} could not compile for WebAssembly:\n{done.stderr.strip()}"
+            )
+        return module.read_bytes()
+
+
+def _row(reference: int, variable: Variable) -> dict[str, object]:
+    factors = UNITS[variable.unit].display if variable.unit else {}
+    return {
+        "reference": reference,
+        "name": variable.name,
+        "description": variable.description,
+        "causality": variable.causality,
+        "start": variable.start,
+        "unit": variable.unit,
+        "display_unit": variable.display_unit,
+        "factor": factors[variable.display_unit] if variable.display_unit else 1.0,
+    }

@@ -1,0 +1,53 @@
+/** Settings of a run: the end time `t` in s, and values by variable name where they are not starts. */
+const MAX_TIME = 3600;
+const START_TIME = 4;
+
+/** Controls shown first, with the range of their sliders; text fields take any value. */
+const RANGES = new Map([
+  ["phase", [-Math.PI, Math.PI]],
+  ["load", [-0.2, 0.2]],
+  ["frequency_ratio", [0, 4]],
+  ["friction_coefficient", [0, 1]],
+  ["normal_preload", [0, 3]],
+  ["normal_amplitude", [0, 3]],
+  ["base_amplitude", [0, 3e-4]],
+  ["drive_frequency", [1750, 7000]],
+]);
+const CHOICES = new Map([
+  ["fidelity", [[0, "0: averaged"], [1, "1: slider"], [2, "2: full device"]]],
+  ["friction_law", [[0, "0: Coulomb"], [1, "1: LuGre"]]],
+]);
+
+/** Return a number, throw Refused unless the whole text is one. */
+function numberOf(name, text) {
+  const value = Number(text);
+  if (text.trim() === "" || !Number.isFinite(value)) {
+    throw new Refused(`${name} = ${text} refused: must be a finite number`);
+  }
+  return value;
+}
+
+/** Return `{time, values}` of an address like "#phase=0.4&t=20". */
+function settingsOf(hash) {
+  const settings = { time: START_TIME, values: new Map() };
+  for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
+    const value = numberOf(name, text);
+    if (name === "t") {
+      settings.time = value;
+    } else if (BY_NAME.has(name) && BY_NAME.get(name).causality !== "output") {
+      settings.values.set(name, value);
+    } else {
+      throw new Refused(`${name} refused: must be t, an input or a parameter`);
+    }
+  }
+  return settings;
+}
+
+/** Return the address of settings, without values that are at their start. */
+function hashOf({ time, values }) {
+  const parts = [...values].filter(([name, value]) => value !== BY_NAME.get(name).start);
+  if (time !== START_TIME) {
+    parts.push(["t", time]);
+  }
+  return "#" + parts.map(([name, value]) => `${name}=${value}`).join("&");
+}

@@ -1,0 +1,37 @@
+"""The page as a file; what it does in a browser is tested with the other hosts."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from fmu_src.building.web_page import build_page
+from fmu_src.python.slider_component.variables import VARIABLES
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_page(tmp_path_factory.mktemp("page"))
+
+
+def test_equal_sources_give_equal_bytes(page: Path, tmp_path: Path) -> None:
+    assert build_page(tmp_path).read_bytes() == page.read_bytes()
+
+
+def test_one_small_file_that_names_no_other(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert len(text.encode()) <= 300_000
+    assert re.findall(r"""(?:src|href)=["'](?!data:)""", text) == []
+    assert "{{" not in re.sub(r"<script>.*?</script>", "", text, flags=re.DOTALL)
+
+
+def test_every_variable_is_known_by_its_value_reference(page: Path) -> None:
+    found = re.search(r'id="variables">(.*?)</script>', page.read_text(encoding="utf-8"))
+    assert found is not None
+    rows = json.loads(found[1])
+    assert [(row["reference"], row["name"]) for row in rows] == [
+        (reference, variable.name) for reference, variable in enumerate(VARIABLES)
+    ]

@@ -1,0 +1,170 @@
+"""The page in a real browser, without a network: its numbers are those of fmpy."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+from selenium.webdriver import Chrome, ChromeOptions, ChromeService, Keys
+from selenium.webdriver.common.by import By
+from selenium.webdriver.remote.webelement import WebElement
+from selenium.webdriver.support.wait import WebDriverWait
+
+from fmu_src.building.web_page import build_page
+from tests.fmu.host import OUTPUTS
+
+pytestmark = pytest.mark.interop
+
+STEPS = 1000
+"""Equal steps in which the page runs to its end."""
+
+SECONDS = 30.0
+
+DEVICES = {
+    f"fidelity {fidelity}, law {law}": {"fidelity": fidelity, "friction_law": law}
+    for fidelity in (0, 1, 2)
+    for law in (0, 1)
+}
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return build_page(tmp_path_factory.mktemp("page")).as_uri()
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
+    options = ChromeOptions()
+    for name in ("chromium", "chromium-browser", "google-chrome"):
+        if path := shutil.which(name):
+            options.binary_location = path
+            break
+    profile = tmp_path_factory.mktemp("profile")
+    for argument in (
+        *("--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-sync"),
+        *("--disable-background-networking", "--disable-component-update"),
+        *("--window-size=1200,900", f"--user-data-dir={profile}"),
+    ):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = Chrome(options, ChromeService(shutil.which("chromedriver")))
+    driver.execute_cdp_cmd("Network.enable", {})
+    offline = {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0}
+    driver.execute_cdp_cmd("Network.emulateNetworkConditions", offline)
+    yield driver
+    driver.quit()
+
+
+def show(browser: Chrome, page: str, settings: str = "") -> dict[str, float]:
+    """Load the page with settings in its address; return its outputs in SI units."""
+    browser.get("about:blank")
+    browser.get(f"{page}#{settings}")
+    return results(browser)
+
+
+def results(browser: Chrome) -> dict[str, float]:
+    def is_idle(_: Any) -> bool:
+        return browser.execute_script("return document.body.dataset.state") in ("done", "refused")
+
+    WebDriverWait(browser, SECONDS, poll_frequency=0.02).until(is_idle)
+    values = browser.execute_script(
+        "return Object.fromEntries([...document.querySelectorAll('output[data-value]')]"
+        ".map((output) => [output.name, output.dataset.value]))"
+    )
+    return {name: float(value) for name, value in values.items()}
+
+
+def message(browser: Chrome) -> str:
+    return str(browser.find_element(By.NAME, "message").text)
+
+
+def field(browser: Chrome, name: str) -> WebElement:
+    return browser.find_element(By.ID, f"field-{name}")
+
+
+@pytest.mark.parametrize("device", DEVICES.values(), ids=DEVICES.keys())
+def test_outputs_are_those_of_fmpy(
+    browser: Chrome, page: str, native_fmu_for_wine: Path, device: dict[str, int]
+) -> None:
+    values = device | {"phase": 0.4, "load": 0.05}
+    end = 2.0
+    found = show(
+        browser, page, "&".join(f"{name}={x}" for name, x in (values | {"t": end}).items())
+    )
+    record = simulate_fmu(
+        str(native_fmu_for_wine),
+        start_values=values,
+        output=["position", "mean_velocity", "steady_velocity", "blocking_force", "reversals"],
+        stop_time=end,
+        output_interval=end / STEPS,
+        step_size=end / STEPS,
+    )
+    assert record["time"][-1] == pytest.approx(end)
+    for name in record.dtype.names[1:]:
+        scale = float(np.abs(record[name]).max())
+        assert abs(found[name] - record[name][-1]) <= 1e-12 * scale, name
+    assert set(OUTPUTS) <= found.keys()
+
+
+def test_nothing_is_loaded_and_nothing_is_complained_of(browser: Chrome, page: str) -> None:
+    browser.get_log("browser")
+    show(browser, page, "normal_amplitude=2&friction_law=1")
+    assert browser.execute_script("return performance.getEntriesByType('resource').length") == 0
+    assert browser.get_log("browser") == []
+
+
+def test_a_refused_value_is_named_and_no_number_is_shown(browser: Chrome, page: str) -> None:
+    assert show(browser, page, "slider_mass=-1") == {}
+    assert (
+        message(browser)
+        == "slider_mass = -1.0 refused: must be a finite number of at least 1e-12 kg"
+    )
+    assert show(browser, page, "t=-1") == {}
+    assert message(browser) == "t = -1 refused: must be above 0 and at most 3600 s"
+    assert show(browser, page, "position=1") == {}
+    assert message(browser) == "position refused: must be t, an input or a parameter"
+
+
+def test_an_address_is_text_only(browser: Chrome, page: str) -> None:
+    show(browser, page, "%3Cimg%20src=x%20onerror=document.title=1%3E")
+    assert message(browser).startswith("<img src = ")
+    assert browser.find_elements(By.CSS_SELECTOR, "main img") == []
+
+
+def test_keys_move_a_slider_and_everything_follows(browser: Chrome, page: str) -> None:
+    before = show(browser, page)
+    slider = browser.find_element(By.CSS_SELECTOR, 'input[type=range][aria-label="phase"]')
+    slider.send_keys(Keys.ARROW_RIGHT)
+    after = results(browser)
+    assert "phase=" in browser.execute_script("return location.hash")
+    assert after["blocking_force"] != before["blocking_force"]
+    browser.find_element(By.CSS_SELECTOR, "button[type=reset]").send_keys(Keys.ENTER)
+    assert results(browser)["mean_velocity"] == before["mean_velocity"]
+
+
+def test_a_field_takes_what_its_slider_does_not_reach(browser: Chrome, page: str) -> None:
+    show(browser, page)
+    text = field(browser, "friction_coefficient")
+    text.clear()
+    text.send_keys("5", Keys.ENTER)
+    results(browser)
+    assert browser.execute_script("return location.hash") == "#friction_coefficient=5"
+    text.clear()
+    text.send_keys("much", Keys.ENTER)
+    assert message(browser) == "friction_coefficient = much refused: must be a finite number"
+
+
+def test_narrow_screens_scroll_only_downwards(browser: Chrome, page: str) -> None:
+    phone = {"width": 360, "height": 740, "deviceScaleFactor": 2, "mobile": True}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", phone)
+    show(browser, page)
+    widths = browser.execute_script(
+        "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+    )
+    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    assert widths[0] <= widths[1]
