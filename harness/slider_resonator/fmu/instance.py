@@ -8,18 +8,17 @@ from ctypes import c_double
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
-from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
 from fmpy.model_description import ModelVariable
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
 from slider_resonator.errors import FmuError, Refusal, unknown_name
-from slider_resonator.fmu import fmu_log
+from slider_resonator.fmu.binding import Binding, bind
+from slider_resonator.fmu.interface_check import INTEGER_TYPES
 from slider_resonator.fmu.opening import Fmu
 
 EQUAL = 1e-6
@@ -28,25 +27,12 @@ EQUAL = 1e-6
 _numbers = count(1)
 
 
-def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
-    """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
-
-    Arguments are converted to the types that fmpy has declared for the function.
-    """
-    status = getattr(slave.dll, name)(slave.component, *arguments)
-    if status > fmi2Warning:
-        raise FMICallException(function=name, status=status)
-
-
 class Block:
     """A fixed set of Real variables, read and written many times without allocation."""
 
-    def __init__(self, slave: FMU2Slave, references: Sequence[int]) -> None:
-        size = len(references)
-        self.values = (c_double * size)()
-        arguments = (fmi2ValueReference * size)(*references), size, self.values
-        self._get = partial(call, slave, "fmi2GetReal", *arguments)
-        self._set = partial(call, slave, "fmi2SetReal", *arguments)
+    def __init__(self, binding: Binding, references: Sequence[int]) -> None:
+        self.values = (c_double * len(references))()
+        self._get, self._set = binding.block(references, self.values)
 
     def read(self) -> list[float]:
         """Return the current values."""
@@ -66,12 +52,12 @@ class _Explained:
         self.instance = instance
 
     def __enter__(self) -> None:
-        del self.instance.messages[:]
+        del self.instance.binding.messages[:]
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if isinstance(error, FMICallException):
             instance = self.instance
-            logged = "; ".join(dict.fromkeys(instance.messages))
+            logged = "; ".join(dict.fromkeys(instance.binding.messages))
             reason = logged or f"{error} The FMU logged no reason."
             where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
             raise Refusal(f"{where}: {reason}") from error
@@ -87,15 +73,14 @@ class _Plan:
 
 
 class Instance:
-    """One instance of an FMU, reused through fmi2Reset by every `start`.
+    """One instance of an FMU, reset by every `start`.
 
     Raises FmuError when the FMU cannot be instantiated. `start` raises Refusal with the message of
     the FMU when a call fails; the other methods, which are called millions of times, do so inside
     an `explained` block. Must be freed with `end`.
     """
 
-    slave: FMU2Slave
-    messages: list[str]
+    binding: Binding
 
     def __init__(self, fmu: Fmu) -> None:
         self.fmu = fmu
@@ -111,20 +96,10 @@ class Instance:
         self._create()
 
     def _create(self) -> None:
-        self._name = f"harness{next(_numbers)}"
-        self.messages, callbacks = fmu_log.collect(self._name)
         try:
-            self.slave = FMU2Slave(
-                instanceName=self._name,
-                guid=self.fmu.description.guid,
-                modelIdentifier=self.fmu.identifier,
-                unzipDirectory=str(self.fmu.folder),
-            )
-            self.slave.instantiate(callbacks=callbacks, loggingOn=True)
+            self.binding = bind(self.fmu, f"harness{next(_numbers)}")
         except Exception as error:  # fmpy raises bare Exception for every error here
-            reason = "; ".join([str(error), *self.messages])
-            fmu_log.forget(self._name)
-            raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
+            raise FmuError(f"{self.fmu.path}: cannot be instantiated: {error}") from error
         self.time = 0.0
         self._used = False
         self._initialised = False
@@ -134,7 +109,7 @@ class Instance:
 
     def block(self, names: Sequence[str]) -> Block:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
-        return Block(self.slave, [self._variable(name).valueReference for name in names])
+        return Block(self.binding, [self._variable(name).valueReference for name in names])
 
     def start(
         self,
@@ -150,14 +125,10 @@ class Instance:
         self.time = start_time
         with self.explained():
             if self._used:
-                call(self.slave, "fmi2Reset")
+                self.binding.reset()
             self._used = True
             self._initialised = False
-            stop = (False, 0.0) if stop_time is None else (True, stop_time)
-            call(self.slave, "fmi2SetupExperiment", False, 0.0, start_time, *stop)
-            self._set(values)
-            call(self.slave, "fmi2EnterInitializationMode")
-            call(self.slave, "fmi2ExitInitializationMode")
+            self.binding.initialise(start_time, stop_time, partial(self._set, values))
             self._initialised = True
 
     def check_steps(self, times: Array) -> None:
@@ -180,7 +151,7 @@ class Instance:
 
     def step_by(self, size: float) -> None:
         """Advance by `size` (s)."""
-        call(self.slave, "fmi2DoStep", self.time, size, True)
+        self.binding.step(self.time, size)
         self.time += size
 
     def value(self, name: str) -> float:
@@ -192,16 +163,15 @@ class Instance:
         plan = self._plan(self._readable, names, self._variable)
         found = dict(zip(plan.reals, plan.block.read(), strict=True))
         for name, reference in plan.integers.items():
-            found[name] = float(self.slave.getInteger([reference])[0])
+            found[name] = float(self.binding.integer(reference))
         return found
 
     def end(self) -> None:
         """Terminate, where the FMU is in a state that allows it, and free the instance."""
         if self._initialised:
             with suppress(FMICallException):  # nothing is lost: the instance is freed at once
-                self.slave.terminate()
-        self.slave.freeInstance()
-        fmu_log.forget(self._name)
+                self.binding.terminate()
+        self.binding.free()
 
     def _variable(self, name: str) -> ModelVariable:
         if name not in self.fmu.variables:
@@ -216,7 +186,7 @@ class Instance:
                 check_integer(name, values[name])
             except ValueError as error:
                 raise FmuError(str(error)) from error
-            self.slave.setInteger([reference], [int(values[name])])
+            self.binding.set_integer(reference, int(values[name]))
         plan.block.write([values[name] for name in plan.reals])
 
     def _plan(
@@ -230,7 +200,7 @@ class Instance:
         plan = plans.get(names)
         if plan is None:
             found = {name: find(name) for name in names}
-            integers = {n: v.valueReference for n, v in found.items() if v.type == "Integer"}
+            integers = {n: v.valueReference for n, v in found.items() if v.type in INTEGER_TYPES}
             reals = [name for name in names if name not in integers]
             plan = plans[names] = _Plan(integers, reals, self.block(reals))
         return plan

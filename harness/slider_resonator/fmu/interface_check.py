@@ -10,6 +10,12 @@ from slider_resonator.device.interface import INPUTS, INTEGERS, OUTPUTS, PARAMET
 from slider_resonator.fmu.units import unit_problems
 
 
+INTEGER_TYPES = ("Integer", "Int32")
+"""FMI 2.0's and FMI 3.0's."""
+
+REAL_TYPES = ("Real", "Float64")
+
+
 def interface_problems(description: ModelDescription) -> list[str]:
     """Return every deviation from names, causalities, types and units.
 
@@ -34,9 +40,9 @@ def _departures(variable: ModelVariable, causality: str, unit: str) -> Iterator[
     name = variable.name
     if variable.causality != causality:
         yield f"{name} is {variable.causality}, must be {causality}"
-    kind = "Integer" if name in INTEGERS else "Real"
-    if variable.type != kind:
-        yield f"{name} is of type {variable.type}, must be {kind}"
+    kinds = INTEGER_TYPES if name in INTEGERS else REAL_TYPES
+    if variable.type not in kinds:
+        yield f"{name} is of type {variable.type}, must be {' or '.join(kinds)}"
     found = _unit(variable)
     if found != unit:
         yield f"{name} has unit {found}, must be {unit}"

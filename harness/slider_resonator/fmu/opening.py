@@ -29,6 +29,11 @@ class Fmu:
     variables: Mapping[str, ModelVariable]
 
     @property
+    def version(self) -> str:
+        """The version of FMI: 2.0 or 3.0."""
+        return "3.0" if self.description.fmiVersion.startswith("3.") else "2.0"
+
+    @property
     def identifier(self) -> str:
         """The model identifier, which is also the name of the binary."""
         return str(self.description.coSimulation.modelIdentifier)
@@ -55,7 +60,7 @@ class Fmu:
 def open_fmu(path: str | Path) -> Iterator[Fmu]:
     """Unpack the FMU at `path` for the length of the block.
 
-    Raises FmuError when it is no FMI 2.0 co-simulation FMU, lacks a variable of the interface,
+    Raises FmuError when it is no co-simulation FMU of FMI 2.0 or 3.0, lacks a variable of the interface,
     gives one of them another causality, type or unit, or has no binary for this platform.
     """
     path = Path(path)
@@ -82,8 +87,8 @@ def _read_description(path: Path) -> ModelDescription:
         raise FmuError(f"{path}: not an FMU: it is no zip archive")
     try:
         version = _fmi_version(path)
-        if version != "2.0":
-            raise FmuError(f"{path}: FMI version {version}; must be 2.0")
+        if version not in ("2.0", "3.0"):
+            raise FmuError(f"{path}: FMI version {version}; must be 2.0 or 3.0")
         return read_model_description(str(path))
     except FmuError:
         raise
@@ -105,8 +110,21 @@ def _check_interface(path: Path, description: ModelDescription) -> None:
     if description.coSimulation is None:
         raise FmuError(f"{path}: an FMU for model exchange only; must be co-simulation")
     problems = interface_problems(description)
-    platforms = fmpy.supported_platforms(str(path))
-    if not problems and fmpy.platform not in platforms:
-        problems.append(f"no binary for {fmpy.platform}, only for {', '.join(platforms) or 'none'}")
+    if not problems:
+        problems += _platform_problems(path, description)
     if problems:
         raise FmuError(f"{path}: not usable as a slider-resonator: {'; '.join(problems)}")
+
+
+def _platform_problems(path: Path, description: ModelDescription) -> list[str]:
+    if description.fmiVersion == "2.0":
+        ours, platforms = fmpy.platform, fmpy.supported_platforms(str(path))
+    else:
+        # fmpy does not know the platform tuples of other processors.
+        ours = fmpy.platform_tuple
+        with zipfile.ZipFile(path) as archive:
+            parts = [name.split("/") for name in archive.namelist()]
+        platforms = sorted({p[1] for p in parts if p[0] == "binaries" and len(p) > 2})
+    if ours in platforms:
+        return []
+    return [f"no binary for {ours}, only for {', '.join(platforms) or 'none'}"]

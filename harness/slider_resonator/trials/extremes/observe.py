@@ -117,7 +117,6 @@ def _replayed(instance: Instance, cell: MatrixCell) -> bool:
     """Return whether every second step, repeated from a stored state, gives the same outputs."""
     begin(instance, cell, 0.0)
     block = instance.block(NAMES)
-    slave = instance.slave
     equal = True
     with instance.explained():
         for hold in cell.holds:
@@ -127,14 +126,10 @@ def _replayed(instance: Instance, cell: MatrixCell) -> bool:
                     instance.step_by(hold.size)
                     continue
                 present = instance.time
-                state = slave.getFMUstate()
-                data = slave.serializeFMUstate(state)
-                slave.freeFMUstate(state)
+                data = instance.binding.state()
                 instance.step_by(hold.size)
                 first = block.read()
-                state = slave.deSerializeFMUstate(data)
-                slave.setFMUstate(state)
-                slave.freeFMUstate(state)
+                instance.binding.set_state(data)
                 instance.time = present
                 instance.step_by(hold.size)
                 equal = equal and block.read() == first
