@@ -99,7 +99,7 @@ def compile_binaries(
 
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         compiled = list(zip(jobs, pool.map(run, jobs), strict=True))
-    binaries = {}
+    binaries: dict[str, bytes] = {}
     for platform in platforms:
         parts = [binary for (p, _), binary in compiled if p is platform]
         if version == "3.0":

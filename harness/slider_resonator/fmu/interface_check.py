@@ -9,7 +9,6 @@ from fmpy.model_description import ModelDescription, ModelVariable
 from slider_resonator.device.interface import INPUTS, INTEGERS, OUTPUTS, PARAMETERS
 from slider_resonator.fmu.units import unit_problems
 
-
 INTEGER_TYPES = ("Integer", "Int32")
 """FMI 2.0's and FMI 3.0's."""
 

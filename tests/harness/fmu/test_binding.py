@@ -66,7 +66,7 @@ def test_an_instance_of_fmi_3_that_cannot_be_made_is_an_error_of_the_fmu(
     path = faulty_fmus.redescribed(native_3_fmu, tmp_path / "other.fmu", token, other)
     with (
         open_fmu(path) as fmu,
-        pytest.raises(FmuError, match="cannot be instantiated: .*instantiationToken"),
+        pytest.raises(FmuError, match=r"cannot be instantiated: .*instantiationToken"),
         instantiate(fmu),
     ):
         pass
@@ -78,5 +78,5 @@ def test_a_binary_for_another_platform_is_named(native_3_fmu: Path, tmp_path: Pa
         for name in old.namelist():
             far = "binaries/riscv64-linux/x.so" if name.startswith("binaries/") else name
             new.writestr(far, old.read(name))
-    with pytest.raises(FmuError, match="no binary for .*, only for riscv64-linux"), open_fmu(path):
+    with pytest.raises(FmuError, match=r"no binary for .*, only for riscv64-linux"), open_fmu(path):
         pass

@@ -165,8 +165,8 @@ def run_host(
 ) -> list[HostResult]:
     """Run table 1 in `host` with each FMU that it can load, and compare with `reference`.
 
-    `native_3`, of FMI 3.0, is compared with `native`, of FMI 2.0. Raises HarnessError where the host
-    is missing, or an FMU does not run in `reference`.
+    `native_3`, of FMI 3.0, is compared with `native`, of FMI 2.0. Raises HarnessError where the
+    host is missing, or an FMU does not run in `reference`.
     """
     version = host.version()
     if host.couples:
