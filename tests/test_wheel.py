@@ -11,19 +11,23 @@ from pathlib import Path
 
 import pytest
 
+from fmu_src.building import wheel_backend
 from tests.processes import ROOT, run_command
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The wheel, built from a copy, for setuptools leaves files beside the sources."""
+def wheel(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The wheel with a finished FMU, built from a copy: setuptools leaves files beside sources."""
     folder = tmp_path_factory.mktemp("wheel")
     source = folder / "source"
-    shutil.copytree(ROOT / "harness", source / "harness")
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
+    for name in ("harness", "fmu_src"):
+        ignored = shutil.ignore_patterns("__pycache__", "finished")
+        shutil.copytree(ROOT / name, source / name, ignore=ignored)
+    for name in ("pyproject.toml", "README.md", "LICENSE", "MANIFEST.in", "build_fmu.py"):
         shutil.copy(ROOT / name, source)
     command = [sys.executable, "-m", "pip", "wheel", "-qq", "--no-deps", "--no-build-isolation"]
-    subprocess.run([*command, "--wheel-dir", str(folder), str(source)], check=True)
+    finished = f"--config-settings=fmus={native_fmu.parent}"
+    subprocess.run([*command, finished, "--wheel-dir", str(folder), str(source)], check=True)
     (built,) = folder.glob("*.whl")
     return built
 
@@ -67,3 +71,42 @@ def test_folder_with_a_harness_of_its_own(
     )
     assert result.returncode == 0, result.stdout + result.stderr
     assert "passed" in result.stdout
+
+
+def test_wheel_brings_the_finished_fmu_and_no_build_tool(
+    installed: Path, native_fmu: Path, tmp_path: Path
+) -> None:
+    script = "import slider_resonator as sr\nwith sr.open_fmu() as fmu: print(fmu.path)"
+    done = run_command(
+        *(sys.executable, "-c", script),
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(installed)},
+    )
+    assert done.returncode == 0, done.stderr
+    path = Path(done.stdout.strip())
+    assert path.is_relative_to(installed)
+    assert path.read_bytes() == native_fmu.read_bytes()
+    (metadata,) = installed.glob("*.dist-info/METADATA")
+    always = [
+        line
+        for line in metadata.read_text(encoding="utf-8").splitlines()
+        if line.startswith("Requires-Dist: ") and "extra ==" not in line
+    ]
+    assert always
+    assert not [line for line in always if "ziglang" in line or "pythonfmu" in line]
+
+
+def test_nothing_of_the_build_stays_in_the_sources(wheel: Path) -> None:
+    source = wheel.parent / "source"
+    assert not (source / "harness" / "slider_resonator" / "finished").exists()
+
+
+def test_a_wheel_needs_what_builds_fmus_unless_they_are_given() -> None:
+    assert any(name.startswith("ziglang") for name in wheel_backend.get_requires_for_build_wheel())
+    assert wheel_backend.get_requires_for_build_wheel({"fmus": "dist"}) == []
+
+
+def test_a_folder_without_fmus_makes_no_wheel(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="no FMU in this folder"):
+        wheel_backend.build_wheel(str(tmp_path), {"fmus": str(tmp_path)})
+    assert list(tmp_path.iterdir()) == []

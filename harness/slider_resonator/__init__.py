@@ -2,6 +2,62 @@
 
 Any FMI 2.0 co-simulation FMU with the interface of `slider_resonator.device.interface` can be run.
 It is compared with the models in `slider_resonator.references`, which share no code with any FMU.
+
+Scripts use the names of `slider_resonator.api`, from here: `slider_resonator.fmu_path()`,
+`slider_resonator.open_fmu()`. They are loaded when they are used: the command line starts faster.
 """
 
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from slider_resonator.api import (
+        Blocking,
+        Choice,
+        HarnessError,
+        OpenFmu,
+        Record,
+        Scene,
+        SteadyMotion,
+        SweepResult,
+        Validation,
+        choose,
+        fmu_path,
+        open_fmu,
+        read_scene,
+        sweep,
+        validate,
+    )
+
 __version__ = "0.1.0"
+
+__all__ = [
+    "Blocking",
+    "Choice",
+    "HarnessError",
+    "OpenFmu",
+    "Record",
+    "Scene",
+    "SteadyMotion",
+    "SweepResult",
+    "Validation",
+    "choose",
+    "fmu_path",
+    "open_fmu",
+    "read_scene",
+    "sweep",
+    "validate",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a name of the API."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.api"), name)
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

@@ -25,6 +25,7 @@ COMMANDS = (
     "baseline",
     "bench",
     "blocking",
+    "build",
     "choose",
     "closed-loop",
     "extremes",

@@ -17,7 +17,7 @@ from tests.harness.public_json import assert_public_keys
 
 COMMANDS = (
     *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
-    *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "paper"),
+    *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "paper", "build"),
 )
 
 

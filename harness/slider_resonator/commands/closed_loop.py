@@ -10,9 +10,10 @@ from pathlib import Path
 import click
 import numpy as np
 
-from slider_resonator.commands.options import REPOSITORY, json_option, out_folder_option
+from slider_resonator.commands.options import json_option, out_folder_option
 from slider_resonator.commands.results import print_table
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.json_output import to_json
@@ -29,7 +30,7 @@ from slider_resonator.studies.closed_loop.loop import HOSTS, LoopRecord, run_loo
 from slider_resonator.studies.closed_loop.picture import draw_loop
 from slider_resonator.studies.closed_loop.prediction import predicted_errors
 
-PACKAGE = Path("dist") / "ClosedLoop.ssp"
+PACKAGE = "ClosedLoop.ssp"
 NAMES = [host.name for host in HOSTS]
 HOLD_COLUMNS = (
     *texts("host"),
@@ -64,20 +65,20 @@ def closed_loop_command(
 ) -> None:
     """Hold the slider's velocity under a changing load, at fidelity 0 and at fidelity 2.
 
-    PACKAGE is an SSP package; the default is dist/ClosedLoop.ssp. A controller FMU moves the phase;
-    the load steps four times. From 0.6 s after each step on, the velocity must stay within 2 %. At
-    all times both fidelities must agree within the error that `choose` predicts for averaged motion
-    with the controller's inputs. Exit code: 0 when both hold, 1 when one does not, 2 when the
-    package could not run.
+    PACKAGE is an SSP package; the default is ClosedLoop.ssp in dist or of the installation. A
+    controller FMU moves the phase; the load steps four times. From 0.6 s after each step on, the
+    velocity must stay within 2 %. At all times both fidelities must agree within the error that
+    `choose` predicts for averaged motion with the controller's inputs. Exit code: 0 when both hold,
+    1 when one does not, 2 when the package could not run.
 
     \b
     Examples:
       slider-resonator closed-loop --out closed_loop
       slider-resonator closed-loop --out closed_loop --host fmpy --host libcosimpy --json
     """
-    package, duty = package or _built(), Duty()
+    package, duty = package or finished_path(PACKAGE, COMMANDS_LOOK_IN), Duty()
     if not package.is_file():
-        raise HarnessError(f"{package}: no such file; build it with: python build_fmu.py")
+        raise HarnessError(f"{package}: no such file")
     make_folder(out)
     held: list[IntervalResult] = []
     agreements: list[Agreement] = []
@@ -111,10 +112,6 @@ def _shared(
 ) -> None:
     """Report the progress of one host among `count`."""
     progress(label, (index + share) / count)
-
-
-def _built() -> Path:
-    return PACKAGE if PACKAGE.is_file() else REPOSITORY / PACKAGE
 
 
 def _write_csv(path: Path, records: Sequence[LoopRecord], duty: Duty) -> None:

@@ -7,14 +7,13 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
-    BUILT_FMUS,
     Target,
-    default_fmus,
     json_option,
     scenes_option,
     time_limit_option,
 )
-from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.output.console import output, progress_bar
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import distinct
@@ -151,8 +150,4 @@ def mutants_command(
 
 def _python_fmu() -> Path:
     """Return the built FMU with Python sources; FmuError where there is none."""
-    name = BUILT_FMUS[1].name
-    for path in default_fmus():
-        if path.name == name:
-            return path
-    raise FmuError(f"{BUILT_FMUS[1]}: no such file; build it with: python build_fmu.py")
+    return finished_path(FMUS["python"], COMMANDS_LOOK_IN)

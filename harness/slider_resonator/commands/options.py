@@ -11,11 +11,10 @@ import click
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
-from slider_resonator.errors import FmuError, HarnessError, unknown_name
+from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.fmu import finished
 from slider_resonator.output.targets import writable
 
-BUILT_FMUS = (Path("dist") / "SliderResonator.fmu", Path("dist") / "SliderResonatorPy.fmu")
-REPOSITORY = Path(__file__).resolve().parents[3]
 SET = "--set"
 FC = TypeVar("FC", bound=Callable[..., Any])
 """A command, or the function that becomes one."""
@@ -186,12 +185,13 @@ def default_fmu(given: Path | None) -> Path:
 
 
 def default_fmus() -> tuple[Path, ...]:
-    """Return the FMUs built in the current folder or else in the repository, the native one first.
+    """Return the FMUs built in the folder `dist` here, or else finished ones, the native one first.
 
-    Raises FmuError, with the command that builds them, when there is none.
+    Raises FmuError, with the remedy, when there is none.
     """
-    for folder in (Path(), REPOSITORY):
-        found = tuple(folder / fmu for fmu in BUILT_FMUS if (folder / fmu).is_file())
+    names = (finished.FMUS["native"], finished.FMUS["python"])
+    for folder in finished.COMMANDS_LOOK_IN:
+        found = tuple(folder / name for name in names if (folder / name).is_file())
         if found:
             return found
-    raise FmuError(f"{BUILT_FMUS[0]}: no such file; build it with: python build_fmu.py")
+    return (finished.fmu_path("native"),)

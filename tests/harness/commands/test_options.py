@@ -8,19 +8,22 @@ from click.testing import CliRunner
 
 from slider_resonator.commands import options
 from slider_resonator.errors import FmuError
+from slider_resonator.fmu import finished
 
 
 def test_fmus_built_here_are_preferred(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(options, "REPOSITORY", tmp_path / "repository")
+    package = tmp_path / "package"
+    monkeypatch.setattr(finished, "FOLDERS", (package,))
+    monkeypatch.setattr(finished, "COMMANDS_LOOK_IN", (Path("dist"), package))
     assert options.default_fmu(Path("given.fmu")) == Path("given.fmu")
-    with pytest.raises(FmuError, match=r"python build_fmu\.py"):
+    with pytest.raises(FmuError, match="make build"):
         options.default_fmu(None)
-    native, python = options.BUILT_FMUS
-    in_repository = tmp_path / "repository" / python
-    in_repository.parent.mkdir(parents=True)
-    in_repository.touch()
-    assert options.default_fmus() == (in_repository,)
+    native, python = (Path("dist") / finished.FMUS[build] for build in ("native", "python"))
+    in_package = package / python.name
+    package.mkdir()
+    in_package.touch()
+    assert options.default_fmus() == (in_package,)
     python.parent.mkdir()
     python.touch()
     assert options.default_fmu(None) == python

@@ -53,10 +53,15 @@ def read_grid(path: Path) -> Sweep:
         raise HarnessError(f"{path}: cannot be read: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise HarnessError(f"{path}: not TOML: {error}") from error
+    return grid_from(content, str(path))
+
+
+def grid_from(content: Mapping[str, Any], source: str) -> Sweep:
+    """Return the sweep of parsed TOML, or data of the same form; HarnessError with `source`."""
     try:
         return _sweep(content)
     except AxisError as error:
-        raise HarnessError(f"{path}: {error}") from error
+        raise HarnessError(f"{source}: {error}") from error
 
 
 def _sweep(content: Mapping[str, Any]) -> Sweep:

@@ -1,0 +1,179 @@
+"""What the commands do, for scripts: run an FMU, search it, judge it, choose a model, sweep.
+
+    import slider_resonator as sr
+
+    with sr.open_fmu() as fmu:
+        record = fmu.run({"run": {"stop_time": 4.0, "step_size": 0.01}}, phase=0.4, load=0.05)
+        print(record.final("mean_velocity"), fmu.steady(phase=0.4, load=0.05).steady_velocity)
+
+Keywords are parameters and inputs of the FMU in SI units; all others keep their start value, the
+device of table 1. A scene is the name of one that is built in, a file, data of the same form, or
+the result of `read_scene`. Without an FMU the native one of this installation is used. Every error
+is a `HarnessError`, whose text is what the command would print.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from slider_resonator.checks.validate import Validation
+from slider_resonator.checks.validate import validate as validate_scenes
+from slider_resonator.device.common_period import MAX_DENOMINATOR
+from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.values import check_value
+from slider_resonator.errors import HarnessError, SceneError, unknown_name
+from slider_resonator.fmu.finished import fmu_path
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run as run_schedule
+from slider_resonator.scenes.scene import (
+    Scene,
+    files_of_scenes,
+    find_scene,
+    scene_from,
+)
+from slider_resonator.scenes.scene import read_scene as read_scene_file
+from slider_resonator.steady.blocking_force import Blocking, find_blocking
+from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
+from slider_resonator.studies.choose import Choice
+from slider_resonator.studies.choose import choose as choose_model
+from slider_resonator.studies.sweep.grid import Sweep, grid_from, read_grid
+from slider_resonator.studies.sweep.local import available_cores
+from slider_resonator.studies.sweep.sweeping import SweepResult, run_sweep
+
+__all__ = [
+    "Blocking",
+    "Choice",
+    "HarnessError",
+    "OpenFmu",
+    "Record",
+    "Scene",
+    "SteadyMotion",
+    "SweepResult",
+    "Validation",
+    "choose",
+    "fmu_path",
+    "open_fmu",
+    "read_scene",
+    "sweep",
+    "validate",
+]
+
+SceneLike = str | Path | Mapping[str, Any] | Scene
+
+
+class OpenFmu:
+    """An FMU that runs in a process of its own: it may crash or hang and the script goes on.
+
+    Use it in a `with` block, or `close` it. Every method may take the `time_limit` (s) that it was
+    opened with, and raises HarnessError where the FMU refuses, crashes or exceeds that.
+    """
+
+    def __init__(self, fmu: Path, time_limit: float) -> None:
+        self.path = fmu
+        self._isolated = IsolatedFmu(fmu, time_limit)
+
+    def __enter__(self) -> OpenFmu:
+        """Return the open FMU."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: Any, trace: Any) -> None:
+        """Free the FMU and end its process."""
+        self._isolated.__exit__(kind, error, trace)
+
+    def close(self) -> None:
+        """Free the FMU and end its process."""
+        self._isolated.close()
+
+    def run(self, scene: SceneLike, **values: float) -> Record:
+        """Run a scene and return inputs and outputs at all its communication points."""
+        read = read_scene(scene, **values)
+        task = partial(run_schedule, parameters=read.parameters, schedule=read.schedule())
+        record: Record = self._isolated.run(task)
+        return record
+
+    def steady(self, *, max_denominator: int = MAX_DENOMINATOR, **values: float) -> SteadyMotion:
+        """Find the steady motion by shooting; its `status` says why there is none."""
+        search = partial(find_steady, values=_checked(values), max_denominator=max_denominator)
+        motion: SteadyMotion = self._isolated.run(search)
+        return motion
+
+    def blocking(self, *, max_denominator: int = MAX_DENOMINATOR, **values: float) -> Blocking:
+        """Find the load that stops the slider; its `status` says why there is none."""
+        search = partial(find_blocking, values=_checked(values), max_denominator=max_denominator)
+        blocking: Blocking = self._isolated.run(search)
+        return blocking
+
+
+def open_fmu(fmu: str | Path | None = None, *, time_limit: float = TIME_LIMIT) -> OpenFmu:
+    """Open an FMU for a `with` block."""
+    return OpenFmu(_fmu(fmu), time_limit)
+
+
+def read_scene(scene: SceneLike, **values: float) -> Scene:
+    """Return a scene, its parameters and inputs replaced by `values`.
+
+    Data without a name is called "scene". Raises SceneError with key, value and requirement.
+    """
+    checked = _checked(values)
+    if isinstance(scene, Scene):
+        return scene.with_values(checked)
+    if isinstance(scene, Mapping):
+        named = {"name": "scene", "title": "scene", **scene}
+        return scene_from(named, str(named["name"])).with_values(checked)
+    return read_scene_file(find_scene(str(scene)), checked)
+
+
+def validate(
+    *fmus: str | Path,
+    scenes: Sequence[str | Path] = (),
+    time_limit: float = TIME_LIMIT,
+) -> tuple[Validation, ...]:
+    """Compare FMUs with the references; scenes are names, files or folders, by default all."""
+    files = files_of_scenes([str(scene) for scene in scenes])
+    paths = [Path(fmu) for fmu in fmus] or [fmu_path("native")]
+    return validate_scenes(paths, files, time_limit=time_limit)
+
+
+def choose(scene: SceneLike, fmu: str | Path | None = None, **values: float) -> Choice:
+    """Choose the cheapest fidelity, friction law, tolerance and step that meet a scene's needs."""
+    return choose_model(read_scene(scene, **values), _fmu(fmu))
+
+
+def sweep(
+    grid: str | Path | Mapping[str, Any],
+    out: str | Path,
+    fmu: str | Path | None = None,
+    *,
+    workers: int | None = None,
+    restart: bool = False,
+) -> SweepResult:
+    """Compute measures over a grid and write the table `out` (CSV or Parquet).
+
+    `grid` is a file or data of the same form, `workers` the number of processes, by default one for
+    each core. `columns` of the result are the table. Finished points are kept beside `out` until it
+    is written; `restart` discards them.
+    """
+    read: Sweep = grid_from(grid, "grid") if isinstance(grid, Mapping) else read_grid(Path(grid))
+    return run_sweep(
+        read, _fmu(fmu), Path(out), workers=workers or available_cores(), restart=restart
+    )
+
+
+def _fmu(fmu: str | Path | None) -> Path:
+    return fmu_path("native") if fmu is None else Path(fmu)
+
+
+def _checked(values: Mapping[str, float]) -> dict[str, float]:
+    allowed = [*PARAMETERS, *INPUTS]
+    for name, value in values.items():
+        if name not in allowed:
+            raise SceneError(unknown_name("parameter or input", name, allowed))
+        try:
+            check_value(name, value)
+        except ValueError as error:
+            raise SceneError(str(error)) from error
+    return dict(values)

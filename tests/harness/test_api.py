@@ -1,0 +1,91 @@
+"""The Python API: what the commands do, for scripts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+
+import slider_resonator as sr
+from slider_resonator.fmu import finished
+
+STEADY_VELOCITY = 0.0986951
+"""Of table 1 at phase 0.4 rad and a load of 0.05 N, by Taylor integration, m/s."""
+
+
+def test_every_name_of_the_api_is_one_of_the_package() -> None:
+    from slider_resonator import api
+
+    assert sr.__all__ == api.__all__
+    assert all(getattr(sr, name) is getattr(api, name) for name in sr.__all__)
+    assert set(sr.__all__) <= set(dir(sr))
+    with pytest.raises(AttributeError, match="no attribute 'velocity'"):
+        _ = sr.velocity
+
+
+def test_an_open_fmu_runs_scenes_and_is_searched(native_fmu: Path) -> None:
+    with sr.open_fmu(native_fmu) as fmu:
+        record = fmu.run(
+            {"run": {"stop_time": 0.5, "step_size": 0.01}, "inputs": {"phase": {"constant": 0.4}}},
+            load=0.05,
+        )
+        motion = fmu.steady(phase=0.4, load=0.05)
+        blocking = fmu.blocking()
+    expected = simulate_fmu(
+        str(native_fmu),
+        start_values={"phase": 0.4, "load": 0.05},
+        output=["mean_velocity"],
+        stop_time=0.5,
+        output_interval=0.01,
+    )
+    assert record.times == pytest.approx(expected["time"])
+    assert np.abs(record["mean_velocity"] - expected["mean_velocity"]).max() < 1e-12
+    assert motion.status == "steady"
+    assert motion.steady_velocity == pytest.approx(STEADY_VELOCITY, abs=5e-8)
+    assert blocking.blocking_force == pytest.approx(0.0851861, abs=5e-8)
+
+
+def test_scenes_are_names_files_and_data(native_fmu: Path, tmp_path: Path) -> None:
+    built_in = sr.read_scene("table_1", load=0.01)
+    assert built_in.values["load"] == 0.01
+    assert sr.read_scene(built_in, load=0.02).values["load"] == 0.02
+    with pytest.raises(sr.HarnessError, match=r"scene: run\.stop_tim"):
+        sr.read_scene({"run": {"stop_tim": 1.0}})
+    with pytest.raises(sr.HarnessError, match="did you mean 'phase'"):
+        sr.read_scene("table_1", phse=1.0)
+    with pytest.raises(sr.HarnessError, match="load = nan: must be a finite number"):
+        sr.read_scene("table_1", load=float("nan"))
+    (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
+    assert validation.passed
+    assert sr.choose("feed_forward", native_fmu).meets
+    table = tmp_path / "table.csv"
+    result = sr.sweep(
+        {"measures": ["steady_velocity"], "list": {"phase": [0.0, 0.4]}},
+        table,
+        native_fmu,
+        workers=1,
+    )
+    assert (result.points, result.failed) == (2, 0)
+    assert table.read_text().count("\n") == 3
+
+
+def test_a_refusal_of_the_fmu_is_an_error_with_its_text(native_fmu: Path) -> None:
+    with sr.open_fmu(native_fmu) as fmu:
+        with pytest.raises(sr.HarnessError, match=r"slider_mass = -1\.0 refused: must be"):
+            fmu.run("table_1", slider_mass=-1.0)
+        assert fmu.run("table_1").final("position") > 0.0, "the FMU can still be used"
+
+
+def test_finished_fmus_are_found_or_the_remedy_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(finished, "FOLDERS", (tmp_path,))
+    with pytest.raises(sr.HarnessError, match="in a checkout `make build` builds it"):
+        sr.fmu_path()
+    for build, name in finished.FMUS.items():
+        (tmp_path / name).touch()
+        assert sr.fmu_path(build) == tmp_path / name
+    with pytest.raises(ValueError, match="'fmi2': must be one of 'native', 'python', 'fmi3'"):
+        sr.fmu_path("fmi2")  # type: ignore[arg-type]
