@@ -61,8 +61,8 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
     """Unpack the FMU at `path` for the length of the block.
 
     Raises FmuError when it is no co-simulation FMU of FMI 2.0 or 3.0, lacks a variable of the
-    interface,
-    gives one of them another causality, type or unit, or has no binary for this platform.
+    interface, gives one of them another causality, type or unit, or has no binary for this
+    platform.
     """
     path = Path(path)
     description = _read_description(path)
