@@ -12,7 +12,7 @@ PIP_INSTALL := -m pip install -qq --disable-pip-version-check
 COVER := --cov=slider_resonator --cov=fmu_src --cov-report=html:build/coverage --cov-report=term:skip-covered
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build validate test lint lock bench ci hosts interop clean
+.PHONY: help setup build validate test lint lock docs bench ci hosts interop clean
 
 help: ## print this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -72,6 +72,9 @@ hosts: $(READY_WITH_HOSTS) .venv-hosts/.ready ## install the simulators that the
 
 interop: hosts ## run table 1 in all of them
 	$(PY) -m pytest -n 2 --dist loadfile -m interop
+
+docs: build ## write the documentation site, with the page that runs the component, to build/docs
+	$(PY) -m sphinx -q -W --keep-going docs build/docs
 
 bench: build ## measure what a step costs a host in C
 	$(PY) -m harness bench
