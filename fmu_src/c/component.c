@@ -198,6 +198,12 @@ static double lost_in_sum(double time, double elapsed) {
     return (time - (end - added)) + (elapsed - added);
 }
 
+/* How much [s] of the carry a step makes up for: at most half its size. */
+static double owed_time(double carry, double step_size) {
+    double half = 0.5 * step_size;
+    return carry == 0.0 ? 0.0 : fmax(-half, fmin(carry, half));
+}
+
 static void go_on(Snapshot *now, const Moment *after, double time, double elapsed) {
     /* Without an event the age grows by the step; rounding makes up far less than half of that. */
     if (after->event_age < elapsed + 0.5 * now->moment.event_age) {
@@ -212,8 +218,7 @@ static bool step(Component *component, double time, double step_size, EventSearc
                  Refusal *refusal) {
     Snapshot *now = &component->now;
     const Law *law = present_law(component);
-    double owed = fmax(-0.5 * step_size, fmin(now->time_carry, 0.5 * step_size));
-    double duration = step_size - owed;
+    double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
     Moment after;
     if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
         || !step_check(now->time, now->stop_time, time, step_size, refusal)
