@@ -21,7 +21,6 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.scene import find_scene, read_scene
 from slider_resonator.studies.choose import Choice, choose
-from slider_resonator.studies.choose.candidate import Model
 
 UNITS = {
     "mean_velocity": "m/s",
@@ -81,6 +80,6 @@ def _print(choice: Choice) -> None:
         needs.append((name, predicted, f"{choice.allowed[name]:.3g}", UNITS[name]))
     columns = (*texts("need"), *numbers("predicted error", "allowed"), *texts("unit"))
     print_table(Table(columns, needs))
-    others = [(Model(m.fidelity, m.friction_law).name, m.why) for m in choice.ruled_out]
+    others = [(ruled_out.model.name, ruled_out.why) for ruled_out in choice.ruled_out]
     if others:
         print_table(Table(texts("ruled out", "why"), others))

@@ -1,7 +1,8 @@
-"""The candidates: fidelity, friction law, tolerance and communication step."""
+"""The candidates: fidelity, averaging order, friction law, tolerance and communication step."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 COULOMB, LUGRE = 0, 1
@@ -13,16 +14,27 @@ START_TOLERANCE = 1e-8
 
 @dataclass(frozen=True)
 class Model:
-    """Fidelity 0, 1 or 2 and friction law, 0 Coulomb or 1 LuGre."""
+    """Fidelity 0, 1 or 2 and friction law, 0 Coulomb or 1 LuGre.
+
+    `averaging_order` is that of fidelity 0, None where the FMU has no such parameter.
+    """
 
     fidelity: int
     friction_law: int
+    averaging_order: int | None = None
 
     @property
     def name(self) -> str:
         """The model in words."""
         law = "LuGre" if self.friction_law == LUGRE else "Coulomb"
-        return f"fidelity {self.fidelity}, {law} friction"
+        order = f", order {self.averaging_order}" if self.averaging_order else ""
+        return f"fidelity {self.fidelity}{order}, {law} friction"
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The FMU parameters that make it."""
+        order = {"averaging_order": self.averaging_order} if self.averaging_order else {}
+        return {"fidelity": self.fidelity, "friction_law": self.friction_law, **order}
 
     @property
     def uses_tolerance(self) -> bool:
@@ -30,9 +42,21 @@ class Model:
         return self.fidelity > 0 and self.friction_law == LUGRE
 
     @property
+    def any_step(self) -> bool:
+        """Whether its motion is the same in steps of any size, to rounding: closed forms."""
+        return self.fidelity > 0 and self.friction_law == COULOMB
+
+    @property
     def tolerances(self) -> tuple[float, ...]:
         """The tolerances to choose from, descending."""
         return TOLERANCES if self.uses_tolerance else (START_TOLERANCE,)
+
+
+def models(laws: Iterable[int], averaging_orders: Iterable[int | None]) -> list[Model]:
+    """Return the models of some friction laws, the averaged ones of some orders."""
+    laws, orders = tuple(laws), tuple(averaging_orders)
+    averaged = [Model(0, law, order) for order in orders for law in laws]
+    return averaged + [Model(fidelity, law) for fidelity in (1, 2) for law in laws]
 
 
 @dataclass(frozen=True)
@@ -49,8 +73,4 @@ class Candidate:
     @property
     def parameters(self) -> dict[str, float]:
         """The FMU parameters that make it."""
-        return {
-            "fidelity": self.model.fidelity,
-            "friction_law": self.model.friction_law,
-            "tolerance": self.tolerance,
-        }
+        return {**self.model.parameters, "tolerance": self.tolerance}

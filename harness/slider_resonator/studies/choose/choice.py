@@ -11,18 +11,19 @@ from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.errors import ErrorEstimate
 from slider_resonator.studies.choose.scales import Scales
 
-MARGIN = 0.98
+MARGIN = 0.99
 """Largest share of an allowed error that an estimate may take."""
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """A candidate with its estimated errors and its cost."""
+    """A candidate with its estimated errors, its cost, and the part of the scene it was run for."""
 
     candidate: Candidate
     estimates: Mapping[str, ErrorEstimate]
     allowed: Mapping[str, float]
     cost: float
+    probe: str
 
     @property
     def excess(self) -> float:
@@ -55,13 +56,20 @@ class RuledOut:
     fidelity: int
     friction_law: int
     why: str
+    averaging_order: int | None
+
+    @property
+    def model(self) -> Model:
+        """Fidelity, friction law and averaging order."""
+        return Model(self.fidelity, self.friction_law, self.averaging_order)
 
 
 @dataclass(frozen=True)
 class Choice:
     """The cheapest candidate that meets every need, or the nearest where `meets` is False.
 
-    `step` (s) is None for a scene without a run. `error` is what is predicted and `allowed` what is
+    `averaging_order` is None but for averaged motion in an FMU that has a choice of orders. `step`
+    (s) is None for a scene without a run. `error` is what is predicted and `allowed` what is
     needed, by need in its unit (m/s, m, s, N, Hz), None where there is no such thing. `cost` is in
     seconds of CPU time by the model in `slider_resonator.studies.choose.cost`. `probe` says what
     was resolved to confirm it: "whole" scene, "windows" or "beginning", and `probe_drive_periods`
@@ -69,6 +77,7 @@ class Choice:
     """
 
     fidelity: int
+    averaging_order: int | None
     friction_law: int
     step: float | None
     tolerance: float
@@ -84,8 +93,8 @@ class Choice:
 
     @property
     def model(self) -> Model:
-        """Fidelity and friction law."""
-        return Model(self.fidelity, self.friction_law)
+        """Fidelity, friction law and averaging order."""
+        return Model(self.fidelity, self.friction_law, self.averaging_order)
 
     @property
     def parameters(self) -> dict[str, float]:

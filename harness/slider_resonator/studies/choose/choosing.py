@@ -16,12 +16,14 @@ from slider_resonator.studies.choose.candidate import (
     START_TOLERANCE,
     Candidate,
     Model,
+    models,
 )
 from slider_resonator.studies.choose.choice import Choice, Evaluation, RuledOut
 from slider_resonator.studies.choose.cost import run_cost, search_cost
+from slider_resonator.studies.choose.coverage import FINEST_TOLERANCE
 from slider_resonator.studies.choose.errors import Estimates
 from slider_resonator.studies.choose.ladder import step_ladder
-from slider_resonator.studies.choose.probe import FINEST_TOLERANCE, Probe
+from slider_resonator.studies.choose.probe import Probe
 from slider_resonator.studies.choose.search import coarsest
 from slider_resonator.studies.choose.steady_need import SteadyValue, find, steady_error
 
@@ -29,6 +31,8 @@ HOPELESS = 1000.0
 """Ratio of predicted to allowed averaging error above which no probe is needed."""
 FIRST_TOLERANCE = 1e-6
 """Tolerance at which communication steps are judged and the search for a tolerance starts."""
+DOUBTFUL = (0.3, 3.0)
+"""Errors over allowed ones, from windows, that the whole scene must confirm."""
 MIN_PERIODS = 40
 """Minimum drive periods of a search by shooting."""
 
@@ -127,7 +131,7 @@ class _Choosing:
         """Return the models that the scene allows."""
         free = self.scene.need is not None and self.scene.need.friction_law == "free"
         laws = (COULOMB, LUGRE) if free and self.law == LUGRE else (self.law,)
-        return [Model(fidelity, law) for fidelity in (0, 1, 2) for law in laws]
+        return models(laws, self.probe.averaging_orders)
 
     def _excluded(self, model: Model) -> str | None:
         """Return the reason against a model that needs no probe, None where it needs one."""
@@ -165,7 +169,9 @@ class _Choosing:
         cost = 0.0
         if candidate.step is not None:
             duration = self.probe.duration
-            cost += run_cost(candidate, self.scales, duration, ceil(duration / candidate.step))
+            steps = ceil(duration / candidate.step)
+            changes = steps if self.probe.varying else self.probe.jumps
+            cost += run_cost(candidate, self.scales, duration, steps, changes)
         if self.probe.steady_needs:
             cost += search_cost(candidate.model, candidate.tolerance, periods, self.scales)
         return cost
@@ -184,13 +190,12 @@ class _Choosing:
                 refused = str(error)
                 return inf
 
-        def first_step(tolerance: float) -> int | None:
-            return coarsest(lambda i: excess(tolerance, self.ladder[i]), len(self.ladder), 2.0)
-
         tight = tolerances[-1]
-        at = first_step(tight)
+        at = coarsest(lambda i: excess(tight, self.ladder[i]), len(self.ladder), 2.0)
         if at is None:
             return None, self._why_not(model, refused)
+        if self.probe.covers == "whole":  # errors that change sign may vanish at a coarser step
+            at = next(i for i in range(at + 1) if excess(tight, self.ladder[i]) <= 1.0)
         step = self.ladder[at]
         index = coarsest(lambda i: excess(tolerances[i], step), len(tolerances), 10.0, first)
         if index is None:
@@ -218,10 +223,20 @@ class _Choosing:
                 finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
                 estimates[name] = steady_error(found, self._find(name, finest), self.law)
                 periods += found.periods
-            allowed = {name: self.needs[name].at(estimates[name].magnitude) for name in estimates}
             cost = self.cost(candidate, max(periods, MIN_PERIODS))
-            self._evaluations[candidate] = Evaluation(candidate, estimates, allowed, cost)
+            covers = self.probe.covers if self.probe.run_needs else "steady motion"
+            evaluation = self._evaluated(candidate, estimates, cost, covers)
+            if self.probe.can_be_confirmed and DOUBTFUL[0] < evaluation.excess < DOUBTFUL[1]:
+                estimates |= self.probe.confirmed_errors(candidate)
+                evaluation = self._evaluated(candidate, estimates, cost, "whole")
+            self._evaluations[candidate] = evaluation
         return self._evaluations[candidate]
+
+    def _evaluated(
+        self, candidate: Candidate, estimates: Estimates, cost: float, covers: str
+    ) -> Evaluation:
+        allowed = {name: self.needs[name].at(estimates[name].magnitude) for name in estimates}
+        return Evaluation(candidate, dict(estimates), allowed, cost, covers)
 
     def _find(self, name: str, candidate: Candidate) -> SteadyValue:
         key = name, replace(candidate, step=None)
@@ -233,12 +248,12 @@ class _Choosing:
     def _choice(self, best: Evaluation | None, ruled_out: list[RuledOut]) -> Choice:
         evaluation = best or self._nearest()
         model = evaluation.candidate.model
-        covers = self.probe.covers if self.probe.run_needs else "steady motion"
         reason = (
             "the cheapest that meets every need" if best else f"none suffices: {evaluation.why}"
         )
         return Choice(
             fidelity=model.fidelity,
+            averaging_order=model.averaging_order,
             friction_law=model.friction_law,
             step=evaluation.candidate.step,
             tolerance=evaluation.candidate.tolerance,
@@ -248,7 +263,7 @@ class _Choosing:
             cost=evaluation.cost,
             ruled_out=tuple(ruled_out),
             reason=reason,
-            probe=covers,
+            probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods + self.periods,
             scales=self.scales,
         )
@@ -260,4 +275,4 @@ def _more_expensive(evaluation: Evaluation, best: Evaluation) -> RuledOut:
 
 
 def _ruled_out(model: Model, why: str) -> RuledOut:
-    return RuledOut(model.fidelity, model.friction_law, why)
+    return RuledOut(model.fidelity, model.friction_law, why, model.averaging_order)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import floor, log2
 
 from slider_resonator.device import schedule
-from slider_resonator.studies.choose.probe import MAX_STEPS, SIGNAL_NEEDS, Probe
+from slider_resonator.studies.choose.coverage import MAX_STEPS, SIGNAL_NEEDS
+from slider_resonator.studies.choose.probe import Probe
 
 MAX_PERIODS = 10_000
 """Maximum drive periods in a step: beyond, the overhead of a step is negligible."""

@@ -15,7 +15,7 @@ from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.held_grid import HeldGrid
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
-MAX_CHECKPOINTS = 2000
+MAX_CHECKPOINTS = 20_000
 """Maximum number of points at which signals are compared."""
 GOLDEN = 0.6180339887498949
 NO_POINTS = np.empty(0)

@@ -42,7 +42,7 @@ class Draw:
 def generated_scene(seed: int) -> Scene:
     """Return the scene of a seed."""
     draw = Draw(np.random.default_rng([20261121, seed]))
-    device = _device(draw)
+    device = random_device(draw)
     steady = draw.chance(STEADY_SHARE)
     law = int(device["friction_law"])
     periods = draw.log(30.0, LONGEST[law])
@@ -66,7 +66,7 @@ def generated_scene(seed: int) -> Scene:
     return scene_from({**content, "need": need}, f"scene_{seed}")
 
 
-def _device(draw: Draw) -> dict[str, float]:
+def random_device(draw: Draw) -> dict[str, float]:
     """Return a device whose drive is 0.5 to 100 000 times its friction."""
     slider, share = draw.log(0.1, 10.0), draw.log(0.005, 0.5)
     frequency = draw.log(100.0, 35_000.0)

@@ -101,6 +101,9 @@ class Judge:
             if not (0.0 < abs(ratio - round(ratio)) < 0.1 and beats >= 2.0):
                 return inf, 0.0
             found, resolved = (_beat(r, step) for r in (record, true))
+            turns = resolved * period / abs(ratio - round(ratio))
+            if not (0.8 <= turns <= 1.2 or 1.8 <= turns <= 2.2 or 2.8 <= turns <= 3.2):
+                return inf, 0.0
             return abs(found - resolved), resolved
         checkpoints = self.scene.schedule().times
         at, there = (np.searchsorted(r.times, checkpoints) for r in (record, true))
@@ -199,6 +202,16 @@ def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
             if max(reference.excess(candidate).values()) <= 1.0:
                 return Verdict(choice, excess, candidate, cost)
     return Verdict(choice, excess, None, inf)
+
+
+def described(verdict: Verdict, name: str) -> str:
+    """Return a verdict in words."""
+    choice = verdict.choice
+    return (
+        f"{name}: {choice.model.name}, step {choice.step}, tolerance {choice.tolerance:g}, "
+        f"{choice.reason}; errors over allowed {dict(verdict.excess)}; cost {choice.cost:.3g} s, "
+        f"cheaper {verdict.cheaper} at {verdict.cheaper_cost:.3g} s"
+    )
 
 
 def _over(error: float, allowed: float) -> float:

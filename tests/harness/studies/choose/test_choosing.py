@@ -109,6 +109,29 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
     assert (tight.meets, tight.fidelity, tight.step) == (True, 2, None)
 
 
+@pytest.mark.parametrize("need", ["steady_velocity", "blocking_force"])
+def test_an_output_of_the_theory_costs_less_than_a_search(instance: Instance, need: str) -> None:
+    scene = scene_of(f"[device]\nfriction_law = 1\n[need]\n{need} = {{ rel = 0.01 }}\n")
+    choice = choose_with(instance, scene)
+    assert (choice.meets, choice.fidelity) == (True, 0)
+    searches = [why.why for why in choice.ruled_out if why.fidelity > 0]
+    assert all("costs at least" in why for why in searches)
+    assert choice.cost < 1e-4, "seconds, no table"
+
+
+def test_errors_near_the_allowed_ones_are_confirmed_by_the_whole_scene(
+    instance: Instance,
+) -> None:
+    run = "[run]\ndrive_periods = 60000\nsteps_per_period = 0.001\n"
+    probes = {}
+    for allowed in (1e-2, 8e-5):
+        need = f"[need]\nmean_velocity = {{ abs = {allowed} }}\n"
+        choice = choose_with(instance, scene_of(f"{run}{need}"))
+        assert (choice.meets, choice.fidelity) == (True, 0)
+        probes[allowed] = choice.probe
+    assert probes == {1e-2: "windows", 8e-5: "whole"}
+
+
 @pytest.mark.parametrize(
     ("inputs", "need", "message"),
     [

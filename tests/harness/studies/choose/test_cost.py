@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from slider_resonator.studies.choose.candidate import TOLERANCES, Candidate, Model
-from slider_resonator.studies.choose.cost import run_cost
+from slider_resonator.studies.choose.cost import run_cost, search_cost
 from slider_resonator.studies.choose.scales import scales_of
 from tests.harness.scene_text import scene_of
 
@@ -30,3 +30,18 @@ def test_resolved_motion_costs_by_the_period_and_averaged_motion_does_not() -> N
     for candidate, ratio in ((resolved, 10.0), (averaged, 1.0)):
         costs = [run_cost(candidate, scales, 100.0, 1) for scales in (fast, slow)]
         assert costs[0] / costs[1] == pytest.approx(ratio, rel=1e-2)
+
+
+def test_a_search_costs_more_than_the_output_of_the_theory() -> None:
+    scales = scales_of(scene_of("[device]\nfriction_law = 1\n"))
+    for law in (0, 1):
+        costs = [search_cost(Model(fidelity, law), 1e-8, 40, scales) for fidelity in (0, 1, 2)]
+        assert 8.0 * costs[0] < costs[1] <= costs[2]
+
+
+def test_inputs_that_change_cost_averaged_motion_its_transients() -> None:
+    scales = scales_of(scene_of(""))
+    candidate = Candidate(Model(0, 0), 1e-8, 100.0)
+    costs = [run_cost(candidate, scales, 100.0, 10, changes) for changes in (0, 1, 5)]
+    assert costs == sorted(costs)
+    assert costs[2] - costs[0] == pytest.approx(5.0 * (costs[1] - costs[0]), rel=0.1)

@@ -11,7 +11,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.resolved import located_events
 from slider_resonator.studies.choose.choosing import choose_with
 from tests.harness.studies.choose.generated_scenes import COUNT, generated_scene
-from tests.harness.studies.choose.judging import Judge, Verdict, judge
+from tests.harness.studies.choose.judging import Judge, Verdict, described, judge
 
 CHUNK = 25
 REFEREED = (46, 50)
@@ -36,18 +36,11 @@ def verdicts(instance: Instance, seeds: range) -> list[Verdict]:
     return found
 
 
-def described(verdict: Verdict, seed: int) -> str:
-    choice = verdict.choice
-    return (
-        f"scene {seed}: {choice.model.name}, step {choice.step}, tolerance {choice.tolerance:g}, "
-        f"{choice.reason}; errors over allowed {dict(verdict.excess)}; cost {choice.cost:.3g} s, "
-        f"cheaper {verdict.cheaper} at {verdict.cheaper_cost:.3g} s"
-    )
-
-
 def judged(instance: Instance, seeds: range) -> None:
     found = verdicts(instance, seeds)
-    lines = [described(verdict, seed) for verdict, seed in zip(found, seeds, strict=True)]
+    lines = [
+        described(verdict, f"scene {seed}") for verdict, seed in zip(found, seeds, strict=True)
+    ]
     missed = [text for verdict, text in zip(found, lines, strict=True) if not verdict.met]
     expensive = [text for verdict, text in zip(found, lines, strict=True) if not verdict.cheap]
     assert not missed, "\n".join(["chosen, but does not meet the needs:", *missed])

@@ -8,24 +8,30 @@ import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.choose.candidate import Candidate, Model
-from slider_resonator.studies.choose.probe import CAUTION, HEAD_PERIODS, SHORT, Probe
+from slider_resonator.studies.choose.cost import RESOLVED
+from slider_resonator.studies.choose.coverage import HEAD_PERIODS, SHORT
+from slider_resonator.studies.choose.probe import CAUTION, Probe
 from tests.harness.scene_text import scene_of
 
+PERIOD = RESOLVED[2, 0].sliding
+"""Cost (s) of a drive period of table 1."""
 RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.1\n[need]\n{} = {{ rel = 0.1 }}\n"
 
 
 @pytest.mark.parametrize(
     ("periods", "inputs", "device", "covers"),
     [
-        (SHORT, "", "", "whole"),
-        (20_000, "", "", "windows"),
+        (0.9 * SHORT / PERIOD, "", "", "whole"),
+        (1.1 * SHORT / PERIOD, "", "", "windows"),
         (1e6, "load = { ramp = [[0, 0], [100, 0.1]] }", "", "windows"),
         (20_000, "frequency_ratio = 1.01", "", "whole"),
         (1e6, "frequency_ratio = 1.01", "", "beginning"),
         (20_000, "", "damping_ratio = 1e-3", "whole"),
         (1e6, "", "damping_ratio = 1e-3", "beginning"),
         (1e6, "", "base_amplitude = 1e-7", "beginning"),
-        (20_000, "", "friction_law = 1\ndamping_ratio = 1e-3", "beginning"),
+        (20_000, "", "friction_law = 1\ndamping_ratio = 1e-3", "whole"),
+        (2e5, "", "friction_law = 1\ndamping_ratio = 1e-3", "beginning"),
+        (350, "", "friction_law = 1\nbristle_stiffness = 1e20\nbase_amplitude = 1e-8", "whole"),
     ],
 )
 def test_a_scene_is_resolved_in_windows_where_averaged_motion_connects_them(

@@ -1,67 +1,58 @@
-"""Errors extrapolated from windows against runs of the whole scene."""
+"""Where windows lie in a long scene."""
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from slider_resonator.fmu.instance import Instance
-from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.candidate import Candidate, Model
-from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
-from slider_resonator.studies.choose.probe import Probe
-from slider_resonator.studies.choose.stretch import Stretch, follow
-from slider_resonator.studies.choose.windows import SAFETY, holding_errors
-from tests.harness.scene_text import scene_of
-
-LONG = (
-    "{device}[inputs]\nphase = 0.4\nload = {{ {load} }}\n"
-    "[run]\nstop_time = 7.0\nsteps_per_period = 0.5\n"
-    "[need]\nposition = {{ rel = 0.1 }}\nmean_velocity = {{ rel = 0.1 }}\n"
+from slider_resonator.studies.choose.windows import (
+    FIT_PERIODS,
+    MAX_SPREAD,
+    WINDOW_PERIODS,
+    WINDOWS,
+    even_starts,
+    head_end,
+    places,
+    starts_along,
 )
 
 
-def errors_of_the_whole(instance: Instance, scene: Scene, model: Model) -> dict[str, float]:
-    """Return the errors of averaged motion in the whole scene, which is resolved here."""
-    duration = scene.stop_time or 0.0
-    held = averaged_inputs(scene, duration, 0.01)
-    stretch = Stretch(0.0, duration, scene.schedule().times[1:])
-    law = {"friction_law": float(model.friction_law), "tolerance": 1e-12}
-    found, true = (
-        follow(instance, scene, {**law, "fidelity": fidelity}, held, stretch)
-        for fidelity in (float(model.fidelity), 2.0)
-    )
-    return {
-        "position": float(np.abs(found["position"] - true["position"]).max()),
-        "mean_velocity": float(abs(found["mean_velocity"] - true["mean_velocity"])[-1]),
-    }
-
-
-@pytest.mark.parametrize("device", ["", "[device]\nfriction_law = 1\nbristle_stiffness = 1e4\n"])
-@pytest.mark.parametrize(
-    "load", ["constant = 0.03", "steps = [[0, 0], [3.1, 0.05]]", "ramp = [[0, 0], [5.0, 0.06]]"]
+@given(
+    corners=st.lists(st.floats(1.0, 19_999.0), max_size=30).map(sorted),
+    end=st.floats(20_000.0, 20_001.0),
+    settle=st.floats(2.0, 120.0),
 )
-def test_errors_are_carried_through_a_long_scene(
-    instance: Instance, device: str, load: str
+def test_every_corner_lies_in_a_window_apart_from_its_edges(
+    corners: list[float], end: float, settle: float
 ) -> None:
-    scene = scene_of(LONG.format(device=device, load=load))
-    probe = Probe(instance, scene)
-    assert probe.covers == "windows"
-    model = Model(0, scene.device.friction_law)
-    step = scene.step_size or 0.0
-    estimates = probe.run_errors(Candidate(model, 1e-8, step / 64.0 if probe.varying else step))
-    true = errors_of_the_whole(instance, scene, model)
-    for name, error in true.items():
-        assert estimates[name].error > 0.9 * error, f"{name} is worse than estimated"
-        assert estimates[name].error < 2.0 * SAFETY * error, f"{name} is much better than estimated"
+    first = head_end(1000.0, corners, settle)
+    spans = places(first, end, corners, settle, even_starts(first, end))
+    assert spans[-1][1] == end, "the end of the scene is in a window"
+    assert all(before[1] < after[0] for before, after in pairwise(spans))
+    for corner in corners:
+        if corner <= first:
+            assert corner <= first - settle, "forgotten where the beginning ends"
+            continue
+        (span,) = [span for span in spans if span[0] <= corner <= span[1]]
+        assert corner - span[0] >= settle + FIT_PERIODS - 1.0
+        assert span[1] == end or span[1] - corner >= settle + FIT_PERIODS
 
 
-def test_holding_an_input_errs_in_proportion_to_the_step(instance: Instance) -> None:
-    """A load that ramps at 0.02 N/s and is held for h pulls 0.01 h N too little on 1.1 kg."""
-    text = LONG.format(device="", load="ramp = [[0, 0], [2.0, 0.04], [7.0, 0.04]]")
-    scene = scene_of(text)
-    coarse, fine = (holding_errors(instance, scene, 7.0, step)["position"] for step in (0.02, 0.01))
-    assert coarse / fine == pytest.approx(2.0, rel=0.02)
-    held, meant = (grid(scene, 7.0, 0.02) for grid in (sampled_inputs, averaged_inputs))
-    impulses = [np.diff(g.times, append=7.0) @ g.values[:, 1] for g in (held, meant)]
-    assert impulses[1] - impulses[0] == pytest.approx(0.04 * 0.01, rel=1e-2)
+def test_a_scene_without_corners_has_windows_at_even_distances() -> None:
+    spans = places(1000, 20_000.0, [], 2.0, even_starts(1000, 20_000.0))
+    assert len(spans) == WINDOWS
+    assert {stop - start for start, stop in spans} == {float(WINDOW_PERIODS)}
+    assert np.ptp(np.diff([start for start, _ in spans])) <= 1
+
+
+def test_windows_are_denser_where_the_slow_velocity_changes() -> None:
+    times = np.linspace(0.0, 10.0, 1001)
+    velocity = np.where(times < 5.0, 0.0, 2.0 * (1.0 - np.exp(-4.0 * (times - 5.0))))
+    starts = np.array(starts_along(times, velocity, 1.0))
+    assert np.sum((starts > 5.0) & (starts < 6.0)) > np.sum((starts > 0.0) & (starts < 4.0))
+    assert starts[0] == pytest.approx(0.0)
+    assert len(starts_along(times, 1e6 * velocity, 1.0)) == MAX_SPREAD

@@ -1,0 +1,40 @@
+"""The errors that come from holding inputs over a step, as they vary."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.studies.choose.candidate import Model
+from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates
+from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
+from slider_resonator.studies.choose.stretch import Stretch, follow
+
+
+def holding_errors(
+    instance: Instance, scene: Scene, averaged: Model, duration: float, step: float
+) -> dict[str, float]:
+    """Return the errors that averaged motion makes by holding the inputs over each step (s)."""
+    slow = averaged.parameters
+    checkpoints = step * np.arange(1, int(duration / step))
+    stretch = Stretch(0.0, duration, np.append(checkpoints[checkpoints < duration], duration))
+    held = follow(instance, scene, slow, sampled_inputs(scene, duration, step), stretch)
+    meant = follow(instance, scene, slow, averaged_inputs(scene, duration, step / 4.0), stretch)
+    apart = {name: np.abs(held[name] - meant[name]) for name in ("mean_velocity", "position")}
+    return {
+        "mean_velocity": float(apart["mean_velocity"][-1]),
+        "velocity": float(apart["mean_velocity"].max()),
+        "position": float(apart["position"].max()),
+    }
+
+
+def with_holding(estimates: Mapping[str, ErrorEstimate], added: Mapping[str, float]) -> Estimates:
+    """Return errors with those of holding the inputs added."""
+    return {
+        name: replace(estimate, error=estimate.error + added.get(name, 0.0))
+        for name, estimate in estimates.items()
+    }

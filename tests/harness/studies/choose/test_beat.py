@@ -1,0 +1,29 @@
+from __future__ import annotations
+
+import pytest
+
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.studies.choose.beat import unseen_beat
+from slider_resonator.studies.choose.choosing import choose_with
+from slider_resonator.studies.choose.errors import ErrorEstimate
+from slider_resonator.studies.choose.scales import scales_of
+from tests.harness.scene_text import scene_of
+from tests.harness.studies.choose.hard_scenes import hard_scene
+
+
+@pytest.mark.parametrize(
+    ("found", "shown"), [(1.0, True), (1.15, True), (2.1, True), (0.1, False), (1.5, False)]
+)
+def test_the_strongest_oscillation_is_the_beat_or_a_multiple_of_it(
+    found: float, shown: bool
+) -> None:
+    scales = scales_of(scene_of("[inputs]\nfrequency_ratio = 1.02\n"))
+    reason = unseen_beat(ErrorEstimate(0.0, found * scales.beat), scales)
+    assert (reason == "") == shown
+    assert shown or f"strongest oscillation has {found * scales.beat:.4g} Hz" in reason
+
+
+def test_a_slow_motion_that_drifts_more_than_it_beats_has_no_beat(instance: Instance) -> None:
+    choice = choose_with(instance, hard_scene("short_beat", 9))
+    assert not choice.meets
+    assert "in the resolved run" in choice.reason

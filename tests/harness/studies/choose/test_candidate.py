@@ -1,0 +1,27 @@
+from __future__ import annotations
+
+from slider_resonator.studies.choose.candidate import COULOMB, LUGRE, Candidate, Model, models
+from slider_resonator.studies.choose.cost import AVERAGED, AVERAGING_ORDERS, RESOLVED
+
+
+def test_orders_of_averaging_are_models_of_their_own() -> None:
+    found = models((COULOMB, LUGRE), (1, 2))
+    assert [model.averaging_order for model in found] == [1, 1, 2, 2, None, None, None, None]
+    assert len(set(found)) == 8
+    assert [model.fidelity for model in models((COULOMB,), (None,))] == [0, 1, 2]
+
+
+def test_an_fmu_without_orders_is_not_asked_for_one() -> None:
+    assert "averaging_order" not in Candidate(Model(0, COULOMB), 1e-8, 1.0).parameters
+    ordered = Candidate(Model(0, LUGRE, 2), 1e-8, 1.0)
+    assert ordered.parameters["averaging_order"] == 2
+    assert ordered.model.name == "fidelity 0, order 2, LuGre friction"
+
+
+def test_every_model_has_a_price() -> None:
+    for model in models((COULOMB, LUGRE), AVERAGING_ORDERS):
+        if model.fidelity:
+            assert (model.fidelity, model.friction_law) in RESOLVED
+        else:
+            keys = {(model.averaging_order, model.friction_law, lifts) for lifts in (False, True)}
+            assert keys <= set(AVERAGED)
