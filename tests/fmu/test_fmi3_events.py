@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
+from fmpy import simulate_fmu
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
@@ -178,6 +180,19 @@ def test_inputs_change_at_events(unpacked_3: Unpacked) -> None:
         assert instance.get("load") == (0.3,)
         assert instance.get("normal_force")[0] > 2.0 - 1.0
         instance.step_to(2 * PERIOD)
+
+
+def test_fmpy_stops_at_the_events(native_3_fmu: Path) -> None:
+    """Its own simulation, which records twice at an event."""
+    columns = ["velocity", "mean_velocity", "reversals"]
+    about = {"stop_time": 0.1, "output_interval": 1e-3, "output": columns}
+    stopping = simulate_fmu(
+        str(native_3_fmu), use_event_mode=True, early_return_allowed=True, **about
+    )
+    passing = simulate_fmu(str(native_3_fmu), **about)
+    assert np.count_nonzero(stopping["velocity"] == 0.0) >= passing["reversals"][-1] > 100.0
+    assert stopping["reversals"][-1] == passing["reversals"][-1]
+    assert stopping["mean_velocity"][-1] == pytest.approx(passing["mean_velocity"][-1], rel=1e-12)
 
 
 devices = st.fixed_dictionaries(
