@@ -17,4 +17,4 @@ every_slider = _fmus("native", "python", "native_3")
 """The same, and with the native FMU of FMI 3.0."""
 
 controller_fmu_only = _fmus("controller")
-every_fmu = _fmus("native", "python", "controller")
+every_fmu = _fmus("native", "python", "native_3", "controller")
