@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import subprocess
 from collections.abc import Iterator
@@ -84,6 +85,31 @@ def test_a_workflow_is_whole(path: Path) -> None:
         assert ("run" in step) != ("uses" in step), step
         if "uses" in step:
             assert step["uses"].startswith("actions/"), step
+        if step.get("uses", "").startswith("actions/checkout@"):
+            assert step["with"]["persist-credentials"] is False, "a later step could use them"
+    assert all("permissions" not in job for job in workflow["jobs"].values()), "none needs more"
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
+def test_actions_are_pinned_by_commit_and_say_their_version(path: Path) -> None:
+    uses = re.findall(r"uses:\s*(.*)", path.read_text(encoding="utf-8"))
+    assert uses
+    for action in uses:
+        assert re.fullmatch(r"actions/[a-z-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", action), action
+    commits = {tuple(action.split(" # ")) for action in uses}
+    assert len(commits) == len({action.split("@")[0] for action in uses}), "one version of each"
+
+
+def test_both_builds_are_compared_and_what_is_kept_has_checksums() -> None:
+    jobs = read(WORKFLOWS[0])["jobs"]
+    runs = {
+        name: "\n".join(str(s.get("run", "")) for s in job["steps"]) for name, job in jobs.items()
+    }
+    assert "sha256sum *.fmu *.ssp > SHA256SUMS" in runs["verdict"]
+    assert jobs["reproducible"]["needs"] == "verdict"
+    assert "sha256sum --check --strict" in runs["reproducible"]
+    assert jobs["reproducible"]["runs-on"] != jobs["verdict"]["runs-on"]
+    assert "cyclonedx-py requirements" in runs["sbom"]
 
 
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)

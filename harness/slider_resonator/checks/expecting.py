@@ -61,6 +61,12 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "closed_form": lambda references: references.averaged_blocking_force,
         "averaged": lambda references: references.predicted_blocking_force,
     },
+    "predicted_velocity_in_run": {
+        "averaged": lambda references: references.predictions("predicted_velocity"),
+    },
+    "predicted_blocking_force_in_run": {
+        "averaged": lambda references: references.predictions("predicted_blocking_force"),
+    },
     "final_predicted_velocity": {
         "averaged": lambda references: references.at_the_end.predicted_velocity,
     },

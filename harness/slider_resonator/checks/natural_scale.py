@@ -46,10 +46,12 @@ _resonator = _vibration(lambda force: force.resonator_amplitude)
 _SCALES: Mapping[str, Callable[[Device], float]] = {
     "steady_velocity": _velocity,
     "predicted_velocity": _velocity,
+    "predicted_velocity_in_run": _velocity,
     "mean_velocity": _velocity,
     "velocity": _velocity,
     "blocking_force": _full_friction,
     "predicted_blocking_force": _full_friction,
+    "predicted_blocking_force_in_run": _full_friction,
     "friction_force": _full_friction,
     "normal_force": _largest_normal_force,
     "position": _displacement,

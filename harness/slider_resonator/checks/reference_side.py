@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from math import floor
+from math import floor, pi
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
@@ -37,13 +39,18 @@ COINCIDENCE = 1e-6
 class ReferenceSide:
     """Trajectories, steady motion and closed forms for one scene, computed on first use.
 
-    Steady motion and closed forms are for constant `inputs` by name (rad, N, 1), by default those
-    at the start.
+    Steady motion and closed forms are for constant `inputs` by name (rad, N, 1) and a `device`, by
+    default those at the start.
     """
 
-    def __init__(self, scene: Scene, inputs: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        inputs: Mapping[str, float] | None = None,
+        device: Device | None = None,
+    ) -> None:
         self.scene = scene
-        self.device = scene.device
+        self.device = device or scene.device
         start = {name: signal.at(0.0) for name, signal in scene.signals.items()}
         self.inputs = start if inputs is None else inputs
         self._trajectories: dict[str, Trajectory] = {}
@@ -56,8 +63,8 @@ class ReferenceSide:
 
     @cached_property
     def times(self) -> Array:
-        """Communication points of the scene (s), shape (n,)."""
-        return self.scene.schedule().times
+        """Times of the scene (s) at which outputs are read, shape (n,)."""
+        return self.scene.schedule().readings()
 
     def trajectory(self, reference: str) -> Trajectory:
         """Return the trajectory of `located_events`, `taylor` or, for LuGre, `bristle_state`.
@@ -113,19 +120,19 @@ class ReferenceSide:
         """Mean velocity (m/s) over the last whole drive period of the run."""
         run = self.trajectory("located_events")
         begin, end = run.position[np.searchsorted(run.time, self._last_period)]
-        return float(end - begin) / self.drive_period
+        return float(end - begin) / float(np.diff(self._last_period)[0])
 
     @cached_property
     def stick_fraction(self) -> float:
         """Share of the last whole drive period of the run that is spent sticking."""
         begin, end = (self._stick_time(float(time)) for time in self._last_period)
-        return (end - begin) / self.drive_period
+        return (end - begin) / float(np.diff(self._last_period)[0])
 
     @property
     def last_event_time(self) -> float:
-        """Time (s) of the last event, 0 without any."""
+        """Time (s) of the last event, that of the start without any."""
         events = self.trajectory("located_events").event_times
-        return float(events[-1]) if events.size else 0.0
+        return self.scene.start_time + (float(events[-1]) if events.size else 0.0)
 
     @cached_property
     def steady_velocity(self) -> float | None:
@@ -162,16 +169,29 @@ class ReferenceSide:
 
     @property
     def at_the_end(self) -> ReferenceSide:
-        """The same device under the inputs at the end of the run.
+        """The device and the inputs at the end of the run, as constant ones."""
+        return self._under(self.scene.schedule().held())
+
+    def _under(self, held: Sequence[HeldInputs]) -> ReferenceSide:
+        """Return the references for the last of held inputs.
 
         The phase (rad) includes the lead of the normal force from earlier frequency ratios.
         """
+        now = held[-1]
+        ratio = now.frequency_ratio
+        lead = sum(
+            (h.frequency_ratio - ratio) * _drive_frequency(h, self.device) * (h.stop - h.start)
+            for h in held
+        )
+        inputs = {"phase": now.phase + lead, "load": now.load, "frequency_ratio": ratio}
+        return ReferenceSide(self.scene, inputs, now.tuned_device(self.scene.device))
+
+    def predictions(self, name: str) -> Array:
+        """Return a prediction over the run, by its name, shape (n,); m/s or N."""
         held = self.scene.schedule().held()
-        ratio = held[-1].frequency_ratio
-        lead = sum((h.frequency_ratio - ratio) * (h.stop - h.start) for h in held)
-        phase = held[-1].phase + lead * self.device.drive_frequency
-        inputs = {"phase": phase, "load": held[-1].load, "frequency_ratio": ratio}
-        return ReferenceSide(self.scene, inputs)
+        values = np.array([getattr(self._under(held[: i + 1]), name) for i in range(len(held))])
+        starts = np.array([inputs.start for inputs in held[1:]])
+        return np.asarray(values[np.searchsorted(starts, self.times, side="left")])
 
     @property
     def averaged_velocity(self) -> float:
@@ -204,10 +224,22 @@ class ReferenceSide:
     def _last_period(self) -> Array:
         """Begin and end (s) of the last whole drive period, shape (2,)."""
         stop = float(self.times[-1])
+        if self.scene.tuning:
+            return self._last_turn(stop)
         whole = floor(stop / self.drive_period * (1.0 + 1e-12))
-        if whole < 1:
-            raise ValueError(f"the run of {stop:.6g} s is shorter than one drive period")
+        _check_whole(whole, stop)
         return np.minimum(np.array([whole - 1, whole]) * self.drive_period, stop)
+
+    def _last_turn(self, stop: float) -> Array:
+        """Return begin and end (s) of the last whole turn of a drive whose frequency changes."""
+        held = self.scene.schedule().held()
+        rates = [_drive_frequency(inputs, self.device) for inputs in held]
+        turned = [r * (h.stop - h.start) / (2.0 * pi) for r, h in zip(rates, held, strict=True)]
+        turns = np.concatenate([[0.0], np.cumsum(turned)])
+        whole = floor(float(turns[-1]) * (1.0 + 1e-12))
+        _check_whole(whole, stop)
+        times = [0.0, *(inputs.stop for inputs in held)]
+        return np.asarray(np.interp([whole - 1, whole], turns, times))
 
     def _stick_time(self, stop: float) -> float:
         """Return the time (s) spent sticking from the start until `stop` (s)."""
@@ -221,3 +253,12 @@ class ReferenceSide:
         ratio = self.inputs["frequency_ratio"]
         if ratio != 1.0:
             raise ValueError(f"frequency_ratio = {ratio!r}: the closed form allows only 1")
+
+
+def _drive_frequency(inputs: HeldInputs, device: Device) -> float:
+    return inputs.tuned_device(device).drive_frequency
+
+
+def _check_whole(turns: int, stop: float) -> None:
+    if turns < 1:
+        raise ValueError(f"the run of {stop:.6g} s is shorter than one drive period")

@@ -12,10 +12,10 @@ from slider_resonator.commands.options import (
     scenes_option,
     time_limit_option,
 )
+from slider_resonator.commands.results import print_json
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.output.console import output, progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene import files_of_scenes
 from slider_resonator.studies.sweep.local import available_cores
@@ -122,7 +122,7 @@ def mutants_command(
         raise HarnessError(f"{path}: nothing to change: no mutant is of {asked}")
     if only_list:
         if as_json:
-            click.echo(to_json({"mutants": [mutant_as_plain(mutant) for mutant in chosen]}))
+            print_json({"mutants": [mutant_as_plain(mutant) for mutant in chosen]})
         else:
             print_mutants(output(), chosen)
         return
@@ -142,7 +142,7 @@ def mutants_command(
     if html is not None:
         write_mutants(html, run)
     if as_json:
-        click.echo(to_json(run_as_plain(run)))
+        print_json(run_as_plain(run))
     else:
         print_run(output(), run)
     context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)

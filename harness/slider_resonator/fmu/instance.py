@@ -8,17 +8,20 @@ from ctypes import c_double
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
+from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
+from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelVariable
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
-from slider_resonator.errors import FmuError, Refusal, unknown_name
-from slider_resonator.fmu.binding import Binding, bind
-from slider_resonator.fmu.interface_check import INTEGER_TYPES
+from slider_resonator.errors import FmuError, Refusal
+from slider_resonator.fmu import fmu_log
+from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.opening import Fmu
 
 EQUAL = 1e-6
@@ -27,12 +30,25 @@ EQUAL = 1e-6
 _numbers = count(1)
 
 
+def call(slave: FMU2Slave | Fmi3Slave, name: str, *arguments: Any) -> None:
+    """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
+
+    Arguments are converted to the types that fmpy has declared for the function.
+    """
+    status = getattr(slave.dll, name)(slave.component, *arguments)
+    if status > fmi2Warning:
+        raise FMICallException(function=name, status=status)
+
+
 class Block:
     """A fixed set of Real variables, read and written many times without allocation."""
 
-    def __init__(self, binding: Binding, references: Sequence[int]) -> None:
-        self.values = (c_double * len(references))()
-        self._get, self._set = binding.block(references, self.values)
+    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
+        size = len(references)
+        self.values = (c_double * size)()
+        arguments = (fmi2ValueReference * size)(*references), size, self.values
+        self._get = partial(call, slave, "fmi2GetReal", *arguments)
+        self._set = partial(call, slave, "fmi2SetReal", *arguments)
 
     def read(self) -> list[float]:
         """Return the current values."""
@@ -52,12 +68,12 @@ class _Explained:
         self.instance = instance
 
     def __enter__(self) -> None:
-        del self.instance.binding.messages[:]
+        del self.instance.messages[:]
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if isinstance(error, FMICallException):
             instance = self.instance
-            logged = "; ".join(dict.fromkeys(instance.binding.messages))
+            logged = fmu_log.in_one_line(instance.messages)
             reason = logged or f"{error} The FMU logged no reason."
             where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
             raise Refusal(f"{where}: {reason}") from error
@@ -73,14 +89,15 @@ class _Plan:
 
 
 class Instance:
-    """One instance of an FMU, reset by every `start`.
+    """One instance of an FMU, reused through fmi2Reset by every `start`.
 
     Raises FmuError when the FMU cannot be instantiated. `start` raises Refusal with the message of
     the FMU when a call fails; the other methods, which are called millions of times, do so inside
     an `explained` block. Must be freed with `end`.
     """
 
-    binding: Binding
+    slave: FMU2Slave | Fmi3Slave
+    messages: list[str]
 
     def __init__(self, fmu: Fmu) -> None:
         self.fmu = fmu
@@ -96,10 +113,24 @@ class Instance:
         self._create()
 
     def _create(self) -> None:
+        self._name = f"harness{next(_numbers)}"
+        self.messages, callbacks = fmu_log.collect(self._name)
         try:
-            self.binding = bind(self.fmu, f"harness{next(_numbers)}")
+            about = {
+                "instanceName": self._name,
+                "guid": self.fmu.description.guid,
+                "modelIdentifier": self.fmu.identifier,
+                "unzipDirectory": str(self.fmu.folder),
+            }
+            if self.fmu.version == "3.0":
+                self.slave = Fmi3Slave(FMU3Slave(**about), self.messages)
+            else:
+                self.slave = FMU2Slave(**about)
+                self.slave.instantiate(callbacks=callbacks, loggingOn=True)
         except Exception as error:  # fmpy raises bare Exception for every error here
-            raise FmuError(f"{self.fmu.path}: cannot be instantiated: {error}") from error
+            reason = fmu_log.in_one_line([str(error), *self.messages])
+            fmu_log.forget(self._name)
+            raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
         self.time = 0.0
         self._used = False
         self._initialised = False
@@ -109,7 +140,7 @@ class Instance:
 
     def block(self, names: Sequence[str]) -> Block:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
-        return Block(self.binding, [self._variable(name).valueReference for name in names])
+        return Block(self.slave, [self._variable(name).valueReference for name in names])
 
     def start(
         self,
@@ -120,16 +151,54 @@ class Instance:
     ) -> None:
         """Initialise with the given parameters and inputs, all others at their start.
 
-        Raises FmuError for an unknown name and Refusal for a value that the FMU does not take.
+        Raises FmuError for an unknown name, NotApplicable for a variable that the FMU may lack and
+        Refusal for a value that it does not take.
         """
-        self.time = start_time
         with self.explained():
-            if self._used:
-                self.binding.reset()
-            self._used = True
-            self._initialised = False
-            self.binding.initialise(start_time, stop_time, partial(self._set, values))
-            self._initialised = True
+            self.set_up(stop_time, start_time=start_time)
+            self.set(values)
+            call(self.slave, "fmi2EnterInitializationMode")
+            self.begin()
+
+    def set_up(self, stop_time: float | None = None, *, start_time: float = 0.0) -> None:
+        """Reset the instance, where it was used before, and set up an experiment (s)."""
+        self.time = start_time
+        if self._used:
+            call(self.slave, "fmi2Reset")
+        self._used = True
+        self._initialised = False
+        stop = (False, 0.0) if stop_time is None else (True, stop_time)
+        call(self.slave, "fmi2SetupExperiment", False, 0.0, start_time, *stop)
+
+    def begin(self) -> None:
+        """Leave initialisation mode."""
+        call(self.slave, "fmi2ExitInitializationMode")
+        self._initialised = True
+
+    def set(self, values: Mapping[str, float]) -> None:
+        """Set parameters and inputs; raises FmuError and NotApplicable as `start` does.
+
+        Integers are set one by one and all Reals in one call, each of which costs a drive period.
+        """
+        values = self.fmu.settings(values)
+        plan = self._plan(self._settable, values, self.fmu.settable)
+        for name, reference in plan.integers.items():
+            try:
+                check_integer(name, values[name])
+            except ValueError as error:
+                raise FmuError(str(error)) from error
+            self.slave.setInteger([reference], [int(values[name])])
+        plan.block.write([values[name] for name in plan.reals])
+
+    def terminate(self) -> None:
+        """End a run."""
+        call(self.slave, "fmi2Terminate")
+        self._initialised = False
+
+    def resumed(self, time: float) -> None:
+        """Note that a state of a run was set, at a time in s."""
+        self.time = time
+        self._used = self._initialised = True
 
     def check_steps(self, times: Array) -> None:
         """Raise FmuError for an FMU that takes equal steps only, if those to `times` (s) differ."""
@@ -151,7 +220,7 @@ class Instance:
 
     def step_by(self, size: float) -> None:
         """Advance by `size` (s)."""
-        self.binding.step(self.time, size)
+        call(self.slave, "fmi2DoStep", self.time, size, True)
         self.time += size
 
     def value(self, name: str) -> float:
@@ -163,31 +232,19 @@ class Instance:
         plan = self._plan(self._readable, names, self._variable)
         found = dict(zip(plan.reals, plan.block.read(), strict=True))
         for name, reference in plan.integers.items():
-            found[name] = float(self.binding.integer(reference))
+            found[name] = float(self.slave.getInteger([reference])[0])
         return found
 
     def end(self) -> None:
         """Terminate, where the FMU is in a state that allows it, and free the instance."""
         if self._initialised:
             with suppress(FMICallException):  # nothing is lost: the instance is freed at once
-                self.binding.terminate()
-        self.binding.free()
+                self.slave.terminate()
+        self.slave.freeInstance()
+        fmu_log.forget(self._name)
 
     def _variable(self, name: str) -> ModelVariable:
-        if name not in self.fmu.variables:
-            raise FmuError(unknown_name("variable", name, self.fmu.variables))
-        return self.fmu.variables[name]
-
-    def _set(self, values: Mapping[str, float]) -> None:
-        """Set Integers one by one and all Reals in one call, each of which costs a drive period."""
-        plan = self._plan(self._settable, values, self.fmu.settable)
-        for name, reference in plan.integers.items():
-            try:
-                check_integer(name, values[name])
-            except ValueError as error:
-                raise FmuError(str(error)) from error
-            self.binding.set_integer(reference, int(values[name]))
-        plan.block.write([values[name] for name in plan.reals])
+        return self.fmu.variable(name)
 
     def _plan(
         self,
@@ -200,7 +257,7 @@ class Instance:
         plan = plans.get(names)
         if plan is None:
             found = {name: find(name) for name in names}
-            integers = {n: v.valueReference for n, v in found.items() if v.type in INTEGER_TYPES}
+            integers = {n: v.valueReference for n, v in found.items() if v.type == "Integer"}
             reals = [name for name in names if name not in integers]
             plan = plans[names] = _Plan(integers, reals, self.block(reals))
         return plan

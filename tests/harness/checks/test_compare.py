@@ -29,7 +29,7 @@ WAVE = np.sin(np.linspace(0.0, 50.0, 1000))
 
 
 def fmu(**parts: Any) -> FmuSide:
-    scene = SimpleNamespace(name="scene", source="scene.toml")
+    scene = SimpleNamespace(name="scene", source="scene.toml", start_time=0.0)
     return cast(FmuSide, SimpleNamespace(scene=scene, **parts))
 
 

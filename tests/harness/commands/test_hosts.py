@@ -1,11 +1,15 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from slider_resonator.commands import hosts
 from slider_resonator.commands.hosts import NATIVE, NATIVE_3, PYTHON
+from slider_resonator.errors import HarnessError
+from slider_resonator.trials.hosts.hosts import hosts as all_hosts
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
@@ -95,3 +99,20 @@ def test_bad_arguments_are_refused(
     done = call("hosts", *arguments)
     assert done.exit_code == 2
     assert reported in done.stderr
+
+
+def test_what_is_installed_runs_and_the_rest_is_listed(
+    native_fmu: Path, python_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fmpy = all_hosts()[0]
+
+    def missing() -> str:
+        raise HarnessError("matlab: not installed")
+
+    two = (fmpy, replace(fmpy, name="matlab", version=missing))
+    monkeypatch.setattr(hosts, "hosts", lambda *_: two)
+    monkeypatch.setattr(hosts, "NAMES", [host.name for host in two])
+    done = call("hosts", native_fmu, "--python-fmu", python_fmu)
+    assert done.exit_code == 0, done.output
+    assert done.stderr == "not run: matlab: matlab: not installed\n"
+    assert "fmpy" in done.stdout

@@ -9,6 +9,7 @@ The fast motion is that of (32)-(34).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -71,35 +72,55 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     start. The initial values fix the momentum and the centre of slider and resonator; right after
     the start the fast motion is the steady one, whatever they are. Raises ValueError for inputs
     with gaps, times outside them, and as `equivalent_force` does; RuntimeError when the slow motion
-    cannot be integrated.
+    cannot be integrated. Where a run tunes the drive the motion of slider and resonator goes on
+    without a jump, and so what is left of it without the drive's own swing jumps.
     """
     check_contiguous(held)
     check_times(times, held)
-    force = equivalent_force(device)
-    share = device.mass_ratio
-    slow = device.initial_velocity + share * device.initial_resonator_velocity + slow_start(device)
+    start, share = device, device.mass_ratio
+    drive = _Drive.of(held[0].tuned_device(device))
+    slow = device.initial_velocity + share * device.initial_resonator_velocity + drive.velocity
     centre = device.initial_position + share * device.initial_resonator_displacement
     theta = psi = 0.0
     rows = np.empty((0, 3))
+    last = np.array([device.initial_position, device.initial_velocity])
     for inputs in held:
+        tuned = inputs.tuned_device(start)
+        before, drive = drive, _Drive.of(tuned)
+        slow += (drive.velocity - before.velocity) * math.cos(theta)
+        centre += (drive.displacement - before.displacement) * math.sin(theta)
+        device, force = tuned, equivalent_force(tuned)
         local = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
         grid = np.union1d(local, [0.0, inputs.stop - inputs.start])
         slope = _slow_acceleration(device, force, inputs, theta, psi)
         moved, velocity = slow_trajectory(slope, grid, slow / force.velocity_amplitude)
         moved, velocity = force.velocity_amplitude * moved, force.velocity_amplitude * velocity
         places = np.searchsorted(grid, local)
-        angle = theta + device.drive_frequency * local - force.angle
-        position = centre + moved[places] - force.ripple_amplitude * np.sin(angle)
-        fast = -force.velocity_amplitude * np.cos(angle)
-        slow_there = velocity[places]
-        rows = np.vstack([rows, np.column_stack([position, slow_there + fast, slow_there])])
+        angle = theta + device.drive_frequency * grid - force.angle
+        position = centre + moved - force.ripple_amplitude * np.sin(angle)
+        motion = np.column_stack([position, velocity - force.velocity_amplitude * np.cos(angle)])
+        there = motion[places]
+        there[local <= np.spacing(inputs.start)] = last
+        last = motion[-1]
+        rows = np.vstack([rows, np.column_stack([there, velocity[places]])])
         centre += float(moved[-1])
         slow = float(velocity[-1])
         turned = device.drive_frequency * float(grid[-1])
         theta, psi = advanced(theta, turned), advanced(psi, inputs.frequency_ratio * turned)
-    if times.size and times[0] == held[0].start:
-        rows[0, :2] = device.initial_position, device.initial_velocity
     return AveragedMotion(times, *rows.T)
+
+
+@dataclass(frozen=True)
+class _Drive:
+    """Amplitudes in m/s and m of the swing that the drive gives to the centre of the masses."""
+
+    velocity: float
+    displacement: float
+
+    @classmethod
+    def of(cls, device: Device) -> _Drive:
+        velocity = slow_start(device)
+        return cls(velocity, velocity / device.drive_frequency)
 
 
 def _slow_acceleration(

@@ -16,7 +16,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.equations import initial_state
-from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
+from slider_resonator.references.resolved.lugre_equations import lugre_equations_of
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.scipy_methods import Method, scipy_method, take_step
 from slider_resonator.references.resolved.trajectory import LugreTrajectory
@@ -43,7 +43,7 @@ def simulate_lugre(
     solver = scipy_method(method)
     check_contiguous(held)
     check_times(times, held)
-    run = _Run(device, lugre_equations_of(device), times)
+    run = _Run(device, times)
     for inputs in held:
         run.follow(inputs, solver, rtol, atol)
     return run.recorder.lugre_trajectory()
@@ -52,17 +52,19 @@ def simulate_lugre(
 class _Run:
     """The state (position, velocity, Y, Y', z) of a run between held inputs, samples and counts."""
 
-    def __init__(self, device: Device, lugre: LugreEquations, times: Array) -> None:
+    def __init__(self, device: Device, times: Array) -> None:
         self.recorder = Recorder(times)
-        self._lugre = lugre
-        self._equations = lugre.equations
-        self._device = device
+        self._start = self._device = device
+        self._lugre = lugre_equations_of(device)
+        self._equations = self._lugre.equations
         self._state = np.array([*initial_state(device), device.initial_bristle_deflection])
         self._theta = 0.0
         self._psi = 0.0
 
     def follow(self, inputs: HeldInputs, method: Method, rtol: float, atol: float) -> None:
-        equations = self._equations
+        self._device = inputs.tuned_device(self._start)
+        self._lugre = lugre_equations_of(self._device)
+        self._equations = equations = self._lugre.equations
         ratio = inputs.frequency_ratio
         scales = np.append(equations.state_scales(inputs.load), self._lugre.max_deflection)
         start = self._state[0]

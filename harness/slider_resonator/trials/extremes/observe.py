@@ -117,6 +117,7 @@ def _replayed(instance: Instance, cell: MatrixCell) -> bool:
     """Return whether every second step, repeated from a stored state, gives the same outputs."""
     begin(instance, cell, 0.0)
     block = instance.block(NAMES)
+    slave = instance.slave
     equal = True
     with instance.explained():
         for hold in cell.holds:
@@ -126,10 +127,14 @@ def _replayed(instance: Instance, cell: MatrixCell) -> bool:
                     instance.step_by(hold.size)
                     continue
                 present = instance.time
-                data = instance.binding.state()
+                state = slave.getFMUstate()
+                data = slave.serializeFMUstate(state)
+                slave.freeFMUstate(state)
                 instance.step_by(hold.size)
                 first = block.read()
-                instance.binding.set_state(data)
+                state = slave.deSerializeFMUstate(data)
+                slave.setFMUstate(state)
+                slave.freeFMUstate(state)
                 instance.time = present
                 instance.step_by(hold.size)
                 equal = equal and block.read() == first

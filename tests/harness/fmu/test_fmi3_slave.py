@@ -15,6 +15,7 @@ from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
+from slider_resonator.fmu.saved_state import SavedState
 from tests.harness import faulty_fmus
 
 TIMES = np.linspace(0.0, 0.04, 41)
@@ -48,11 +49,11 @@ def test_a_refusal_of_fmi_3_is_explained_and_leaves_the_instance_usable(
         assert instance.read(["fidelity", "load"]) == {"fidelity": 2.0, "load": 0.1}
         with pytest.raises(Refusal, match="the step must end by stopTime"), instance.explained():
             instance.step_by(2.0)
-        data = instance.binding.state()
+        saved = SavedState.of(instance)
         instance.step_by(0.5)
         reached = instance.value("position")
-        instance.binding.set_state(data)
-        instance.time = 0.0
+        saved.transfer(instance)
+        saved.free()
         instance.step_by(0.5)
         assert instance.value("position") == reached
 
