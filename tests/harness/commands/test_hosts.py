@@ -102,7 +102,7 @@ def test_bad_arguments_are_refused(
 
 
 def test_what_is_installed_runs_and_the_rest_is_listed(
-    native_fmu: Path, python_fmu: Path, monkeypatch: pytest.MonkeyPatch
+    native_fmu: Path, others: tuple[str | Path, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fmpy = all_hosts()[0]
 
@@ -112,7 +112,7 @@ def test_what_is_installed_runs_and_the_rest_is_listed(
     two = (fmpy, replace(fmpy, name="matlab", version=missing))
     monkeypatch.setattr(hosts, "hosts", lambda *_: two)
     monkeypatch.setattr(hosts, "NAMES", [host.name for host in two])
-    done = call("hosts", native_fmu, "--python-fmu", python_fmu)
+    done = call("hosts", native_fmu, *others)
     assert done.exit_code == 0, done.output
     assert done.stderr == "not run: matlab: matlab: not installed\n"
     assert "fmpy" in done.stdout
