@@ -57,10 +57,11 @@ Moment law_start(const Law *law) {
     return first;
 }
 
-bool law_advance(const Law *law, const Moment *moment, double duration, Moment *after,
-                 Refusal *refusal) {
-    return is_averaged(&law->device) ? slow_advance(law, moment, duration, after, refusal)
-                                     : events_advance(law, moment, duration, after, refusal);
+bool law_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                 Moment *after, Refusal *refusal) {
+    return is_averaged(&law->device)
+               ? slow_advance(law, moment, duration, after, refusal)
+               : events_advance(law, moment, duration, search, after, refusal);
 }
 
 int law_mode(const Law *law, const Moment *moment) {

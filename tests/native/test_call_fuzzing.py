@@ -65,9 +65,9 @@ def test_the_controller_stands_the_same(fuzzer: Path, controller_fmu: Path, tmp_
 def test_the_fuzzer_notices_a_refusal_that_is_not_logged(fuzzer: Path, tmp_path: Path) -> None:
     silent = tmp_path / "silent"
     code = slider_sources()
-    speaking = "done ? fmi2OK : report(instance, fmi2Error, refusal->text)"
+    speaking = "done ? STATUS_OK : send_report(instance, STATUS_ERROR, refusal->text)"
     assert code["instance.c"].count(speaking) == 1
-    quiet = "(void)instance, (void)refusal, done ? fmi2OK : fmi2Error"
+    quiet = "(void)instance, (void)refusal, done ? STATUS_OK : STATUS_ERROR"
     code["instance.c"] = code["instance.c"].replace(speaking, quiet)
     write_sources(code, silent)
     library = tmp_path / "silent.so"

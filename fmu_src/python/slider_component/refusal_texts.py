@@ -22,9 +22,9 @@ def fixed_while_running(name: str, value: object) -> str:
     return f"{name} = {value!r} refused: it is fixed and can be set only before initialization ends"
 
 
-def unknown_reference(reference: int, last: int) -> str:
+def unknown_reference(reference: int, first: int, last: int) -> str:
     """Refuse a value reference that no variable has."""
-    return f"valueReference = {reference} refused: must be from 0 to {last}"
+    return f"valueReference = {reference} refused: must be from {first} to {last}"
 
 
 def wrong_type(name: str, reference: int, own: str, requested: str) -> str:
