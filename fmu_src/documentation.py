@@ -6,13 +6,14 @@ committed, so that equal sources give equal bytes.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from string import Template
 from typing import Literal
 
 from fmu_src.model_description import DESCRIPTION
+from fmu_src.model_description_3 import REFERENCE_OFFSET, TYPES
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
 
@@ -30,7 +31,7 @@ def documentation_page(
     *,
     model: str,
     generation_tool: str,
-    host: Literal["native", "python"],
+    host: Literal["native", "native_3", "python"],
     about: str = DESCRIPTION,
     page: str = "page.html",
     variables: Sequence[Variable] = VARIABLES,
@@ -47,21 +48,38 @@ def documentation_page(
         model=escape(model),
         description=escape(about),
         generation_tool=escape(generation_tool),
-        variables=_variable_tables(variables),
+        **_version_texts("3.0" if host == "native_3" else "2.0", variables),
     )
     return page.encode()
+
+
+def _version_texts(version: str, variables: Sequence[Variable]) -> dict[str, str]:
+    """Return what the page says about a version of FMI."""
+    if version == "3.0":
+        return {
+            "version": version,
+            "reset": "fmi3Reset",
+            "first_reference": f"{REFERENCE_OFFSET}, after that of <code>time</code>,",
+            "variables": _variable_tables(variables, REFERENCE_OFFSET, TYPES),
+        }
+    return {
+        "version": version,
+        "reset": "fmi2Reset",
+        "first_reference": "0",
+        "variables": _variable_tables(variables, 0, {}),
+    }
 
 
 def _asset(name: str) -> str:
     return (ASSETS / name).read_text(encoding="utf-8").rstrip("\n")
 
 
-def _variable_tables(variables: Sequence[Variable]) -> str:
-    references = {v.name: i for i, v in enumerate(variables)}
+def _variable_tables(variables: Sequence[Variable], first: int, types: Mapping[str, str]) -> str:
+    references = {v.name: i for i, v in enumerate(variables, start=first)}
     tables = []
     for kind, heading in _HEADINGS:
         rows = [
-            _row(references[v.name], v)
+            _row(references[v.name], types.get(v.type, v.type), v)
             for v in variables
             if kind in (v.causality, v.variability if v.causality == "parameter" else None)
         ]
@@ -74,7 +92,7 @@ def _variable_tables(variables: Sequence[Variable]) -> str:
     return "\n".join(tables)
 
 
-def _row(reference: int, v: Variable) -> str:
+def _row(reference: int, type_name: str, v: Variable) -> str:
     unit = v.unit or ""
     if v.display_unit:
         unit += f" (shown in {v.display_unit})"
@@ -84,5 +102,5 @@ def _row(reference: int, v: Variable) -> str:
     )
     return (
         f'<tr><td class="number">{reference}</td><td><code>{escape(v.name)}</code></td>'
-        f"<td>{v.type}</td><td>{escape(unit)}</td>{numbers}<td>{escape(v.description)}</td></tr>"
+        f"<td>{type_name}</td><td>{escape(unit)}</td>{numbers}<td>{escape(v.description)}</td></tr>"
     )

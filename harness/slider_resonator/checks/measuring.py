@@ -97,6 +97,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "predicted_blocking_force_in_run": _output("blocking_force"),
     "final_predicted_velocity": _final("steady_velocity"),
     "final_predicted_blocking_force": _final("blocking_force"),
+    "prediction_valid": _final("prediction_valid"),
     "position": _output("position"),
     "velocity": _output("velocity"),
     "resonator_displacement": _output("resonator_displacement"),
@@ -108,8 +109,11 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
         fmu.record.times, fmu.record["position"], fmu.drive_period
     ),
     "mean_velocity": _final("mean_velocity"),
+    "mean_velocity_in_run": _output("mean_velocity"),
     "stick_fraction": _final("stick_fraction"),
+    "stick_fraction_in_run": _output("stick_fraction"),
     "reversals": _final("reversals"),
+    "reversals_in_run": _output("reversals"),
     "event_times": lambda fmu: (
         (fmu.record["last_event_time"] - fmu.scene.start_time) / fmu.drive_period
     ),
