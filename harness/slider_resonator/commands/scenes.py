@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import Any
 
 import click
@@ -15,6 +16,7 @@ from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.page import example_text, scene_page
 from slider_resonator.scenes.scene import (
+    Scene,
     built_in_scenes,
     find_scene,
     read_scene,
@@ -109,11 +111,16 @@ def _list_quantities(as_json: bool) -> None:
         ]
         print_json(rows)
         return
+    print_table(quantities_table())
+
+
+def quantities_table() -> Table:
+    """Return a line for each quantity that scenes can expect."""
     cells = [
         (name, q.kind, q.unit, q.meaning, ", ".join(q.references) or "-")
         for name, q in QUANTITIES.items()
     ]
-    print_table(Table(texts("quantity", "kind", "unit", "meaning", "references"), cells))
+    return Table(texts("quantity", "kind", "unit", "meaning", "references"), cells)
 
 
 def _list_scenes(as_json: bool) -> None:
@@ -132,10 +139,15 @@ def _list_scenes(as_json: bool) -> None:
         ]
         print_json(rows)
         return
+    print_table(scenes_table(scenes))
+
+
+def scenes_table(scenes: Sequence[Scene]) -> Table:
+    """Return a line for each scene: its title, length, points and checks."""
     cells = []
     for scene in scenes:
         points = len(scene.sweep.values) if scene.sweep else 1
         length = "-" if scene.stop_time is None else f"{scene.stop_time:.3g} s"
         checks = str(points * len(scene.expect))
         cells.append((scene.name, scene.title, length, str(points), checks))
-    print_table(Table([*texts("scene", "title"), *numbers("run", "points", "checks")], cells))
+    return Table([*texts("scene", "title"), *numbers("run", "points", "checks")], cells)

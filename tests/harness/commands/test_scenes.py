@@ -34,7 +34,7 @@ def test_what_scenes_can_expect_is_listed() -> None:
     assert events["references"] == ["located_events", "taylor", "bristle_state", "averaged"]
     assert events["unit"] == "drive periods"
     text = call("scenes", "--quantities").stdout
-    assert "mean velocity of the steady" in text
+    assert "shooting" in text
 
 
 def test_a_scene_is_shown_as_its_file_says() -> None:
