@@ -79,3 +79,10 @@ def test_a_picture_changes_no_digit_of_the_csv(python_fmu: Path, tmp_path: Path)
     assert alone.read_bytes() == beside.read_bytes()
     with alone.open() as file:
         assert len(list(csv.reader(file))) == 1602
+
+
+def test_averaged_motion_has_no_reversals_to_report(python_fmu: Path) -> None:
+    averaged = call("run", python_fmu, "table_1", "--set", "fidelity=0").stdout
+    assert "reversals" not in averaged
+    assert "mean velocity" in averaged
+    assert "reversals" in call("run", python_fmu, "pushed_at_rest").stdout
