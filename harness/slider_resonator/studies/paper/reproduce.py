@@ -35,7 +35,12 @@ from slider_resonator.studies.paper import (
 )
 from slider_resonator.studies.paper.claim import Claim, ClaimGroup
 from slider_resonator.studies.paper.figure import Data, PaperFigure
-from slider_resonator.studies.paper.listing import write_claims, write_figures, write_tables
+from slider_resonator.studies.paper.listing import (
+    write_claims,
+    write_figures,
+    write_index,
+    write_tables,
+)
 from slider_resonator.studies.paper.table import PaperTable
 
 FIGURES: Mapping[str, PaperFigure] = {
@@ -142,6 +147,7 @@ def reproduce(
     claims = [(group.title, found[group.name]) for group in groups]
     if claims:
         write_claims(out, claims, fmu_path.name, guid)
+    write_index(out, figures, measured, claims, fmu_path.name, guid)
     return Outcome(
         out=str(out),
         fmu=str(fmu_path),
