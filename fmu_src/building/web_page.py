@@ -23,6 +23,7 @@ from fmu_src.units import UNITS
 NAME = "slider-resonator.html"
 
 FOLDER = Path(__file__).parents[1] / "page"
+UPLOT_LICENCE = FOLDER / "vendor" / "LICENSE"
 SCRIPTS = ("component.js", "settings.js", "run.js", "plots.js", "sketch.js", "main.js")
 """In this order they are one JavaScript module."""
 
