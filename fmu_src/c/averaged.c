@@ -195,21 +195,33 @@ TheoryRange theory_range(const Law *law) {
     return range;
 }
 
+/* Whether the vibration overcomes the mean `friction` [N] of sliding by itself, with the amplitude
+ * `force` [N] with which it moves the pair, and with that on a held slider. */
+static bool breaks_loose(const Balance *balance, double force, double friction) {
+    const Bristle *bristle = &balance->law->bristle;
+    double w = balance->fast.frequency, amplitude = balance->fast.velocity / w;
+    double grip = balance->law->friction->averaged->grip(bristle, amplitude, w);
+    return fmin(force, held_amplitude(&balance->law->device))
+           > friction * (grip / bristle->coefficient);
+}
+
 Averaged averaged(const Law *law, double normal_lead) {
     Complex force;
     Refusal refusal;
     if (!equivalent_force(&law->device, &force, &refusal) || (force.re == 0.0 && force.im == 0.0)) {
-        return (Averaged){0.0, 0.0};
+        return (Averaged){0.0, 0.0, false};
     }
     Balance balance = balance_of(law, force, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
     double load = law->inputs.load;
     if (first == last) {
         /* Nothing holds the slider back: every velocity is steady, or with a load none. */
-        return (Averaged){load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0, 0.0};
+        double fastest = load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
+        return (Averaged){fastest, 0.0, false};
     }
     double middle = friction_at(&balance, 0.5 * PI);
     Point low = {0.0, first + load}, halfway = {0.5 * PI, middle + load}, high = {PI, last + load};
     double turning = balanced_turning(&balance, low, halfway, high);
-    return (Averaged){balance.fast.velocity * cos(turning), -middle};
+    bool valid = fabs(load) < first && breaks_loose(&balance, complex_abs(force), first);
+    return (Averaged){balance.fast.velocity * cos(turning), -middle, valid};
 }

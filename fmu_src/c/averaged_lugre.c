@@ -232,9 +232,15 @@ static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, doubl
                            sum.means.cosine / TAU};
 }
 
+/* A vibration far shorter than mu / sigma_0 only bends the bristle. */
+static double grip(const Bristle *bristle, double amplitude, double frequency) {
+    return fmin(bristle->coefficient,
+                amplitude * hypot(bristle->stiffness, frequency * bristle->damping));
+}
+
 static double drag(const Bristle *bristle, double fast_velocity) {
     return bristle->damping * fast_velocity;
 }
 
 const AveragedFriction AVERAGED_LUGRE = {
-    .is_expensive = true, .drag = drag, .mean = mean, .means = means};
+    .is_expensive = true, .grip = grip, .drag = drag, .mean = mean, .means = means};

@@ -4,21 +4,11 @@
 
 #include "angle.h"
 #include "dormand_prince.h"
-#include "settling.h"
 #include "slow_friction.h"
+#include "slow_pass.h"
 
 /* Error per step of the slow motion, relative to the fast velocity. */
 #define TOLERANCE 1e-9
-
-/* Step tried first, as a share of the time in which friction changes the fast velocity. */
-#define FIRST_STEP 0.1
-
-/* What must be left, in first steps, for the motion to settle. */
-#define SETTLING 100.0
-
-/* Steps of averaged motion in one communication step up to which its work is accepted: of those that
- * cost a quadrature each fewer. Before each BLOCK of them it may turn out to have settled. */
-enum { MAX_STEPS = 20000, MAX_EXPENSIVE_STEPS = 1000, BLOCK = 16 };
 
 /* A block without vibration, under constant forces, from `velocity` on. */
 static Reached block_after(double velocity, double friction, double load, double mass,
@@ -61,19 +51,19 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
         *reached = block_after(reached->velocity, full, load, total, duration);
         return true;
     }
-    double strongest = full + fabs(load);
-    double step = strongest > 0.0 ? FIRST_STEP * fast * total / strongest : duration;
-    int most = slow_friction_is_expensive(friction) ? MAX_EXPENSIVE_STEPS : MAX_STEPS;
-    Reached now = {.velocity = reached->velocity, .step = step};
-    for (int count = 0; now.t < duration && isfinite(now.velocity); count += BLOCK) {
-        if (count >= most) {
-            return refuse_work(refusal, duration, now.t, most, "steps of averaged motion");
-        }
-        bool may_settle = friction->drift == 0.0 && duration - now.t > SETTLING * step;
-        if (may_settle && settle(slow_acceleration, friction, fast, duration, &now)) {
-            break;
-        }
-        now = integrate(slow_acceleration, friction, now, duration, TOLERANCE * fast, BLOCK);
+    SlowPass plan = {
+        .acceleration = slow_acceleration,
+        .motion = friction,
+        .fast = fast,
+        .tolerance = TOLERANCE * fast,
+        .step = slow_pass_step(fast, total, full + fabs(load), duration),
+        .duration = duration,
+        .may_settle = friction->drift == 0.0,
+        .most = slow_friction_is_expensive(friction) ? MAX_EXPENSIVE_STEPS : MAX_STEPS,
+    };
+    Reached now = {.velocity = reached->velocity, .step = plan.step};
+    if (!slow_pass(&plan, duration, &now, refusal)) {
+        return false;
     }
     *reached = now;
     return true;

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import pairwise
-from math import cos, exp, expm1, pi, sin, tau
+from math import cos, exp, expm1, hypot, pi, sin, tau
 from typing import NamedTuple
 
 from .averaged_friction import AveragedFriction, FastMotion, FrictionMeans
@@ -69,6 +69,13 @@ def friction_means(bristle: Bristle, fast: FastMotion, n: int, turning: float) -
         sine += friction * sin(n * angle)
         cosine += friction * cos(n * angle)
     return FrictionMeans(plain / tau, sine / tau, cosine / tau)
+
+
+def grip(bristle: Bristle, amplitude: float, frequency: float) -> float:
+    """See AveragedFriction. A vibration far shorter than mu / sigma_0 only bends the bristle."""
+    return min(
+        bristle.coefficient, amplitude * hypot(bristle.stiffness, frequency * bristle.damping)
+    )
 
 
 def drag(bristle: Bristle, fast_velocity: float) -> float:
@@ -211,4 +218,4 @@ def gauss_legendre(count: int) -> tuple[tuple[float, float], ...]:
     return tuple(rule)
 
 
-AVERAGED_LUGRE = AveragedFriction(True, drag, mean_friction, friction_means)
+AVERAGED_LUGRE = AveragedFriction(True, grip, drag, mean_friction, friction_means)

@@ -11,36 +11,21 @@ A bristle is taken as slaved to the motion, so it has no state here.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import copysign, cos, inf, isfinite, sin, tau
+from math import copysign, cos, inf, sin, tau
 
-from .dormand_prince import Reached, integrate
+from .dormand_prince import Reached
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
 from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
 from .period import PeriodMeans
-from .refusal import too_much_work
-from .settling import settled
 from .slow_friction import SlowFriction, slow_friction
+from .slow_motion_error import first_order_error
+from .slow_pass import MAX_EXPENSIVE_STEPS, MAX_STEPS, SlowPass, first_step
 
 TOLERANCE = 1e-9
 """Error per step of the slow motion, relative to the fast velocity."""
-
-FIRST_STEP = 0.1
-"""Step tried first, as a share of the time in which friction changes the fast velocity."""
-
-MAX_STEPS = 20_000
-"""Steps of averaged motion in one communication step up to which its work is accepted."""
-
-MAX_EXPENSIVE_STEPS = 1000
-"""The same where each costs a quadrature."""
-
-SETTLING = 100.0
-"""What must be left, in first steps, for the motion to settle."""
-
-BLOCK = 16
-"""Steps before each of which it may turn out that the motion has settled."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,19 +77,18 @@ class SlowLaw:
         def acceleration(t: float, v: float) -> float:
             return -(friction.at(t, v) + load) / total
 
-        strongest = full + abs(load)
-        step = FIRST_STEP * fast * total / strongest if strongest > 0.0 else duration
-        most = MAX_EXPENSIVE_STEPS if friction.is_expensive else MAX_STEPS
-        now = Reached(0.0, velocity, 0.0, step)
-        for _ in range(0, most, BLOCK):
-            if friction.drift == 0.0 and duration - now.t > SETTLING * step:
-                now = settled(acceleration, fast, duration, now) or now
-            if not now.t < duration or not isfinite(now.velocity):
-                return now.velocity, now.moved
-            now = integrate(acceleration, now, duration, TOLERANCE * fast, BLOCK)
-        if now.t < duration and isfinite(now.velocity):
-            raise too_much_work(duration, now.t, most, "steps of averaged motion")
-        return now.velocity, now.moved
+        step = first_step(fast, total, full + abs(load), duration)
+        slow_pass = SlowPass(
+            acceleration,
+            fast,
+            TOLERANCE * fast,
+            step,
+            duration,
+            may_settle=friction.drift == 0.0,
+            most=MAX_EXPENSIVE_STEPS if friction.is_expensive else MAX_STEPS,
+        )
+        reached = slow_pass.reach(duration, Reached(0.0, velocity, 0.0, step))
+        return reached.velocity, reached.moved
 
     def mode(self, moment: Moment) -> int:
         """See Law: by the sign of the velocity with its fast part."""
@@ -118,6 +102,14 @@ class SlowLaw:
             full = friction.at(0.0, inf)
             return max(-full, min(full, -self.held.inputs.load))
         return friction.at(0.0, velocity)
+
+    def swing(self, moment: Moment) -> tuple[float, float]:
+        """See Law: the steady one."""
+        return steady_swing(self.fast.resonator, moment.theta, self.held.plant.drive_frequency)
+
+    def slow_motion_error(self, moment: Moment) -> float:
+        """See Law."""
+        return first_order_error(self.held.device, self.fast)
 
     def _friction(self, theta: float, psi: float) -> SlowFriction:
         return slow_friction(self.held, self.friction.averaged, self.fast, theta, psi)
