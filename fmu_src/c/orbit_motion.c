@@ -1,8 +1,10 @@
 #include "orbit_motion.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "angle.h"
+#include "constants.h"
 #include "contact.h"
 #include "events.h"
 #include "orbit_ride.h"
@@ -176,17 +178,22 @@ static bool adapt(const Law *law, Moment *now) {
 }
 
 /* Resolve the motion for as long as it has to be and up to `duration` [s]; gives the time that took. */
-static bool resolve(const Law *law, double duration, Moment *now, double *time, Refusal *refusal) {
+static bool resolve(const Law *law, double duration, EventSearch *search, Moment *now,
+                    double *time, Refusal *refusal) {
     double w = law->device.drive_frequency;
     bool ends = now->orbit.to_go <= w * duration + NOTHING;
     OrbitPoint point;
     *time = ends ? fmin(now->orbit.to_go / w, duration) : duration;
     if (*time * w > NOTHING || !ends) {
         Moment after;
-        if (!events_advance(law->resolved, now, *time, &after, refusal)) {
+        if (!events_advance(law->resolved, now, *time, search, &after, refusal)) {
             return false;
         }
         *now = after;
+        if (search != NULL && search->found) {
+            now->orbit.to_go = fmax(0.0, now->orbit.to_go - w * search->elapsed);
+            return true;
+        }
         now->orbit.to_go -= w * *time;
     } else {
         *time = 0.0;
@@ -236,13 +243,15 @@ static bool follow(const Law *law, double duration, Moment *now, Refusal *refusa
     double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
     SlowPass plan = {
         .acceleration = ride_acceleration,
+        .to_kink = ride_to_kink,
         .motion = &rider,
         .fast = law->fast.velocity,
         .tolerance = TOLERANCE * law->fast.velocity,
         .step = slow_pass_step(law->fast.velocity, plant->total_mass, full + fabs(plant->load), duration),
         .duration = duration,
+        .beat = slow_phase_beat(&ride.slow),
         .may_settle = ride.slow.drift == 0.0 && ride.source != FROM_SEARCH,
-        .most = ride.source == FROM_SEARCH ? MAX_EXPENSIVE_STEPS : MAX_STEPS,
+        .most = ride.source == FROM_SEARCH ? MAX_QUADRATURE_STEPS : MAX_SLOW_STEPS,
     };
     Reached reached = {.velocity = orbit->velocity, .step = plan.step};
     double last = period_last_end(now->theta, w, duration);
@@ -299,14 +308,14 @@ static bool follow(const Law *law, double duration, Moment *now, Refusal *refusa
     return true;
 }
 
-bool orbit_motion_advance(const Law *law, const Moment *moment, double duration, Moment *after,
-                          Refusal *refusal) {
+bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
+                          EventSearch *search, Moment *after, Refusal *refusal) {
     double resolved = 0.0, w = law->device.drive_frequency;
     *after = *moment;
     if (!adapt(law, after)) {
         return refuse_infinite_motion(refusal, duration);
     }
-    if (after->orbit.stage == RESOLVED && !resolve(law, duration, after, &resolved, refusal)) {
+    if (after->orbit.stage == RESOLVED && !resolve(law, duration, search, after, &resolved, refusal)) {
         return false;
     }
     double left = resolved < duration ? duration - resolved : 0.0;

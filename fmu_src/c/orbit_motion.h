@@ -23,9 +23,10 @@ bool has_slow_motion(const Law *law);
 /* What the first moment carries on. */
 OrbitState orbit_motion_start(const Law *law, const Moment *first);
 
-/* The moment `duration` > 0 [s] later, another than `moment`, inputs held. Refuses as law_advance does. */
-bool orbit_motion_advance(const Law *law, const Moment *moment, double duration, Moment *after,
-                          Refusal *refusal);
+/* The moment `duration` > 0 [s] later, another than `moment`, inputs held, or that of an event that a
+ * `search` finds before in resolved motion. Refuses as law_advance does. */
+bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
+                          EventSearch *search, Moment *after, Refusal *refusal);
 
 /* The estimate of the error of the slow velocity at a moment [m/s]. */
 double orbit_motion_error(const Law *law, const Moment *moment);

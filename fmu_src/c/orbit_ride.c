@@ -91,8 +91,8 @@ static bool known_point(OrbitRide *ride, double t, double velocity, OrbitPoint *
     return search(ride, t, velocity) && orbit_point_of(ride->map, &ride->last, point);
 }
 
-double ride_acceleration(const void *motion, double t, double velocity) {
-    OrbitRide *ride = *(OrbitRide *const *)motion;
+double ride_acceleration(const void *rider, double t, double velocity) {
+    OrbitRide *ride = *(OrbitRide *const *)rider;
     const Plant *plant = &ride->law->held.plant;
     double friction = 0.0, factor = 1.0;
     bool found = false;
@@ -111,6 +111,11 @@ double ride_acceleration(const void *motion, double t, double velocity) {
         factor = 1.0;
     }
     return -factor * (friction + plant->load) / plant->total_mass;
+}
+
+double ride_to_kink(const void *rider, double t) {
+    const OrbitRide *ride = *(OrbitRide *const *)rider;
+    return slow_friction_to_kink(&ride->first, t);
 }
 
 OrbitPoint ride_point(OrbitRide *ride, double t, double velocity) {

@@ -41,6 +41,9 @@ double ride_lead(const OrbitRide *ride, double t);
  * points to a pointer to the ride. */
 double ride_acceleration(const void *rider, double t, double velocity);
 
+/* Time [s] from `t` [s] on for which the acceleration is smooth. */
+double ride_to_kink(const void *rider, double t);
+
 /* The orbit at that time and velocity. Without an orbit it is the vibration under averaged friction, and
  * its error that of first order. */
 OrbitPoint ride_point(OrbitRide *ride, double t, double velocity);

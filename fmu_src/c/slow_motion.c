@@ -3,12 +3,24 @@
 #include <math.h>
 
 #include "angle.h"
+#include "constants.h"
 #include "dormand_prince.h"
 #include "slow_friction.h"
 #include "slow_pass.h"
 
 /* Error per step of the slow motion, relative to the fast velocity. */
 #define TOLERANCE 1e-9
+
+/* Waves of the normal load over a turn that double the cost of a quadrature, and those beyond which
+ * the load counts with its mean. */
+#define WAVES 10.0
+#define MAX_WAVES 1000.0
+
+/* Fewest steps up to which work is accepted. */
+enum { LEAST_STEPS = 16 };
+
+/* Pieces of a beat with constant friction each, where there is no vibration. */
+#define PIECES 256.0
 
 /* A block without vibration, under constant forces, from `velocity` on. */
 static Reached block_after(double velocity, double friction, double load, double mass,
@@ -40,26 +52,66 @@ static double slow_acceleration(const void *motion, double t, double velocity) {
     return -(slow_friction_at(friction, t, velocity) + plant->load) / plant->total_mass;
 }
 
+static double time_to_kink(const void *motion, double t) {
+    return slow_friction_to_kink(motion, t);
+}
+
+/* Motion without vibration: under constant forces in each piece of time. */
+static bool pass_unshaken(const SlowFriction *friction, double duration, Reached *reached,
+                          Refusal *refusal) {
+    const Plant *plant = &friction->law->held.plant;
+    double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
+    double pieces = ceil(duration / longest), piece = duration / pieces;
+    if (pieces > MAX_SLOW_STEPS) {
+        return refuse_work(refusal, duration, MAX_SLOW_STEPS * longest, MAX_SLOW_STEPS,
+                           "steps of averaged motion");
+    }
+    double moved = 0.0;
+    for (double k = 0.0; k < pieces; k += 1.0) {
+        double resisting = slow_friction_at(friction, (k + 0.5) * piece, INFINITY);
+        *reached = block_after(reached->velocity, resisting, plant->load, plant->total_mass, piece);
+        moved += reached->moved;
+    }
+    reached->moved = moved;
+    return true;
+}
+
+/* Steps of averaged motion in one communication step up to which its work is accepted. */
+static int max_steps(const SlowFriction *friction) {
+    if (!slow_friction_is_expensive(friction)) {
+        return MAX_SLOW_STEPS;
+    }
+    double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
+    return (int)fmax(LEAST_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
+}
+
+/* Largest friction [N] of Coulomb's law under the normal load at any phase. */
+static double strongest_friction(const Device *device) {
+    double normal = device->normal_preload + device->normal_amplitude;
+    return device->friction_faces * device->friction_coefficient * normal;
+}
+
 /* Integrate the slow velocity over `duration` [s]; one that settles takes few steps, however long
  * the duration. */
 static bool pass(const SlowFriction *friction, double duration, Reached *reached,
                  Refusal *refusal) {
     const Plant *plant = &friction->law->held.plant;
-    double fast = friction->law->fast.velocity, load = plant->load, total = plant->total_mass;
-    double full = slow_friction_at(friction, 0.0, INFINITY);
+    double fast = friction->law->fast.velocity;
     if (fast == 0.0) {
-        *reached = block_after(reached->velocity, full, load, total, duration);
-        return true;
+        return pass_unshaken(friction, duration, reached, refusal);
     }
+    double strongest = strongest_friction(&friction->law->device) + fabs(plant->load);
     SlowPass plan = {
         .acceleration = slow_acceleration,
+        .to_kink = time_to_kink,
         .motion = friction,
         .fast = fast,
         .tolerance = TOLERANCE * fast,
-        .step = slow_pass_step(fast, total, full + fabs(load), duration),
+        .step = slow_pass_step(fast, plant->total_mass, strongest, duration),
         .duration = duration,
+        .beat = friction->beat,
         .may_settle = friction->drift == 0.0,
-        .most = slow_friction_is_expensive(friction) ? MAX_EXPENSIVE_STEPS : MAX_STEPS,
+        .most = max_steps(friction),
     };
     Reached now = {.velocity = reached->velocity, .step = plan.step};
     if (!slow_pass(&plan, duration, &now, refusal)) {

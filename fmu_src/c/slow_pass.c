@@ -10,6 +10,12 @@
 /* What must be left, in first steps, for the motion to settle. */
 #define SETTLING 100.0
 
+/* Part of a beat that a step may have: its stages then see all phases of the normal load. */
+#define BEAT_SHARE 0.125
+
+/* Part of a beat up to which a kink ahead counts as the one just passed. */
+#define MIN_SHARE 1e-9
+
 /* Steps before each of which it may turn out that the motion has settled. */
 enum { BLOCK = 16 };
 
@@ -27,7 +33,9 @@ bool slow_pass(const SlowPass *pass, double end, Reached *now, Refusal *refusal)
         if (may_settle && settle(pass->acceleration, pass->motion, pass->fast, end, now)) {
             break;
         }
-        *now = integrate(pass->acceleration, pass->motion, *now, end, pass->tolerance, BLOCK);
+        double kink = fmax(pass->to_kink(pass->motion, now->t), MIN_SHARE * pass->beat);
+        *now = integrate(pass->acceleration, pass->motion, *now, fmin(end, now->t + kink),
+                         pass->tolerance, BEAT_SHARE * pass->beat, BLOCK);
     }
     return true;
 }

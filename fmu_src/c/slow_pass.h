@@ -7,16 +7,14 @@
 #include "dormand_prince.h"
 #include "refusal.h"
 
-/* Steps of averaged motion in one communication step up to which its work is accepted: of expensive ones
- * fewer. */
-enum { MAX_STEPS = 20000, MAX_EXPENSIVE_STEPS = 1000 };
-
 /* How to pass: the `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, whether
- * the motion may settle, and the most steps. `duration` [s] is that of the communication step. */
+ * the motion may settle, and the most steps. `duration` [s] is that of the communication step. The
+ * acceleration repeats after a `beat` [s], and is smooth for `to_kink(motion, t)` [s] from `t` [s] on. */
 typedef struct {
     AccelerationFunction acceleration;
+    double (*to_kink)(const void *motion, double t);
     const void *motion;
-    double fast, tolerance, step, duration;
+    double fast, tolerance, step, duration, beat;
     bool may_settle;
     int most;
 } SlowPass;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "state.h"
 #include "vibrating_load.h"
 
 /* Distance of the frequency ratio from an integer up to which the phase counts as slow; under a
@@ -15,4 +16,9 @@ SlowPhase slow_phase_of(const Device *device, double ratio) {
     }
     slow.drift = (ratio - slow.waves) * device->drive_frequency;
     return slow;
+}
+
+double slow_phase_beat(const SlowPhase *slow) {
+    return slow->drift != 0.0 ? TAU / ((slow->turns > 0 ? slow->turns : 1) * fabs(slow->drift))
+                              : INFINITY;
 }

@@ -13,6 +13,9 @@ typedef struct {
     double waves, drift;
 } SlowPhase;
 
+/* Time [s] after which a phase that drifts repeats; infinite for one that does not. */
+double slow_phase_beat(const SlowPhase *slow);
+
 /* Parts of a radian to which leads of the normal load are rounded. */
 #define LEAD_PARTS 1e9
 

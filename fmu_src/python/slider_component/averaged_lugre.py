@@ -25,6 +25,9 @@ PANELS = (0.0, 0.05, 0.15, 0.35, 0.65, 1.0)
 WIDEST = 6.0
 """Widest panel as an angle [rad] of the normal load: there 12 nodes follow its sine to rounding."""
 
+NARROW = 1e-12
+"""Narrowest part [rad] that is kept apart: what is narrower adds no more than rounding."""
+
 BENT = 40.0
 """Path in units of mu / sigma_0 after which a bristle is fully bent to rounding."""
 
@@ -168,7 +171,13 @@ def _panels(
     edges: list[float], kinks: list[float], wave_number: float
 ) -> Iterator[tuple[float, float]]:
     """Panels between edges and kinks, none wider than WIDEST of the normal load."""
-    for low, high in pairwise(sorted(edges + kinks)):
+    begin, apart = edges[0], []
+    for kink in sorted(kinks):
+        begin = max([begin, *(edge for edge in edges if edge <= kink)])
+        if kink > begin + NARROW:
+            apart.append(kink)
+            begin = kink
+    for low, high in pairwise(sorted(edges + apart)):
         pieces = 1 + int(abs(wave_number) * (high - low) / WIDEST)
         width = (high - low) / pieces
         for piece in range(pieces):

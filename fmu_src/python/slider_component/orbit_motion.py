@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from math import floor, inf, remainder, tau
 
 from . import events
+from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, STICK
 from .device import Device, Inputs
 from .dormand_prince import Reached
@@ -36,7 +37,7 @@ from .slow_motion_error import (
     friction_share,
     second_order_error,
 )
-from .slow_pass import MAX_EXPENSIVE_STEPS, MAX_STEPS, SlowPass, first_step
+from .slow_pass import SlowPass, first_step
 from .slow_phase import rounded_lead
 
 TOLERANCE = 3e-10
@@ -268,6 +269,7 @@ class OrbitLaw:
         drift = ride.slow.drift
         full = friction_share(self.full.device, fast) * plant.total_mass * w * fast.velocity
         step = first_step(fast.velocity, plant.total_mass, full + abs(plant.load), duration)
+        most = MAX_QUADRATURE_STEPS if ride.searches else MAX_SLOW_STEPS
         slow_pass = SlowPass(
             ride.acceleration,
             fast.velocity,
@@ -275,7 +277,9 @@ class OrbitLaw:
             step,
             duration,
             may_settle=drift == 0.0 and not ride.searches,
-            most=MAX_EXPENSIVE_STEPS if ride.searches else MAX_STEPS,
+            most=most // PYTHON_SLOWDOWN,
+            beat=ride.slow.beat,
+            to_kink=ride.first.to_kink,
         )
         reached = Reached(0.0, orbit.velocity, 0.0, step)
 

@@ -11,8 +11,10 @@ A bristle is taken as slaved to the motion, so it has no state here.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import copysign, cos, inf, sin, tau
+from math import ceil, copysign, cos, inf, sin, tau
 
+from .averaged_lugre import MAX_WAVES
+from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .dormand_prince import Reached
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
 from .friction_law import FrictionLaw
@@ -20,12 +22,24 @@ from .held import Held
 from .moment import Counts, Moment
 from .motion import State
 from .period import PeriodMeans
+from .refusal import too_much_work
 from .slow_friction import SlowFriction, slow_friction
 from .slow_motion_error import first_order_error
-from .slow_pass import MAX_EXPENSIVE_STEPS, MAX_STEPS, SlowPass, first_step
+from .slow_pass import SlowPass, first_step
 
 TOLERANCE = 1e-9
 """Error per step of the slow motion, relative to the fast velocity."""
+
+WAVES = 10.0
+"""Waves of the normal load over a turn that double the cost of a quadrature."""
+
+WORK = "steps of averaged motion"
+
+LEAST_STEPS = 16
+"""Fewest steps up to which work is accepted."""
+
+PIECES = 256
+"""Pieces of a beat with constant friction each, where there is no vibration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,14 +84,13 @@ class SlowLaw:
         """Slow velocity and displacement after `duration` [s]; settled motion takes few steps."""
         fast, load, total = self.fast.velocity, self.held.inputs.load, self.held.plant.total_mass
         friction = self._friction(theta, psi)
-        full = friction.at(0.0, inf)
         if fast == 0.0:
-            return _block(velocity, full, load, total, duration)
+            return _unshaken(friction, velocity, load, total, duration)
 
         def acceleration(t: float, v: float) -> float:
             return -(friction.at(t, v) + load) / total
 
-        step = first_step(fast, total, full + abs(load), duration)
+        step = first_step(fast, total, self._strongest_friction() + abs(load), duration)
         slow_pass = SlowPass(
             acceleration,
             fast,
@@ -85,10 +98,18 @@ class SlowLaw:
             step,
             duration,
             may_settle=friction.drift == 0.0,
-            most=MAX_EXPENSIVE_STEPS if friction.is_expensive else MAX_STEPS,
+            most=_max_steps(friction.is_expensive, self.held.inputs.frequency_ratio),
+            beat=friction.beat,
+            to_kink=friction.to_kink,
         )
         reached = slow_pass.reach(duration, Reached(0.0, velocity, 0.0, step))
         return reached.velocity, reached.moved
+
+    def _strongest_friction(self) -> float:
+        """Largest friction [N] of Coulomb's law under the normal load at any phase."""
+        device = self.held.device
+        normal = device.normal_preload + device.normal_amplitude
+        return device.friction_faces * device.friction_coefficient * normal
 
     def mode(self, moment: Moment) -> int:
         """See Law: by the sign of the velocity with its fast part."""
@@ -118,6 +139,31 @@ class SlowLaw:
 def slow_law(held: Held, friction: FrictionLaw) -> SlowLaw:
     """The averaged law. Raises Refusal where averages do not apply."""
     return SlowLaw(held, friction, fast_vibration(held.device))
+
+
+def _max_steps(is_expensive: bool, ratio: float) -> int:
+    """Steps of averaged motion in one communication step up to which its work is accepted."""
+    if not is_expensive:
+        return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
+    waves = min(abs(ratio), MAX_WAVES)
+    return max(LEAST_STEPS, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
+
+
+def _unshaken(
+    friction: SlowFriction, velocity: float, load: float, mass: float, duration: float
+) -> tuple[float, float]:
+    """Velocity and displacement without vibration: under constant forces in each piece of time."""
+    longest = duration if friction.to_kink is None else min(duration, friction.beat / PIECES)
+    pieces = ceil(duration / longest)
+    most = _max_steps(is_expensive=False, ratio=0.0)
+    if pieces > most:
+        raise too_much_work(duration, most * longest, most, WORK)
+    moved, piece = 0.0, duration / pieces
+    for k in range(pieces):
+        resisting = friction.at((k + 0.5) * piece, inf)
+        velocity, passed = _block(velocity, resisting, load, mass, piece)
+        moved += passed
+    return velocity, moved
 
 
 def _block(

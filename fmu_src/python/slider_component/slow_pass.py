@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from math import isfinite
+from math import inf, isfinite
 
 from .dormand_prince import Reached, integrate
 from .refusal import too_much_work
@@ -12,14 +13,14 @@ from .settling import Acceleration, settled
 FIRST_STEP = 0.1
 """Step tried first, as a share of the time in which friction changes the fast velocity."""
 
-MAX_STEPS = 20_000
-"""Steps of averaged motion in one communication step up to which its work is accepted."""
-
-MAX_EXPENSIVE_STEPS = 1000
-"""The same where each costs a quadrature, or a search for an orbit."""
-
 SETTLING = 100.0
 """What must be left, in first steps, for the motion to settle."""
+
+BEAT_SHARE = 0.125
+"""Part of a beat that a step may have: its stages then see all phases of the normal load."""
+
+MIN_SHARE = 1e-9
+"""Part of a beat up to which a kink ahead counts as the one just passed."""
 
 BLOCK = 16
 """Steps before each of which it may turn out that the motion has settled."""
@@ -30,7 +31,8 @@ class SlowPass:
     """How to pass.
 
     The `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, the `duration`
-    [s] of the communication step, whether the motion may settle, and the most steps.
+    [s] of the communication step, whether the motion may settle, and the most steps. The
+    acceleration repeats after a `beat` [s], and is smooth for `to_kink(t)` [s] from `t` [s] on.
     """
 
     acceleration: Acceleration
@@ -40,6 +42,8 @@ class SlowPass:
     duration: float
     may_settle: bool
     most: int
+    beat: float = inf
+    to_kink: Callable[[float], float] | None = None
 
     def reach(self, end: float, now: Reached) -> Reached:
         """What is reached at time `end` [s]; motion that settles takes few steps, however long.
@@ -51,10 +55,18 @@ class SlowPass:
                 now = settled(self.acceleration, self.fast, end, now) or now
             if not now.t < end or not isfinite(now.velocity):
                 return now
-            now = integrate(self.acceleration, now, end, self.tolerance, BLOCK)
+            longest = BEAT_SHARE * self.beat
+            smooth = self._end_of_smoothness(now.t, end)
+            now = integrate(self.acceleration, now, smooth, self.tolerance, BLOCK, longest)
         if now.t < end and isfinite(now.velocity):
             raise too_much_work(self.duration, now.t, self.most, "steps of averaged motion")
         return now
+
+    def _end_of_smoothness(self, t: float, end: float) -> float:
+        """The next kink of the acceleration after `t`, or `end` [s]."""
+        if self.to_kink is None:
+            return end
+        return min(end, t + max(self.to_kink(t), MIN_SHARE * self.beat))
 
 
 def first_step(fast: float, mass: float, strongest: float, duration: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf, tau
 from typing import NamedTuple
 
 from .device import Device
@@ -25,6 +26,11 @@ class SlowPhase(NamedTuple):
     turns: int | None
     waves: float
     drift: float
+
+    @property
+    def beat(self) -> float:
+        """Time [s] after which a phase that drifts repeats; infinite for one that does not."""
+        return tau / ((self.turns or 1) * abs(self.drift)) if self.drift else inf
 
 
 def rounded_lead(lead: float) -> float:

@@ -238,7 +238,8 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _fixed(
         "initial_velocity",
-        "Slider velocity at the start",
+        "Slider velocity at the start; at fidelity 0 and 1 it fixes, with "
+        "initial_resonator_velocity, the momentum of slider and resonator",
         start=0.0,
         unit="m/s",
         display_unit="mm/s",
@@ -282,7 +283,13 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
-        depends_initially_on=("initial_velocity",),
+        # At fidelity 1 it keeps the momentum without the steady vibration of the resonator.
+        depends_initially_on=(
+            "fidelity",
+            *_STEADY_RESONATOR,
+            "initial_velocity",
+            "initial_resonator_velocity",
+        ),
     ),
     _output(
         "mean_velocity",
@@ -294,11 +301,7 @@ VARIABLES: tuple[Variable, ...] = (
         # At fidelity 0 what is left of the momentum of the pair without its vibration.
         depends_initially_on=(
             "fidelity",
-            "slider_mass",
-            "resonator_mass",
-            "base_amplitude",
-            "drive_frequency",
-            "tangential_force",
+            *_STEADY_RESONATOR,
             "initial_velocity",
             "initial_resonator_velocity",
         ),
@@ -375,7 +378,8 @@ VARIABLES: tuple[Variable, ...] = (
     _output(
         "steady_velocity",
         "Steady velocity for the present inputs: that of the periodic motion of the full device, "
-        "or by averages of first order (eq. 20)",
+        "or by averages of first order (eq. 20); the highest where friction and load balance over "
+        "a range of velocities",
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,

@@ -109,8 +109,11 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
         fmu.record.times, fmu.record["position"], fmu.drive_period
     ),
     "mean_velocity": _final("mean_velocity"),
+    "mean_velocity_in_run": _output("mean_velocity"),
     "stick_fraction": _final("stick_fraction"),
+    "stick_fraction_in_run": _output("stick_fraction"),
     "reversals": _final("reversals"),
+    "reversals_in_run": _output("reversals"),
     "event_times": lambda fmu: (
         (fmu.record["last_event_time"] - fmu.scene.start_time) / fmu.drive_period
     ),

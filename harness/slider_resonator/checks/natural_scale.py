@@ -48,6 +48,7 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "predicted_velocity": _velocity,
     "predicted_velocity_in_run": _velocity,
     "mean_velocity": _velocity,
+    "mean_velocity_in_run": _velocity,
     "velocity": _velocity,
     "blocking_force": _full_friction,
     "predicted_blocking_force": _full_friction,
@@ -60,6 +61,7 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "resonator_displacement": _resonator,
     "resonator_velocity": lambda device: _resonator(device) * device.drive_frequency,
     "stick_fraction": lambda device: 1.0,
+    "stick_fraction_in_run": lambda device: 1.0,
     "last_event_time": lambda device: 2.0 * pi / device.drive_frequency,
 }
 

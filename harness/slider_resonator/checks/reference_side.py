@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
-from math import floor, pi
+from math import pi
+from typing import Any
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.checks.period_means import (
+    DriveTurns,
+    last_events,
+    mean_velocities,
+    stick_fractions,
+)
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references import closed_forms
@@ -20,6 +26,10 @@ from slider_resonator.references.averaged import (
     uniform_average,
 )
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
+from slider_resonator.references.averaged.averaged_outputs import (
+    AveragedOutputs,
+    averaged_outputs,
+)
 from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
@@ -36,8 +46,6 @@ _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
 
 TUBE_POINTS = 3
 """Points on each side of a time at which a tube samples the reference."""
-COINCIDENCE = 1e-6
-"""Share of a drive period within which an event and a communication point coincide."""
 
 
 class ReferenceSide:
@@ -73,10 +81,12 @@ class ReferenceSide:
     def trajectory(self, reference: str) -> Trajectory:
         """Return the trajectory of `located_events`, `taylor` or, for LuGre, `bristle_state`.
 
-        Its times are the communication points and both ends of the last whole drive period.
+        Its times are the communication points and the ends of drive periods that means need.
         """
         if reference not in self._trajectories:
-            times = np.union1d(self.times, self._last_period)
+            every = any(expect.quantity == "mean_velocity_in_run" for expect in self.scene.expect)
+            means = self.times if every else self.times[-1:]
+            times = np.union1d(self.times, self.turns.ends(means))
             self._trajectories[reference] = self._simulate(reference, times)
         return self._trajectories[reference]
 
@@ -97,19 +107,17 @@ class ReferenceSide:
         window = values[np.searchsorted(run.time, around)]
         return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
 
-    def event_times(self, reference: str) -> Tube:
-        """Return the time of the last event before each communication point, in drive periods.
+    def in_run(
+        self, reference: str, measure: Callable[[Trajectory, Array, DriveTurns], Any]
+    ) -> Any:
+        """Return a measure of `period_means` at the communication points."""
+        return measure(self.trajectory(reference), self.times, self.turns)
 
-        Where an event and a point coincide to `COINCIDENCE`, the tube allows either order.
-        """
-        events = np.append(0.0, self.trajectory(reference).event_times)
-
-        def last_before(times: Array) -> Array:
-            return events[np.searchsorted(events, np.maximum(times, 0.0), side="right") - 1]
-
-        margin = COINCIDENCE * self.drive_period
-        bounds = [last_before(self.times + shift) for shift in (0.0, -margin, margin)]
-        return Tube(*(bound / self.drive_period for bound in bounds))
+    def last_event_time(self, reference: str) -> float:
+        """Return the time (s) of the last event, that of the start without any."""
+        run, end = self.trajectory(reference), self.times[-1:]
+        last = float(last_events(run, end, self.turns).middle[0])
+        return self.scene.start_time + last * self.drive_period
 
     def _simulate(self, reference: str, times: Array) -> Trajectory:
         return _SIMULATORS[reference](self.device, self.scene.schedule().held(), times)
@@ -120,23 +128,19 @@ class ReferenceSide:
         return simulate_averaged(self.device, self.scene.schedule().held(), self.times)
 
     @cached_property
-    def mean_velocity(self) -> float:
-        """Mean velocity (m/s) over the last whole drive period of the run."""
-        run = self.trajectory("located_events")
-        begin, end = run.position[np.searchsorted(run.time, self._last_period)]
-        return float(end - begin) / float(np.diff(self._last_period)[0])
+    def averaged_outputs(self) -> AveragedOutputs:
+        """Resonator, contact and forces of the averaged motion, at the communication points."""
+        return averaged_outputs(self.device, self.scene.schedule().held(), self.averaged_motion)
 
-    @cached_property
-    def stick_fraction(self) -> float:
-        """Share of the last whole drive period of the run that is spent sticking."""
-        begin, end = (self._stick_time(float(time)) for time in self._last_period)
-        return (end - begin) / float(np.diff(self._last_period)[0])
+    def mean_velocity(self, reference: str) -> float:
+        """Return the mean velocity (m/s) over the last whole drive period of the run."""
+        run, end = self.trajectory(reference), self.times[-1:]
+        return float(mean_velocities(run, end, self.turns)[0])
 
-    @property
-    def last_event_time(self) -> float:
-        """Time (s) of the last event, that of the start without any."""
-        events = self.trajectory("located_events").event_times
-        return self.scene.start_time + (float(events[-1]) if events.size else 0.0)
+    def stick_fraction(self, reference: str) -> float:
+        """Return the share of the last whole drive period of the run that is spent sticking."""
+        run, end = self.trajectory(reference), self.times[-1:]
+        return float(stick_fractions(run, end, self.turns)[0])
 
     @cached_property
     def steady_velocity(self) -> float | None:
@@ -233,33 +237,15 @@ class ReferenceSide:
         return abs(ratio - round(ratio)) / self.drive_period
 
     @cached_property
-    def _last_period(self) -> Array:
-        """Begin and end (s) of the last whole drive period, shape (2,)."""
-        stop = float(self.times[-1])
-        if self.scene.tuning:
-            return self._last_turn(stop)
-        whole = floor(stop / self.drive_period * (1.0 + 1e-12))
-        _check_whole(whole, stop)
-        return np.minimum(np.array([whole - 1, whole]) * self.drive_period, stop)
-
-    def _last_turn(self, stop: float) -> Array:
-        """Return begin and end (s) of the last whole turn of a drive whose frequency changes."""
+    def turns(self) -> DriveTurns:
+        """The whole turns of the drive."""
+        if not self.scene.tuning:
+            return DriveTurns(self.drive_period)
         held = self.scene.schedule().held()
         rates = [_drive_frequency(inputs, self.device) for inputs in held]
         turned = [r * (h.stop - h.start) / (2.0 * pi) for r, h in zip(rates, held, strict=True)]
-        turns = np.concatenate([[0.0], np.cumsum(turned)])
-        whole = floor(float(turns[-1]) * (1.0 + 1e-12))
-        _check_whole(whole, stop)
-        times = [0.0, *(inputs.stop for inputs in held)]
-        return np.asarray(np.interp([whole - 1, whole], turns, times))
-
-    def _stick_time(self, stop: float) -> float:
-        """Return the time (s) spent sticking from the start until `stop` (s)."""
-        held = [inputs for inputs in self.scene.schedule().held() if inputs.start < stop]
-        if not held:
-            return 0.0
-        held[-1] = replace(held[-1], stop=min(held[-1].stop, stop))
-        return located_events.simulate(self.device, held, np.array([stop])).stick_time
+        times = (held[0].start, *(inputs.stop for inputs in held))
+        return DriveTurns(self.drive_period, times, (0.0, *np.cumsum(turned).tolist()))
 
     def _require_equal_frequencies(self) -> None:
         ratio = self.inputs["frequency_ratio"]
@@ -269,8 +255,3 @@ class ReferenceSide:
 
 def _drive_frequency(inputs: HeldInputs, device: Device) -> float:
     return inputs.tuned_device(device).drive_frequency
-
-
-def _check_whole(turns: int, stop: float) -> None:
-    if turns < 1:
-        raise ValueError(f"the run of {stop:.6g} s is shorter than one drive period")

@@ -59,13 +59,13 @@ def _abandoned(folder: Path) -> bool:
     if not folder.is_dir() or folder.is_symlink() or time.time() - status.st_mtime < MIN_AGE:
         return False
     owner = folder / OWNER
+    if not owner.is_file():
+        return False  # somebody else's, whatever it is called
     if sys.platform == "win32":
-        owner.unlink(missing_ok=True)  # refused while its process has it open
+        owner.unlink()  # refused while its process has it open
         return True
     if status.st_uid != os.getuid():
         return False
-    if not owner.is_file():
-        return True
     with owner.open(encoding="utf-8") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -67,6 +67,11 @@ def _number_of_run(unit: str, meaning: str, *references: str, exact: bool = Fals
     return Quantity("number", unit, meaning, references, needs_run=True, exact=exact)
 
 
+def _signal(unit: str, meaning: str, *references: str, exact: bool = False) -> Quantity:
+    """Return a signal without tubes."""
+    return Quantity("signal", unit, meaning, references, needs_run=True, exact=exact)
+
+
 def _output(unit: str, meaning: str, *averaged: str) -> Quantity:
     """Return an output of the FMU that is compared at each communication point."""
     references = (*RESOLVED, *averaged)
@@ -113,15 +118,15 @@ QUANTITIES: Mapping[str, Quantity] = {
     ),
     "position": _output("m", "slider position", "averaged"),
     "velocity": _output("m/s", "slider velocity", "averaged"),
-    "resonator_displacement": _output("m", "relative displacement"),
-    "resonator_velocity": _output("m/s", "relative velocity"),
-    "normal_force": _output("N", "normal force of a face"),
-    "friction_force": _output("N", "friction force of all faces"),
+    "resonator_displacement": _output("m", "relative displacement", "averaged"),
+    "resonator_velocity": _output("m/s", "relative velocity", "averaged"),
+    "normal_force": _output("N", "normal force of a face", "averaged"),
+    "friction_force": _output("N", "friction force of all faces", "averaged"),
     "contact_mode": Quantity(
         "signal",
         "1",
         "share of points in another contact mode",
-        RESOLVED,
+        (*RESOLVED, "averaged"),
         needs_run=True,
         exact=True,
     ),
@@ -135,21 +140,38 @@ QUANTITIES: Mapping[str, Quantity] = {
     "mean_velocity": _number_of_run(
         "m/s",
         "mean velocity over the last whole drive period of the run",
-        *("located_events", "averaged"),
+        *(*RESOLVED, "averaged"),
+    ),
+    "mean_velocity_in_run": _signal(
+        "m/s",
+        "mean velocity over the last whole drive period before each point, first since the start",
+        *(*RESOLVED, "averaged"),
     ),
     "stick_fraction": _number_of_run(
-        "1", "share of the last whole drive period of the run spent sticking", "located_events"
+        "1", "share of the last whole drive period of the run spent sticking", *RESOLVED
+    ),
+    "stick_fraction_in_run": _signal(
+        "1",
+        "share of the last whole drive period before each point spent sticking, first since the "
+        "start",
+        *(*RESOLVED, "averaged"),
     ),
     "reversals": _number_of_run("1", "reversals of sliding during the run", *RESOLVED, exact=True),
+    "reversals_in_run": _signal(
+        "1",
+        "share of points with another number of reversals so far",
+        *(*RESOLVED, "averaged"),
+        exact=True,
+    ),
     "event_times": Quantity(
         "signal",
         "drive periods",
         "time of the last event before each point of the run",
-        ("located_events", "taylor"),
+        (*RESOLVED, "averaged"),
         needs_run=True,
         in_periods=True,
     ),
-    "last_event_time": _number_of_run("s", "time of the last event of the run", "located_events"),
+    "last_event_time": _number_of_run("s", "time of the last event of the run", *RESOLVED),
     "ripple_amplitude": _number_of_run(
         "m", "amplitude of the fast oscillation of the position", "closed_form"
     ),

@@ -57,12 +57,15 @@ def test_what_a_killed_process_leaves_is_removed_by_the_next(folder: Path) -> No
 def test_files_of_others_are_left_alone(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (folder / f"{PREFIX}file").touch()
     (folder / "else").mkdir()
+    sources = folder / f"{PREFIX}0.1.0"
+    sources.mkdir()
     elsewhere = folder / "elsewhere"
     elsewhere.mkdir()
     (folder / f"{PREFIX}link").symlink_to(elsewhere)
     with temporary_folder():
         pass
     assert elsewhere.is_dir()
+    assert sources.is_dir(), "a folder without our lock file is the user's own"
     monkeypatch.setattr(temporary, "MIN_AGE", 30.0)
     young = folder / f"{PREFIX}young"
     young.mkdir()

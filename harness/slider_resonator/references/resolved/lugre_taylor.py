@@ -148,7 +148,7 @@ class _Run:
                 )
             if step > 0.0:
                 mode = LIFTED if lifted else self._direction
-                self.recorder.contact.slide(self._direction)
+                self.recorder.contact.slide(self._direction, inputs.start + start / rate)
                 self.recorder.contact.enter(mode, inputs.start + start / rate)
                 local = (self.recorder.pending(inputs.stop) - inputs.start) * rate - start
                 stop = (inputs.stop - inputs.start) * rate - start
