@@ -20,6 +20,7 @@ from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import lacking
+from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
 from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -65,6 +66,8 @@ class Curves:
 class Validation:
     """All checks of an FMU, in the order of the scenes, and the wall time in s.
 
+    `identity` is that of the FMU's file when the run began.
+
     `run_failures` are scenes that could not be run, `curves` the signals that differ. `lacks` are
     the later variables of the interface that the FMU does not have, `not_applied` the checks that
     say nothing about it.
@@ -77,6 +80,7 @@ class Validation:
     curves: tuple[Curves, ...] = ()
     lacks: tuple[str, ...] = ()
     not_applied: tuple[NotApplied, ...] = ()
+    identity: FmuIdentity | None = None
 
     @property
     def passed(self) -> bool:
@@ -156,6 +160,7 @@ def _validation(
 ) -> Validation:
     """Run the points on one FMU and judge; expected values are computed while it runs."""
     began = perf_counter()
+    identity = identity_of(path)
     number = count()
 
     def meanwhile(point: ScenePoint) -> None:
@@ -190,7 +195,13 @@ def _validation(
         tuple(curve for curve in curves if curve is not None),
         lacking(path),
         tuple(not_applied),
+        identity,
     )
+
+
+def provenance_of_all(validations: Sequence[Validation]) -> Provenance:
+    """Return the provenance of the verdicts on some FMUs."""
+    return provenance_of(*(v.identity or identity_of(v.fmu) for v in validations))
 
 
 def curves_of(check: Check, measured: Measurement, expected: Any) -> Curves | None:

@@ -22,6 +22,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
 from slider_resonator.fmu.run import run
@@ -107,7 +108,7 @@ def run_command(
     distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **files})
     if auto:
         check_left_to_choose(settings)
-    choice = None
+    choice, provenance = None, provenance_of(fmu)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
             from slider_resonator.studies.choose.choosing import (
@@ -117,7 +118,8 @@ def run_command(
             read.schedule()
             choice = isolated.run(partial(choose_with, scene=read))
             if not choice.meets:
-                print_result(choice, "\n".join(choice.sentences()), as_json=as_json)
+                text = "\n".join(choice.sentences())
+                print_result(choice, text, as_json=as_json, provenance=provenance)
                 context.exit(1)
             read = choice.applied_to(read)
 
@@ -135,7 +137,7 @@ def run_command(
 
             plot_run(run_in(schedule_to_plot(read)), read, plot)
     summary = _summary(fmu, read, record, out, plot, choice)
-    print_result(summary, _sentences(summary, read), as_json=as_json)
+    print_result(summary, _sentences(summary, read), as_json=as_json, provenance=provenance)
 
 
 def _summary(

@@ -14,6 +14,7 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result, print_text
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
@@ -85,10 +86,12 @@ def sweep_command(
         from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
 
         check_picture(sweep)
+    path = default_fmu(fmu)
+    provenance = provenance_of(path)
     with progress_bar() as progress:
         result = run_sweep(
             sweep,
-            default_fmu(fmu),
+            path,
             out,
             workers=workers or available_cores(),
             dask=dask,
@@ -106,7 +109,7 @@ def sweep_command(
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
     facts["unanswered"] = result.unanswered
     document = {"out": str(out), **facts, "first_error": result.first_error}
-    print_result(document, _sentences(result, out), as_json=as_json)
+    print_result(document, _sentences(result, out), as_json=as_json, provenance=provenance)
     context.exit(1 if result.failed else 0)
 
 

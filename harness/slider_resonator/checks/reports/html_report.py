@@ -7,7 +7,12 @@ from pathlib import Path
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.deviation_plot import deviation_png
-from slider_resonator.checks.validate import Curves, Validation, worst_of_sweeps
+from slider_resonator.checks.validate import (
+    Curves,
+    Validation,
+    provenance_of_all,
+    worst_of_sweeps,
+)
 from slider_resonator.checks.verdict import (
     TITLE,
     judged_without,
@@ -17,6 +22,7 @@ from slider_resonator.checks.verdict import (
     title,
     value_text,
 )
+from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -40,6 +46,7 @@ def write_html(
     """
     parts = [f'<p class="fail">Could not run: {escaped(error)}</p>'] if error else []
     parts += [part for validation in validations for part in _section(validation)]
+    parts.append(provenance_html(provenance_of_all(validations)))
     write_page(path, title, parts)
 
 

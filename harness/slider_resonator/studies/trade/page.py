@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from slider_resonator.fmu.provenance import Provenance
+from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.studies.trade.needs import title
@@ -20,11 +22,12 @@ _COLUMNS = (
 )
 
 
-def write_trades(path: Path, trades: Sequence[Trade]) -> None:
+def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) -> None:
     """Write the page; HarnessError when that is impossible."""
     parts = [part for trade in trades for part in _ratios(trade)]
     parts.append(_explanation())
     parts += [part for trade in trades for part in _scene(trade)]
+    parts.append(provenance_html(provenance))
     write_page(path, "What accuracy costs", parts)
 
 

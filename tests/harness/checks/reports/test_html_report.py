@@ -42,7 +42,7 @@ def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None
     assert "off by 0.0067 m/s" in text
     assert "good.fmu" in text
     assert "bad.fmu" in text
-    assert tags.tags.count("tr") == 2 + 4, "a head and all checks of both FMUs"
+    assert tags.tags.count("tr") == 2 + 4 + 5, "a head and all checks of both FMUs, provenance"
 
 
 def test_output_of_an_fmu_is_escaped_in_markup(tmp_path: Path) -> None:

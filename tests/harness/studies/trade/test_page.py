@@ -8,13 +8,14 @@ from pathlib import Path
 from slider_resonator.studies.trade.page import write_trades
 from slider_resonator.studies.trade.plots import draw_picture
 from slider_resonator.studies.trade.result import Omission
+from tests.harness.known_provenance import PROVENANCE
 from tests.harness.studies.trade.test_needs import TRADE
 
 
 def test_a_page_stands_alone(tmp_path: Path) -> None:
     gone = Omission("s", "slow <method>", "all", "more than its budget")
     trade = replace(TRADE, title="A & B", uncertainty=2e-7, omissions=(gone,))
-    write_trades(tmp_path / "index.html", [trade])
+    write_trades(tmp_path / "index.html", [trade], PROVENANCE)
     text = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert "http" not in text.replace("http-equiv", ""), "nothing is fetched"
     assert text.index("at an error of 1e-09 in position") < text.index("data:image/png")
@@ -25,7 +26,7 @@ def test_a_page_stands_alone(tmp_path: Path) -> None:
 
 
 def test_a_quantity_without_rows_has_no_plot(tmp_path: Path) -> None:
-    write_trades(tmp_path / "index.html", [TRADE])
+    write_trades(tmp_path / "index.html", [TRADE], PROVENANCE)
     assert (tmp_path / "index.html").read_text(encoding="utf-8").count("<img") == 1
 
 
