@@ -30,6 +30,7 @@ from slider_resonator.studies.sweep.worker import TIME_LIMIT
 @click.argument("grid", type=click.Path(path_type=Path))
 @click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
+@click.option("--html", type=Target([".html"]), help="One page with plots to point at.")
 @fmu_option
 @click.option("--workers", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
@@ -43,6 +44,7 @@ def sweep_command(
     grid: Path,
     out: Path,
     plot: Path | None,
+    html: Path | None,
     fmu: Path | None,
     workers: int | None,
     dask: str | None,
@@ -75,17 +77,21 @@ def sweep_command(
     \b
     Examples:
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
-      slider-resonator sweep grid.toml --out table.csv --workers 4
+      slider-resonator sweep grid.toml --out table.csv --html sweep.html
       slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
-    distinct({"--out": out, "--plot": plot}, sources)
+    distinct({"--out": out, "--plot": plot, "--html": html}, sources)
     sweep = read_grid(grid)
     if plot is not None:
         # Imported here: drawing takes longer to load than many sweeps to run.
         from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
 
-        check_picture(sweep)
+        check_picture(sweep, "--plot")
+    if html is not None:
+        from slider_resonator.studies.sweep.page import check_page, write_sweep_page
+
+        check_page(sweep, "--html")
     path = default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
@@ -102,6 +108,8 @@ def sweep_command(
         )
     if plot is not None:
         draw_sweep(sweep, result.columns, plot)
+    if html is not None:
+        write_sweep_page(html, sweep, result.columns, provenance)
     for line in result.damaged:
         print_text(
             f"{journal_path(out)} line {line}: damaged; its point was computed again", err=True
