@@ -67,7 +67,7 @@ bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment 
                    double duration, Moment *after) {
     Law law = law_under(map, lead, load);
     Refusal refusal;
-    return events_advance(&law, moment, duration, after, &refusal) &&
+    return events_advance(&law, moment, duration, NULL, after, &refusal) &&
            isfinite(after->position + after->state.velocity + after->state.displacement +
                     after->state.rate + after->bristle);
 }

@@ -26,6 +26,8 @@ ONLY_IN_C = {
     "UNKNOWNS",
     *("NUMBER_SIZE", "REFUSAL_SIZE", "MAX_DIGITS", "MIN_PLAIN_EXPONENT", "MAX_PLAIN_EXPONENT"),
     *("STATE_HEADER_SIZE", "STATE_NUMBER_SIZE", "STATE_CHECKSUM_SIZE"),
+    # Of FMI 3.0, for which there is only the native build.
+    "TIME_REFERENCE",
     # Part of Python: math.pi, math.tau, None for no zero.
     *("PI", "TAU", "NO_ZERO"),
     # Literals of the Python twin.

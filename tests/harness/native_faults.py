@@ -47,17 +47,18 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
     ),
     "tiny steps do not move": (
         "component.c",
-        "law_advance(law, &now->moment, step_size, &after, refusal)",
-        "law_advance(law, &now->moment, step_size < 1e-8 ? 0.0 : step_size, &after, refusal)",
+        "duration = step_size - owed;",
+        "duration = step_size < 1e-8 ? 0.0 : step_size - owed;",
         "late_start",
     ),
     "instances share a count": (
         "component.c",
-        "    now->moment = after;\n",
+        "    now->moment = *after;\n",
         "    static double total;\n"
-        "    total += after.counts.reversals - now->moment.counts.reversals;\n"
-        "    after.counts.reversals = total = after.counts.reversals == 0.0 ? 0.0 : total;\n"
-        "    now->moment = after;\n",
+        "    double reversals = after->counts.reversals;\n"
+        "    total += reversals - now->moment.counts.reversals;\n"
+        "    now->moment = *after;\n"
+        "    now->moment.counts.reversals = total = reversals == 0.0 ? 0.0 : total;\n",
         "tuned",
     ),
     "a value set back to its start is ignored": (

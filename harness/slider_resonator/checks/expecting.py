@@ -107,6 +107,9 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "final_predicted_blocking_force": {
         "averaged": lambda references: references.at_the_end.predicted_blocking_force,
     },
+    "prediction_valid": {
+        "averaged": lambda references: references.at_the_end.prediction_valid,
+    },
     "position": {
         **_resolved("position"),
         "averaged": lambda references: references.averaged_motion.position,

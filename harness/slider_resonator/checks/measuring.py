@@ -97,6 +97,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "predicted_blocking_force_in_run": _output("blocking_force"),
     "final_predicted_velocity": _final("steady_velocity"),
     "final_predicted_blocking_force": _final("blocking_force"),
+    "prediction_valid": _final("prediction_valid"),
     "position": _output("position"),
     "velocity": _output("velocity"),
     "resonator_displacement": _output("resonator_displacement"),

@@ -20,7 +20,11 @@ from slider_resonator.checks.period_means import (
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import averaged_coulomb, uniform_average
+from slider_resonator.references.averaged import (
+    averaged_coulomb,
+    prediction_validity,
+    uniform_average,
+)
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import (
     AveragedOutputs,
@@ -170,6 +174,14 @@ class ReferenceSide:
         if self.device.friction_law == 1:
             return uniform_average.device_blocking_force(self.device, phase, ratio)
         return averaged_coulomb.device_blocking_force_at_ratio(self.device, phase, ratio)
+
+    @property
+    def prediction_valid(self) -> float:
+        """1 where averaged theory applies, 0 where not."""
+        phase, load = self.inputs["phase"], self.inputs["load"]
+        ratio = self.inputs["frequency_ratio"]
+        valid = prediction_validity.prediction_valid(self.device, phase, load, ratio)
+        return 1.0 if valid else 0.0
 
     @property
     def at_the_end(self) -> ReferenceSide:

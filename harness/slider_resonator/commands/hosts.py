@@ -19,6 +19,7 @@ from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, 
 from slider_resonator.trials.hosts.table import host_table, write_table
 
 NATIVE, PYTHON = Path("dist/SliderResonator.fmu"), Path("dist/SliderResonatorPy.fmu")
+NATIVE_3 = Path("dist/SliderResonator3.fmu")
 NAMES = [host.name for host in hosts()]
 
 
@@ -32,6 +33,13 @@ NAMES = [host.name for host in hosts()]
     default=PYTHON,
     show_default=True,
     help="FMU that needs Python in the process, for the hosts that provide it.",
+)
+@click.option(
+    "--fmi3-fmu",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    default=NATIVE_3,
+    show_default=True,
+    help="FMU of FMI 3.0, for the hosts that load it; it is compared with NATIVE.",
 )
 @click.option(
     "--host",
@@ -60,6 +68,7 @@ def hosts_command(
     context: click.Context,
     native: Path,
     python_fmu: Path,
+    fmi3_fmu: Path,
     chosen: Sequence[str],
     own_environment: Path,
     out: Path | None,
@@ -93,7 +102,7 @@ def hosts_command(
     with progress_bar() as progress:
         for index, host in enumerate(selected):
             progress(host.name, index / len(selected))
-            results += run_host(host, everyone[0], native, python_fmu, time_limit)
+            results += run_host(host, everyone[0], native, python_fmu, fmi3_fmu, time_limit)
     for host, reason in missing.items():
         print_text(f"not run: {host.name}: {reason}", err=True)
     if out is not None:

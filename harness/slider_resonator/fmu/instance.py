@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
+from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelVariable
 
 from slider_resonator.arrays import Array
@@ -20,6 +21,7 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu import fmu_log
+from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.opening import Fmu
 
 EQUAL = 1e-6
@@ -28,7 +30,7 @@ EQUAL = 1e-6
 _numbers = count(1)
 
 
-def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
+def call(slave: FMU2Slave | Fmi3Slave, name: str, *arguments: Any) -> None:
     """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
 
     Arguments are converted to the types that fmpy has declared for the function.
@@ -41,7 +43,7 @@ def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
 class Block:
     """A fixed set of Real variables, read and written many times without allocation."""
 
-    def __init__(self, slave: FMU2Slave, references: Sequence[int]) -> None:
+    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
         size = len(references)
         self.values = (c_double * size)()
         arguments = (fmi2ValueReference * size)(*references), size, self.values
@@ -94,7 +96,7 @@ class Instance:
     an `explained` block. Must be freed with `end`.
     """
 
-    slave: FMU2Slave
+    slave: FMU2Slave | Fmi3Slave
     messages: list[str]
 
     def __init__(self, fmu: Fmu) -> None:
@@ -114,13 +116,17 @@ class Instance:
         self._name = f"harness{next(_numbers)}"
         self.messages, callbacks = fmu_log.collect(self._name)
         try:
-            self.slave = FMU2Slave(
-                instanceName=self._name,
-                guid=self.fmu.description.guid,
-                modelIdentifier=self.fmu.identifier,
-                unzipDirectory=str(self.fmu.folder),
-            )
-            self.slave.instantiate(callbacks=callbacks, loggingOn=True)
+            about = {
+                "instanceName": self._name,
+                "guid": self.fmu.description.guid,
+                "modelIdentifier": self.fmu.identifier,
+                "unzipDirectory": str(self.fmu.folder),
+            }
+            if self.fmu.version == "3.0":
+                self.slave = Fmi3Slave(FMU3Slave(**about), self.messages)
+            else:
+                self.slave = FMU2Slave(**about)
+                self.slave.instantiate(callbacks=callbacks, loggingOn=True)
         except Exception as error:  # fmpy raises bare Exception for every error here
             reason = fmu_log.in_one_line([str(error), *self.messages])
             fmu_log.forget(self._name)

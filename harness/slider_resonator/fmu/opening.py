@@ -18,6 +18,9 @@ from slider_resonator.fmu.interface_check import interface_problems
 from slider_resonator.fmu.limits import MAX_ENTRIES, max_unpacked
 from slider_resonator.output.temporary import temporary_folder
 
+_TYPES_OF_FMI_3 = {"Float64": "Real", "Int32": "Integer"}
+"""Type of FMI 3.0 to that of FMI 2.0, which the harness speaks of."""
+
 
 @dataclass(frozen=True)
 class Fmu:
@@ -27,6 +30,11 @@ class Fmu:
     folder: Path
     description: ModelDescription
     variables: Mapping[str, ModelVariable]
+
+    @property
+    def version(self) -> str:
+        """The version of FMI: 2.0 or 3.0."""
+        return "3.0" if self.description.fmiVersion.startswith("3.") else "2.0"
 
     @property
     def identifier(self) -> str:
@@ -95,9 +103,9 @@ class Fmu:
 def open_fmu(path: str | Path) -> Iterator[Fmu]:
     """Unpack the FMU at `path` for the length of the block.
 
-    Raises FmuError when it is no FMI 2.0 co-simulation FMU, lacks a variable of the interface,
-    gives one of them another causality, type or unit, has no binary for this platform, or is too
-    large unpacked.
+    Raises FmuError when it is no co-simulation FMU of FMI 2.0 or 3.0, lacks a variable of the
+    interface, gives one of them another causality, type or unit, has no binary for this platform,
+    or is too large unpacked.
     """
     path = Path(path)
     description = _read_description(path)
@@ -136,9 +144,12 @@ def _read_description(path: Path) -> ModelDescription:
     try:
         check_unpacked_size(path)
         version = _fmi_version(path)
-        if version != "2.0":
-            raise FmuError(f"{path}: FMI version {version}; must be 2.0")
-        return read_model_description(str(path))
+        if version not in ("2.0", "3.0"):
+            raise FmuError(f"{path}: FMI version {version}; must be 2.0 or 3.0")
+        description = read_model_description(str(path))
+        for variable in description.modelVariables:
+            variable.type = _TYPES_OF_FMI_3.get(variable.type, variable.type)
+        return description
     except FmuError:
         raise
     except Exception as error:  # fmpy, lxml and the schema each raise their own
@@ -178,8 +189,21 @@ def _check_interface(path: Path, description: ModelDescription) -> None:
     if description.coSimulation is None:
         raise FmuError(f"{path}: an FMU for model exchange only; must be co-simulation")
     problems = interface_problems(description)
-    platforms = fmpy.supported_platforms(str(path))
-    if not problems and fmpy.platform not in platforms:
-        problems.append(f"no binary for {fmpy.platform}, only for {', '.join(platforms) or 'none'}")
+    if not problems:
+        problems += _platform_problems(path, description)
     if problems:
         raise FmuError(f"{path}: not usable as a slider-resonator: {'; '.join(problems)}")
+
+
+def _platform_problems(path: Path, description: ModelDescription) -> list[str]:
+    if description.fmiVersion == "2.0":
+        ours, platforms = fmpy.platform, fmpy.supported_platforms(str(path))
+    else:
+        # fmpy does not know the platform tuples of other processors.
+        ours = fmpy.platform_tuple
+        with zipfile.ZipFile(path) as archive:
+            parts = [name.split("/") for name in archive.namelist()]
+        platforms = sorted({p[1] for p in parts if p[0] == "binaries" and len(p) > 2})
+    if ours in platforms:
+        return []
+    return [f"no binary for {ours}, only for {', '.join(platforms) or 'none'}"]

@@ -113,6 +113,9 @@ QUANTITIES: Mapping[str, Quantity] = {
     "final_predicted_blocking_force": _number_of_run(
         "N", "the FMU's output blocking_force at the end of the run", "averaged"
     ),
+    "prediction_valid": _number_of_run(
+        "1", "the FMU's output prediction_valid at the end of the run", "averaged", exact=True
+    ),
     "position": _output("m", "slider position", "averaged"),
     "velocity": _output("m/s", "slider velocity", "averaged"),
     "resonator_displacement": _output("m", "relative displacement", "averaged"),

@@ -14,7 +14,7 @@ from slider_resonator.checks.conduct.findings import Findings, differences
 from slider_resonator.checks.conduct.other_values import other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
-from slider_resonator.errors import Refusal
+from slider_resonator.errors import NotApplicable, Refusal
 from slider_resonator.fmu.instance import Instance, call
 from slider_resonator.fmu.run import Running
 
@@ -140,6 +140,8 @@ def bad_values(variable: Variable) -> list[float]:
 def refusal_faults(fmu: FmuSide) -> Findings:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
     instance, schedule = fmu.instance, fmu.scene.schedule()
+    if instance.fmu.version != "2.0":
+        raise NotApplicable("needs FMI 2.0, whose calls are tried")
     quiet, running = Running(instance, schedule), Running(instance, schedule)
     start = {**fmu.scene.parameters, **quiet.first}
     with instance.explained():

@@ -31,6 +31,10 @@ MAX_DETUNING = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow. For a
 load that repeats after several turns: of turns times the ratio, times the turns."""
 
+STEPS_PER_BEAT = 32
+"""Steps of the integrator, at least, in the time in which the phase of the normal load drifts by a
+turn."""
+
 
 @dataclass(frozen=True)
 class AveragedMotion:
@@ -108,8 +112,11 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
             mass = device.total_mass
             moved, velocity = slide_of_block(slow, friction, inputs.load, mass, grid)
         else:
-            slope = _slow_acceleration(device, force, inputs, theta, psi)
-            moved, velocity = slow_trajectory(slope, grid, slow / force.velocity_amplitude)
+            slope, drift = _slow_acceleration(device, force, inputs, theta, psi)
+            max_step = 2.0 * math.pi / (STEPS_PER_BEAT * drift) if drift else math.inf
+            moved, velocity = slow_trajectory(
+                slope, grid, slow / force.velocity_amplitude, max_step
+            )
             moved, velocity = force.velocity_amplitude * moved, force.velocity_amplitude * velocity
         places = np.searchsorted(grid, local)
         angle = theta + device.drive_frequency * grid - force.angle
@@ -141,11 +148,11 @@ class _Drive:
 
 def _slow_acceleration(
     device: Device, force: EquivalentForce, inputs: HeldInputs, theta: float, psi: float
-) -> Callable[[float, float], float]:
-    """Return the rate of V as a function of time and V, both V in units of the fast velocity.
+) -> tuple[Callable[[float, float], float], float]:
+    """Return the rate of V as a function of time and V, and how fast it varies with time (rad/s).
 
-    Time is that since the inputs were set, where base excitation and normal load have the angles
-    ``theta`` and ``psi``.
+    Both V are in units of the fast velocity. Time is that since the inputs were set, where base
+    excitation and normal load have the angles ``theta`` and ``psi``.
     """
     turns = turns_until_repeat(device.amplitude_ratio, inputs.frequency_ratio, MAX_DETUNING)
     ratio = inputs.frequency_ratio
@@ -161,4 +168,4 @@ def _slow_acceleration(
         )
         return -(friction + inputs.load) / momentum
 
-    return acceleration
+    return acceleration, abs(drift) * max(turns, 1)

@@ -21,6 +21,9 @@ STEP, STEPS = 1e-3, 40
 TIME_LIMIT = 600.0
 """Time limit of all cases in a host, s: the first cross-compilation builds a C library."""
 
+FMI_3 = "native, FMI 3.0"
+"""The FMU that is compared with that of FMI 2.0."""
+
 MAX_PRINTED = 1000
 """Maximum characters of a crashed host's output in the message."""
 
@@ -137,11 +140,13 @@ def run_host(
     reference: Host,
     native: Path,
     python: Path,
+    native_3: Path,
     time_limit: float = TIME_LIMIT,
 ) -> list[HostResult]:
     """Run table 1 in `host` with each FMU that it can load, and compare with `reference`.
 
-    Raises HarnessError where the host is missing, or an FMU does not run in `reference`.
+    `native_3`, of FMI 3.0, is compared with `native`, of FMI 2.0. Raises HarnessError where the
+    host is missing, or an FMU does not run in `reference`.
     """
     version = host.version()
     if host.couples:
@@ -158,6 +163,10 @@ def run_host(
             ours = _run_in_reference(reference, jobs, time_limit)
             compared = by_case(ours, run_jobs(host, jobs, time_limit))
             results.append(HostResult(host.name, version, name, compared))
+    if host.loads_fmi_3:
+        ours = _run_in_reference(reference, table_1_jobs(native), time_limit)
+        compared = by_case(ours, run_jobs(host, table_1_jobs(native_3), time_limit))
+        results.append(HostResult(host.name, version, FMI_3, compared))
     return results
 
 
