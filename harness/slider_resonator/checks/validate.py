@@ -16,6 +16,7 @@ from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measures.tube import Tube
 from slider_resonator.checks.measuring import Measurement, measure_all
+from slider_resonator.checks.overview import Overview, overview_of
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
@@ -66,7 +67,8 @@ class Curves:
 class Validation:
     """All checks of an FMU, in the order of the scenes, and the wall time in s.
 
-    `identity` is that of the FMU's file when the run began.
+    `identity` is that of the FMU's file when the run began, `overviews` show the first point of
+    each scene that has a signal.
 
     `run_failures` are scenes that could not be run, `curves` the signals that differ. `lacks` are
     the later variables of the interface that the FMU does not have, `not_applied` the checks that
@@ -81,6 +83,7 @@ class Validation:
     lacks: tuple[str, ...] = ()
     not_applied: tuple[NotApplied, ...] = ()
     identity: FmuIdentity | None = None
+    overviews: tuple[Overview, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -171,6 +174,7 @@ def _validation(
     run_failures: list[RunFailure] = []
     curves: list[Curves | None] = []
     not_applied: list[NotApplied] = []
+    overviews: dict[str, Overview | None] = {}
     with closing(measure_points(path, points, measure_all, time_limit, meanwhile)) as finished:
         for one in finished:
             point = one.item
@@ -178,6 +182,7 @@ def _validation(
                 run_failures.append(RunFailure.of(path, point, one.error))
                 continue
             values = expected.at(point)
+            judged: list[tuple[Check, Measurement, object]] = []
             for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
                 if not measured.applicable:
                     place = (point.scene.name, expect.quantity, measured.note, point.at)
@@ -187,6 +192,9 @@ def _validation(
                 else:
                     checks.append(compare(Comparison.of(expect), measured, value, point))
                     curves.append(curves_of(checks[-1], measured, value))
+                    judged.append((checks[-1], measured, value))
+            if point.scene.name not in overviews:
+                overviews[point.scene.name] = overview_of(judged)
     return Validation(
         str(path),
         tuple(checks),
@@ -196,6 +204,7 @@ def _validation(
         lacking(path),
         tuple(not_applied),
         identity,
+        tuple(overview for overview in overviews.values() if overview is not None),
     )
 
 

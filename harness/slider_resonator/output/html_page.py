@@ -85,4 +85,6 @@ def _element(tag: str, cell: Cell, column: Column) -> str:
 
 def _text(cell: Cell) -> str:
     text = escaped(cell.text).replace("\n", "<br>")
+    if cell.target:
+        text = f'<a href="#{escaped(cell.target)}">{text}</a>'
     return text if cell.style is Style.PLAIN else f'<span class="{cell.style.value}">{text}</span>'
