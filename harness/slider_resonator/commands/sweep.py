@@ -10,6 +10,7 @@ from slider_resonator.commands.options import (
     Target,
     default_fmu,
     fmu_option,
+    jobs_option,
     json_option,
     time_limit_option,
 )
@@ -26,13 +27,13 @@ from slider_resonator.studies.sweep.table import SUFFIXES
 from slider_resonator.studies.sweep.worker import TIME_LIMIT
 
 
-@click.command("sweep")
+@click.command("sweep", short_help="Compute measures over a grid of parameters and inputs.")
 @click.argument("grid", type=click.Path(path_type=Path))
 @click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
 @click.option("--html", type=Target([".html"]), help="One page with plots to point at.")
 @fmu_option
-@click.option("--workers", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
+@jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
 @click.option("--restart", is_flag=True, help="Discard the points of an earlier attempt.")
 @click.option("--overwrite", is_flag=True, help="Replace the table of another grid.")
@@ -46,7 +47,7 @@ def sweep_command(
     plot: Path | None,
     html: Path | None,
     fmu: Path | None,
-    workers: int | None,
+    jobs: int | None,
     dask: str | None,
     restart: bool,
     overwrite: bool,
@@ -78,6 +79,7 @@ def sweep_command(
     Examples:
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
       slider-resonator sweep grid.toml --out table.csv --html sweep.html
+      slider-resonator sweep grid.toml --out table.csv --jobs 4
       slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
@@ -99,7 +101,7 @@ def sweep_command(
             sweep,
             path,
             out,
-            workers=workers or available_cores(),
+            workers=jobs or available_cores(),
             dask=dask,
             restart=restart,
             overwrite=overwrite,
