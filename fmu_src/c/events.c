@@ -36,6 +36,7 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Momen
     Work work = {.turn = TAU / LONGEST_ARC * held->arc};
     Leg leg;
     *now = *moment;
+    leg.known.known = false;
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {

@@ -20,7 +20,7 @@ static double travel_until(const Segment *segment, double t, double frequency) {
 
 double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency) {
     double duration = segment->duration, end = theta + frequency * duration;
-    double ended = floor((end + MARK_TOLERANCE) / TAU);
+    double ended = end + MARK_TOLERANCE < TAU ? 0.0 : floor((end + MARK_TOLERANCE) / TAU);
     if (!(ended > 0.0)) {
         means->travel += segment->travelled;
         means->elapsed += duration;
