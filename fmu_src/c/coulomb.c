@@ -33,11 +33,8 @@ static double needed_force(const Plant *plant, const Moment *moment) {
            direct.im * cos(moment->theta);
 }
 
-/* The contact mode where friction is up to `limit` [N]. */
-static int mode_under(double limit, const Plant *plant, const Moment *moment) {
-    if (moment->state.velocity != 0.0) {
-        return direction_of(moment->state.velocity);
-    }
+/* The contact mode at rest where friction is up to `limit` [N]. */
+static int mode_at_rest(double limit, const Plant *plant, const Moment *moment) {
     double needed = needed_force(plant, moment);
     if (needed > limit) {
         return FORWARD;
@@ -46,7 +43,10 @@ static int mode_under(double limit, const Plant *plant, const Moment *moment) {
 }
 
 static int mode_in_contact(const Plant *plant, const Moment *moment) {
-    return mode_under(friction_limit(plant, moment->psi), plant, moment);
+    if (moment->state.velocity != 0.0) {
+        return direction_of(moment->state.velocity);
+    }
+    return mode_at_rest(friction_limit(plant, moment->psi), plant, moment);
 }
 
 static int mode(const Law *law, const Moment *moment) {
@@ -106,8 +106,8 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
     if (leg_released(leg)) {
         mode = leg->zero_of == 0 ? FORWARD : BACKWARD;
     } else if (leg_stopped(leg) || (switches && mode == LIFTED)) {
-        mode = leg->known.known
-                   ? mode_under(friction_limit_by(plant, &leg->known.phasors), plant, now)
+        mode = leg->known.known && now->state.velocity == 0.0
+                   ? mode_at_rest(friction_limit_by(plant, &leg->known.phasors), plant, now)
                    : mode_in_contact(plant, now);
     } else if (switches) {
         mode = LIFTED;

@@ -27,6 +27,11 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
            (!is_averaged(device) || fast_vibration_prepare(&law->fast, device, refusal));
 }
 
+void law_change(Law *law, double phase, double load) {
+    law->inputs.phase = law->held.plant.phase = phase;
+    law->inputs.load = law->held.plant.load = load;
+}
+
 Moment law_start(const Law *law) {
     const Device *device = &law->device;
     Moment first = {.position = device->initial_position, .event_age = INFINITY};

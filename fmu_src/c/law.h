@@ -31,6 +31,10 @@ typedef struct {
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionTable *table,
                  Refusal *refusal);
 
+/* Gives a law of resolved motion another phase [rad] and load [N], on which nothing else that is
+ * prepared depends. */
+void law_change(Law *law, double phase, double load);
+
 /* The first moment, at drive and normal phase 0, from the initial values of the device. */
 Moment law_start(const Law *law);
 
