@@ -8,6 +8,7 @@ from typing import NamedTuple
 from .contact import STICK
 from .motion import State
 from .period import PeriodMeans
+from .stops import Stops
 
 
 class Counts(NamedTuple):
@@ -19,7 +20,8 @@ class Counts(NamedTuple):
 
     def slid(self, direction: int) -> Counts:
         """The counts once the slider has moved on in `direction`."""
-        return Counts(direction, self.reversals + (self.sliding == -direction), self.sticks)
+        sliding, reversals, sticks = self
+        return Counts(direction, reversals + (sliding == -direction), sticks)
 
 
 @dataclass(slots=True)
@@ -27,8 +29,10 @@ class Moment:
     """Position [m], phases [rad], contact mode, and what outputs count.
 
     `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
-    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. A moment is changed only
-    by the loop over events, which begins with a copy.
+    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. `stops` decide where a
+    stop is looked for first, and so the last digit of the time that is found: they are part of the
+    state for a replay to be equal to the last bit. A moment is changed only by the loop over
+    events, which begins with a copy.
     """
 
     state: State
@@ -40,6 +44,7 @@ class Moment:
     event_age: float
     means: PeriodMeans
     bristle: float = 0.0
+    stops: Stops = Stops()
 
     def copied(self) -> Moment:
         """The same moment, to be changed."""
@@ -53,6 +58,7 @@ class Moment:
             self.event_age,
             self.means,
             self.bristle,
+            self.stops,
         )
 
     def enter(self, mode: int) -> None:

@@ -14,6 +14,7 @@ from .moment import Counts, Moment
 from .motion import State
 from .period import PeriodMeans
 from .refusal import Refusal
+from .stops import Stops
 from .values import flag, integer, integer_within, number
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
@@ -24,7 +25,7 @@ build does not fit another."""
 def moment_to_plain(moment: Moment) -> dict[str, Any]:
     """Return the moment as nested dictionaries; before any event its age is None."""
     plain: dict[str, Any] = {f.name: getattr(moment, f.name) for f in fields(moment)}
-    for name in ("state", "counts", "means"):
+    for name in ("state", "counts", "means", "stops"):
         plain[name] = plain[name]._asdict()
     if moment.event_age == inf:
         plain["event_age"] = None
@@ -37,6 +38,7 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
     state = entries("state", plain["state"], State._fields)
     counts = entries("counts", plain["counts"], Counts._fields)
     means = entries("means", plain["means"], PeriodMeans._fields)
+    stops = entries("stops", plain["stops"], Stops._fields)
     age = plain["event_age"]
     return Moment(
         State(**{key: number(f"state.{key}", value) for key, value in state.items()}),
@@ -59,6 +61,7 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
             },
         ),
         number("bristle", plain["bristle"]),
+        Stops(**{key: number(f"stops.{key}", value) for key, value in stops.items()}),
     )
 
 
