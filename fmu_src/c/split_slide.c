@@ -138,7 +138,7 @@ static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
 
 /* Angle [rad] of the fastest oscillation up to which turns are rotated: the terms below then reach
  * rounding. */
-#define CLOSE 0x1p-7
+#define SMALL_TURN 0x1p-7
 
 /* `z` exp(i angle) for a small `angle` [rad]. */
 static inline Complex rotated(Complex z, double angle) {
@@ -180,7 +180,7 @@ static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *pl
     if (t == 0.0) {
         return &slide->start;
     }
-    if (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < CLOSE) {
+    if (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < SMALL_TURN) {
         rotate_turns(slide, t, place);
         return place;
     }

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from .contact import STICK
 from .motion import State
 from .period import PeriodMeans
-from .stops import Stops
+from .stops import NO_STOPS, Stops
 
 
 class Counts(NamedTuple):
@@ -44,7 +44,7 @@ class Moment:
     event_age: float
     means: PeriodMeans
     bristle: float = 0.0
-    stops: Stops = Stops()
+    stops: Stops = NO_STOPS
 
     def copied(self) -> Moment:
         """The same moment, to be changed."""

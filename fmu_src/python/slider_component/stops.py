@@ -36,3 +36,7 @@ class Stops(NamedTuple):
         if direction > 0:
             return (self.forward + self.forward_drift - theta) % tau / drive_frequency
         return (self.backward + self.backward_drift - theta) % tau / drive_frequency
+
+
+NO_STOPS = Stops()
+"""Those of a slider that has not stopped yet."""
