@@ -1,7 +1,7 @@
 """Build the FMUs: `python build_fmu.py` writes dist/SliderResonator.fmu and its Python twin.
 
-Besides these it writes a velocity controller, slider and controller as a closed loop, and a web
-page that runs the native slider.
+Besides these it writes the native FMU for FMI 3.0, a velocity controller, slider and controller as
+a closed loop, and a web page that runs the native slider.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from fmu_src.building.build_error import BuildError
 from fmu_src.building.closed_loop_ssp import build_closed_loop
 from fmu_src.building.controller_fmu import build_controller
 from fmu_src.building.dates import EPOCH
-from fmu_src.building.native_fmu import build_native
-from fmu_src.building.platforms import HOST, PLATFORMS
+from fmu_src.building.native_fmu import build_native, build_native_3
+from fmu_src.building.platforms import HOST, PLATFORMS, PLATFORMS_3
 from fmu_src.building.python_fmu import build_python
 from fmu_src.building.web_page import build_page
 
@@ -52,6 +52,8 @@ def _builds(options: argparse.Namespace) -> Iterator[Callable[[], Path]]:
         yield lambda: build_python(options.out)
     if options.only in (None, "native"):
         yield lambda: build_native(options.out, **native)
+    if options.only in (None, "fmi3"):
+        yield lambda: build_native_3(options.out, **native)
     if options.only in (None, "system"):
         slider = options.out / f"{native_fmu.MODEL}.fmu"
         controller = options.out / f"{controller_fmu.MODEL}.fmu"
@@ -65,7 +67,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="build_fmu.py",
         description=f"Build {native_fmu.MODEL}.fmu (native, self-contained on the target) and "
-        f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation; then "
+        f"{python_fmu.MODEL}.fmu (made with pythonfmu), both for FMI 2.0 co-simulation; the native "
+        f"one for FMI 3.0, {native_fmu.MODEL_3}.fmu; then "
         f"{controller_fmu.MODEL}.fmu, with both components {closed_loop_ssp.MODEL}.ssp, and "
         f"{web_page.NAME}, a page that runs the component in a browser (needs ziglang).",
         epilog="The same sources give the same bytes, except for random padding in the binary for "
@@ -82,15 +85,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--only",
-        choices=("native", "python", "system", "page"),
-        help="build one of the two, controller and closed loop around the native one, or the page",
+        choices=("native", "python", "fmi3", "system", "page"),
+        help="build one of the three, controller and closed loop, or the page",
     )
     parser.add_argument(
         "--platform",
         action="append",
         default=[],
-        choices=(*PLATFORMS, HOST),
-        help="platform of the native FMUs; may be given more than once (default: all)",
+        choices=(*PLATFORMS_3, HOST),
+        help="platform of the native FMUs; may be given more than once (default: all; those of FMI "
+        f"2.0 are {', '.join(PLATFORMS)})",
     )
     parser.add_argument(
         "--compiler",

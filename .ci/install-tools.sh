@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # What `make interop` needs beyond Python: Wine for the Windows binary, Chromium for the page,
-# valgrind, gcc with its sanitizers. Installs what is missing where it may; otherwise says what to install, and ends with 2.
+# valgrind, qemu for ARM, gcc with its sanitizers. Installs what is missing where it may; otherwise says
+# what to install, and ends with 2.
 set -euo pipefail
 
-declare -A packages=([wine]="wine wine64" [valgrind]="valgrind" [chromium]="chromium" [chromedriver]="chromium-driver" [gcc]="gcc libc6-dev")
+declare -A packages=([wine]="wine wine64" [valgrind]="valgrind" [chromium]="chromium" [chromedriver]="chromium-driver" [gcc]="gcc libc6-dev" [qemu-aarch64]="qemu-user libc6-arm64-cross")
 missing=()
 for tool in "${!packages[@]}"; do
   command -v "$tool" >/dev/null || missing+=(${packages[$tool]})

@@ -2,7 +2,7 @@
 
 `python -m fmu_src.generate` rewrites parameters.py, which is committed: a test checks that it is
 current. `python -m fmu_src.generate FOLDER` also writes all C sources, as a build compiles them,
-to FOLDER/slider and FOLDER/controller.
+to FOLDER/slider, FOLDER/slider_3 (FMI 3.0) and FOLDER/controller.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ def main() -> None:
     (PACKAGE / "parameters.py").write_text(text, encoding="utf-8", newline="\n")
     if folder is not None:
         write_sources(slider_sources(), folder / "slider")
+        write_sources(slider_sources("3.0"), folder / "slider_3")
         write_sources(controller_sources(), folder / "controller")
 
 

@@ -9,6 +9,7 @@ from fmu_src import __version__
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
 from fmu_src.units import UNITS
+from fmu_src.xml_text import xml_bytes
 
 DESCRIPTION = (
     "A slider on a friction surface, moved by an embedded resonator and a normal load that varies "
@@ -74,7 +75,7 @@ def model_description(
         },
     )
     _add_co_simulation(root, model, host_manages_memory, source_files)
-    _add_units(root, variables)
+    add_units(root, variables)
     categories = ET.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         ET.SubElement(categories, "Category", {"name": name, "description": text})
@@ -85,9 +86,7 @@ def model_description(
     for reference, variable in enumerate(variables):
         _add_variable(model_variables, reference, variable)
     _add_structure(root, variables)
-    ET.indent(root)
-    text = ET.tostring(root, encoding="unicode")
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
+    return xml_bytes(root)
 
 
 def _add_co_simulation(
@@ -105,7 +104,8 @@ def _add_co_simulation(
             ET.SubElement(files, "File", {"name": name})
 
 
-def _add_units(root: ET.Element, variables: Sequence[Variable]) -> None:
+def add_units(root: ET.Element, variables: Sequence[Variable]) -> None:
+    """Add the definitions of the units used; ValueError for one that `fmu_src.units` lacks."""
     for v in variables:
         if v.unit is not None and v.unit not in UNITS:
             raise ValueError(
@@ -158,12 +158,7 @@ def _add_structure(root: ET.Element, variables: Sequence[Variable]) -> None:
     index = {v.name: i for i, v in enumerate(variables, start=1)}
 
     def add(section: ET.Element, output: str, dependencies: Iterable[str], known: set[str]) -> None:
-        names = set(dependencies)
-        if not names <= known:
-            raise ValueError(
-                f"{output} cannot depend on {', '.join(sorted(names - known))}: must be one of "
-                f"{', '.join(sorted(known))}"
-            )
+        names = checked_dependencies(output, dependencies, known)
         indices = sorted(index[name] for name in names)
         ET.SubElement(
             section,
@@ -182,3 +177,14 @@ def _add_structure(root: ET.Element, variables: Sequence[Variable]) -> None:
     section = ET.SubElement(structure, "InitialUnknowns")
     for v in outputs:
         add(section, v.name, v.depends_initially_on, known_at_start)
+
+
+def checked_dependencies(output: str, dependencies: Iterable[str], known: set[str]) -> set[str]:
+    """Return the dependencies of an output; ValueError for one that is not `known`."""
+    names = set(dependencies)
+    if not names <= known:
+        raise ValueError(
+            f"{output} cannot depend on {', '.join(sorted(names - known))}: must be one of "
+            f"{', '.join(sorted(known))}"
+        )
+    return names

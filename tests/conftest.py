@@ -9,7 +9,7 @@ from hypothesis.internal.conjecture import providers
 
 from fmu_src.building.closed_loop_ssp import build_closed_loop
 from fmu_src.building.controller_fmu import build_controller
-from fmu_src.building.native_fmu import build_native
+from fmu_src.building.native_fmu import build_native, build_native_3
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
 
@@ -37,6 +37,12 @@ def python_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def native_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The native FMU for the platform of this machine, built once for the whole run."""
     return build_native(tmp_path_factory.mktemp("native_fmu"), platforms=[HOST])
+
+
+@pytest.fixture(scope="session")
+def native_3_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The native FMU of FMI 3.0 for the platform of this machine."""
+    return build_native_3(tmp_path_factory.mktemp("native_3_fmu"), platforms=[HOST])
 
 
 @pytest.fixture(scope="session")

@@ -16,12 +16,16 @@ from fmpy.validation import validate_fmu
 from build_fmu import main
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import MODEL as PYTHON_MODEL
+from fmu_src.building.web_page import NAME as PAGE
 from fmu_src.python.slider_component.variables import VARIABLES
-from tests.fmus import both_fmus, every_fmu
+from tests.fmus import every_fmu, every_slider
 from tests.processes import ROOT, run_command
 
 PYTHON = ["--only", "python"]
 NATIVE = ["--only", "native", "--platform", HOST]
+NATIVE_3 = ["--only", "fmi3", "--platform", HOST]
+OPTIONS = {"SliderResonatorPy": PYTHON, "SliderResonator": NATIVE, "SliderResonator3": NATIVE_3}
+"""Options that build an FMU, by its name."""
 
 
 @pytest.fixture
@@ -32,11 +36,6 @@ def archive(fmu: Path) -> zipfile.ZipFile:
 @pytest.fixture
 def page(archive: zipfile.ZipFile) -> str:
     return archive.read("documentation/index.html").decode()
-
-
-def options(fmu: Path) -> list[str]:
-    """Those that build an FMU of this name."""
-    return PYTHON if fmu.stem == PYTHON_MODEL else NATIVE
 
 
 def description(fmu: Path) -> ET.Element:
@@ -51,16 +50,17 @@ def test_fmpy_and_fmutool_find_no_problem(fmu: Path) -> None:
     done = run_command(fmutool, "-input", fmu, "-check")
     report = done.stdout + done.stderr
     assert done.returncode == 0, report
-    assert "compliant with FMI-2.0" in report
+    version = description(fmu).attrib["fmiVersion"]
+    assert f"compliant with FMI-{version}" in report
     assert "No semantic error" in report
 
 
-@both_fmus
+@every_slider
 def test_equal_bytes_wherever_and_however_it_is_built(fmu: Path, tmp_path: Path) -> None:
     elsewhere = tmp_path / "another place" / "dist"
     changed = {"PYTHONHASHSEED": "12345", "TZ": "Asia/Tokyo", "LC_ALL": "C"}
     done = run_command(
-        *(sys.executable, ROOT / "build_fmu.py", "--out", elsewhere, *options(fmu)),
+        *(sys.executable, ROOT / "build_fmu.py", "--out", elsewhere, *OPTIONS[fmu.stem]),
         cwd=tmp_path,
         env={**os.environ, **changed, "TMPDIR": str(tmp_path)},
         umask=0o077,
@@ -72,19 +72,19 @@ def test_equal_bytes_wherever_and_however_it_is_built(fmu: Path, tmp_path: Path)
     assert done.stderr == "", "progress is for a terminal, not for a file"
 
 
-@both_fmus
+@every_slider
 def test_source_date_epoch_sets_the_date_and_nothing_else(
     fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
-    assert main(["--out", str(tmp_path), *options(fmu)]) == 0
+    assert main(["--out", str(tmp_path), *OPTIONS[fmu.stem]]) == 0
     dated, plain = description(tmp_path / fmu.name), description(fmu)
     assert dated.attrib.pop("generationDateAndTime") == "2023-11-14T22:13:20Z"
     assert plain.attrib.pop("generationDateAndTime") == "1980-01-01T00:00:00Z"
     assert ET.tostring(dated) == ET.tostring(plain)
 
 
-@both_fmus
+@every_slider
 def test_names_inside_are_safe(archive: zipfile.ZipFile) -> None:
     names = archive.namelist()
     assert names == sorted(names)
@@ -92,7 +92,7 @@ def test_names_inside_are_safe(archive: zipfile.ZipFile) -> None:
     assert [n for n in names if "__pycache__" in n or n.endswith((".pyc", ".o"))] == []
 
 
-@both_fmus
+@every_slider
 def test_entries_carry_no_trace_of_the_build(archive: zipfile.ZipFile, fmu: Path) -> None:
     for entry in archive.infolist():
         assert entry.date_time == (1980, 1, 1, 0, 0, 0), entry.filename
@@ -104,27 +104,30 @@ def test_entries_carry_no_trace_of_the_build(archive: zipfile.ZipFile, fmu: Path
             assert found == [], entry.filename
 
 
-@both_fmus
+@every_slider
 def test_icon_and_licence_are_inside(archive: zipfile.ZipFile) -> None:
-    assert archive.read("model.png").startswith(b"\x89PNG")
+    icons = [name for name in archive.namelist() if name.endswith(".png")]
+    assert icons in (["model.png"], ["terminalsAndIcons/icon.png"])
+    assert archive.read(icons[0]).startswith(b"\x89PNG")
     licence = archive.read("documentation/licenses/license.txt")
     assert licence == (ROOT / "LICENSE").read_bytes()
 
 
-@both_fmus
+@every_slider
 def test_page_lists_every_variable(page: str) -> None:
     for v in VARIABLES:
         assert page.count(f"<td><code>{v.name}</code></td>") == 1, v.name
 
 
-@both_fmus
+@every_slider
 def test_page_is_self_contained_and_balanced(page: str) -> None:
     class Balance(HTMLParser):
         opened: list[str] = []  # noqa: RUF012 - one parser only
 
         def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-            assert not {"src", "href"} & {name for name, _ in attrs}, f"{tag} points elsewhere"
-            if tag != "meta":
+            targets = [value or "" for name, value in attrs if name in ("src", "href")]
+            assert all(t.startswith("#") or t == PAGE for t in targets), f"{tag} points elsewhere"
+            if tag not in ("meta", "br"):
                 self.opened.append(tag)
 
         def handle_endtag(self, tag: str) -> None:
@@ -142,6 +145,7 @@ def test_all_are_built_and_reported(tmp_path: Path, capsys: pytest.CaptureFixtur
     names = [
         "ClosedLoop.ssp",
         "SliderResonator.fmu",
+        "SliderResonator3.fmu",
         "SliderResonatorPy.fmu",
         "VelocityController.fmu",
         "slider-resonator.html",
@@ -157,7 +161,7 @@ def test_a_closed_loop_needs_the_slider(tmp_path: Path, capsys: pytest.CaptureFi
     assert f"{slider}: no such file; ClosedLoop.ssp needs it" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("only", ["native", "python"])
+@pytest.mark.parametrize("only", ["native", "python", "fmi3"])
 def test_a_bad_date_is_refused(
     only: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -168,7 +172,7 @@ def test_a_bad_date_is_refused(
 
 
 @pytest.mark.parametrize("folder", ["file", "file/dist"])
-@pytest.mark.parametrize("only", ["native", "python"])
+@pytest.mark.parametrize("only", ["native", "python", "fmi3"])
 def test_a_file_as_folder_is_refused(
     folder: str, only: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -179,12 +183,12 @@ def test_a_file_as_folder_is_refused(
     assert (tmp_path / "file").read_text() == "kept"
 
 
-@both_fmus
+@every_slider
 def test_what_cannot_be_replaced_is_named(
     fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / fmu.name).mkdir()
-    assert main(["--out", str(tmp_path), *options(fmu)]) == 2
+    assert main(["--out", str(tmp_path), *OPTIONS[fmu.stem]]) == 2
     assert "Is a directory" in capsys.readouterr().err
 
 
@@ -212,3 +216,10 @@ def test_a_compiler_that_is_not_there_is_named(
     assert main(arguments) == 2
     assert "compiler 'no-such-cc' refused: it is not found" in capsys.readouterr().err
     assert not (tmp_path / "dist").exists()
+
+
+@every_slider
+def test_page_has_a_table_of_contents(page: str) -> None:
+    sections = re.findall(r'<h2 id="(.*?)">', page)
+    assert len(sections) >= 6
+    assert re.findall(r'<a href="#(.*?)">', page) == sections

@@ -13,7 +13,7 @@ import pytest
 from tests.processes import ROOT, run_command
 
 PACKAGE = Path("harness", "slider_resonator")
-HOST_LIBRARIES = {"cofmupy", "fmpy", "fmuloader", "libcosimpy", "pathsim", "pathsim_fmi"}
+HOST_LIBRARIES = {"cofmupy", "ecospy", "fmpy", "fmuloader", "libcosimpy", "pathsim", "pathsim_fmi"}
 """What a host module may need beside the standard library: the simulator that it drives."""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import subprocess
 from collections.abc import Iterator
@@ -15,7 +16,11 @@ import yaml
 from slider_resonator.cli import main
 from tests.processes import ROOT
 
-WORKFLOWS = (ROOT / ".github" / "workflows" / "ci.yml", ROOT / "examples" / "validate-fmu.yml")
+CI = ROOT / ".github" / "workflows" / "ci.yml"
+WORKFLOWS = (
+    *sorted((ROOT / ".github" / "workflows").glob("*.yml")),
+    ROOT / "examples" / "validate-fmu.yml",
+)
 HARNESS = (["python", "-m", "harness"], ["slider-resonator"])
 """How the harness is called; a user's folder may have a harness of its own, but not its command."""
 
@@ -66,9 +71,9 @@ def test_the_harness_takes_each_call(
         parse([*words, "--no-such-option"])
 
 
-def test_there_are_calls_in_both_workflows() -> None:
+def test_workflows_judge_an_fmu_with_the_harness() -> None:
     names = {str(call.id).partition(":")[0] for call in harness_calls()}
-    assert names == {path.stem for path in WORKFLOWS}
+    assert {"ci", "validate-fmu"} <= names
 
 
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
@@ -84,6 +89,32 @@ def test_a_workflow_is_whole(path: Path) -> None:
         assert ("run" in step) != ("uses" in step), step
         if "uses" in step:
             assert step["uses"].startswith("actions/"), step
+        if step.get("uses", "").startswith("actions/checkout@"):
+            assert step["with"]["persist-credentials"] is False, "a later step could use them"
+    more = {name for name, job in workflow["jobs"].items() if "permissions" in job}
+    assert more == ({"publish"} if path.stem == "release" else set()), "no other needs more"
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
+def test_actions_are_pinned_by_commit_and_say_their_version(path: Path) -> None:
+    uses = re.findall(r"uses:\s*(.*)", path.read_text(encoding="utf-8"))
+    assert uses
+    for action in uses:
+        assert re.fullmatch(r"actions/[a-z-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", action), action
+    commits = {tuple(action.split(" # ")) for action in uses}
+    assert len(commits) == len({action.split("@")[0] for action in uses}), "one version of each"
+
+
+def test_both_builds_are_compared_and_what_is_kept_has_checksums() -> None:
+    jobs = read(CI)["jobs"]
+    runs = {
+        name: "\n".join(str(s.get("run", "")) for s in job["steps"]) for name, job in jobs.items()
+    }
+    assert "sha256sum *.fmu *.ssp *.html > SHA256SUMS" in runs["verdict"]
+    assert jobs["reproducible"]["needs"] == "verdict"
+    assert "python -m fmu_src.compare" in runs["reproducible"]
+    assert jobs["reproducible"]["runs-on"] != jobs["verdict"]["runs-on"]
+    assert "cyclonedx-py requirements" in runs["sbom"]
 
 
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
@@ -94,6 +125,6 @@ def test_every_script_is_sound_shell(path: Path) -> None:
 
 
 def test_what_the_project_runs_is_there() -> None:
-    scripts = [word for step in steps(WORKFLOWS[0]) for word in str(step.get("run", "")).split()]
+    scripts = [word for step in steps(CI) for word in str(step.get("run", "")).split()]
     assert ".ci/run" in scripts
     assert (ROOT / ".ci" / "run").stat().st_mode & 0o100, "it must be executable"

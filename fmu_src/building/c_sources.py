@@ -1,4 +1,4 @@
-"""All C sources of the native FMUs: written by hand, generated, and the headers of FMI 2.0."""
+"""All C sources of the native FMUs: written by hand, generated, and the headers of FMI."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import importlib.util
 from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
+from typing import Literal
 
 from fmu_src.building.build_error import BuildError
 from fmu_src.controller.variables import VARIABLES as CONTROLLER_VARIABLES
@@ -20,37 +21,49 @@ from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
 GUID_HEADER = "model_guid.h"
 UNBUILT_GUID = "00000000-0000-0000-0000-000000000000"
 
-FMI_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")
+FmiVersion = Literal["2.0", "3.0"]
+
+FMI_HEADERS: dict[FmiVersion, tuple[str, ...]] = {
+    "2.0": ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
+    "3.0": ("fmi3FunctionTypes.h", "fmi3Functions.h", "fmi3PlatformTypes.h"),
+}
+
+_SHELLS: dict[FmiVersion, str] = {"2.0": "fmi2_*", "3.0": "fmi3_*"}
+"""The C files of one version of FMI only."""
 
 SHARED = (
     "component_functions.h",
     "constants.h",
     "experiment.[ch]",
     "fmi2*.[ch]",
+    "fmi_version.h",
     "instance.[ch]",
     "lifecycle.h",
     "model_guid.h",
     "refusal.[ch]",
     "refusal_texts.h",
+    "state_access.[ch]",
     "state_bytes.[ch]",
     "values.[ch]",
 )
 """The slider's C files that serve any table of variables."""
 
 
-def slider_sources() -> dict[str, str]:
+def slider_sources(version: FmiVersion = "2.0") -> dict[str, str]:
     """Return file name -> text of the slider's C files and headers, with UNBUILT_GUID.
 
     Equal sources and equal headers of fmpy give equal texts. Raises BuildError without fmpy.
     """
+    others = [pattern for other, pattern in _SHELLS.items() if other != version]
+    written = _read(C_SOURCES).items()
     return {
-        **_read(C_SOURCES),
+        **{name: text for name, text in written if not any(fnmatch(name, p) for p in others)},
         **c_table(VARIABLES, "python/slider_component/variables.py"),
         **c_parameters(VARIABLES),
         "constants.h": c_constants(),
         "refusal_texts.h": c_refusal_texts(),
         GUID_HEADER: guid_header(UNBUILT_GUID),
-        **_fmi_headers(),
+        **_fmi_headers(version),
     }
 
 
@@ -83,9 +96,9 @@ def _read(folder: Path) -> dict[str, str]:
     return {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.[ch]")}
 
 
-def _fmi_headers() -> dict[str, str]:
+def _fmi_headers(version: FmiVersion) -> dict[str, str]:
     spec = importlib.util.find_spec("fmpy")
     if spec is None or spec.origin is None:
         raise BuildError("fmpy is not installed here; `make setup` installs it")
     folder = Path(spec.origin).parent / "c-code"
-    return {name: (folder / name).read_text(encoding="utf-8") for name in FMI_HEADERS}
+    return {name: (folder / name).read_text(encoding="utf-8") for name in FMI_HEADERS[version]}

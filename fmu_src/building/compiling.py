@@ -12,10 +12,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
+from platform import machine
 from tempfile import TemporaryDirectory
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.c_sources import write_sources
+from fmu_src.building.c_sources import FmiVersion, write_sources
 from fmu_src.building.platforms import Platform
 from fmu_src.building.universal_binary import universal_binary
 
@@ -34,11 +35,11 @@ exponential."""
 
 LINKING: dict[str, tuple[str, ...]] = {
     # The other linkers report undefined symbols by default.
-    "linux64": ("-s", "-Wl,-z,defs"),
-    "win64": ("-s",),
-    "darwin64": ("-Wl,-x",),
+    ".so": ("-s", "-Wl,-z,defs"),
+    ".dll": ("-s",),
+    ".dylib": ("-Wl,-x",),
 }
-"""Linker flags by platform: strip the symbols that hosts do not need."""
+"""Linker flags by the suffix of the library: strip the symbols that hosts do not need."""
 
 
 @dataclass(frozen=True)
@@ -75,8 +76,11 @@ def compile_binaries(
     platforms: Sequence[Platform],
     compiler: Compiler,
     progress: Callable[[str], None],
+    version: FmiVersion = "2.0",
 ) -> dict[str, bytes]:
-    """Compile C files and headers (name -> text); return path in the FMU -> binary by platform.
+    """Compile C files and headers (name -> text); return path in the FMU -> binary.
+
+    Processors of one platform share a file in FMI 2.0, and have one each in FMI 3.0.
 
     Raises BuildError with the compiler's messages.
     """
@@ -95,11 +99,24 @@ def compile_binaries(
 
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         compiled = list(zip(jobs, pool.map(run, jobs), strict=True))
-    binaries = {}
+    binaries: dict[str, bytes] = {}
     for platform in platforms:
         parts = [binary for (p, _), binary in compiled if p is platform]
+        if version == "3.0":
+            binaries |= dict(zip(_paths_3(platform, model, compiler), parts, strict=True))
+            continue
         binaries[platform.binary(model)] = parts[0] if len(parts) == 1 else universal_binary(parts)
     return binaries
+
+
+def _paths_3(platform: Platform, model: str, compiler: Compiler) -> list[str]:
+    """Return the paths of what `compiler` makes for a platform of FMI 3.0."""
+    paths = dict(zip(platform.tuples, platform.binaries_3(model), strict=True))
+    if compiler.crosses:
+        return list(paths.values())
+    # A compiler of this machine makes binaries for its processor.
+    arm = machine().lower() in ("aarch64", "arm64")
+    return [p for name, p in paths.items() if name.startswith("aarch64") == arm]
 
 
 def _compile(
@@ -114,7 +131,7 @@ def _compile(
         write_sources(sources, Path(folder))
         output = f"{model}{platform.suffix}"
         command = [*compiler.command, *(("-target", target) if target else ()), *FLAGS]
-        command += [*LINKING[platform.name], "-o", output]
+        command += [*LINKING[platform.suffix], "-o", output]
         command += [*sorted(name for name in sources if name.endswith(".c")), "-lm"]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         binary = Path(folder, output)

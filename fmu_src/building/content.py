@@ -23,9 +23,12 @@ def guid_of(digest: str) -> str:
     return str(uuid.UUID(hex=digest[:32]))
 
 
-def icon_and_licences(*licences: str) -> dict[str, bytes]:
-    """Return path in the FMU -> bytes of the icon and of licences from `assets/licenses`."""
-    files = {"model.png": (ASSETS / "model.png").read_bytes()}
+def icon_and_licences(*licences: str, icon: str = "model.png") -> dict[str, bytes]:
+    """Return path in the FMU -> bytes of the icon and of licences from `assets/licenses`.
+
+    `icon` is the path of the icon, by default FMI 2.0's.
+    """
+    files = {icon: (ASSETS / "model.png").read_bytes()}
     for name in licences:
         files[f"documentation/licenses/{name}"] = (ASSETS / "licenses" / name).read_bytes()
     return files

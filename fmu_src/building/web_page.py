@@ -23,10 +23,13 @@ from fmu_src.units import UNITS
 NAME = "slider-resonator.html"
 
 FOLDER = Path(__file__).parents[1] / "page"
+UPLOT_LICENCE = FOLDER / "vendor" / "LICENSE"
 SCRIPTS = ("component.js", "settings.js", "run.js", "plots.js", "sketch.js", "main.js")
 """In this order they are one JavaScript module."""
 
-_FMI_SHELL = ("fmi", "instance.")
+_FMI_SHELL = ("fmi2", "instance.", "state_access.")
+_NAMES_OF_FMI = "fmi2_version.c"
+"""All that the kernel needs of the shell."""
 
 _FLAGS = (
     *("-target", "wasm32-wasi", "-mexec-model=reactor"),
@@ -57,7 +60,8 @@ def web_page(code: Mapping[str, str], compiler: Compiler) -> bytes:
     BuildError with the compiler's messages.
     """
     files = page_files()
-    sources = {name: text for name, text in code.items() if not name.startswith(_FMI_SHELL)}
+    shell = {n for n in code if n.startswith(_FMI_SHELL)} - {_NAMES_OF_FMI}
+    sources = {name: text for name, text in code.items() if name not in shell}
     kernel = _compile({**sources, "page.c": files["page.c"]}, compiler)
     parts = {
         "version": __version__,

@@ -12,13 +12,16 @@
 
 /* Halvings of [0, pi] in which the angle of balance is found, and those that settle which of
  * several it is. */
-enum { BISECTIONS = 52, SORTING = 4, MAX_EVALUATIONS = 100 };
+enum { BISECTIONS = 52, SORTING = 4, MAX_EVALUATIONS = 100, EDGE_HALVINGS = 40 };
 
 /* Width [rad] to which the angle of balance is closed in upon first. */
 #define CLOSE 2e-15
 
 /* Width [rad] below which it does not matter where in the bracket the angle of balance is. */
 #define STEEP 1e-12
+
+/* Width [rad] from which on a balance is flat, and not only a weak one. */
+#define FLAT 3e-3
 
 /* Rounding error of a mean friction, in units of the last place of the largest friction. */
 #define ROUNDING 8.0
@@ -147,8 +150,28 @@ static Bracket close_in(const Balance *balance, Point low, Point next, Point hig
     return bracket;
 }
 
+/* The edge of a flat balance, between an angle `outside` and one `inside` [rad]. */
+static double flat_edge(const Balance *balance, double outside, double inside, double sign) {
+    for (int i = 0; i < EDGE_HALVINGS; i++) {
+        double middle = 0.5 * (outside + inside);
+        *(sign * point_at(balance, middle).excess > balance->noise ? &outside : &inside) = middle;
+    }
+    return inside;
+}
+
+/* Where a range begins in which friction and load balance at all angles [rad]; NAN without one. */
+static double flat_from(const Balance *balance, const Bracket *bracket) {
+    if (fabs(point_at(balance, bracket->root).excess) > balance->noise) {
+        return NAN;
+    }
+    double begin = flat_edge(balance, bracket->positive, bracket->root, 1.0);
+    double end = flat_edge(balance, bracket->negative, bracket->root, -1.0);
+    return end - begin > FLAT ? begin : NAN;
+}
+
 /* Angle at which friction and load balance [rad]: that of plain bisection, less the evaluations
- * whose outcome is known. Where friction is flat the angle is as uncertain as rounding makes it. */
+ * whose outcome is known. On a flat balance (even ratios, with flight while sliding turns) it is the
+ * end of the highest velocity; a weak one is as uncertain as rounding makes it. */
 static double balanced_turning(const Balance *balance, Point low, Point halfway, Point high) {
     int done = 0;
     for (; done < (balance->rises ? SORTING : 0); done++) {
@@ -167,6 +190,10 @@ static double balanced_turning(const Balance *balance, Point low, Point halfway,
     }
     if (bracket.negative - bracket.positive < STEEP) {
         return bracket.root;
+    }
+    double flat = flat_from(balance, &bracket);
+    if (!isnan(flat)) {
+        return flat;
     }
     for (; done < BISECTIONS; done++) {
         double turning = 0.5 * (low.turning + high.turning);
@@ -195,21 +222,33 @@ TheoryRange theory_range(const Law *law) {
     return range;
 }
 
+/* Whether the vibration overcomes the mean `friction` [N] of sliding by itself, with the amplitude
+ * `force` [N] with which it moves the pair, and with that on a held slider. */
+static bool breaks_loose(const Balance *balance, double force, double friction) {
+    const Bristle *bristle = &balance->law->bristle;
+    double w = balance->fast.frequency, amplitude = balance->fast.velocity / w;
+    double grip = balance->law->friction->averaged->grip(bristle, amplitude, w);
+    return fmin(force, held_amplitude(&balance->law->device))
+           > friction * (grip / bristle->coefficient);
+}
+
 Averaged averaged(const Law *law, double normal_lead) {
     Complex force;
     Refusal refusal;
     if (!equivalent_force(&law->device, &force, &refusal) || (force.re == 0.0 && force.im == 0.0)) {
-        return (Averaged){0.0, 0.0};
+        return (Averaged){0.0, 0.0, false};
     }
     Balance balance = balance_of(law, force, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
     double load = law->inputs.load;
     if (first == last) {
         /* Nothing holds the slider back: every velocity is steady, or with a load none. */
-        return (Averaged){load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0, 0.0};
+        double fastest = load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
+        return (Averaged){fastest, 0.0, false};
     }
     double middle = friction_at(&balance, 0.5 * PI);
     Point low = {0.0, first + load}, halfway = {0.5 * PI, middle + load}, high = {PI, last + load};
     double turning = balanced_turning(&balance, low, halfway, high);
-    return (Averaged){balance.fast.velocity * cos(turning), -middle};
+    bool valid = fabs(load) < first && breaks_loose(&balance, complex_abs(force), first);
+    return (Averaged){balance.fast.velocity * cos(turning), -middle, valid};
 }

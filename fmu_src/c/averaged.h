@@ -8,11 +8,14 @@
 #ifndef SLIDER_AVERAGED_H
 #define SLIDER_AVERAGED_H
 
+#include <stdbool.h>
+
 #include "law.h"
 
-/* Steady velocity [m/s] and blocking force [N] by averaged theory. */
+/* Steady velocity [m/s] and blocking force [N] by averaged theory, and whether they apply. */
 typedef struct {
     double steady_velocity, blocking_force;
+    bool valid;
 } Averaged;
 
 /* Numbers that are all finite where averaged theory stays in the range of floating point: the fast
@@ -27,7 +30,8 @@ TheoryRange theory_range(const Law *law);
  *
  * `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where the
  * load exceeds full friction the velocity is the limit v_q of the theory, with its sign; both are 0
- * without vibration, and where undamped resonance leaves no steady vibration. */
+ * without vibration, and where undamped resonance leaves no steady vibration. In these cases, and
+ * where the vibration does not break the contact loose, they are not `valid`. */
 Averaged averaged(const Law *law, double normal_lead);
 
 #endif

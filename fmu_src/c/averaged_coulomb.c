@@ -4,6 +4,12 @@
 #include "averaged_friction.h"
 #include "state.h"
 
+static double grip(const Bristle *bristle, double amplitude, double frequency) {
+    (void)amplitude;
+    (void)frequency;
+    return bristle->coefficient;
+}
+
 static double drag(const Bristle *bristle, double fast_velocity) {
     (void)bristle;
     (void)fast_velocity;
@@ -25,4 +31,4 @@ static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, doubl
 }
 
 const AveragedFriction AVERAGED_COULOMB = {
-    .is_expensive = false, .drag = drag, .mean = mean, .means = means};
+    .is_expensive = false, .grip = grip, .drag = drag, .mean = mean, .means = means};

@@ -25,6 +25,10 @@ typedef struct {
     /* Whether means cost a quadrature each, and are better tabulated. */
     bool is_expensive;
 
+    /* Largest friction per unit load that resists a vibration of this amplitude [m] and frequency
+     * [rad/s] about rest. */
+    double (*grip)(const Bristle *bristle, double amplitude, double frequency);
+
     /* Largest friction per unit load beyond mu at a fast velocity [m/s]; above mu, mean friction may
      * rise with Theta. */
     double (*drag)(const Bristle *bristle, double fast_velocity);

@@ -33,6 +33,9 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 /* Path in units of mu / sigma_0 after which a bristle is fully bent to rounding. */
 #define BENT 40.0
 
+/* Narrowest part [rad] that is kept apart: what is narrower adds no more than rounding. */
+#define NARROW 1e-12
+
 /* Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
  * add to the mean friction falls with their number, to less than 1e-3 of full friction. */
 #define MAX_WAVES 1000.0
@@ -126,13 +129,11 @@ static void integrate_panel(const Quadrature *over, const Arc *arc, double low, 
     }
 }
 
-/* The first kink of the load more than `ahead` of an angle `begin`, as far ahead of that [rad]. */
-static double next_kink(const VibratingLoad *load, double begin, double ahead) {
-    double kink = begin + ahead;
-    do {
-        kink = vibrating_load_next_kink(load, kink);
-    } while (kink - begin <= ahead);
-    return kink - begin;
+/* Where the smooth part of the load ends that begins `low` ahead of an angle `begin`: at its next kink
+ * beyond NARROW, or at `last` [rad]. Always beyond `low`, however the phase is rounded. */
+static double smooth_until(const VibratingLoad *load, double begin, double low, double last) {
+    double kink = vibrating_load_next_kink(load, begin + low + NARROW) - begin;
+    return low < kink && kink < last ? kink : last;
 }
 
 /* Panels between edges and kinks, none wider than WIDEST of the normal load. */
@@ -144,10 +145,7 @@ static void integrate_arc(const Quadrature *over, const Arc *arc) {
     for (int edge = 1; edge < EDGES; edge++) {
         double last = length * EDGE[edge];
         while (low < last) {
-            double high = last;
-            if (over->load) {
-                high = fmin(high, next_kink(over->load, arc->begin, low));
-            }
+            double high = over->load ? smooth_until(over->load, arc->begin, low, last) : last;
             double pieces = 1.0 + floor(fabs(over->waves) * (high - low) / WIDEST);
             double width = (high - low) / pieces;
             for (double piece = 0.0; piece < pieces; piece += 1.0) {
@@ -232,9 +230,15 @@ static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, doubl
                            sum.means.cosine / TAU};
 }
 
+/* A vibration far shorter than mu / sigma_0 only bends the bristle. */
+static double grip(const Bristle *bristle, double amplitude, double frequency) {
+    return fmin(bristle->coefficient,
+                amplitude * hypot(bristle->stiffness, frequency * bristle->damping));
+}
+
 static double drag(const Bristle *bristle, double fast_velocity) {
     return bristle->damping * fast_velocity;
 }
 
 const AveragedFriction AVERAGED_LUGRE = {
-    .is_expensive = true, .drag = drag, .mean = mean, .means = means};
+    .is_expensive = true, .grip = grip, .drag = drag, .mean = mean, .means = means};

@@ -118,8 +118,9 @@ bool component_exit_initialization(Component *component, Refusal *refusal) {
 }
 
 bool component_terminate(Component *component, Refusal *refusal) {
-    return lifecycle_change(&component->now.lifecycle, "terminate", STEP_COMPLETE, TERMINATED,
-                            refusal);
+    Lifecycle *lifecycle = &component->now.lifecycle;
+    Lifecycle from = is_running(*lifecycle) ? *lifecycle : STEP_COMPLETE;
+    return lifecycle_change(lifecycle, "terminate", from, TERMINATED, refusal);
 }
 
 /* Whether the present law can take over values that differ in these variables alone. */
@@ -157,7 +158,7 @@ bool component_set(Component *component, const unsigned *references, const doubl
     if (same) {
         return true;
     }
-    bool running = component->now.lifecycle == STEP_COMPLETE;
+    bool running = is_running(component->now.lifecycle);
     if (running && !change(component, changed, references, count, refusal)) {
         return false;
     }
@@ -209,33 +210,88 @@ bool component_get(Component *component, const unsigned *references, double *val
 static bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
     double frequency = LONGEST_ARC / law->held.arc;
     return law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)
-           || refuse_too_many_turns(refusal, step_size, frequency);
+           || refuse_too_many_turns(refusal, step_size, frequency, MAX_TURNS);
 }
 
-bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
+/* Time [s] that later times surely differ by from `time` [s], as numbers. */
+static double time_resolution(double time) {
+    return 2.0 * (nextafter(fabs(time), INFINITY) - fabs(time));
+}
+
+/* What rounding takes from `time` + `elapsed` [s]. */
+static double lost_in_sum(double time, double elapsed) {
+    double end = time + elapsed, added = end - time;
+    return (time - (end - added)) + (elapsed - added);
+}
+
+/* How much [s] of the carry a step makes up for: at most half its size. */
+static double owed_time(double carry, double step_size) {
+    double half = 0.5 * step_size;
+    return carry == 0.0 ? 0.0 : fmax(-half, fmin(carry, half));
+}
+
+static void go_on(Snapshot *now, const Moment *after, double time, double elapsed) {
+    /* Without an event the age grows by the step; rounding makes up far less than half of that. */
+    if (after->event_age < elapsed + 0.5 * now->moment.event_age) {
+        now->last_event_time = time + fmax(0.0, elapsed - after->event_age);
+    }
+    now->moment = *after;
+    now->time = time + elapsed;
+}
+
+/* Take a step; with a `search`, only to the event that it finds. */
+static bool step(Component *component, double time, double step_size, EventSearch *search,
+                 Refusal *refusal) {
     Snapshot *now = &component->now;
     const Law *law = present_law(component);
+    double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
     Moment after;
     if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
         || !step_check(now->time, now->stop_time, time, step_size, refusal)
         || !bounded_work_check(law, step_size, refusal)
-        || !law_advance(law, &now->moment, step_size, &after, refusal)) {
+        || !law_advance(law, &now->moment, duration, search, &after, refusal)) {
         return false;
     }
-    double end = time + step_size;
     const double reached[] = {after.position,   after.state.velocity, after.state.displacement,
                               after.state.rate, after.theta,          after.psi,
-                              end};
+                              time + step_size};
     if (!all_finite(reached, sizeof reached / sizeof reached[0])) {
         return refuse_infinite_motion(refusal, step_size);
     }
-    /* Without an event the age grows by the step; rounding makes up far less than half of that. */
-    if (after.event_age < step_size + 0.5 * now->moment.event_age) {
-        now->last_event_time = time + fmax(0.0, step_size - after.event_age);
+    now->time_carry -= owed;
+    if (search == NULL) {
+        go_on(now, &after, time, step_size);
+        return true;
     }
-    now->moment = after;
-    now->time = end;
+    bool early = search->found && search->elapsed < duration;
+    double elapsed = early ? search->elapsed + owed : step_size;
+    now->time_carry += lost_in_sum(time, elapsed) + search->carry;
+    go_on(now, &after, time, elapsed);
     return true;
+}
+
+bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
+    return step(component, time, step_size, NULL, refusal);
+}
+
+bool component_step_to_event(Component *component, double time, double step_size, bool *event,
+                             Refusal *refusal) {
+    /* At an event the next one comes at a later time; elsewhere it may come at once. */
+    bool at_event = component->now.moment.event_age == 0.0;
+    EventSearch search = event_search(at_event ? time_resolution(time) : -1.0);
+    bool done = step(component, time, step_size, &search, refusal);
+    *event = done && search.found;
+    return done;
+}
+
+bool component_enter_event_mode(Component *component, Refusal *refusal) {
+    return lifecycle_change(&component->now.lifecycle, "enterEventMode", STEP_COMPLETE, EVENT_MODE,
+                            refusal);
+}
+
+bool component_enter_step_mode(Component *component, Refusal *refusal) {
+    return lifecycle_change(&component->now.lifecycle, "enterStepMode", EVENT_MODE, STEP_COMPLETE,
+                            refusal);
 }
 
 bool component_restore(Component *component, const Snapshot *snapshot, Refusal *refusal) {

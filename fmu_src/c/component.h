@@ -26,4 +26,13 @@ typedef struct {
 
 #include "component_functions.h"
 
+/* Like component_step, but end at the first reversal, stick, release, lift-off or touchdown after the
+ * start, with `event` true; the present time then tells when. */
+bool component_step_to_event(Component *component, double time, double step_size, bool *event,
+                             Refusal *refusal);
+
+/* Event mode of FMI 3.0: values may be set, time stands still. */
+bool component_enter_event_mode(Component *component, Refusal *refusal);
+bool component_enter_step_mode(Component *component, Refusal *refusal);
+
 #endif

@@ -10,6 +10,9 @@
 /* Part of the longest arc within which a release and a lift-off may be the same event. */
 #define SAME 1e-6
 
+/* Part of the forces up to which those on a slider that is just released count as balanced. */
+#define BALANCED 1e-12
+
 static bool check(const Device *device, Refusal *refusal) {
     (void)device;
     (void)refusal;
@@ -49,12 +52,24 @@ static int mode_in_contact(const Plant *plant, const Moment *moment) {
     return mode_at_rest(friction_limit(plant, moment->psi), plant, moment);
 }
 
+/* Whether the slider was released right now: friction still balances the other forces, and only the
+ * mode that the moment keeps tells on which side of the balance it is. */
+static bool just_released(const Plant *plant, const Moment *moment) {
+    if (moment->state.velocity != 0.0 ||
+        !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
+        return false;
+    }
+    double limit = friction_limit(plant, moment->psi);
+    double excess = moment->mode * needed_force(plant, moment) - limit;
+    return fabs(excess) <= BALANCED * (limit + plant->friction_preload + fabs(plant->load));
+}
+
 static int mode(const Law *law, const Moment *moment) {
     const Plant *plant = &law->held.plant;
     if (is_lifted(&law->held.window, moment->psi + plant->phase, plant->normal_frequency)) {
         return LIFTED;
     }
-    return mode_in_contact(plant, moment);
+    return just_released(plant, moment) ? moment->mode : mode_in_contact(plant, moment);
 }
 
 static double force(const Law *law, const Moment *moment, int mode) {

@@ -33,11 +33,11 @@ static Stage try_step(AccelerationFunction acceleration, const void *motion, dou
 }
 
 Reached integrate(AccelerationFunction acceleration, const void *motion, Reached from, double end,
-                  double tolerance, int most) {
+                  double tolerance, double longest, int most) {
     Reached now = from;
     double first = acceleration(motion, now.t, now.velocity);
     for (int count = 0; count < most && now.t < end && isfinite(now.velocity); count++) {
-        double left = end - now.t, h = fmin(now.step, left);
+        double left = end - now.t, h = fmin(fmin(now.step, longest), left);
         Stage stage = try_step(acceleration, motion, now.t, now.velocity, h, first);
         if (!(stage.error > tolerance)) {
             now.moved += stage.moved;

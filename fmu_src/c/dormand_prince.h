@@ -12,8 +12,9 @@ typedef struct {
 } Reached;
 
 /* Integrate to time `end` [s], or for at most `most` accepted and rejected steps. `tolerance` [m/s]
- * is allowed per step. */
+ * is allowed per step, and `longest` [s] is that of steps: what repeats must not look constant to all
+ * stages. */
 Reached integrate(AccelerationFunction acceleration, const void *motion, Reached from, double end,
-                  double tolerance, int most);
+                  double tolerance, double longest, int most);
 
 #endif

@@ -1,8 +1,10 @@
 #include "events.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "clock.h"
+#include "constants.h"
 #include "friction_law.h"
 #include "leg.h"
 
@@ -10,24 +12,69 @@
  * presliding on the hardest bristles takes. */
 enum { MAX_LEGS = 20000 };
 
-/* Legs since a turn of the fastest oscillation began at `began` [s]; a turn takes `turn` [s]. */
+/* Legs since a turn of the fastest oscillation began at `began` [s], and `all` legs of the step; a
+ * turn takes `turn` [s]. */
 typedef struct {
-    int legs;
+    int legs, all;
     double began, turn;
 } Work;
 
-/* Counts a leg that begins at `time` [s]; whether its work is accepted. */
-static bool work_count(Work *work, double time) {
+/* Counts a leg that begins at `time` [s] in a step of `duration` [s]. Refuses too much work. */
+static bool work_count(Work *work, double time, double duration, Refusal *refusal) {
     if (time - work->began > work->turn) {
         work->began = time;
         work->legs = 0;
     }
     work->legs++;
-    return work->legs <= MAX_LEGS;
+    work->all++;
+    if (work->legs > MAX_LEGS) {
+        return refuse_work(refusal, duration, time, MAX_LEGS,
+                           "legs in a turn of the fastest oscillation");
+    }
+    return work->all <= MAX_STEP_LEGS
+           || refuse_work(refusal, duration, time, MAX_STEP_LEGS, "legs of motion");
 }
 
-bool events_advance(const Law *law, const Moment *moment, double duration, Moment *now,
-                    Refusal *refusal) {
+/* Ends a search with the event at the time of the clock, unless that is too soon. */
+static bool found_at(EventSearch *search, const Clock *clock) {
+    if (search == NULL || !(clock->elapsed > search->after)) {
+        return false;
+    }
+    search->found = true;
+    search->elapsed = clock->elapsed;
+    search->carry = clock->carry;
+    return true;
+}
+
+/* Whether the slider turned where the finished leg began, at the moment `begin`, which is then gone
+ * back to: only the leg shows whether a stop was a reversal. What sets out from rest at the start of the
+ * search does not turn. */
+static bool found_reversal(EventSearch *search, const Clock *clock, const Leg *leg,
+                           const Moment *begin, Moment *now) {
+    bool turns = leg->turns && begin->state.velocity == 0.0 && begin->event_age != 0.0;
+    bool moved = clock->elapsed > 0.0 || begin->counts.sliding == -leg->direction;
+    if (!turns || !moved || !found_at(search, clock)) {
+        return false;
+    }
+    *now = *begin;
+    now->event_age = 0.0;
+    return true;
+}
+
+/* Takes the end of a motion for an event if it is one within rounding, or a stop: no further leg will
+ * show whether that is a reversal. */
+static void end_at_event(const Leg *leg, const Law *law, Moment *now) {
+    if (leg->direction * now->state.velocity < 0.0) {
+        now->state.velocity = 0.0;
+    }
+    moment_enter(now, law->friction->mode(law, now));
+    if (leg_stopped(leg) && now->mode != leg->mode) {
+        now->event_age = 0.0;
+    }
+}
+
+bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                    Moment *now, Refusal *refusal) {
     const FrictionLaw *friction = law->friction;
     const Held *held = &law->held;
     const Plant *plant = &held->plant;
@@ -35,23 +82,36 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Momen
     Clock clock = clock_of(duration);
     Work work = {.turn = TAU / LONGEST_ARC * held->arc};
     Leg leg;
+    Moment begin;
     *now = *moment;
     leg.known.known = false;
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {
-        if (!work_count(&work, clock.elapsed)) {
-            return refuse_work(refusal, duration, clock.elapsed, MAX_LEGS,
-                               "legs in a turn of the fastest oscillation");
+        if (!work_count(&work, clock.elapsed, duration, refusal)) {
+            return false;
         }
         double switching = time_to_switch(&held->window, now->psi + plant->phase,
                                           plant->normal_frequency, now->mode == LIFTED);
         double longest = fmin(fmin(remaining, switching), held->arc);
+        if (search != NULL) {
+            begin = *now;
+        }
         friction->follow(&leg, law, now, longest, switching);
         leg_finish(&leg, held, now);
+        if (found_reversal(search, &clock, &leg, &begin, now)) {
+            break;
+        }
         friction->succeed(&leg, law, now, leg.zero_of < 0 && leg.t == switching);
         leg.departs = now->state.velocity == 0.0 && now->mode != -leg.mode;
         remaining = leg.t == remaining ? 0.0 : clock_advance(&clock, leg.t);
+        if (search != NULL && !(remaining > 0.0)) {
+            clock = (Clock){duration, duration, 0.0};
+            end_at_event(&leg, law, now);
+        }
+        if (now->event_age == 0.0 && found_at(search, &clock)) {
+            break;
+        }
     }
     return true;
 }

@@ -4,14 +4,16 @@
 
 #include <stdbool.h>
 
+#include "event_search.h"
 #include "law.h"
 #include "moment.h"
 #include "refusal.h"
 
-/* Brings `now` to what it is `duration` > 0 [s] after `moment`, another one, inputs held. Refuses,
- * with `now` undefined, where time does not get on. Where numbers leave the range of floating point,
- * entries of `now` are not finite. */
-bool events_advance(const Law *law, const Moment *moment, double duration, Moment *now,
-                    Refusal *refusal);
+/* Brings `now` to what it is `duration` > 0 [s] after `moment`, another one, inputs held, or to the
+ * event that a `search` finds before; NULL searches for none. Refuses, with `now` undefined, where
+ * time does not get on. Where numbers leave the range of floating point, entries of `now` are not
+ * finite. */
+bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                    Moment *now, Refusal *refusal);
 
 #endif

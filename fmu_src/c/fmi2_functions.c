@@ -2,10 +2,7 @@
  *
  * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. It
  * never returns fmi2Discard, which hosts take for a request to end the run early. */
-#include <string.h>
-
-#include "instance.h"
-#include "model_guid.h"
+#include "fmi2_api.h"
 
 const char *fmi2GetTypesPlatform(void) {
     return fmi2TypesPlatform;
@@ -15,25 +12,26 @@ const char *fmi2GetVersion(void) {
     return fmi2Version;
 }
 
-static bool instantiation_check(const char *name, fmi2Type type, const char *guid,
-                                Refusal *refusal) {
-    if (name == NULL || name[0] == '\0') {
-        return refuse(refusal, "fmi2Instantiate: instanceName refused: it is %s; must be a name",
-                      name == NULL ? "a null pointer" : "empty");
+/* The logger takes a format, in which % and # have a meaning unless they are doubled. */
+static void double_specials(const char *text, char *format, size_t size) {
+    size_t length = 0;
+    for (; *text != '\0' && length + 2 < size; text++) {
+        format[length++] = *text;
+        if (*text == '%' || *text == '#') {
+            format[length++] = *text;
+        }
     }
-    if (type != fmi2CoSimulation) {
-        return refuse(refusal, "fmi2Instantiate: fmuType = %d refused: must be %d, "
-                      "fmi2CoSimulation", (int)type, (int)fmi2CoSimulation);
-    }
-    if (guid == NULL || strcmp(guid, MODEL_GUID) != 0) {
-        return refuse(refusal, "fmi2Instantiate: fmuGUID = '%.80s' refused: must be '%s'; the "
-                      "model description is of another build",
-                      guid == NULL ? "(null)" : guid, MODEL_GUID);
-    }
-    return true;
+    format[length] = '\0';
 }
 
-/* Report a refusal even with logging off: the host has no other source for the reason. */
+static void log_message(const Host *host, const char *instance_name, Status status, const char *category,
+              const char *text) {
+    char format[2 * REFUSAL_SIZE];
+    double_specials(text, format, sizeof format);
+    fmi2CallbackLogger logger = (fmi2CallbackLogger)host->logger;
+    logger(host->environment, instance_name, (fmi2Status)status, category, format);
+}
+
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
                               fmi2String fmuResourceLocation,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible,
@@ -43,57 +41,34 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     if (functions == NULL) {
         return NULL;
     }
-    const char *name = instanceName == NULL ? "" : instanceName;
-    Instance *instance = NULL;
-    Refusal refusal;
-    if (instantiation_check(instanceName, fmuType, fmuGUID, &refusal)) {
-        size_t length = strlen(name);
-        instance = host_allocate(functions, sizeof *instance + length + 1);
-        if (instance != NULL) {
-            memset(instance, 0, sizeof *instance);
-            memcpy(instance->name, name, length + 1);
-            instance->host = *functions;
-            enable_initial_messages(instance, loggingOn != fmi2False);
-            component_reset(&instance->component);
-            return instance;
-        }
-        refuse(&refusal, "fmi2Instantiate: no memory for an instance");
+    const Host host = {
+        .environment = functions->componentEnvironment,
+        .allocate = functions->allocateMemory,
+        .release = functions->freeMemory,
+        .logger = (void (*)(void))functions->logger,
+        .log = log_message,
+    };
+    if (fmuType != fmi2CoSimulation) {
+        Refusal refusal;
+        refuse(&refusal, "fmi2Instantiate: fmuType = %d refused: must be %d, fmi2CoSimulation",
+               (int)fmuType, (int)fmi2CoSimulation);
+        return refuse_instance(&host, instanceName, &refusal);
     }
-    send_message(functions, name, fmi2Error, refusal.text);
-    return NULL;
+    return instance_create(&host, "fmi2Instantiate", instanceName, fmuGUID,
+                           loggingOn != fmi2False);
 }
 
 void fmi2FreeInstance(fmi2Component c) {
-    if (c != NULL) {
-        fmi2CallbackFunctions host = ((Instance *)c)->host;
-        host_free(&host, c);
-    }
+    instance_free(c);
 }
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
                                const fmi2String categories[]) {
-    Instance *instance = c;
     Refusal refusal;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    bool before[CATEGORY_COUNT];
-    memcpy(before, instance->enabled, sizeof before);
-    bool known = nCategories <= CATEGORY_COUNT && (nCategories == 0 || categories != NULL);
-    if (!known) {
-        refuse(&refusal, "fmi2SetDebugLogging: nCategories = %lu refused: must be from 0 to %d, "
-               "with as many categories", (unsigned long)nCategories, CATEGORY_COUNT);
-    }
-    enable_all_messages(instance, loggingOn != fmi2False && nCategories == 0);
-    for (size_t i = 0; known && i < nCategories; i++) {
-        known = enable_messages(instance, categories[i], &refusal);
-    }
-    if (!known) {
-        memcpy(instance->enabled, before, sizeof before);
-    } else if (loggingOn == fmi2False) {
-        enable_all_messages(instance, false);
-    }
-    return answer(instance, known, &refusal);
+    bool done = c != NULL
+                && set_debug_logging(c, "fmi2SetDebugLogging", loggingOn != fmi2False, nCategories,
+                                     categories, &refusal);
+    return answer(c, done, &refusal);
 }
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance,

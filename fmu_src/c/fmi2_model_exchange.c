@@ -1,6 +1,6 @@
 /* FMI 2.0 for model exchange, which this FMU refuses. Some hosts look up all functions when they load
  * an FMU, so they must exist. */
-#include "instance.h"
+#include "fmi2_api.h"
 
 static fmi2Status refuse_model_exchange(fmi2Component c, const char *call) {
     Refusal refusal;

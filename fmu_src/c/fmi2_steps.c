@@ -1,5 +1,5 @@
 /* FMI 2.0 for co-simulation: steps, their status, and functions that this FMU does not offer. */
-#include "instance.h"
+#include "fmi2_api.h"
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
                       fmi2Real communicationStepSize,
@@ -12,8 +12,9 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
     }
     bool done = component_step(&instance->component, currentCommunicationPoint,
                                communicationStepSize, &refusal);
-    instance->last_step = answer(instance, done, &refusal);
-    return instance->last_step;
+    fmi2Status status = answer(instance, done, &refusal);
+    instance->last_step = (int)status;
+    return status;
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c) {
@@ -61,7 +62,7 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *va
     fmi2Status checked = status_check(c, value, s == fmi2DoStepStatus,
                                       "fmi2GetStatus: the kind must be fmi2DoStepStatus");
     if (checked == fmi2OK) {
-        *value = ((const Instance *)c)->last_step;
+        *value = (fmi2Status)((const Instance *)c)->last_step;
     }
     return checked;
 }

@@ -1,5 +1,5 @@
 /* FMI 2.0: get and set values of variables, all of a call or none. */
-#include "instance.h"
+#include "fmi2_api.h"
 #include "values.h"
 
 /* Refuse null pointers, more values than there are variables, and references that do not fit. */

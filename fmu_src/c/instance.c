@@ -3,95 +3,129 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const CATEGORIES[CATEGORY_COUNT] = {
-    "logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal", "logAll"};
+#include "model_guid.h"
 
-static bool gives_memory(const fmi2CallbackFunctions *host) {
-    return host->allocateMemory != NULL && host->freeMemory != NULL;
+static const char *const CATEGORIES[STATUSES] = {"logAll", "logStatusWarning", "logStatusDiscard",
+                                                 "logStatusError", "logStatusFatal"};
+
+static bool gives_memory(const Host *host) {
+    return host->allocate != NULL && host->release != NULL;
 }
 
-void *host_allocate(const fmi2CallbackFunctions *host, size_t size) {
-    return gives_memory(host) ? host->allocateMemory(1, size) : calloc(1, size);
+void *host_allocate(const Host *host, size_t size) {
+    return gives_memory(host) ? host->allocate(1, size) : calloc(1, size);
 }
 
-void host_free(const fmi2CallbackFunctions *host, void *memory) {
+void host_free(const Host *host, void *memory) {
     if (gives_memory(host)) {
-        host->freeMemory(memory);
+        host->release(memory);
     } else {
         free(memory);
     }
 }
 
-void enable_all_messages(Instance *instance, bool enabled) {
-    for (int category = 0; category < CATEGORY_COUNT; category++) {
+static void send_message(const Host *host, const char *name, Status status, const char *text) {
+    if (host->logger != NULL) {
+        host->log(host, name, status, CATEGORIES[status], text);
+    }
+}
+
+void *refuse_instance(const Host *host, const char *name, const Refusal *refusal) {
+    send_message(host, name == NULL ? "" : name, STATUS_ERROR, refusal->text);
+    return NULL;
+}
+
+static bool instance_check(const char *call, const char *name, const char *token,
+                           Refusal *refusal) {
+    if (name == NULL || name[0] == '\0') {
+        return refuse(refusal, "%s: instanceName refused: it is %s; must be a name", call,
+                      name == NULL ? "a null pointer" : "empty");
+    }
+    if (token == NULL || strcmp(token, MODEL_GUID) != 0) {
+        return refuse(refusal, "%s: %s = '%.80s' refused: must be '%s'; the model description is of "
+                      "another build", call, FMI.token, token == NULL ? "(null)" : token,
+                      MODEL_GUID);
+    }
+    return true;
+}
+
+/* All log categories, or none. */
+static void enable_all(Instance *instance, bool enabled) {
+    for (int category = 0; category < STATUSES; category++) {
         instance->enabled[category] = enabled;
     }
 }
 
-void enable_initial_messages(Instance *instance, bool debugging) {
-    enable_all_messages(instance, debugging);
+Instance *instance_create(const Host *host, const char *call, const char *name, const char *token,
+                          bool debugging) {
+    Refusal refusal;
+    if (!instance_check(call, name, token, &refusal)) {
+        return refuse_instance(host, name, &refusal);
+    }
+    size_t length = strlen(name);
+    Instance *instance = host_allocate(host, sizeof *instance + length + 1);
+    if (instance == NULL) {
+        refuse(&refusal, "%s: no memory for an instance", call);
+        return refuse_instance(host, name, &refusal);
+    }
+    memset(instance, 0, sizeof *instance);
+    memcpy(instance->name, name, length + 1);
+    instance->host = *host;
+    enable_all(instance, debugging);
+    /* Nothing else says why a call failed. */
     instance->enabled[STATUS_ERROR] = instance->enabled[STATUS_FATAL] = true;
+    component_reset(&instance->component);
+    return instance;
 }
 
-bool enable_messages(Instance *instance, const char *category, Refusal *refusal) {
-    for (int known = 0; category != NULL && known < CATEGORY_COUNT; known++) {
+void instance_free(Instance *instance) {
+    if (instance != NULL) {
+        Host host = instance->host;
+        host_free(&host, instance);
+    }
+}
+
+static bool enable(Instance *instance, const char *call, const char *category, Refusal *refusal) {
+    for (int known = 0; category != NULL && known < STATUSES; known++) {
         if (strcmp(category, CATEGORIES[known]) == 0) {
             instance->enabled[known] = true;
             return true;
         }
     }
-    return refuse(refusal, "fmi2SetDebugLogging: category '%.80s' refused: must be one of %s, %s, "
-                  "%s, %s, %s", category == NULL ? "(null)" : category, CATEGORIES[STATUS_WARNING],
+    return refuse(refusal, "%s: category '%.80s' refused: must be one of %s, %s, %s, %s, %s", call,
+                  category == NULL ? "(null)" : category, CATEGORIES[STATUS_WARNING],
                   CATEGORIES[STATUS_DISCARD], CATEGORIES[STATUS_ERROR], CATEGORIES[STATUS_FATAL],
-                  CATEGORIES[ALL_MESSAGES]);
+                  CATEGORIES[STATUS_OK]);
 }
 
-static Category category_of(fmi2Status status) {
-    switch (status) {
-    case fmi2Warning:
-        return STATUS_WARNING;
-    case fmi2Discard:
-        return STATUS_DISCARD;
-    case fmi2Error:
-        return STATUS_ERROR;
-    case fmi2Fatal:
-        return STATUS_FATAL;
-    default:
-        return ALL_MESSAGES;
+bool set_debug_logging(Instance *instance, const char *call, bool logging_on, size_t count,
+                       const char *const *categories, Refusal *refusal) {
+    bool before[STATUSES];
+    memcpy(before, instance->enabled, sizeof before);
+    bool known = count <= STATUSES && (count == 0 || categories != NULL);
+    if (!known) {
+        refuse(refusal, "%s: nCategories = %lu refused: must be from 0 to %d, with as many "
+               "categories", call, (unsigned long)count, STATUSES);
     }
-}
-
-/* The logger takes a format, in which % and # have a meaning unless they are doubled. */
-static void double_specials(const char *text, char *format, size_t size) {
-    size_t length = 0;
-    for (; *text != '\0' && length + 2 < size; text++) {
-        format[length++] = *text;
-        if (*text == '%' || *text == '#') {
-            format[length++] = *text;
-        }
+    enable_all(instance, logging_on && count == 0);
+    for (size_t i = 0; known && i < count; i++) {
+        known = enable(instance, call, categories[i], refusal);
     }
-    format[length] = '\0';
-}
-
-void send_message(const fmi2CallbackFunctions *host, const char *instance_name, fmi2Status status,
-                  const char *text) {
-    if (host->logger == NULL) {
-        return;
+    if (!known) {
+        memcpy(instance->enabled, before, sizeof before);
+    } else if (!logging_on) {
+        enable_all(instance, false);
     }
-    char format[2 * REFUSAL_SIZE];
-    double_specials(text, format, sizeof format);
-    host->logger(host->componentEnvironment, instance_name, status,
-                 CATEGORIES[category_of(status)], format);
+    return known;
 }
 
-fmi2Status report(const Instance *instance, fmi2Status status, const char *text) {
-    if (instance != NULL
-        && (instance->enabled[category_of(status)] || instance->enabled[ALL_MESSAGES])) {
+Status send_report(const Instance *instance, Status status, const char *text) {
+    if (instance != NULL && (instance->enabled[status] || instance->enabled[STATUS_OK])) {
         send_message(&instance->host, instance->name, status, text);
     }
     return status;
 }
 
-fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal) {
-    return done ? fmi2OK : report(instance, fmi2Error, refusal->text);
+Status send_answer(const Instance *instance, bool done, const Refusal *refusal) {
+    return done ? STATUS_OK : send_report(instance, STATUS_ERROR, refusal->text);
 }

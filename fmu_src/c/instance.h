@@ -1,4 +1,4 @@
-/* An FMI instance: a component, and the host's memory and logger. */
+/* An FMI instance: a component, and the host's memory and logger. The same for every version of FMI. */
 #ifndef SLIDER_INSTANCE_H
 #define SLIDER_INSTANCE_H
 
@@ -6,59 +6,65 @@
 #include <stddef.h>
 
 #include "component.h"
-#include "fmi2Functions.h"
 #include "refusal.h"
 
-/* The header of fmpy leaves out the prefix of FMI 2.0 for static linking. */
-#ifdef FMI2_FUNCTION_PREFIX
-#undef fmi2FullName
-#define fmi2Paste(a, b) a##b
-#define fmi2PasteB(a, b) fmi2Paste(a, b)
-#define fmi2FullName(name) fmi2PasteB(FMI2_FUNCTION_PREFIX, name)
-#endif
-
-/* The log categories, in the order of the model description. */
+/* The status of a call, with the numbers of FMI. */
 typedef enum {
+    STATUS_OK,
     STATUS_WARNING,
     STATUS_DISCARD,
     STATUS_ERROR,
     STATUS_FATAL,
-    ALL_MESSAGES,
-    CATEGORY_COUNT
-} Category;
+    STATUSES
+} Status;
 
-/* `enabled` are the log categories that the host asked for. */
+/* What a host provides. `allocate` and `release` are NULL if it has no memory to give. `logger`, NULL
+ * for none, has the type of the FMI version, whose `log` calls it. */
+typedef struct Host {
+    void *environment;
+    void *(*allocate)(size_t count, size_t size);
+    void (*release)(void *memory);
+    void (*logger)(void);
+    void (*log)(const struct Host *host, const char *instance_name, Status status,
+                const char *category, const char *text);
+} Host;
+
+/* `enabled` are the log categories that the host asked for: one for each status, and that of all
+ * messages in the place of STATUS_OK. `event_mode_used` and `early_return_allowed` are FMI 3.0's,
+ * `last_step` is the status that FMI 2.0 asks for. */
 typedef struct {
     Component component;
-    fmi2CallbackFunctions host;
-    bool enabled[CATEGORY_COUNT];
-    fmi2Status last_step;
+    Host host;
+    bool enabled[STATUSES];
+    bool event_mode_used, early_return_allowed;
+    int last_step;
     char name[]; /* ends with 0 */
 } Instance;
 
 /* Zeroed memory from the host's functions, or from calloc if it has none; NULL if out of memory. */
-void *host_allocate(const fmi2CallbackFunctions *host, size_t size);
-void host_free(const fmi2CallbackFunctions *host, void *memory);
+void *host_allocate(const Host *host, size_t size);
+void host_free(const Host *host, void *memory);
 
-/* Enable all log categories, or disable them. */
-void enable_all_messages(Instance *instance, bool enabled);
+/* Send the refusal of an instance to the host, even with logging off: the host has no other source
+ * for the reason. Return NULL. */
+void *refuse_instance(const Host *host, const char *name, const Refusal *refusal);
 
-/* Enable the log categories after instantiation: all while `debugging`, otherwise errors, as nothing
- * else says why a call failed. */
-void enable_initial_messages(Instance *instance, bool debugging);
+/* Make an instance for the function `call`, with start values. Refuse one without a name, and a
+ * `token` that is not MODEL_GUID: send the reason and return NULL. */
+Instance *instance_create(const Host *host, const char *call, const char *name, const char *token,
+                          bool debugging);
 
-/* Enable one more log category. Refuse an unknown one. */
-bool enable_messages(Instance *instance, const char *category, Refusal *refusal);
+void instance_free(Instance *instance);
 
-/* Send a text with its status and category to the host's logger, if there is one. */
-void send_message(const fmi2CallbackFunctions *host, const char *instance_name, fmi2Status status,
-                  const char *text);
+/* Enable the log categories named, or all if none is; or disable all. */
+bool set_debug_logging(Instance *instance, const char *call, bool logging_on, size_t count,
+                       const char *const *categories, Refusal *refusal);
 
 /* Send a text if there is an instance and its category is enabled; return the status. */
-fmi2Status report(const Instance *instance, fmi2Status status, const char *text);
+Status send_report(const Instance *instance, Status status, const char *text);
 
-/* Return fmi2OK for a call that is `done`; otherwise report the refusal and return fmi2Error. A call
- * without an instance is never done. */
-fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal);
+/* Return STATUS_OK for a call that is `done`; otherwise report the refusal and return STATUS_ERROR. A
+ * call without an instance is never done. */
+Status send_answer(const Instance *instance, bool done, const Refusal *refusal);
 
 #endif

@@ -32,10 +32,23 @@ void law_change(Law *law, double phase, double load) {
     law->inputs.load = law->held.plant.load = load;
 }
 
+/* Velocity [m/s] at the start. A resonator that is not followed vibrates at once, without extra
+ * momentum; that of averaged motion only until its first step. */
+static double start_velocity(const Law *law) {
+    const Device *device = &law->device;
+    const Plant *plant = &law->held.plant;
+    if (is_averaged(device) || plant->resolves_resonator) {
+        return device->initial_velocity;
+    }
+    double rate = steady_swing(plant->resonator_amplitude, 0.0, plant->drive_frequency).rate;
+    return device->initial_velocity
+           + device_mass_fraction(device) * (device->initial_resonator_velocity - rate);
+}
+
 Moment law_start(const Law *law) {
     const Device *device = &law->device;
     Moment first = {.position = device->initial_position, .event_age = INFINITY};
-    first.state.velocity = device->initial_velocity;
+    first.state.velocity = start_velocity(law);
     first.state.displacement = device->initial_resonator_displacement;
     first.state.rate = device->initial_resonator_velocity;
     first.mode = law_mode(law, &first);
@@ -49,10 +62,11 @@ Moment law_start(const Law *law) {
     return first;
 }
 
-bool law_advance(const Law *law, const Moment *moment, double duration, Moment *after,
-                 Refusal *refusal) {
-    return is_averaged(&law->device) ? slow_advance(law, moment, duration, after, refusal)
-                                     : events_advance(law, moment, duration, after, refusal);
+bool law_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                 Moment *after, Refusal *refusal) {
+    return is_averaged(&law->device)
+               ? slow_advance(law, moment, duration, after, refusal)
+               : events_advance(law, moment, duration, search, after, refusal);
 }
 
 int law_mode(const Law *law, const Moment *moment) {

@@ -7,6 +7,7 @@
 
 #include "bristle.h"
 #include "device.h"
+#include "event_search.h"
 #include "fast_vibration.h"
 #include "friction_table.h"
 #include "held.h"
@@ -38,11 +39,12 @@ void law_change(Law *law, double phase, double load);
 /* The first moment, at drive and normal phase 0, from the initial values of the device. */
 Moment law_start(const Law *law);
 
-/* The moment `duration` > 0 [s] later, another than `moment`, inputs held. Refuses, with `after`
+/* The moment `duration` > 0 [s] later, another than `moment`, inputs held, or that of the event that a
+ * `search` finds before; NULL searches for none, and averaged motion has none. Refuses, with `after`
  * undefined, where time does not get on or averaged motion needs too many steps. Numbers that leave
  * the range of floating point show as non-finite entries of `after`, never as an endless loop. */
-bool law_advance(const Law *law, const Moment *moment, double duration, Moment *after,
-                 Refusal *refusal);
+bool law_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                 Moment *after, Refusal *refusal);
 
 /* Contact mode under the held inputs. */
 int law_mode(const Law *law, const Moment *moment);

@@ -77,6 +77,8 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
         return theory_of(law, moment, theory)->steady_velocity;
     case VR_BLOCKING_FORCE:
         return theory_of(law, moment, theory)->blocking_force;
+    case VR_PREDICTION_VALID:
+        return theory_of(law, moment, theory)->valid ? 1.0 : 0.0;
     }
     return NAN; /* no output has this reference */
 }

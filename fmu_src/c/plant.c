@@ -27,6 +27,19 @@ bool steady_resonator(const Device *device, Complex *amplitude, Refusal *refusal
     return true;
 }
 
+double held_amplitude(const Device *device) {
+    double w = device->drive_frequency, wn = device->resonator_frequency;
+    Oscillator oscillator = oscillator_of(device->damping_ratio * wn, wn * wn);
+    if (device->damping_ratio == 0.0 && fabs(oscillator.stiffness - w * w) <= AT_RESONANCE * w * w) {
+        return INFINITY;
+    }
+    Complex swing = complex_scale(w * w, transfer(&oscillator, w));
+    swing.re += 1.0;
+    Complex amplitude = complex_scale(device->base_amplitude, swing);
+    Complex force = complex_scale(device->resonator_mass * w * w, amplitude);
+    return hypot(force.re + device->tangential_force, force.im);
+}
+
 bool equivalent_force(const Device *device, Complex *force, Refusal *refusal) {
     Complex swing;
     if (!steady_resonator(device, &swing, refusal)) {

@@ -43,6 +43,10 @@ typedef struct {
  * included. Refuses where it is unbounded. */
 bool steady_resonator(const Device *device, Complex *amplitude, Refusal *refusal);
 
+/* Amplitude of the steady force of resonator and direct drive on a held slider [N]; infinite where
+ * undamped resonance leaves no steady vibration. */
+double held_amplitude(const Device *device);
+
 /* F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added [N]. Refuses as above. */
 bool equivalent_force(const Device *device, Complex *force, Refusal *refusal);
 

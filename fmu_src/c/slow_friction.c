@@ -44,6 +44,8 @@ SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     slow.fast = (FastMotion){law->fast.velocity, device->drive_frequency};
     slow.waves = n;
     slow.drift = (ratio - n) * device->drive_frequency;
+    slow.beat = slow.drift != 0.0 ? TAU / ((turns > 0 ? turns : 1) * fabs(slow.drift)) : INFINITY;
+    slow.stands = n == 0.0;
     slow.phase = law->inputs.phase + psi - n * theta + n * law->fast.lag;
     if (slow.form == UNDER_SINE) {
         slow.sine = sin(slow.phase);
@@ -91,6 +93,15 @@ static double under_load(const SlowFriction *slow, double t, double turning) {
         return load.constant * means_at(slow, turning).plain;
     }
     return slow->friction->mean(&slow->law->bristle, &slow->fast, &load, turning);
+}
+
+double slow_friction_to_kink(const SlowFriction *slow, double t) {
+    if (!slow->stands) {
+        return INFINITY;
+    }
+    const FlightWindow *window = &slow->law->held.window;
+    double chi = slow->phase + slow->drift * t;
+    return time_to_switch(window, chi, slow->drift, is_lifted(window, chi, slow->drift));
 }
 
 double slow_friction_at(const SlowFriction *slow, double t, double velocity) {

@@ -14,13 +14,15 @@ typedef enum { UNDER_SINE, UNDER_MEAN_LOAD, UNDER_ANY_LOAD } SlowForm;
 
 /* `waves` of the normal load over a turn of the drive, its `phase` [rad] now, the `drift` [rad/s] of
  * that, and the `table` of means where they are expensive. Under a sine `sine` and `cosine` of the
- * phase now, else the `load` of now. */
+ * phase now, else the `load` of now. The phase repeats after `beat` [s]; `stands` where the load
+ * itself is slow. */
 typedef struct {
     const Law *law;
     const AveragedFriction *friction;
     SlowForm form;
     FastMotion fast;
-    double waves, phase, drift;
+    double waves, phase, drift, beat;
+    bool stands;
     const TabulatedMeans *table;
     double sine, cosine;
     VibratingLoad load;
@@ -33,6 +35,10 @@ static inline bool slow_friction_is_expensive(const SlowFriction *slow) {
 
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
 SlowFriction slow_friction_of(const Law *law, double theta, double psi);
+
+/* Time [s] from `t` [s] on until the contact lifts or touches down, where the load itself is slow;
+ * else infinite. */
+double slow_friction_to_kink(const SlowFriction *slow, double t);
 
 /* Its value [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */
 double slow_friction_at(const SlowFriction *slow, double t, double velocity);

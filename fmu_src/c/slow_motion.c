@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "angle.h"
+#include "constants.h"
 #include "dormand_prince.h"
 #include "settling.h"
 #include "slow_friction.h"
@@ -16,9 +17,22 @@
 /* What must be left, in first steps, for the motion to settle. */
 #define SETTLING 100.0
 
-/* Steps of averaged motion in one communication step up to which its work is accepted: of those that
- * cost a quadrature each fewer. Before each BLOCK of them it may turn out to have settled. */
-enum { MAX_STEPS = 20000, MAX_EXPENSIVE_STEPS = 1000, BLOCK = 16 };
+/* Waves of the normal load over a turn that double the cost of a quadrature, and those beyond which
+ * the load counts with its mean. */
+#define WAVES 10.0
+#define MAX_WAVES 1000.0
+
+/* Before each BLOCK of steps it may turn out that the motion has settled. */
+enum { BLOCK = 16 };
+
+/* Part of a beat that a step may have: its stages then see all phases of the normal load. */
+#define BEAT_SHARE 0.125
+
+/* Pieces of a beat with constant friction each, where there is no vibration. */
+#define PIECES 256.0
+
+/* Part of a beat up to which a kink ahead counts as the one just passed. */
+#define MIN_SHARE 1e-9
 
 /* A block without vibration, under constant forces, from `velocity` on. */
 static Reached block_after(double velocity, double friction, double load, double mass,
@@ -50,20 +64,54 @@ static double slow_acceleration(const void *motion, double t, double velocity) {
     return -(slow_friction_at(friction, t, velocity) + plant->load) / plant->total_mass;
 }
 
+/* Motion without vibration: under constant forces in each piece of time. */
+static bool pass_unshaken(const SlowFriction *friction, double duration, Reached *reached,
+                          Refusal *refusal) {
+    const Plant *plant = &friction->law->held.plant;
+    double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
+    double pieces = ceil(duration / longest), piece = duration / pieces;
+    if (pieces > MAX_SLOW_STEPS) {
+        return refuse_work(refusal, duration, MAX_SLOW_STEPS * longest, MAX_SLOW_STEPS,
+                           "steps of averaged motion");
+    }
+    double moved = 0.0;
+    for (double k = 0.0; k < pieces; k += 1.0) {
+        double resisting = slow_friction_at(friction, (k + 0.5) * piece, INFINITY);
+        *reached = block_after(reached->velocity, resisting, plant->load, plant->total_mass, piece);
+        moved += reached->moved;
+    }
+    reached->moved = moved;
+    return true;
+}
+
+/* Steps of averaged motion in one communication step up to which its work is accepted. */
+static int max_steps(const SlowFriction *friction) {
+    if (!slow_friction_is_expensive(friction)) {
+        return MAX_SLOW_STEPS;
+    }
+    double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
+    return (int)fmax(BLOCK, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
+}
+
+/* Largest friction [N] of Coulomb's law under the normal load at any phase. */
+static double strongest_friction(const Device *device) {
+    double normal = device->normal_preload + device->normal_amplitude;
+    return device->friction_faces * device->friction_coefficient * normal;
+}
+
 /* Integrate the slow velocity over `duration` [s]; one that settles takes few steps, however long
  * the duration. */
 static bool pass(const SlowFriction *friction, double duration, Reached *reached,
                  Refusal *refusal) {
     const Plant *plant = &friction->law->held.plant;
-    double fast = friction->law->fast.velocity, load = plant->load, total = plant->total_mass;
-    double full = slow_friction_at(friction, 0.0, INFINITY);
+    double fast = friction->law->fast.velocity;
     if (fast == 0.0) {
-        *reached = block_after(reached->velocity, full, load, total, duration);
-        return true;
+        return pass_unshaken(friction, duration, reached, refusal);
     }
-    double strongest = full + fabs(load);
-    double step = strongest > 0.0 ? FIRST_STEP * fast * total / strongest : duration;
-    int most = slow_friction_is_expensive(friction) ? MAX_EXPENSIVE_STEPS : MAX_STEPS;
+    double strongest = strongest_friction(&friction->law->device) + fabs(plant->load);
+    double step = strongest > 0.0 ? FIRST_STEP * fast * plant->total_mass / strongest : duration;
+    double longest = BEAT_SHARE * friction->beat;
+    int most = max_steps(friction);
     Reached now = {.velocity = reached->velocity, .step = step};
     for (int count = 0; now.t < duration && isfinite(now.velocity); count += BLOCK) {
         if (count >= most) {
@@ -73,7 +121,9 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
         if (may_settle && settle(slow_acceleration, friction, fast, duration, &now)) {
             break;
         }
-        now = integrate(slow_acceleration, friction, now, duration, TOLERANCE * fast, BLOCK);
+        double kink = fmax(slow_friction_to_kink(friction, now.t), MIN_SHARE * friction->beat);
+        double end = fmin(duration, now.t + kink);
+        now = integrate(slow_acceleration, friction, now, end, TOLERANCE * fast, longest, BLOCK);
     }
     *reached = now;
     return true;

@@ -24,8 +24,9 @@ typedef struct {
     {#name, offsetof(Snapshot, name), kind, minimum, maximum}
 
 static const Field FIELDS[] = {
-    FIELD(lifecycle, LIFECYCLE, 0, LIFECYCLES - 1),
+    FIELD(lifecycle, LIFECYCLE, 0, 0), /* the version of FMI bounds it */
     FIELD(time, FINITE, 0, 0),
+    FIELD(time_carry, FINITE, 0, 0),
     FIELD(stop_time, FINITE_OR_INFINITE, 0, 0),
     FIELD(last_event_time, FINITE, 0, 0),
     FIELD(moving, FLAG, 0, 1),
@@ -106,9 +107,10 @@ static bool field_check(const Field *field, double number, Refusal *refusal) {
         return isfinite(number) || (may_be_infinite && isinf(number))
                || refuse_infinite_in_state(refusal, field->name, number_text(number, text));
     }
-    return (number >= field->minimum && number <= field->maximum && number == floor(number))
+    int maximum = field->kind == LIFECYCLE ? FMI.states - 1 : field->maximum;
+    return (number >= field->minimum && number <= maximum && number == floor(number))
            || refuse_out_of_range_in_state(refusal, field->name, number_text(number, text),
-                                           field->minimum, field->maximum);
+                                           field->minimum, maximum);
 }
 
 void snapshot_write(const Snapshot *snapshot, unsigned char *bytes) {
@@ -142,7 +144,7 @@ bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, 
         }
         snapshot->values[i] = number;
     }
-    bool needs_motion = snapshot->lifecycle == STEP_COMPLETE || snapshot->lifecycle == TERMINATED;
+    bool needs_motion = is_running(snapshot->lifecycle) || snapshot->lifecycle == TERMINATED;
     return snapshot->moving || !needs_motion
            || refuse_state_without_motion(refusal);
 }

@@ -10,11 +10,12 @@
 #include "refusal.h"
 #include "variables.h"
 
-/* Times in s; an open `stop_time` is infinite. `values` are those that can be set, by reference.
+/* Times in s; an open `stop_time` is infinite. `time_carry` is what `time` lacks by rounding at a
+ * located event. `values` are those that can be set, by reference.
  * `moment` is defined while `moving`, that is from the end of initialization on. */
 typedef struct {
     Lifecycle lifecycle;
-    double time, stop_time, last_event_time;
+    double time, time_carry, stop_time, last_event_time;
     double values[SETTABLE_COUNT];
     bool moving;
     Moment moment;

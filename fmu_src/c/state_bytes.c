@@ -60,7 +60,7 @@ bool state_seal_check(const unsigned char *bytes, size_t size, size_t expected, 
     write_header(header);
     if (size < STATE_HEADER_SIZE || memcmp(bytes, header, sizeof FORMAT) != 0) {
         return refuse(refusal, "FMU state refused: %lu bytes without the header of a state; must "
-                      "be bytes that fmi2SerializeFMUstate of this build wrote", (unsigned long)size);
+                      "be bytes that a state of this build was serialised to", (unsigned long)size);
     }
     if (memcmp(bytes, header, STATE_HEADER_SIZE) != 0) {
         return refuse(refusal, "FMU state refused: it is of another build; must be of the build "
@@ -73,5 +73,5 @@ bool state_seal_check(const unsigned char *bytes, size_t size, size_t expected, 
     size_t checked = size - STATE_CHECKSUM_SIZE;
     return get_bits(bytes + checked) == checksum(bytes, checked)
            || refuse(refusal, "FMU state refused: damaged, its bytes do not match their checksum; "
-                     "must be bytes that fmi2SerializeFMUstate wrote");
+                     "must be bytes that a state was serialised to");
 }

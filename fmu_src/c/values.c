@@ -5,19 +5,16 @@
 
 #include "refusal_texts.h"
 
-static const char *type_name(ValueType type) {
-    static const char *const NAMES[] = {"Real", "Integer", "Boolean", "String"};
-    return NAMES[type];
-}
-
-bool reference_check(unsigned reference, ValueType type, Refusal *refusal) {
-    if (reference >= VARIABLE_COUNT) {
-        return refuse_unknown_reference(refusal, reference, VARIABLE_COUNT - 1);
+bool reference_check(unsigned place, ValueType type, Refusal *refusal) {
+    unsigned reference = place + FMI.reference_offset;
+    if (place >= VARIABLE_COUNT) {
+        return refuse_unknown_reference(refusal, reference, FMI.min_reference,
+                                        VARIABLE_COUNT - 1 + FMI.reference_offset);
     }
-    const Variable *variable = &VARIABLES[reference];
+    const Variable *variable = &VARIABLES[place];
     ValueType own = variable->integer ? INTEGER_TYPE : REAL_TYPE;
-    return own == type
-           || refuse_wrong_type(refusal, variable->name, reference, type_name(own), type_name(type));
+    return own == type || refuse_wrong_type(refusal, variable->name, reference,
+                                            FMI.type_names[own], FMI.type_names[type]);
 }
 
 bool value_check(const Variable *variable, double value, Refusal *refusal) {
@@ -55,7 +52,7 @@ static bool setting_check(Lifecycle lifecycle, unsigned reference, double value,
     if (reference >= SETTABLE_COUNT) {
         return refuse_output_set(refusal, variable->name, value_text(variable, value, text));
     }
-    if (variable->fixed && lifecycle == STEP_COMPLETE) {
+    if (variable->fixed && is_running(lifecycle)) {
         return refuse_fixed_while_running(refusal, variable->name,
                                           value_text(variable, value, text));
     }

@@ -14,10 +14,8 @@
 #error "compile without -ffast-math, -ffinite-math-only or /fp:fast: they remove the checks for NaN and infinity"
 #endif
 
-typedef enum { REAL_TYPE, INTEGER_TYPE, BOOLEAN_TYPE, STRING_TYPE } ValueType;
-
-/* Refuse a reference that no variable has, or one of another type. */
-bool reference_check(unsigned reference, ValueType type, Refusal *refusal);
+/* Refuse a place in the table where no variable is, or one of another type. */
+bool reference_check(unsigned place, ValueType type, Refusal *refusal);
 
 /* Refuse a value that the table excludes. */
 bool value_check(const Variable *variable, double value, Refusal *refusal);

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import importlib
+import os
 import signal
 import sys
 import traceback
 from collections.abc import Sequence
 from contextlib import suppress
+from io import StringIO
 from typing import Any, NoReturn
 
 import click
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.console import exit_with
+from slider_resonator.fmu.limits import DEFAULTS, MEMORY, UNPACKED
+from slider_resonator.output.console import exit_with, open_closed_streams
 from slider_resonator.output.json_output import to_json
-from slider_resonator.output.terminal import escaped
+from slider_resonator.output.terminal import escaped, indented
 
 COULD_NOT_RUN = 2
 INTERRUPTED = 130
@@ -73,6 +76,7 @@ class HarnessGroup(click.Group):
     ) -> NoReturn:
         """Run a command and exit with its code; with --json report an error as JSON too."""
         arguments = list(sys.argv[1:] if args is None else args)
+        open_closed_streams()
         if args is None:
             # As for Ctrl-C: the processes of FMUs must be ended and temporary files removed.
             signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -102,10 +106,12 @@ def _prints_json(arguments: Sequence[str]) -> bool:
 def _report(error: BaseException) -> str:
     """Print the error message on stderr and return it."""
     if isinstance(error, click.ClickException):
-        error.show()
+        shown = StringIO()
+        error.show(shown)
+        click.echo(escaped(shown.getvalue()), err=True, nl=False)
         return error.format_message()
     if isinstance(error, KeyboardInterrupt):
-        message = "interrupted"
+        message = "\n".join(["interrupted", *getattr(error, "__notes__", [])])
     elif isinstance(error, HarnessError):
         message = f"error: {error}"
     elif isinstance(error, OSError):
@@ -113,16 +119,30 @@ def _report(error: BaseException) -> str:
     else:
         click.echo(escaped("".join(traceback.format_exception(error))), err=True, nl=False)
         return f"internal error: {error!r}"
-    click.echo(escaped(message), err=True)
+    click.echo(indented(message), err=True)
     return message.removeprefix("error: ")
 
 
 @click.group(cls=HarnessGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="slider-resonator")
-def main() -> None:
+@click.option(
+    "--max-memory",
+    type=click.IntRange(min=1),
+    metavar="MIB",
+    help=f"Memory of an FMU and all that it starts, on Linux.  [default: {DEFAULTS[MEMORY]}]",
+)
+@click.option(
+    "--max-unpacked",
+    type=click.IntRange(min=1),
+    metavar="MIB",
+    help=f"Size of the unpacked files of an FMU.  [default: {DEFAULTS[UNPACKED]}]",
+)
+def main(max_memory: int | None, max_unpacked: int | None) -> None:
     """Run a slider-resonator FMU and report with numbers whether it is right.
 
-    Exit code of every command: 0 (pass), 1 (fail), 2 (could not run), 130 (interrupted).
+    Exit code of every command: 0 (pass), 1 (fail), 2 (could not run), 130 (interrupted). An FMU
+    runs in a process and a folder of its own, which end with the command. The options before the
+    command can be set in the environment as SLIDER_RESONATOR_MAX_MEMORY and ..._MAX_UNPACKED.
 
     \b
     Examples:
@@ -140,3 +160,6 @@ def main() -> None:
       slider-resonator mutants --sample 200
       slider-resonator baseline check my.fmu --dir baseline
     """
+    for variable, value in ((MEMORY, max_memory), (UNPACKED, max_unpacked)):
+        if value is not None:
+            os.environ[variable] = str(value)  # which the processes of FMUs inherit

@@ -22,6 +22,10 @@ class Refusal(FmuError):
     """A call that the FMU refused; the message carries the text of the FMU's own log."""
 
 
+class NotApplicable(FmuError):
+    """A check that needs what the FMU does not have, and may lack: it says nothing about it."""
+
+
 def unknown_name(kind: str, name: str, allowed: Iterable[str]) -> str:
     """Return "unknown KIND 'NAME'", with the nearest of the allowed names and all of them."""
     names = sorted(allowed)

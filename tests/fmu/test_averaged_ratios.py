@@ -9,7 +9,11 @@ import numpy as np
 import pytest
 
 from slider_resonator.checks.measures.frequency import dominant_frequency
+from slider_resonator.device.device import Device
+from slider_resonator.references.averaged.averaged_coulomb import mean_friction, phase_to_force
+from slider_resonator.references.closed_forms import equivalent_force
 from tests.fmu.host import Instantiate
+from tests.fmus import both_fmus
 from tests.problems import STEADY_VELOCITIES
 
 DRIVE = 3500.0 / math.tau
@@ -82,3 +86,25 @@ def test_the_slow_velocity_beats_near_a_ratio(instantiate: Instantiate, nearest:
             "a slider too slow to follow swings in inverse proportion to the detuning"
         )
     np.testing.assert_allclose(sizes[0], sizes[2], rtol=0.0, atol=0.01 * FAST)
+
+
+@both_fmus
+@pytest.mark.parametrize(
+    ("ratio", "amplitude", "phase"),
+    [(2.0, 2.0, 1.0), (4.0, 3.0, 2.5), (-2.0, 2.54, -2.41), (6.0, 3.83, 2.5)],
+)
+def test_a_flat_balance_gives_the_highest_velocity(
+    instantiate: Instantiate, ratio: float, amplitude: float, phase: float
+) -> None:
+    """In flight while sliding turns, friction balances the load over a range of velocities."""
+    device = Device(normal_amplitude=amplitude)
+    force = equivalent_force(device)
+    lag = phase_to_force(force, phase, ratio)
+    instance = instantiate().initialize(
+        normal_amplitude=amplitude, frequency_ratio=ratio, phase=phase
+    )
+    velocity = instance.get("steady_velocity")[0] / force.velocity_amplitude
+    assert velocity > 0.01
+    for share, balanced in ((0.999, True), (-0.999, True), (1.001, False)):
+        friction = mean_friction(share * velocity, 1.0, amplitude, lag, ratio)
+        assert (abs(friction) < 1e-13) == balanced

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import pytest
@@ -25,3 +26,19 @@ def test_outputs_before_the_first_step(
     assert before[0] == pytest.approx(
         0.1 * 1e-4 * 3500.0 / 1.1 + initial.get("initial_velocity", 0.0)
     )
+
+
+@pytest.mark.parametrize("preload", [0.0, 5e-324, 1e-308, 1e-17, 1e-12])
+@pytest.mark.parametrize("ratio", [1.0, -1.0, 2.0, 0.5, 0.75, 100.0])
+def test_friction_of_bristles_with_next_to_no_preload(
+    instantiate: Callable[[], Instance], preload: float, ratio: float
+) -> None:
+    """The kinks of the load are then an exact half turn apart, and meet where sliding turns."""
+    values = {"fidelity": 0, "friction_law": 1, "normal_amplitude": 1.0, "frequency_ratio": ratio}
+    for phase in (0.0, math.pi, -math.pi, math.pi / 2.0, 0.3):
+        for velocity in (-0.144, -1.0, 0.2366097 - 0.0318182):
+            instance = instantiate().initialize(
+                normal_preload=preload, phase=phase, initial_velocity=velocity, **values
+            )
+            (force,) = instance.get("friction_force")
+            assert abs(force) <= 2.0 * (0.1 + 10.0 * 0.5) / math.pi

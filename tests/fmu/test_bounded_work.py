@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+import time
 
 import pytest
 
-from tests.fmu.host import Instantiate
+from tests.fmu.host import OUTPUTS, Instantiate
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -18,6 +19,9 @@ WEAK = {"fidelity": 0, "base_amplitude": 1e-10}
 
 LIGHT = {"friction_law": 1, "slider_mass": 1.1e-9, "resonator_mass": 1.1}
 """Damper and bristles turn a slider of next to no mass within 1e-11 s."""
+
+
+MANY_WAVES = {"normal_amplitude": 2.0, "frequency_ratio": 100.05}
 
 
 @pytest.mark.parametrize("law", [0, 1])
@@ -48,8 +52,8 @@ def test_a_strongly_varying_load_settles(instantiate: Instantiate) -> None:
     ("values", "size", "work", "limit", "carried_out"),
     [
         # Near a whole ratio the slow velocity follows the phase, and never settles.
-        ({**WEAK, "frequency_ratio": 1.05}, 10.0, "steps of averaged motion", "1e-", 1e-3),
-        (LIGHT, PERIOD / 32.0, "legs in a turn of the fastest oscillation", "1e-7 s", 1e-9),
+        ({**WEAK, "frequency_ratio": 1.05}, 1e3, "00 steps of averaged motion", "1e", 1e-3),
+        (LIGHT, PERIOD / 32.0, " 20000 legs in a turn of the fastest oscillation", "1e-7 s", 1e-9),
     ],
     ids=["a beat", "a slider too light for its bristles"],
 )
@@ -63,9 +67,35 @@ def test_a_step_of_too_much_work_is_refused(
 ) -> None:
     instance = instantiate().initialize(**values)
     refused = f"communicationStepSize = {size!r} refused"
-    with instance.refuses(refused, f"more than 20000 {work}", f"must be at most {limit}"):
+    with instance.refuses(refused, "more than", work, f"must be at most {limit}"):
         instance.step(size)
     instance.step(carried_out)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("values", "turns"),
+    [
+        ({}, 3e7),
+        ({"friction_law": 1}, 3e7),
+        ({"friction_law": 1, "fidelity": 0, **MANY_WAVES}, 3e7),
+        ({"normal_preload": 0.0, "normal_amplitude": 0.0}, 1e9),
+    ],
+    ids=["Coulomb", "bristles", "quadratures", "no events"],
+)
+def test_no_step_takes_more_than_some_seconds(
+    instantiate: Instantiate, values: dict[str, float], turns: float
+) -> None:
+    instance = instantiate().initialize(phase=0.4, **values)
+    instance.step(1e-3)
+    before = instance.get(*OUTPUTS)
+    for size in (turns * PERIOD, 1e300):
+        began = time.process_time()
+        with instance.refuses(f"communicationStepSize = {size!r} refused", "at most"):
+            instance.step(size)
+        assert time.process_time() - began < 20.0
+        assert instance.get(*OUTPUTS) == before, "a refusal leaves the state as it was"
+    instance.step(1e-3)
 
 
 def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate) -> None:

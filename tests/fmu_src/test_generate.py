@@ -27,7 +27,12 @@ def test_the_committed_file_is_current() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "sources"), [("slider", slider_sources), ("controller", controller_sources)]
+    ("name", "sources"),
+    [
+        ("slider", slider_sources),
+        ("slider_3", lambda: slider_sources("3.0")),
+        ("controller", controller_sources),
+    ],
 )
 def test_a_folder_gets_all_sources(
     name: str,
@@ -41,9 +46,11 @@ def test_a_folder_gets_all_sources(
 
 
 def test_the_headers_of_fmi_are_whole_and_have_unix_line_ends() -> None:
-    for name in FMI_HEADERS:
-        assert "Modelica Association" in CODE[name]
-        assert "\r" not in CODE[name]
+    for version, names in FMI_HEADERS.items():
+        code = slider_sources(version)
+        for name in names:
+            assert "Modelica Association" in code[name]
+            assert "\r" not in code[name]
 
 
 def test_references_are_positions_in_the_table() -> None:

@@ -8,8 +8,11 @@ import zipfile
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import fmpy
+
+from slider_resonator.device.interface import FIRST, VARIABLES
 
 SOURCE = Path(__file__).with_name("faulty_fmu.c")
 DESCRIPTION = "modelDescription.xml"
@@ -55,6 +58,36 @@ def redescribed(fmu: Path, out: Path, old: bytes, new: bytes) -> Path:
 
     def alter(name: str, content: bytes) -> bytes:
         return content.replace(old, new, 1) if name == DESCRIPTION else content
+
+    return altered(fmu, out, alter)
+
+
+def without_later_variables(fmu: Path, out: Path) -> Path:
+    """Copy an FMU without the variables that came after the first version of the interface."""
+
+    def alter(name: str, content: bytes) -> bytes:
+        if name != DESCRIPTION:
+            return content
+        root = ET.fromstring(content)
+        variables = root.find("ModelVariables")
+        assert variables is not None
+        places: dict[str, str] = {}
+        for index, variable in enumerate(list(variables), start=1):
+            if VARIABLES[variable.attrib["name"]].since == FIRST:
+                places[str(index)] = str(len(places) + 1)
+            else:
+                variables.remove(variable)
+        for parent in root.iterfind("ModelStructure/*"):
+            for unknown in list(parent):
+                if unknown.attrib["index"] not in places:
+                    parent.remove(unknown)
+                    continue
+                unknown.set("index", places[unknown.attrib["index"]])
+                kept = [i for i in unknown.attrib.get("dependencies", "").split() if i in places]
+                unknown.set("dependencies", " ".join(places[index] for index in kept))
+                unknown.attrib.pop("dependenciesKind", None)
+        root.set("description", "without later variables")
+        return ET.tostring(root)
 
     return altered(fmu, out, alter)
 

@@ -85,12 +85,14 @@ PASS_VALUES(fmi2SetInteger, const I)
 EXPORT I fmi2DoStep(C c, double t, double step, I no_rollback)
 {
     I (*function)(C, double, double, I);
-    if (first_step == 0.0)
-        first_step = step;
-    if (fabs(step - first_step) > 1e-5 * first_step)
+    I status;
+    if (first_step != 0.0 && fabs(step - first_step) > 1e-5 * first_step)
         return ERROR;
     *(void **)&function = called("fmi2DoStep");
-    return function(c, t, step, no_rollback);
+    status = function(c, t, step, no_rollback);
+    if (first_step == 0.0 && status < ERROR)
+        first_step = step;
+    return status;
 }
 
 #include "uncalled_functions.h"

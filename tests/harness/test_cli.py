@@ -242,3 +242,16 @@ def test_an_fmu_with_wrong_physics_is_rejected(python_fmu: Path, tmp_path: Path)
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert result.returncode == 1, result.stderr
     assert "FAIL" in result.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX closes the streams")
+@pytest.mark.parametrize("closed", ["2>&-", ">&-", ">&- 2>&-", "<&-", "| head -n 1"])
+def test_closed_streams_do_no_harm(closed: str, tmp_path: Path) -> None:
+    out = tmp_path / "report.json"
+    missing = tmp_path / "none.fmu"
+    call = f"{sys.executable} -m slider_resonator validate {missing} --json {out} {closed}"
+    shell = f"set -o pipefail; {call}"
+    done = subprocess.run(["bash", "-c", shell], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert "no such file" in out.read_text()

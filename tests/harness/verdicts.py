@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from slider_resonator.checks.compare import Check
-from slider_resonator.checks.validate import Curves, RunFailure, Validation
+from slider_resonator.checks.validate import Curves, NotApplied, RunFailure, Validation
 
 PASSED = Check(
     *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),
@@ -33,4 +33,9 @@ CRASH = RunFailure("lift_off", "the FMU crashed in fmi2DoStep: \x01 | <b>", {"ph
 
 GOOD = Validation("good.fmu", (PASSED,), 1.5)
 BAD = Validation("bad.fmu", (PASSED, SLOWER, SIGNAL), 2.5, (), (CURVES,))
+LACKING = Validation(
+    *("old.fmu", (PASSED,), 1.0),
+    lacks=("averaging_order",),
+    not_applied=(NotApplied("order_2", "position", "needs | <averaging_order>", {"load": 0.1}),),
+)
 BROKEN = Validation("broken.fmu", (PASSED, SLOWER), 3.0, (CRASH,))

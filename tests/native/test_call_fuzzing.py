@@ -42,6 +42,20 @@ def test_no_call_crashes_hangs_or_is_refused_in_silence(
 
 
 @pytest.mark.slow
+def test_no_state_with_a_valid_seal_does_harm(product: Binary, tmp_path: Path) -> None:
+    """States of any content: what is restored is stepped and read, in at most 2 s a call."""
+    states = program(PROGRAMS / "states.c", tmp_path)
+    done = run([states, product.library, product.guid, 5, 4_000, 2.0])
+    assert done.returncode == 0, done.stdout + done.stderr
+    found = re.match(r"4000 states: (\d+) restored, (\d+) steps, (\d+) values", done.stdout)
+    assert found is not None
+    assert all(
+        int(number) > least
+        for number, least in zip(found.groups(), (1000, 3000, 10**5), strict=True)
+    )
+
+
+@pytest.mark.slow
 def test_the_controller_stands_the_same(fuzzer: Path, controller_fmu: Path, tmp_path: Path) -> None:
     settable = sum(variable.causality != "output" for variable in VARIABLES)
     fuzz(fuzzer, unpacked_binary(controller_fmu, tmp_path), 1, CALLS, settable)
@@ -51,9 +65,9 @@ def test_the_controller_stands_the_same(fuzzer: Path, controller_fmu: Path, tmp_
 def test_the_fuzzer_notices_a_refusal_that_is_not_logged(fuzzer: Path, tmp_path: Path) -> None:
     silent = tmp_path / "silent"
     code = slider_sources()
-    speaking = "done ? fmi2OK : report(instance, fmi2Error, refusal->text)"
+    speaking = "done ? STATUS_OK : send_report(instance, STATUS_ERROR, refusal->text)"
     assert code["instance.c"].count(speaking) == 1
-    quiet = "(void)instance, (void)refusal, done ? fmi2OK : fmi2Error"
+    quiet = "(void)instance, (void)refusal, done ? STATUS_OK : STATUS_ERROR"
     code["instance.c"] = code["instance.c"].replace(speaking, quiet)
     write_sources(code, silent)
     library = tmp_path / "silent.so"

@@ -80,7 +80,8 @@ def test_no_device_makes_undefined_behaviour(
 
 
 @pytest.mark.parametrize(
-    ("source", "arguments"), [("fuzz.c", (7, 200_000)), ("instances.c", (600,))]
+    ("source", "arguments"),
+    [("fuzz.c", (7, 200_000)), ("instances.c", (600,)), ("states.c", (1, 2_000, 30))],
 )
 def test_no_call_makes_undefined_behaviour_or_leaves_memory(
     memory_checked: Binary, tmp_path: Path, source: str, arguments: tuple[int, ...]

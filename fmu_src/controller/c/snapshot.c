@@ -33,12 +33,12 @@ void snapshot_write(const Snapshot *snapshot, unsigned char *bytes) {
 
 /* Refuse fields that no controller can have. */
 static bool fields_check(const double *numbers, Refusal *refusal) {
-    bool known = numbers[0] >= 0.0 && numbers[0] < LIFECYCLES && numbers[0] == floor(numbers[0]);
+    bool known = numbers[0] >= 0.0 && numbers[0] < FMI.states && numbers[0] == floor(numbers[0]);
     bool times = isfinite(numbers[1]) && isfinite(numbers[2]) && numbers[3] >= numbers[1];
     bool sampled = isfinite(numbers[4]) && fabs(numbers[5]) <= 1.0 && fabs(numbers[6]) <= 1.0;
     return (known && times && sampled)
            || refuse(refusal, "FMU state refused: it holds a %s that no controller can have; "
-                     "must be bytes that fmi2SerializeFMUstate wrote",
+                     "must be bytes that a state was serialised to",
                      !known ? "lifecycle" : !times ? "time" : "sample");
 }
 

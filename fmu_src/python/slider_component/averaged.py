@@ -13,29 +13,30 @@ from cmath import phase as argument
 from dataclasses import dataclass
 from math import copysign, cos, pi, sin, tau
 
-from .averaged_friction import FastMotion
+from .averaged_friction import AveragedFriction, FastMotion
 from .balance import Balance, Point, balanced_turning
 from .bristle import bristle_of
 from .device import Device, Inputs
 from .friction_laws import friction_law_of
 from .motion import EPSILON
-from .plant import equivalent_force
+from .plant import equivalent_force, held_amplitude
 from .refusal import Refusal
 from .vibrating_load import VibratingLoad
 
 
 @dataclass(frozen=True, slots=True)
 class Averaged:
-    """Steady velocity [m/s] and blocking force [N] by averaged theory."""
+    """Steady velocity [m/s] and blocking force [N] by averaged theory, and whether they apply."""
 
     steady_velocity: float
     blocking_force: float
+    valid: bool
 
 
 ROUNDING = 8.0
 """Rounding error of a mean friction, in units of the last place of the largest friction."""
 
-NO_VIBRATION = Averaged(0.0, 0.0)
+NO_VIBRATION = Averaged(0.0, 0.0, False)
 
 
 def theory_range(device: Device) -> tuple[float, ...]:
@@ -60,7 +61,8 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
 
     `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where
     the load exceeds full friction the velocity is the limit v_q of the theory, with its sign; both
-    are 0 without vibration, and where undamped resonance leaves no steady vibration.
+    are 0 without vibration, and where undamped resonance leaves no steady vibration. Then, and
+    where the vibration does not break the contact loose, they are not `valid`.
     """
     try:
         force = equivalent_force(device)
@@ -83,7 +85,9 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
     first, middle, last = friction(0.0), friction(0.5 * pi), friction(pi)
     if first == last:
         # Nothing holds the slider back: every velocity is steady, or with a load none.
-        return Averaged(-copysign(fast.velocity, inputs.load) if inputs.load else 0.0, 0.0)
+        fastest = -copysign(fast.velocity, inputs.load) if inputs.load else 0.0
+        return Averaged(fastest, 0.0, valid=False)
+    stays = abs(opposing) < first
 
     def excess(turning: float) -> float:
         return friction(turning) + opposing
@@ -106,4 +110,18 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
         Point(0.5 * pi, middle + opposing),
         Point(pi, last + opposing),
     )
-    return Averaged(fast.velocity * cos(turning), -middle)
+    valid = stays and _breaks_loose(device, law, fast, abs(force), first)
+    return Averaged(fast.velocity * cos(turning), -middle, valid)
+
+
+def _breaks_loose(
+    device: Device, law: AveragedFriction, fast: FastMotion, force: float, friction: float
+) -> bool:
+    """Whether the vibration overcomes the mean `friction` [N] of sliding by itself.
+
+    It must do so with the amplitude `force` [N] with which it moves the pair, and with that on a
+    held slider.
+    """
+    bristle = bristle_of(device)
+    grip = law.grip(bristle, fast.velocity / fast.frequency, fast.frequency)
+    return min(force, held_amplitude(device)) > friction * (grip / bristle.coefficient)

@@ -9,6 +9,11 @@ from .bristle import Bristle
 from .vibrating_load import VibratingLoad
 
 
+def grip(bristle: Bristle, amplitude: float, frequency: float) -> float:
+    """See AveragedFriction."""
+    return bristle.coefficient
+
+
 def drag(bristle: Bristle, fast_velocity: float) -> float:
     """See AveragedFriction."""
     return 0.0
@@ -28,4 +33,4 @@ def friction_means(bristle: Bristle, fast: FastMotion, n: int, turning: float) -
     )
 
 
-AVERAGED_COULOMB = AveragedFriction(False, drag, mean_friction, friction_means)
+AVERAGED_COULOMB = AveragedFriction(False, grip, drag, mean_friction, friction_means)

@@ -36,6 +36,9 @@ class AveragedFriction:
 
     `is_expensive`: each mean costs a quadrature, so that means are better tabulated.
 
+    `grip(bristle, amplitude, frequency)` is the largest friction per unit load that resists a
+    vibration of this amplitude [m] and frequency [rad/s] about rest.
+
     `drag(bristle, fast_velocity)` is the largest friction per unit load beyond mu at a fast
     velocity [m/s]; above mu, mean friction may rise with Theta.
 
@@ -47,6 +50,7 @@ class AveragedFriction:
     """
 
     is_expensive: bool
+    grip: Callable[[Bristle, float, float], float]
     drag: Callable[[Bristle, float], float]
     mean: Callable[[Bristle, FastMotion, VibratingLoad, float], float]
     means: Callable[[Bristle, FastMotion, int, float], FrictionMeans]

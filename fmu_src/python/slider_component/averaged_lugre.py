@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import pairwise
-from math import cos, exp, expm1, pi, sin, tau
+from math import cos, exp, expm1, hypot, pi, sin, tau
 from typing import NamedTuple
 
 from .averaged_friction import AveragedFriction, FastMotion, FrictionMeans
@@ -24,6 +24,9 @@ PANELS = (0.0, 0.05, 0.15, 0.35, 0.65, 1.0)
 
 WIDEST = 6.0
 """Widest panel as an angle [rad] of the normal load: there 12 nodes follow its sine to rounding."""
+
+NARROW = 1e-12
+"""Narrowest part [rad] that is kept apart: what is narrower adds no more than rounding."""
 
 BENT = 40.0
 """Path in units of mu / sigma_0 after which a bristle is fully bent to rounding."""
@@ -69,6 +72,13 @@ def friction_means(bristle: Bristle, fast: FastMotion, n: int, turning: float) -
         sine += friction * sin(n * angle)
         cosine += friction * cos(n * angle)
     return FrictionMeans(plain / tau, sine / tau, cosine / tau)
+
+
+def grip(bristle: Bristle, amplitude: float, frequency: float) -> float:
+    """See AveragedFriction. A vibration far shorter than mu / sigma_0 only bends the bristle."""
+    return min(
+        bristle.coefficient, amplitude * hypot(bristle.stiffness, frequency * bristle.damping)
+    )
 
 
 def drag(bristle: Bristle, fast_velocity: float) -> float:
@@ -161,7 +171,13 @@ def _panels(
     edges: list[float], kinks: list[float], wave_number: float
 ) -> Iterator[tuple[float, float]]:
     """Panels between edges and kinks, none wider than WIDEST of the normal load."""
-    for low, high in pairwise(sorted(edges + kinks)):
+    begin, apart = edges[0], []
+    for kink in sorted(kinks):
+        begin = max([begin, *(edge for edge in edges if edge <= kink)])
+        if kink > begin + NARROW:
+            apart.append(kink)
+            begin = kink
+    for low, high in pairwise(sorted(edges + apart)):
         pieces = 1 + int(abs(wave_number) * (high - low) / WIDEST)
         width = (high - low) / pieces
         for piece in range(pieces):
@@ -211,4 +227,4 @@ def gauss_legendre(count: int) -> tuple[tuple[float, float], ...]:
     return tuple(rule)
 
 
-AVERAGED_LUGRE = AveragedFriction(True, drag, mean_friction, friction_means)
+AVERAGED_LUGRE = AveragedFriction(True, grip, drag, mean_friction, friction_means)

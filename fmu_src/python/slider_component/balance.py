@@ -1,8 +1,9 @@
 """Where mean friction and load balance: the angle Theta at which sliding turns forward.
 
-The answer is that of plain bisection, less the evaluations whose outcome is known. Chandrupatla's
-method, inverse quadratic interpolation where three points allow it and bisection otherwise, closes
-in on the balance; where friction is flat the angle is as uncertain as rounding makes it.
+The answer is that of plain bisection, less the evaluations whose outcome is known, and on a flat
+balance (even ratios, with flight while sliding turns) its end of the highest velocity.
+Chandrupatla's method, inverse quadratic interpolation where three points allow it and bisection
+otherwise, closes in on the balance; a weak one is as uncertain as rounding makes it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,12 @@ BISECTIONS = 52
 
 SORTING = 4
 """Halvings that settle which of several balances it is."""
+
+EDGE_HALVINGS = 40
+"""Halvings in which the edge of a flat balance is found."""
+
+FLAT = 3e-3
+"""Width [rad] from which on a balance is flat, and not only a weak one."""
 
 MAX_EVALUATIONS = 100
 
@@ -87,6 +94,9 @@ def balanced_turning(balance: Balance, low: Point, halfway: Point, high: Point) 
         bracket.positive, bracket.negative = low.turning, high.turning
     if bracket.negative - bracket.positive < STEEP:
         return bracket.root
+    flat = _flat_from(balance, bracket)
+    if flat is not None:
+        return flat
     first, last = low.turning, high.turning
     for _ in range(done, BISECTIONS):
         turning = 0.5 * (first + last)
@@ -95,6 +105,26 @@ def balanced_turning(balance: Balance, low: Point, halfway: Point, high: Point) 
             above = balance.excess(turning) > 0.0
         first, last = (turning, last) if above else (first, turning)
     return 0.5 * (first + last)
+
+
+def _flat_from(balance: Balance, bracket: Bracket) -> float | None:
+    """Where a range begins in which friction and load balance at all angles; None without one."""
+    if abs(balance.excess(bracket.root)) > balance.noise:
+        return None
+    begin = _edge(balance, bracket.positive, bracket.root, 1.0)
+    end = _edge(balance, bracket.negative, bracket.root, -1.0)
+    return begin if end - begin > FLAT else None
+
+
+def _edge(balance: Balance, outside: float, inside: float, sign: float) -> float:
+    """The edge of a flat balance, between an angle `outside` and one `inside` [rad]."""
+    for _ in range(EDGE_HALVINGS):
+        middle = 0.5 * (outside + inside)
+        if sign * balance.excess(middle) > balance.noise:
+            outside = middle
+        else:
+            inside = middle
+    return inside
 
 
 def _closed_in(balance: Balance, low: Point, following: Point, high: Point) -> Bracket:

@@ -9,7 +9,7 @@ from typing import Any
 
 from . import refusal_texts
 from .averaged import theory_range
-from .constants import MAX_TURNS, STOP_TIME_SLACK, TIME_SLACK
+from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
 from .device import Device, Inputs
 from .held import LONGEST_ARC
 from .law import Law, law_of
@@ -192,8 +192,9 @@ class Component:
     def _require_bounded_work(self, step_size: float) -> None:
         device, _, law = self._prepare()
         frequency = LONGEST_ARC / law.held.arc
-        if device.fidelity > 0 and step_size * frequency > tau * MAX_TURNS:
-            raise Refusal(refusal_texts.too_many_turns(step_size, frequency))
+        max_turns = MAX_TURNS // PYTHON_SLOWDOWN
+        if device.fidelity > 0 and step_size * frequency > tau * max_turns:
+            raise Refusal(refusal_texts.too_many_turns(step_size, frequency, max_turns))
 
     def _advanced(self, step_size: float) -> Moment:
         _, _, law = self._prepare()

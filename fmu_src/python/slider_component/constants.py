@@ -5,8 +5,20 @@ The C constants in constants.h are generated from these, with the same names.
 
 from __future__ import annotations
 
-MAX_TURNS = 1e8
-"""Turns of the fastest oscillation in one step up to which its work is accepted."""
+MAX_STEP_LEGS = 5_000_000
+"""Legs in one step up to which its work is accepted: 2 to 10 s, the longer with LuGre friction."""
+
+MAX_TURNS = 40_000_000
+"""Turns of the fastest oscillation in one step, which take at least `MAX_STEP_LEGS` legs."""
+
+MAX_SLOW_STEPS = 2_000_000
+"""Steps of averaged motion in one communication step up to which its work is accepted."""
+
+MAX_QUADRATURE_STEPS = 20_000
+"""The same where each costs quadratures, which take longer under many waves of the normal load."""
+
+PYTHON_SLOWDOWN = 100
+"""In Python a leg takes so many times as long, and each of these bounds is so much lower."""
 
 TIME_SLACK = 1e-6
 """Fraction of a step by which hosts may round their own time."""

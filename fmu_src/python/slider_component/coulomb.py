@@ -24,6 +24,9 @@ from .stick import Stick
 SAME = 1e-6
 """Part of the longest arc within which a release and a lift-off may be the same event."""
 
+BALANCED = 1e-12
+"""Part of the forces up to which those on a slider that is just released count as balanced."""
+
 
 def check(device: Device) -> None:
     """Coulomb friction has a meaning for any device."""
@@ -36,7 +39,10 @@ def first_bristle(held: Held) -> float:
 
 def mode(held: Held, moment: Moment) -> int:
     """Contact mode under the held inputs."""
-    return LIFTED if held.lifted_at(moment.psi) else _mode_in_contact(held.plant, moment)
+    if held.lifted_at(moment.psi):
+        return LIFTED
+    released = _just_released(held.plant, moment)
+    return moment.mode if released else _mode_in_contact(held.plant, moment)
 
 
 def force(held: Held, moment: Moment, mode: int) -> float:
@@ -84,6 +90,19 @@ def _needed_force(plant: Plant, moment: Moment) -> float:
     if not direct:
         return resonator - plant.load
     return resonator - plant.load + direct.real * sin(theta) + direct.imag * cos(theta)
+
+
+def _just_released(plant: Plant, moment: Moment) -> bool:
+    """Whether the slider was released right now.
+
+    Friction still balances the other forces, and only the mode that the moment keeps tells on which
+    side of the balance it is.
+    """
+    if moment.state.velocity != 0.0 or moment.mode not in (FORWARD, BACKWARD):
+        return False
+    limit = friction_limit(plant, moment.psi)
+    excess = moment.mode * _needed_force(plant, moment) - limit
+    return abs(excess) <= BALANCED * (limit + plant.friction_preload + abs(plant.load))
 
 
 def _mode_in_contact(plant: Plant, moment: Moment) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import isfinite
+from math import inf, isfinite
 from typing import NamedTuple
 
 
@@ -22,10 +22,12 @@ def integrate(
     end: float,
     tolerance: float,
     most: int,
+    longest: float = inf,
 ) -> Reached:
     """Integrate to time `end` [s], or for at most `most` accepted and rejected steps.
 
-    `acceleration(t, v)` [m/s^2]; `tolerance` [m/s] is allowed per step.
+    `acceleration(t, v)` [m/s^2]; `tolerance` [m/s] is allowed per step. `longest` [s] bounds steps:
+    what repeats must not look constant to all stages.
     """
     t, velocity, displacement, step = now
     first = acceleration(t, velocity)
@@ -33,7 +35,7 @@ def integrate(
         if not t < end or not isfinite(velocity):
             break
         left = end - t
-        v, h = velocity, min(step, left)
+        v, h = velocity, min(step, longest, left)
         k1 = first
         k2 = acceleration(t + h / 5, v + h * k1 / 5)
         k3 = acceleration(t + 3 * h / 10, v + h * (3 * k1 + 9 * k2) / 40)

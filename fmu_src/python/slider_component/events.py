@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf, tau
 
 from .clock import Clock
+from .constants import MAX_STEP_LEGS, PYTHON_SLOWDOWN
 from .contact import LIFTED, time_to_switch
 from .friction_law import FrictionLaw
 from .held import LONGEST_ARC, Held
@@ -19,12 +20,12 @@ presliding on the hardest bristles takes."""
 def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) -> Moment:
     """The moment `duration` > 0 [s] later, inputs held.
 
-    Raises Refusal where time does not get on.
+    Raises Refusal where it takes too much work, or time does not get on.
     """
     plant, arc = held.plant, held.arc
     turn = tau / LONGEST_ARC * arc
     clock, remaining = Clock(duration), duration
-    legs, turn_began = 0, 0.0
+    legs, all_legs, turn_began = 0, 0, 0.0
     departs = moment.state.velocity == 0.0
     now = moment.copied()
     now.enter(friction.mode(held, now))
@@ -35,6 +36,10 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
         if legs > MAX_LEGS:
             what = "legs in a turn of the fastest oscillation"
             raise too_much_work(duration, clock.elapsed, MAX_LEGS, what)
+        all_legs += 1
+        if all_legs > MAX_STEP_LEGS // PYTHON_SLOWDOWN:
+            most = MAX_STEP_LEGS // PYTHON_SLOWDOWN
+            raise too_much_work(duration, clock.elapsed, most, "legs of motion")
         switching = inf
         if held.window is not None:
             chi, lifted = now.psi + plant.phase, now.mode == LIFTED

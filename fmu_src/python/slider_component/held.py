@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .bristle import Bristle, bristle_of
 from .contact import LIFTED, direction_of, flight_window, is_lifted
@@ -38,6 +38,13 @@ class Held:
     def mode_by_velocity(self, velocity: float, psi: float) -> int:
         """Contact mode by what can be seen: lifted, or the direction of sliding; 0 at rest."""
         return LIFTED if self.lifted_at(psi) else direction_of(velocity)
+
+    def under(self, phase: float, load: float) -> Held:
+        """The same under another phase [rad] and load [N], on which nothing prepared depends."""
+        plant = replace(self.plant, phase=phase, load=load)
+        split = self.split and replace(self.split, plant=plant)
+        inputs = replace(self.inputs, phase=phase, load=load)
+        return replace(self, inputs=inputs, plant=plant, split=split)
 
 
 def hold(device: Device, inputs: Inputs) -> Held:

@@ -9,6 +9,7 @@ from typing import Protocol
 from . import events
 from .contact import LIFTED
 from .device import Device, Inputs
+from .fast_vibration import steady_swing
 from .friction_law import FrictionLaw
 from .friction_laws import friction_law_of
 from .held import Held, hold
@@ -51,7 +52,12 @@ class ResolvedLaw:
     friction: FrictionLaw
 
     def start(self, state: State, position: float) -> Moment:
-        """See Law."""
+        """See Law. A resonator that is not followed vibrates at once, without extra momentum."""
+        plant, device = self.held.plant, self.held.device
+        if plant.resonator_amplitude is not None:
+            _, rate = steady_swing(plant.resonator_amplitude, 0.0, plant.drive_frequency)
+            velocity = state.velocity + device.mass_fraction * (state.rate - rate)
+            state = state._replace(velocity=velocity)
         bristle = self.friction.first_bristle(self.held)
         at_rest = Moment(state, position, 0.0, 0.0, 0, Counts(), inf, PeriodMeans(), bristle)
         mode = self.mode(at_rest)

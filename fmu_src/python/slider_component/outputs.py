@@ -70,4 +70,5 @@ OUTPUTS: dict[str, Callable[[View], float]] = {
     "last_event_time": lambda view: view.last_event_time,
     "steady_velocity": lambda view: _theory(view).steady_velocity,
     "blocking_force": lambda view: _theory(view).blocking_force,
+    "prediction_valid": lambda view: float(_theory(view).valid),
 }

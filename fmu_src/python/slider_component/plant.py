@@ -13,7 +13,7 @@ where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady f
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
+from math import hypot, inf
 
 from . import refusal_texts
 from .device import Device, Inputs
@@ -77,6 +77,21 @@ def steady_resonator(device: Device) -> complex:
     return (
         device.base_amplitude * w * w - device.tangential_force / device.slider_mass
     ) * transfer(oscillator, w)
+
+
+def held_amplitude(device: Device) -> float:
+    """Amplitude of the steady force of resonator and direct drive on a held slider [N].
+
+    Infinite where undamped resonance leaves no steady vibration.
+    """
+    w, wn = device.drive_frequency, device.resonator_frequency
+    oscillator = Oscillator(device.damping_ratio * wn, wn * wn)
+    detuning = abs(oscillator.stiffness - w * w)
+    if device.damping_ratio == 0.0 and detuning <= AT_RESONANCE * w * w:
+        return inf
+    amplitude = device.base_amplitude * (1.0 + w * w * transfer(oscillator, w))
+    force = device.resonator_mass * w * w * amplitude + device.tangential_force
+    return hypot(force.real, force.imag)
 
 
 def equivalent_force(device: Device) -> complex:

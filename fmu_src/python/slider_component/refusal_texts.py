@@ -6,8 +6,6 @@ each of its arguments once: `float` and `object` with !r, `str` and `int` withou
 
 from __future__ import annotations
 
-from .constants import MAX_TURNS
-
 
 def out_of_bounds(name: str, value: object, requirement: str) -> str:
     """Refuse a value that the table of variables excludes."""
@@ -24,9 +22,9 @@ def fixed_while_running(name: str, value: object) -> str:
     return f"{name} = {value!r} refused: it is fixed and can be set only before initialization ends"
 
 
-def unknown_reference(reference: int, last: int) -> str:
+def unknown_reference(reference: int, first: int, last: int) -> str:
     """Refuse a value reference that no variable has."""
-    return f"valueReference = {reference} refused: must be from 0 to {last}"
+    return f"valueReference = {reference} refused: must be from {first} to {last}"
 
 
 def wrong_type(name: str, reference: int, own: str, requested: str) -> str:
@@ -72,11 +70,11 @@ def step_beyond_stop(step_size: float, stop_time: float) -> str:
     )
 
 
-def too_many_turns(step_size: float, frequency: float) -> str:
+def too_many_turns(step_size: float, frequency: float, max_turns: int) -> str:
     """Refuse a step over more oscillations than its work is bounded by."""
     return (
         f"doStep: communicationStepSize = {step_size!r} refused: the fastest oscillation has "
-        f"{frequency!r} rad/s; the step must be at most {MAX_TURNS:g} turns of it"
+        f"{frequency!r} rad/s; the step must be at most {max_turns} turns of it"
     )
 
 

@@ -185,7 +185,7 @@ def _variables(kind: str, references: list[int]) -> list[Variable]:
     found = []
     for reference in references:
         if not 0 <= reference < len(VARIABLES):
-            raise Refusal(refusal_texts.unknown_reference(reference, len(VARIABLES) - 1))
+            raise Refusal(refusal_texts.unknown_reference(reference, 0, len(VARIABLES) - 1))
         variable = VARIABLES[reference]
         if variable.type != kind:
             raise Refusal(refusal_texts.wrong_type(variable.name, reference, variable.type, kind))

@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from math import acos, cos, pi, sin, tau
+from math import acos, cos, inf, pi, sin, tau
 from typing import NamedTuple
 
 from .averaged_coulomb import AVERAGED_COULOMB
 from .averaged_friction import AveragedFriction, FastMotion
+from .contact import is_lifted, time_to_switch
 from .fast_vibration import FastVibration
 from .friction_table import MAX_WAVES_TABULATED, friction_table
 from .held import Held
@@ -31,12 +32,15 @@ Friction = Callable[[float, float], float]
 class SlowFriction(NamedTuple):
     """The mean friction `at` a time and velocity, which depends on time where `drift` is not 0.
 
-    `drift` [rad/s] is that of the phase of the normal load, and `is_expensive` means that
-    each value costs a quadrature.
+    `drift` [rad/s] is that of the phase of the normal load, which repeats after `beat` [s];
+    where the load itself is slow, `to_kink(t)` [s] is how long after `t` the contact lifts or
+    touches down. `is_expensive` means that each value costs a quadrature.
     """
 
     at: Friction
     drift: float
+    beat: float
+    to_kink: Callable[[float], float] | None = None
     is_expensive: bool = False
 
 
@@ -53,12 +57,16 @@ def slow_friction(
     # Without vibration a bristle is always fully bent, and friction Coulomb's.
     averaged = friction if fast.velocity else AVERAGED_COULOMB
     law = _MeanFriction(held, averaged, motion, phase, drift)
-    if turns is None or waves == 0.0:
-        return SlowFriction(law.under_mean_load(waves), drift)
+    beat = tau / ((turns or 1) * abs(drift)) if drift else inf
+    if waves == 0.0:
+        return SlowFriction(law.under_mean_load(waves), drift, beat, law.to_kink)
+    if turns is None:
+        return SlowFriction(law.under_mean_load(waves), drift, beat)
     lifts = device.normal_amplitude > device.normal_preload
     if lifts or (averaged.is_expensive and abs(waves) > MAX_WAVES_TABULATED):
-        return SlowFriction(law.under_any_load(waves), drift, averaged.is_expensive)
-    return SlowFriction(law.under_sine(int(waves)), drift)
+        any_load, is_expensive = law.under_any_load(waves), averaged.is_expensive
+        return SlowFriction(any_load, drift, beat, is_expensive=is_expensive)
+    return SlowFriction(law.under_sine(int(waves)), drift, beat)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +116,11 @@ class _MeanFriction:
             return faces * mean(bristle, self.fast, self._load(waves, t), turning)
 
         return friction
+
+    def to_kink(self, t: float) -> float:
+        """See SlowFriction."""
+        window, chi = self.held.window, self.phase + self.drift * t
+        return time_to_switch(window, chi, self.drift, is_lifted(window, chi, self.drift))
 
     def _load(self, waves: float, t: float) -> VibratingLoad:
         return VibratingLoad(self.held.device, waves, self.phase + self.drift * t)

@@ -11,8 +11,10 @@ A bristle is taken as slaved to the motion, so it has no state here.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import copysign, cos, inf, isfinite, sin, tau
+from math import ceil, copysign, cos, inf, isfinite, sin, tau
 
+from .averaged_lugre import MAX_WAVES
+from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .dormand_prince import Reached, integrate
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
 from .friction_law import FrictionLaw
@@ -30,17 +32,25 @@ TOLERANCE = 1e-9
 FIRST_STEP = 0.1
 """Step tried first, as a share of the time in which friction changes the fast velocity."""
 
-MAX_STEPS = 20_000
-"""Steps of averaged motion in one communication step up to which its work is accepted."""
-
-MAX_EXPENSIVE_STEPS = 1000
-"""The same where each costs a quadrature."""
+WAVES = 10.0
+"""Waves of the normal load over a turn that double the cost of a quadrature."""
 
 SETTLING = 100.0
 """What must be left, in first steps, for the motion to settle."""
 
+WORK = "steps of averaged motion"
+
 BLOCK = 16
 """Steps before each of which it may turn out that the motion has settled."""
+
+BEAT_SHARE = 0.125
+"""Part of a beat that a step may have: its stages then see all phases of the normal load."""
+
+PIECES = 256
+"""Pieces of a beat with constant friction each, where there is no vibration."""
+
+MIN_SHARE = 1e-9
+"""Part of a beat up to which a kink ahead counts as the one just passed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,26 +95,33 @@ class SlowLaw:
         """Slow velocity and displacement after `duration` [s]; settled motion takes few steps."""
         fast, load, total = self.fast.velocity, self.held.inputs.load, self.held.plant.total_mass
         friction = self._friction(theta, psi)
-        full = friction.at(0.0, inf)
         if fast == 0.0:
-            return _block(velocity, full, load, total, duration)
+            return _unshaken(friction, velocity, load, total, duration)
 
         def acceleration(t: float, v: float) -> float:
             return -(friction.at(t, v) + load) / total
 
-        strongest = full + abs(load)
+        strongest = self._strongest_friction() + abs(load)
         step = FIRST_STEP * fast * total / strongest if strongest > 0.0 else duration
-        most = MAX_EXPENSIVE_STEPS if friction.is_expensive else MAX_STEPS
+        longest = BEAT_SHARE * friction.beat
+        most = _max_steps(friction.is_expensive, self.held.inputs.frequency_ratio)
         now = Reached(0.0, velocity, 0.0, step)
         for _ in range(0, most, BLOCK):
             if friction.drift == 0.0 and duration - now.t > SETTLING * step:
                 now = settled(acceleration, fast, duration, now) or now
             if not now.t < duration or not isfinite(now.velocity):
                 return now.velocity, now.moved
-            now = integrate(acceleration, now, duration, TOLERANCE * fast, BLOCK)
+            end = _end_of_smoothness(friction, now.t, duration)
+            now = integrate(acceleration, now, end, TOLERANCE * fast, BLOCK, longest)
         if now.t < duration and isfinite(now.velocity):
-            raise too_much_work(duration, now.t, most, "steps of averaged motion")
+            raise too_much_work(duration, now.t, most, WORK)
         return now.velocity, now.moved
+
+    def _strongest_friction(self) -> float:
+        """Largest friction [N] of Coulomb's law under the normal load at any phase."""
+        device = self.held.device
+        normal = device.normal_preload + device.normal_amplitude
+        return device.friction_faces * device.friction_coefficient * normal
 
     def mode(self, moment: Moment) -> int:
         """See Law: by the sign of the velocity with its fast part."""
@@ -126,6 +143,38 @@ class SlowLaw:
 def slow_law(held: Held, friction: FrictionLaw) -> SlowLaw:
     """The averaged law. Raises Refusal where averages do not apply."""
     return SlowLaw(held, friction, fast_vibration(held.device))
+
+
+def _max_steps(is_expensive: bool, ratio: float) -> int:
+    """Steps of averaged motion in one communication step up to which its work is accepted."""
+    if not is_expensive:
+        return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
+    waves = min(abs(ratio), MAX_WAVES)
+    return max(BLOCK, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
+
+
+def _end_of_smoothness(friction: SlowFriction, t: float, end: float) -> float:
+    """The next kink of the friction after `t`, or `end` [s]."""
+    if friction.to_kink is None:
+        return end
+    return min(end, t + max(friction.to_kink(t), MIN_SHARE * friction.beat))
+
+
+def _unshaken(
+    friction: SlowFriction, velocity: float, load: float, mass: float, duration: float
+) -> tuple[float, float]:
+    """Velocity and displacement without vibration: under constant forces in each piece of time."""
+    longest = duration if friction.to_kink is None else min(duration, friction.beat / PIECES)
+    pieces = ceil(duration / longest)
+    most = _max_steps(is_expensive=False, ratio=0.0)
+    if pieces > most:
+        raise too_much_work(duration, most * longest, most, WORK)
+    moved, piece = 0.0, duration / pieces
+    for k in range(pieces):
+        resisting = friction.at((k + 0.5) * piece, inf)
+        velocity, passed = _block(velocity, resisting, load, mass, piece)
+        moved += passed
+    return velocity, moved
 
 
 def _block(

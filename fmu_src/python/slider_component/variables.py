@@ -228,7 +228,8 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _fixed(
         "initial_velocity",
-        "Slider velocity at the start",
+        "Slider velocity at the start; at fidelity 0 and 1 it fixes, with "
+        "initial_resonator_velocity, the momentum of slider and resonator",
         start=0.0,
         unit="m/s",
         display_unit="mm/s",
@@ -272,7 +273,13 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
-        depends_initially_on=("initial_velocity",),
+        # At fidelity 1 it keeps the momentum without the steady vibration of the resonator.
+        depends_initially_on=(
+            "fidelity",
+            *_STEADY_RESONATOR,
+            "initial_velocity",
+            "initial_resonator_velocity",
+        ),
     ),
     _output(
         "mean_velocity",
@@ -284,11 +291,7 @@ VARIABLES: tuple[Variable, ...] = (
         # At fidelity 0 what is left of the momentum of the pair without its vibration.
         depends_initially_on=(
             "fidelity",
-            "slider_mass",
-            "resonator_mass",
-            "base_amplitude",
-            "drive_frequency",
-            "tangential_force",
+            *_STEADY_RESONATOR,
             "initial_velocity",
             "initial_resonator_velocity",
         ),
@@ -364,7 +367,8 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _output(
         "steady_velocity",
-        "Steady velocity that averaged theory predicts for the present inputs (eq. 20)",
+        "Steady velocity that averaged theory predicts for the present inputs (eq. 20); the "
+        "highest where friction and load balance over a range of velocities",
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
@@ -379,6 +383,16 @@ VARIABLES: tuple[Variable, ...] = (
         nominal=0.1,
         depends_on=("phase", "frequency_ratio"),
         depends_initially_on=_AVERAGED_THEORY,
+    ),
+    _count(
+        "prediction_valid",
+        "1: steady_velocity and blocking_force apply; 0: the load exceeds the mean friction of "
+        "sliding, or there is no steady vibration that overcomes this friction",
+        unit="1",
+        minimum=0.0,
+        maximum=1.0,
+        depends_on=_INPUTS,
+        depends_initially_on=(*_AVERAGED_THEORY, "load"),
     ),
 )
 

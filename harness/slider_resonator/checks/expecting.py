@@ -5,9 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
+
+from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.checks.measures.tube import Tube, no_tube
+from slider_resonator.checks.period_means import (
+    DriveTurns,
+    last_events,
+    mean_velocities,
+    reversal_counts,
+    stick_fractions,
+)
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
+from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.schema import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES, RESOLVED
 
@@ -38,8 +50,30 @@ def _resolved(output: str) -> Mapping[str, Expected]:
     return {reference: _signal(reference, output) for reference in RESOLVED}
 
 
+def _averaged(output: str) -> Mapping[str, Expected]:
+    return {"averaged": lambda references: getattr(references.averaged_outputs, output)}
+
+
 def _reversals(reference: str) -> Expected:
     return lambda references: references.trajectory(reference).reversals
+
+
+def _in_run(measure: Callable[[Trajectory, Array, DriveTurns], Any]) -> Mapping[str, Expected]:
+    def of(reference: str) -> Expected:
+        return lambda references: references.in_run(reference, measure)
+
+    return {reference: of(reference) for reference in RESOLVED}
+
+
+def _at_the_end(measure: Callable[[ReferenceSide, str], float]) -> Mapping[str, Expected]:
+    def of(reference: str) -> Expected:
+        return lambda references: measure(references, reference)
+
+    return {reference: of(reference) for reference in RESOLVED}
+
+
+def _without_events(references: ReferenceSide) -> Tube:
+    return no_tube(np.zeros_like(references.times))
 
 
 EXPECTED: Mapping[str, Mapping[str, Expected]] = {
@@ -61,11 +95,20 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "closed_form": lambda references: references.averaged_blocking_force,
         "averaged": lambda references: references.predicted_blocking_force,
     },
+    "predicted_velocity_in_run": {
+        "averaged": lambda references: references.predictions("predicted_velocity"),
+    },
+    "predicted_blocking_force_in_run": {
+        "averaged": lambda references: references.predictions("predicted_blocking_force"),
+    },
     "final_predicted_velocity": {
         "averaged": lambda references: references.at_the_end.predicted_velocity,
     },
     "final_predicted_blocking_force": {
         "averaged": lambda references: references.at_the_end.predicted_blocking_force,
+    },
+    "prediction_valid": {
+        "averaged": lambda references: references.at_the_end.prediction_valid,
     },
     "position": {
         **_resolved("position"),
@@ -75,11 +118,13 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         **_resolved("velocity"),
         "averaged": lambda references: references.averaged_motion.velocity,
     },
-    "resonator_displacement": _resolved("resonator_displacement"),
-    "resonator_velocity": _resolved("resonator_velocity"),
-    "normal_force": _resolved("normal_force"),
-    "friction_force": _resolved("friction_force"),
-    "contact_mode": _resolved("contact_mode"),
+    **{
+        output: {**_resolved(output), **_averaged(output)}
+        for output in (
+            *("resonator_displacement", "resonator_velocity"),
+            *("normal_force", "friction_force", "contact_mode"),
+        )
+    },
     "slow_displacement": {
         "located_events": lambda references: slow_displacement(
             references.times,
@@ -91,16 +136,22 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         ),
     },
     "mean_velocity": {
-        "located_events": lambda references: references.mean_velocity,
+        **_at_the_end(ReferenceSide.mean_velocity),
         "averaged": lambda references: float(references.averaged_motion.mean_velocity[-1]),
     },
-    "stick_fraction": {"located_events": lambda references: references.stick_fraction},
-    "reversals": {reference: _reversals(reference) for reference in RESOLVED},
-    "event_times": {
-        "located_events": lambda references: references.event_times("located_events"),
-        "taylor": lambda references: references.event_times("taylor"),
+    "mean_velocity_in_run": {
+        **_in_run(mean_velocities),
+        "averaged": lambda references: references.averaged_motion.mean_velocity,
     },
-    "last_event_time": {"located_events": lambda references: references.last_event_time},
+    "stick_fraction": _at_the_end(ReferenceSide.stick_fraction),
+    "stick_fraction_in_run": {
+        **_in_run(stick_fractions),
+        "averaged": lambda references: np.zeros_like(references.times),
+    },
+    "reversals": {reference: _reversals(reference) for reference in RESOLVED},
+    "reversals_in_run": {**_in_run(reversal_counts), "averaged": _without_events},
+    "event_times": {**_in_run(last_events), "averaged": _without_events},
+    "last_event_time": _at_the_end(ReferenceSide.last_event_time),
     "ripple_amplitude": {"closed_form": lambda references: references.ripple_amplitude},
     "ripple_frequency": {"closed_form": lambda references: 1.0 / references.drive_period},
     "beat_frequency": {"closed_form": lambda references: references.difference_frequency},

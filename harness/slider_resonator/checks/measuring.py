@@ -9,11 +9,24 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.checks.conduct.dependencies import dependency_faults
+from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.conduct.refusals import refusal_faults
+from slider_resonator.checks.conduct.replays import (
+    beside_differences,
+    overwritten_differences,
+    reading_differences,
+    reset_differences,
+    restored_differences,
+    transferred_differences,
+)
+from slider_resonator.checks.conduct.starts import start_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
 from slider_resonator.checks.measures.slow import slow_displacement
-from slider_resonator.errors import SceneError
+from slider_resonator.errors import NotApplicable, SceneError
+from slider_resonator.fmu.interface_check import description_faults
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
@@ -21,18 +34,22 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 class Measurement:
     """The value of a quantity in an FMU: number, word, None or a signal (n,).
 
-    `note` is the reason for a None; `times` (s), shape (n,), are the points of a signal.
+    `note` is the reason for a None or for a count of faults; `times` (s), shape (n,), are the
+    points of a signal. What is not `applicable` to the FMU has a note and no value.
     """
 
     value: Any
     note: str = ""
     times: Array | None = None
+    applicable: bool = True
 
 
 def measure(quantity: str, fmu: FmuSide) -> Measurement:
     """Measure a quantity in the FMU; SceneError when the scene does not allow it."""
     try:
         value = MEASURES[quantity](fmu)
+    except NotApplicable as error:
+        return Measurement(None, str(error), applicable=False)
     except (NoOscillation, np.linalg.LinAlgError, ArithmeticError) as error:
         return Measurement(None, f"{quantity} does not exist: {error}")
     except (ValueError, RuntimeError) as error:
@@ -40,6 +57,8 @@ def measure(quantity: str, fmu: FmuSide) -> Measurement:
         raise SceneError(f"{where} cannot be measured: {error}") from error
     if QUANTITIES[quantity].kind == "signal":
         return Measurement(value, times=fmu.record.times[-len(value) :])
+    if isinstance(value, Findings):
+        return Measurement(float(value.count), value.text)
     if value is None:
         search = fmu.steady if quantity == "steady_velocity" else fmu.blocking
         return Measurement(None, search.reason)
@@ -74,8 +93,11 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "blocking_periods": lambda fmu: fmu.blocking.periods,
     "predicted_velocity": lambda fmu: fmu.steady.predicted,
     "predicted_blocking_force": lambda fmu: fmu.blocking.predicted,
+    "predicted_velocity_in_run": _output("steady_velocity"),
+    "predicted_blocking_force_in_run": _output("blocking_force"),
     "final_predicted_velocity": _final("steady_velocity"),
     "final_predicted_blocking_force": _final("blocking_force"),
+    "prediction_valid": _final("prediction_valid"),
     "position": _output("position"),
     "velocity": _output("velocity"),
     "resonator_displacement": _output("resonator_displacement"),
@@ -87,9 +109,14 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
         fmu.record.times, fmu.record["position"], fmu.drive_period
     ),
     "mean_velocity": _final("mean_velocity"),
+    "mean_velocity_in_run": _output("mean_velocity"),
     "stick_fraction": _final("stick_fraction"),
+    "stick_fraction_in_run": _output("stick_fraction"),
     "reversals": _final("reversals"),
-    "event_times": lambda fmu: fmu.record["last_event_time"] / fmu.drive_period,
+    "reversals_in_run": _output("reversals"),
+    "event_times": lambda fmu: (
+        (fmu.record["last_event_time"] - fmu.scene.start_time) / fmu.drive_period
+    ),
     "last_event_time": _final("last_event_time"),
     "ripple_amplitude": lambda fmu: ripple_amplitude(
         fmu.record.times, fmu.record["position"], fmu.drive_period
@@ -100,5 +127,15 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "beat_frequency": lambda fmu: dominant_frequency(
         *_later_half(fmu.record.times, fmu.record["mean_velocity"])
     ),
+    "reset_differences": reset_differences,
+    "restored_differences": restored_differences,
+    "transferred_differences": transferred_differences,
+    "beside_differences": beside_differences,
+    "overwritten_differences": overwritten_differences,
+    "reading_differences": reading_differences,
+    "refusal_faults": refusal_faults,
+    "start_faults": start_faults,
+    "description_faults": lambda fmu: Findings.of(description_faults(fmu.instance.fmu.description)),
+    "dependency_faults": dependency_faults,
 }
 """Quantity to the function that measures it; None stands for a value that does not exist."""

@@ -46,10 +46,13 @@ _resonator = _vibration(lambda force: force.resonator_amplitude)
 _SCALES: Mapping[str, Callable[[Device], float]] = {
     "steady_velocity": _velocity,
     "predicted_velocity": _velocity,
+    "predicted_velocity_in_run": _velocity,
     "mean_velocity": _velocity,
+    "mean_velocity_in_run": _velocity,
     "velocity": _velocity,
     "blocking_force": _full_friction,
     "predicted_blocking_force": _full_friction,
+    "predicted_blocking_force_in_run": _full_friction,
     "friction_force": _full_friction,
     "normal_force": _largest_normal_force,
     "position": _displacement,
@@ -58,6 +61,7 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "resonator_displacement": _resonator,
     "resonator_velocity": lambda device: _resonator(device) * device.drive_frequency,
     "stick_fraction": lambda device: 1.0,
+    "stick_fraction_in_run": lambda device: 1.0,
     "last_event_time": lambda device: 2.0 * pi / device.drive_frequency,
 }
 

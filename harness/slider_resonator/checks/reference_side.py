@@ -2,18 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from math import floor
+from math import pi
+from typing import Any
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.checks.period_means import (
+    DriveTurns,
+    last_events,
+    mean_velocities,
+    stick_fractions,
+)
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import averaged_coulomb, uniform_average
+from slider_resonator.references.averaged import (
+    averaged_coulomb,
+    prediction_validity,
+    uniform_average,
+)
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
+from slider_resonator.references.averaged.averaged_outputs import (
+    AveragedOutputs,
+    averaged_outputs,
+)
 from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
@@ -30,20 +46,23 @@ _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
 
 TUBE_POINTS = 3
 """Points on each side of a time at which a tube samples the reference."""
-COINCIDENCE = 1e-6
-"""Share of a drive period within which an event and a communication point coincide."""
 
 
 class ReferenceSide:
     """Trajectories, steady motion and closed forms for one scene, computed on first use.
 
-    Steady motion and closed forms are for constant `inputs` by name (rad, N, 1), by default those
-    at the start.
+    Steady motion and closed forms are for constant `inputs` by name (rad, N, 1) and a `device`, by
+    default those at the start.
     """
 
-    def __init__(self, scene: Scene, inputs: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        inputs: Mapping[str, float] | None = None,
+        device: Device | None = None,
+    ) -> None:
         self.scene = scene
-        self.device = scene.device
+        self.device = device or scene.device
         start = {name: signal.at(0.0) for name, signal in scene.signals.items()}
         self.inputs = start if inputs is None else inputs
         self._trajectories: dict[str, Trajectory] = {}
@@ -56,16 +75,18 @@ class ReferenceSide:
 
     @cached_property
     def times(self) -> Array:
-        """Communication points of the scene (s), shape (n,)."""
-        return self.scene.schedule().times
+        """Times of the scene (s) at which outputs are read, shape (n,)."""
+        return self.scene.schedule().readings()
 
     def trajectory(self, reference: str) -> Trajectory:
         """Return the trajectory of `located_events`, `taylor` or, for LuGre, `bristle_state`.
 
-        Its times are the communication points and both ends of the last whole drive period.
+        Its times are the communication points and the ends of drive periods that means need.
         """
         if reference not in self._trajectories:
-            times = np.union1d(self.times, self._last_period)
+            every = any(expect.quantity == "mean_velocity_in_run" for expect in self.scene.expect)
+            means = self.times if every else self.times[-1:]
+            times = np.union1d(self.times, self.turns.ends(means))
             self._trajectories[reference] = self._simulate(reference, times)
         return self._trajectories[reference]
 
@@ -86,19 +107,17 @@ class ReferenceSide:
         window = values[np.searchsorted(run.time, around)]
         return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
 
-    def event_times(self, reference: str) -> Tube:
-        """Return the time of the last event before each communication point, in drive periods.
+    def in_run(
+        self, reference: str, measure: Callable[[Trajectory, Array, DriveTurns], Any]
+    ) -> Any:
+        """Return a measure of `period_means` at the communication points."""
+        return measure(self.trajectory(reference), self.times, self.turns)
 
-        Where an event and a point coincide to `COINCIDENCE`, the tube allows either order.
-        """
-        events = np.append(0.0, self.trajectory(reference).event_times)
-
-        def last_before(times: Array) -> Array:
-            return events[np.searchsorted(events, np.maximum(times, 0.0), side="right") - 1]
-
-        margin = COINCIDENCE * self.drive_period
-        bounds = [last_before(self.times + shift) for shift in (0.0, -margin, margin)]
-        return Tube(*(bound / self.drive_period for bound in bounds))
+    def last_event_time(self, reference: str) -> float:
+        """Return the time (s) of the last event, that of the start without any."""
+        run, end = self.trajectory(reference), self.times[-1:]
+        last = float(last_events(run, end, self.turns).middle[0])
+        return self.scene.start_time + last * self.drive_period
 
     def _simulate(self, reference: str, times: Array) -> Trajectory:
         return _SIMULATORS[reference](self.device, self.scene.schedule().held(), times)
@@ -109,23 +128,19 @@ class ReferenceSide:
         return simulate_averaged(self.device, self.scene.schedule().held(), self.times)
 
     @cached_property
-    def mean_velocity(self) -> float:
-        """Mean velocity (m/s) over the last whole drive period of the run."""
-        run = self.trajectory("located_events")
-        begin, end = run.position[np.searchsorted(run.time, self._last_period)]
-        return float(end - begin) / self.drive_period
+    def averaged_outputs(self) -> AveragedOutputs:
+        """Resonator, contact and forces of the averaged motion, at the communication points."""
+        return averaged_outputs(self.device, self.scene.schedule().held(), self.averaged_motion)
 
-    @cached_property
-    def stick_fraction(self) -> float:
-        """Share of the last whole drive period of the run that is spent sticking."""
-        begin, end = (self._stick_time(float(time)) for time in self._last_period)
-        return (end - begin) / self.drive_period
+    def mean_velocity(self, reference: str) -> float:
+        """Return the mean velocity (m/s) over the last whole drive period of the run."""
+        run, end = self.trajectory(reference), self.times[-1:]
+        return float(mean_velocities(run, end, self.turns)[0])
 
-    @property
-    def last_event_time(self) -> float:
-        """Time (s) of the last event, 0 without any."""
-        events = self.trajectory("located_events").event_times
-        return float(events[-1]) if events.size else 0.0
+    def stick_fraction(self, reference: str) -> float:
+        """Return the share of the last whole drive period of the run that is spent sticking."""
+        run, end = self.trajectory(reference), self.times[-1:]
+        return float(stick_fractions(run, end, self.turns)[0])
 
     @cached_property
     def steady_velocity(self) -> float | None:
@@ -161,17 +176,38 @@ class ReferenceSide:
         return averaged_coulomb.device_blocking_force_at_ratio(self.device, phase, ratio)
 
     @property
+    def prediction_valid(self) -> float:
+        """1 where averaged theory applies, 0 where not."""
+        phase, load = self.inputs["phase"], self.inputs["load"]
+        ratio = self.inputs["frequency_ratio"]
+        valid = prediction_validity.prediction_valid(self.device, phase, load, ratio)
+        return 1.0 if valid else 0.0
+
+    @property
     def at_the_end(self) -> ReferenceSide:
-        """The same device under the inputs at the end of the run.
+        """The device and the inputs at the end of the run, as constant ones."""
+        return self._under(self.scene.schedule().held())
+
+    def _under(self, held: Sequence[HeldInputs]) -> ReferenceSide:
+        """Return the references for the last of held inputs.
 
         The phase (rad) includes the lead of the normal force from earlier frequency ratios.
         """
+        now = held[-1]
+        ratio = now.frequency_ratio
+        lead = sum(
+            (h.frequency_ratio - ratio) * _drive_frequency(h, self.device) * (h.stop - h.start)
+            for h in held
+        )
+        inputs = {"phase": now.phase + lead, "load": now.load, "frequency_ratio": ratio}
+        return ReferenceSide(self.scene, inputs, now.tuned_device(self.scene.device))
+
+    def predictions(self, name: str) -> Array:
+        """Return a prediction over the run, by its name, shape (n,); m/s or N."""
         held = self.scene.schedule().held()
-        ratio = held[-1].frequency_ratio
-        lead = sum((h.frequency_ratio - ratio) * (h.stop - h.start) for h in held)
-        phase = held[-1].phase + lead * self.device.drive_frequency
-        inputs = {"phase": phase, "load": held[-1].load, "frequency_ratio": ratio}
-        return ReferenceSide(self.scene, inputs)
+        values = np.array([getattr(self._under(held[: i + 1]), name) for i in range(len(held))])
+        starts = np.array([inputs.start for inputs in held[1:]])
+        return np.asarray(values[np.searchsorted(starts, self.times, side="left")])
 
     @property
     def averaged_velocity(self) -> float:
@@ -201,23 +237,21 @@ class ReferenceSide:
         return abs(ratio - round(ratio)) / self.drive_period
 
     @cached_property
-    def _last_period(self) -> Array:
-        """Begin and end (s) of the last whole drive period, shape (2,)."""
-        stop = float(self.times[-1])
-        whole = floor(stop / self.drive_period * (1.0 + 1e-12))
-        if whole < 1:
-            raise ValueError(f"the run of {stop:.6g} s is shorter than one drive period")
-        return np.minimum(np.array([whole - 1, whole]) * self.drive_period, stop)
-
-    def _stick_time(self, stop: float) -> float:
-        """Return the time (s) spent sticking from the start until `stop` (s)."""
-        held = [inputs for inputs in self.scene.schedule().held() if inputs.start < stop]
-        if not held:
-            return 0.0
-        held[-1] = replace(held[-1], stop=min(held[-1].stop, stop))
-        return located_events.simulate(self.device, held, np.array([stop])).stick_time
+    def turns(self) -> DriveTurns:
+        """The whole turns of the drive."""
+        if not self.scene.tuning:
+            return DriveTurns(self.drive_period)
+        held = self.scene.schedule().held()
+        rates = [_drive_frequency(inputs, self.device) for inputs in held]
+        turned = [r * (h.stop - h.start) / (2.0 * pi) for r, h in zip(rates, held, strict=True)]
+        times = (held[0].start, *(inputs.stop for inputs in held))
+        return DriveTurns(self.drive_period, times, (0.0, *np.cumsum(turned).tolist()))
 
     def _require_equal_frequencies(self) -> None:
         ratio = self.inputs["frequency_ratio"]
         if ratio != 1.0:
             raise ValueError(f"frequency_ratio = {ratio!r}: the closed form allows only 1")
+
+
+def _drive_frequency(inputs: HeldInputs, device: Device) -> float:
+    return inputs.tuned_device(device).drive_frequency

@@ -19,6 +19,7 @@ from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.opening import lacking
 from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -41,6 +42,16 @@ class RunFailure:
 
 
 @dataclass(frozen=True)
+class NotApplied:
+    """A check that the FMU lacks something for, which it may lack: neither passed nor failed."""
+
+    scene: str
+    quantity: str
+    reason: str
+    at: Mapping[str, float]
+
+
+@dataclass(frozen=True)
 class Curves:
     """The signals behind a failed check: `fmu` and `reference` at `times` (s), all shape (n,)."""
 
@@ -54,7 +65,9 @@ class Curves:
 class Validation:
     """All checks of an FMU, in the order of the scenes, and the wall time in s.
 
-    `run_failures` are scenes that could not be run, `curves` the signals that differ.
+    `run_failures` are scenes that could not be run, `curves` the signals that differ. `lacks` are
+    the later variables of the interface that the FMU does not have, `not_applied` the checks that
+    say nothing about it.
     """
 
     fmu: str
@@ -62,16 +75,20 @@ class Validation:
     wall_time: float
     run_failures: tuple[RunFailure, ...] = ()
     curves: tuple[Curves, ...] = ()
+    lacks: tuple[str, ...] = ()
+    not_applied: tuple[NotApplied, ...] = ()
 
     @property
     def passed(self) -> bool:
-        """True when every scene could be run and every check has passed."""
-        return not self.run_failures and all(check.passed for check in self.checks)
+        """True when every scene could be run and every check that applies has passed."""
+        return self.exit_code == 0
 
     @property
     def exit_code(self) -> int:
-        """0 for a pass, 1 for a failed check, 2 when a scene could not be run."""
-        return 2 if self.run_failures else int(not self.passed)
+        """0 for a pass, 1 for a failed check, 2 when a scene could not run or nothing applies."""
+        if self.run_failures or not self.checks:
+            return 2
+        return int(not all(check.passed for check in self.checks))
 
 
 def validate(
@@ -148,6 +165,7 @@ def _validation(
     checks: list[Check] = []
     run_failures: list[RunFailure] = []
     curves: list[Curves | None] = []
+    not_applied: list[NotApplied] = []
     with closing(measure_points(path, points, measure_all, time_limit, meanwhile)) as finished:
         for one in finished:
             point = one.item
@@ -156,7 +174,10 @@ def _validation(
                 continue
             values = expected.at(point)
             for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
-                if isinstance(value, SceneError):
+                if not measured.applicable:
+                    place = (point.scene.name, expect.quantity, measured.note, point.at)
+                    not_applied.append(NotApplied(*place))
+                elif isinstance(value, SceneError):
                     run_failures.append(RunFailure.of(path, point, value))
                 else:
                     checks.append(compare(Comparison.of(expect), measured, value, point))
@@ -167,6 +188,8 @@ def _validation(
         perf_counter() - began,
         tuple(run_failures),
         tuple(curve for curve in curves if curve is not None),
+        lacking(path),
+        tuple(not_applied),
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from slider_resonator.checks.compare import AT_LEAST, AT_MOST, Check, Value
+from slider_resonator.checks.validate import Validation
 from slider_resonator.output.readable import readable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -17,6 +18,27 @@ def title(check: Check) -> str:
     """Return the quantity, its reference, the tube and the point of the sweep."""
     tube = "" if check.tube is None else f" in a tube of {check.tube:g} periods"
     return f"{check.quantity} against {check.against}{tube}{place(check.at, ' at ')}"
+
+
+def judged_without(validation: Validation) -> str:
+    """Return what the FMU lacks and how many checks do not apply to it, "" for neither."""
+    parts = []
+    if validation.lacks:
+        parts.append(
+            f"judged without {', '.join(validation.lacks)}, which came with a later interface"
+        )
+    count = len(validation.not_applied)
+    if count:
+        parts.append(f"{count} {'check does' if count == 1 else 'checks do'} not apply")
+    return "; ".join(parts)
+
+
+def not_applied(validation: Validation) -> list[tuple[str, str, str]]:
+    """Return scene, quantity and reason of each check that does not apply."""
+    return [
+        (f"{one.scene}{place(one.at, ' at ')}", one.quantity, one.reason)
+        for one in validation.not_applied
+    ]
 
 
 def place(at: Mapping[str, float], before: str = "") -> str:
@@ -44,9 +66,11 @@ def sentence(check: Check) -> str:
     if QUANTITIES[check.quantity].kind == "signal":
         return _signal_sentence(check, unit)
     bound = f"{check.against} " if check.against in (AT_MOST, AT_LEAST) else ""
+    reason = f": {check.note}" if check.note else ""
     return (
         f"the FMU gives {_value(check.fmu, unit)}, expected {bound}"
         f"{_value(check.reference, unit)}: off by {check.deviation:.2g}{unit}, {_times(check)}"
+        f"{reason}"
     )
 
 

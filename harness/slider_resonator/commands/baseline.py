@@ -13,9 +13,11 @@ from slider_resonator.commands.reports import (
     print_verdicts,
     report_options,
 )
+from slider_resonator.commands.results import print_text
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import progress_bar
+from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import files_of_scenes
 from slider_resonator.trials.baseline.judge import TOLERANCE
 from slider_resonator.trials.baseline.work import accept, check, record
@@ -76,7 +78,7 @@ def record_command(
         names, run_failures = record(
             fmu, files, folder, progress, replace=replace, time_limit=time_limit
         )
-    click.echo(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {folder}")
+    print_text(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {one_line(str(folder))}")
     print_run_failures(str(fmu), run_failures)
     context.exit(2 if run_failures else 0)
 
@@ -155,4 +157,4 @@ def accept_command(fmu: Path, folder: Path, scenes: tuple[str, ...]) -> None:
       slider-resonator baseline accept my.fmu --dir baseline --scene table_1 --scene lift_off
     """
     names = accept(fmu, folder, scenes)
-    click.echo(f"accepted {', '.join(names) or 'nothing: nothing has changed'}")
+    print_text(f"accepted {', '.join(names) or 'nothing: nothing has changed'}")

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import default_fmu, json_option
-from slider_resonator.commands.results import print_table
+from slider_resonator.commands.options import default_fmu, json_option, time_limit_option
+from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import FmuError
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
@@ -26,8 +26,9 @@ from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, sho
     show_default=True,
     help="How often each kind of step is timed; the median is reported.",
 )
+@time_limit_option(TIME_LIMIT, "For each run of the driver.")
 @json_option
-def bench_command(fmu: Path | None, repeats: int, as_json: bool) -> None:
+def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bool) -> None:
     """Measure what a communication step costs in a C host: set an input, step, get outputs.
 
     Needs a C compiler, and an FMU that runs without Python; without FMU: the one in dist. `trade`
@@ -41,14 +42,14 @@ def bench_command(fmu: Path | None, repeats: int, as_json: bool) -> None:
     with progress_bar() as progress, open_fmu(default_fmu(fmu)) as opened:
         if not opened.runs_without_python:
             raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host lacks")
-        costs = measure_steps(opened.path, repeats, progress)
+        costs = measure_steps(opened.path, repeats, progress, time_limit)
     ratio = short_step_ratio(costs)
     if as_json:
-        click.echo(to_json({"c_host": costs, "short_step_ratio": ratio}))
+        print_json({"c_host": costs, "short_step_ratio": ratio})
         return
     print_table(_table(costs))
-    click.echo(f"A period costs {ratio:.2f} times as much in steps of one as in long steps.")
-    click.echo(f"Medians of {repeats} repeats in turn; the ratio is that of the fastest.")
+    print_text(f"A period costs {ratio:.2f} times as much in steps of one as in long steps.")
+    print_text(f"Medians of {repeats} repeats in turn; the ratio is that of the fastest.")
 
 
 def _table(costs: Sequence[StepCost]) -> Table:

@@ -14,13 +14,13 @@ from slider_resonator.commands.options import (
     fmu_option,
     json_option,
     set_option,
+    time_limit_option,
 )
-from slider_resonator.commands.results import print_table
-from slider_resonator.output.json_output import to_json
+from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.scene import find_scene, read_scene
 from slider_resonator.studies.choose import Choice, choose
+from slider_resonator.studies.choose.choosing import TIME_LIMIT
 
 UNITS = {
     "mean_velocity": "m/s",
@@ -37,6 +37,7 @@ UNITS = {
 @click.argument("scene")
 @fmu_option
 @set_option
+@time_limit_option(TIME_LIMIT, "For the whole choice.")
 @json_option
 @click.pass_context
 def choose_command(
@@ -44,6 +45,7 @@ def choose_command(
     scene: str,
     fmu: Path | None,
     settings: dict[str, float],
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Choose fidelity, friction law, tolerance and communication step for what a scene needs.
@@ -54,7 +56,7 @@ def choose_command(
     resolved run in the FMU confirms the choice. The scene's own fidelity and tolerance are ignored;
     its step is the sampling step of signals. A scene with a sweep stands for its unvaried device.
     Exit code: 0 when a model meets the needs, 1 when none does (then the nearest is shown), 2 when
-    the scene could not run.
+    the scene could not run, the FMU crashed or exceeded the time limit.
 
     \b
     Examples:
@@ -64,16 +66,16 @@ def choose_command(
     """
     check_left_to_choose(settings)
     read = read_scene(find_scene(scene), settings)
-    choice = choose(read, default_fmu(fmu))
+    choice = choose(read, default_fmu(fmu), time_limit)
     if as_json:
-        click.echo(to_json(choice))
+        print_json(choice)
     else:
         _print(choice)
     context.exit(0 if choice.meets else 1)
 
 
 def _print(choice: Choice) -> None:
-    click.echo(escaped("\n".join(choice.sentences())))
+    print_text("\n".join(choice.sentences()))
     needs = []
     for name, error in choice.error.items():
         predicted = f"{error:.3g}" if isfinite(error) else "no bound"

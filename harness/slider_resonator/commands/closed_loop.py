@@ -10,15 +10,16 @@ from pathlib import Path
 import click
 import numpy as np
 
-from slider_resonator.commands.options import json_option, out_folder_option
-from slider_resonator.commands.results import print_table
+from slider_resonator.commands.options import json_option, out_folder_option, time_limit_option
+from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
+from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.console import progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
+from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.studies.closed_loop.judge import (
     Agreement,
@@ -29,6 +30,7 @@ from slider_resonator.studies.closed_loop.judge import (
 from slider_resonator.studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
 from slider_resonator.studies.closed_loop.picture import draw_loop
 from slider_resonator.studies.closed_loop.prediction import predicted_errors
+from slider_resonator.trials.hosts.runs import TIME_LIMIT
 
 PACKAGE = "ClosedLoop.ssp"
 NAMES = [host.name for host in HOSTS]
@@ -54,6 +56,7 @@ AGREEMENT_COLUMNS = (
     multiple=True,
     help="Host to run it in. Repeatable.  [default: fmpy]",
 )
+@time_limit_option(TIME_LIMIT, "For each run in a host, and for each prediction.")
 @json_option
 @click.pass_context
 def closed_loop_command(
@@ -61,6 +64,7 @@ def closed_loop_command(
     package: Path | None,
     out: Path,
     chosen: Sequence[str],
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Hold the slider's velocity under a changing load, at fidelity 0 and at fidelity 2.
@@ -79,6 +83,7 @@ def closed_loop_command(
     package, duty = package or finished_path(PACKAGE, COMMANDS_LOOK_IN), Duty()
     if not package.is_file():
         raise HarnessError(f"{package}: no such file")
+    check_unpacked_size(package)
     make_folder(out)
     held: list[IntervalResult] = []
     agreements: list[Agreement] = []
@@ -88,10 +93,10 @@ def closed_loop_command(
         for index, host in enumerate(hosts):
             share = partial(_shared, progress, host.name, index, len(hosts))
             share(0.0)
-            design, proof = run_loop(package, host, duty)
+            design, proof = run_loop(package, host, duty, time_limit)
             records += [design, proof]
             held += [*judge_intervals(design, duty), *judge_intervals(proof, duty)]
-            predicted = predicted_errors(package, design, duty, share)
+            predicted = predicted_errors(package, design, duty, share, time_limit)
             agreements += judge_agreement(design, proof, duty, predicted)
     title = f"Velocity held by moving the phase: {package.name} in {hosts[0].name}"
     first = agreements[: len(duty.load_steps)]
@@ -100,10 +105,10 @@ def closed_loop_command(
     passed = all(h.passed for h in held) and all(a.passed for a in agreements)
     if as_json:
         facts = {"passed": passed, "package": str(package), "duty": duty}
-        click.echo(to_json({**facts, "held": held, "agreements": agreements}))
+        print_json({**facts, "held": held, "agreements": agreements})
     else:
         _print(held, agreements)
-        click.echo(f"written  {out / 'closed_loop.png'}, {out / 'closed_loop.csv'}")
+        print_text(f"written  {one_line(f'{out}/closed_loop.png, {out}/closed_loop.csv')}")
     context.exit(0 if passed else 1)
 
 

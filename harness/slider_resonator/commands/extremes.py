@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import click
@@ -14,8 +16,9 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.output.console import progress_bar
+from slider_resonator.output.console import noting_on_interrupt, progress_bar
 from slider_resonator.output.targets import make_folder
+from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.extremes.listing import as_plain, write_matrices
 from slider_resonator.trials.extremes.matrix import all_cells
 from slider_resonator.trials.extremes.run import TIME_LIMIT, Matrix, run_matrix
@@ -53,7 +56,8 @@ def extremes_command(
 
     Each cell runs in a process of its own. It passes the bounds that follow from the equations, is
     refused by name, or fails; a hang or a crash fails its cell. Without FMUS: those in dist. Exit
-    code: 0 when no cell fails, 1 when one does, 2 when an FMU could not run.
+    code: 0 when no cell fails, 1 when one does, 2 when an FMU could not run. The verdicts so far
+    are written when the command is interrupted.
 
     \b
     Examples:
@@ -66,18 +70,31 @@ def extremes_command(
             pass
     make_folder(out)
     cells = all_cells(long=long)
-    with progress_bar() as progress:
-        matrices = [run_matrix(fmu, cells, progress, limit) for fmu in chosen]
-    write_matrices(matrices, out)
-    lines = [*map(_sentences, matrices), f"written {out}"]
+    matrices: list[Matrix] = []
+
+    def keep(matrix: Matrix) -> None:
+        matrices.append(matrix)
+        write_matrices(matrices, out)
+
+    with noting_on_interrupt(partial(_kept, matrices, out)), progress_bar() as progress:
+        for fmu in chosen:
+            keep(run_matrix(fmu, cells, progress, limit, keep))
+    lines = [*map(_sentences, matrices), f"written {one_line(str(out))}"]
     print_result(as_plain(matrices), "\n".join(lines), as_json=as_json)
     context.exit(0 if all(matrix.passed for matrix in matrices) else 1)
 
 
+def _kept(matrices: Sequence[Matrix], out: Path) -> str:
+    if not matrices:
+        return "no cell has run; nothing is kept"
+    ran = sum(len(matrix.verdicts) for matrix in matrices)
+    return f"the verdicts of {ran} cells are kept in {out}; the same command runs all cells again"
+
+
 def _sentences(matrix: Matrix) -> str:
-    lines = [f"{matrix.fmu}: {matrix.summary}"]
+    lines = [f"{one_line(matrix.fmu)}: {matrix.summary}"]
     lines.extend(
-        f"  {one.verdict}: {one.name}: {one.reason}"
+        f"  {one.verdict}: {one.name}: {one_line(one.reason)}"
         for one in matrix.verdicts
         if one.verdict != PASSED
     )

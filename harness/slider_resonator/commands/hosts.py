@@ -7,18 +7,18 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import Target, json_option
-from slider_resonator.commands.results import print_table
+from slider_resonator.commands.options import Target, json_option, time_limit_option
+from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.output.console import progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Table, texts, verdict
-from slider_resonator.output.terminal import escaped
 from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
-from slider_resonator.trials.hosts.runs import ALLOWED, HostResult, run_host
+from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
 from slider_resonator.trials.hosts.table import host_table, write_table
 
 NATIVE, PYTHON = Path("dist/SliderResonator.fmu"), Path("dist/SliderResonatorPy.fmu")
+NATIVE_3 = Path("dist/SliderResonator3.fmu")
 NAMES = [host.name for host in hosts()]
 
 
@@ -32,6 +32,13 @@ NAMES = [host.name for host in hosts()]
     default=PYTHON,
     show_default=True,
     help="FMU that needs Python in the process, for the hosts that provide it.",
+)
+@click.option(
+    "--fmi3-fmu",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    default=NATIVE_3,
+    show_default=True,
+    help="FMU of FMI 3.0, for the hosts that load it; it is compared with NATIVE.",
 )
 @click.option(
     "--host",
@@ -53,23 +60,27 @@ NAMES = [host.name for host in hosts()]
     help="Markdown file for the table, which goes between the lines <!-- hosts --> and "
     "<!-- end of hosts --> if the file has them.",
 )
+@time_limit_option(TIME_LIMIT, "For all cases of an FMU in a host.")
 @json_option
 @click.pass_context
 def hosts_command(
     context: click.Context,
     native: Path,
     python_fmu: Path,
+    fmi3_fmu: Path,
     chosen: Sequence[str],
     own_environment: Path,
     out: Path | None,
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Run table 1 in other simulators and compare with fmpy.
 
     Each fidelity runs with each friction law for 40 steps of 1 ms in which all inputs change. All
     outputs are compared after every step; deviations are relative to each signal's peak. Exit code:
-    0 when all agree, 1 when one does not, 2 when a host is not installed (`make hosts` installs
-    them).
+    0 when all agree, 1 when one does not, 2 when the FMUs do not run in fmpy. Hosts that are not
+    installed are listed and left out (`make hosts` installs them); one that --host names, or any
+    with --out, ends the command with 2.
 
     \b
     Examples:
@@ -79,30 +90,37 @@ def hosts_command(
     """
     everyone = hosts(own_environment)
     selected = [host for host in everyone if host.name in (chosen or NAMES)]
-    _check_installed([everyone[0], *selected])
+    missing = _missing([everyone[0], *selected])
+    if everyone[0] in missing or (missing and (chosen or out)):
+        raise HarnessError("; ".join(dict.fromkeys(missing.values())))
+    for fmu in (native, python_fmu):
+        check_unpacked_size(fmu)
+    selected = [host for host in selected if host not in missing]
     results: list[HostResult] = []
     with progress_bar() as progress:
         for index, host in enumerate(selected):
             progress(host.name, index / len(selected))
-            results += run_host(host, everyone[0], native, python_fmu)
+            results += run_host(host, everyone[0], native, python_fmu, fmi3_fmu, time_limit)
+    for host, reason in missing.items():
+        print_text(f"not run: {host.name}: {reason}", err=True)
     if out is not None:
         write_table(out, host_table(results))
     if as_json:
-        click.echo(to_json([_entry(result) for result in results]))
+        print_json([_entry(result) for result in results])
     else:
         _print(results)
     context.exit(0 if all(result.passed for result in results) else 1)
 
 
-def _check_installed(selected: Sequence[Host]) -> None:
-    missing = []
+def _missing(selected: Sequence[Host]) -> dict[Host, str]:
+    """Return the hosts that are not installed, with what is missing."""
+    missing = {}
     for host in selected:
         try:
             host.version()
         except HarnessError as error:
-            missing.append(str(error))
-    if missing:
-        raise HarnessError("; ".join(dict.fromkeys(missing)))
+            missing[host] = str(error)
+    return missing
 
 
 def _entry(result: HostResult) -> dict[str, object]:
@@ -123,4 +141,4 @@ def _print(results: Sequence[HostResult]) -> None:
         for case, comparison in result.comparisons.items():
             if comparison.error:
                 where = f"{result.host}, {result.fmu} FMU, {case.title}"
-                click.echo(escaped(f"{where}: {comparison.error}"))
+                print_text(f"{where}: {comparison.error}")

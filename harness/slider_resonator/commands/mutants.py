@@ -12,10 +12,10 @@ from slider_resonator.commands.options import (
     scenes_option,
     time_limit_option,
 )
-from slider_resonator.errors import HarnessError
+from slider_resonator.commands.results import print_json
+from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.output.console import output, progress_bar
-from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene import files_of_scenes
 from slider_resonator.studies.sweep.local import available_cores
@@ -29,14 +29,34 @@ from slider_resonator.trials.mutants.listing import (
 )
 from slider_resonator.trials.mutants.mutant import KINDS
 from slider_resonator.trials.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
+from slider_resonator.trials.mutants.native.changes import (
+    Change,
+    hand_written_faults,
+    harmless_variants,
+)
+from slider_resonator.trials.mutants.native.listing import (
+    change_as_plain,
+    native_run_as_plain,
+    print_changes,
+    print_native_run,
+)
+from slider_resonator.trials.mutants.native.native_run import run_changes
 from slider_resonator.trials.mutants.page import write_mutants
 
 MIN_RATE = 0.95
 """Share of the mutants that change a result that must be rejected for a pass."""
 
+MIN_NATIVE_RATE = 0.97
+"""Share of the hand-written faults that a scene can see that must be rejected for a pass."""
+
 
 @click.command("mutants")
 @click.argument("fmu", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--native",
+    is_flag=True,
+    help="Hand-written faults of the C sources in the native FMU, and harmless variants.",
+)
 @click.option(
     "--list", "only_list", is_flag=True, help="List the mutants with diffs and run nothing."
 )
@@ -81,6 +101,7 @@ MIN_RATE = 0.95
 def mutants_command(
     context: click.Context,
     fmu: Path | None,
+    native: bool,
     only_list: bool,
     count: int | None,
     seed: int,
@@ -102,8 +123,12 @@ def mutants_command(
     original: it is equivalent if no result differs by more than the scenes allow. Without FMU: the
     Python one in dist.
 
-    Exit code: 0 when at least 95 % of the mutants that change a result are rejected, 1 when fewer
-    are, 2 when there is nothing to try or the unchanged FMU is rejected.
+    With --native a C compiler of this machine builds copies of the native FMU from its sources,
+    each with one fault written by hand, or with a harmless change that must pass.
+
+    Exit code: 0 when at least 95 % of the mutants that change a result are rejected, with --native
+    97 % of the faults that a scene can see and no harmless variant; 1 when fewer are, 2 when there
+    is nothing to try or the unchanged FMU is rejected.
 
     \b
     Examples:
@@ -111,8 +136,23 @@ def mutants_command(
       slider-resonator mutants --sample 200 --seed 1 --html mutants.html
       slider-resonator mutants --kind event --kind input --kind parameter --kind unit
       slider-resonator mutants --file coulomb.py --json > mutants.json
+      slider-resonator mutants --native --file lugre.c
     """
-    path = fmu or _python_fmu()
+    if native:
+        if kinds or html is not None:
+            raise click.UsageError("--native refused: must be without --kind and --html")
+        context.exit(
+            _native(
+                fmu or finished_path(FMUS["native"], COMMANDS_LOOK_IN),
+                _chosen_changes(files, count, seed),
+                scenes,
+                only_list=only_list,
+                jobs=jobs or available_cores(),
+                time_limit=time_limit,
+                as_json=as_json,
+            )
+        )
+    path = fmu or finished_path(FMUS["python"], COMMANDS_LOOK_IN)
     distinct({"--html": html}, {f"the FMU {path}": path})
     original = read_python_fmu(path)
     made = [m for m in fmu_mutants(original, files) if not kinds or m.kind in kinds]
@@ -122,7 +162,7 @@ def mutants_command(
         raise HarnessError(f"{path}: nothing to change: no mutant is of {asked}")
     if only_list:
         if as_json:
-            click.echo(to_json({"mutants": [mutant_as_plain(mutant) for mutant in chosen]}))
+            print_json({"mutants": [mutant_as_plain(mutant) for mutant in chosen]})
         else:
             print_mutants(output(), chosen)
         return
@@ -142,12 +182,52 @@ def mutants_command(
     if html is not None:
         write_mutants(html, run)
     if as_json:
-        click.echo(to_json(run_as_plain(run)))
+        print_json(run_as_plain(run))
     else:
         print_run(output(), run)
     context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)
 
 
-def _python_fmu() -> Path:
-    """Return the built FMU with Python sources; FmuError where there is none."""
-    return finished_path(FMUS["python"], COMMANDS_LOOK_IN)
+def _chosen_changes(files: tuple[str, ...], count: int | None, seed: int) -> list[Change]:
+    """Return the changes of some files, or a sample of them; HarnessError for an unknown file."""
+    made = [*hand_written_faults(), *harmless_variants()]
+    known = sorted({change.file for change in made})
+    for file in files:
+        if file not in known:
+            raise HarnessError(unknown_name("C file with changes", file, known))
+    chosen = [change for change in made if not files or change.file in files]
+    return chosen if count is None else sample(chosen, count, seed)
+
+
+def _native(
+    path: Path,
+    changes: list[Change],
+    scenes: tuple[str, ...],
+    *,
+    only_list: bool,
+    jobs: int,
+    time_limit: float,
+    as_json: bool,
+) -> int:
+    """List or run changes of the native FMU and return the exit code."""
+    if only_list:
+        if as_json:
+            print_json({"changes": [change_as_plain(change) for change in changes]})
+        else:
+            print_changes(output(), changes)
+        return 0
+    with progress_bar() as progress:
+        run = run_changes(
+            path,
+            changes,
+            files_of_scenes(scenes),
+            jobs=jobs,
+            time_limit=time_limit,
+            progress=progress,
+        )
+    if as_json:
+        print_json(native_run_as_plain(run))
+    else:
+        print_native_run(output(), run)
+    enough = run.rate is None or run.rate >= MIN_NATIVE_RATE
+    return 0 if enough and not run.false_alarms else 1

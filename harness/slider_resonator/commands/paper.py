@@ -11,11 +11,13 @@ from slider_resonator.commands.options import (
     fmu_option,
     json_option,
     out_folder_option,
+    time_limit_option,
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.output.console import progress_bar
+from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.paper.listing import verdicts
-from slider_resonator.studies.paper.reproduce import NAMES, Outcome, reproduce
+from slider_resonator.studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce
 
 
 @click.command("paper")
@@ -27,16 +29,23 @@ from slider_resonator.studies.paper.reproduce import NAMES, Outcome, reproduce
     help="Make only this. Repeatable.",
 )
 @fmu_option
+@time_limit_option(TIME_LIMIT, "For each figure, table and group of claims.")
 @json_option
 @click.pass_context
 def paper_command(
-    context: click.Context, out: Path, only: tuple[str, ...], fmu: Path | None, as_json: bool
+    context: click.Context,
+    out: Path,
+    only: tuple[str, ...],
+    fmu: Path | None,
+    time_limit: float,
+    as_json: bool,
 ) -> None:
     """Reproduce the paper: its figures, three more, and a verdict on each of its statements.
 
     Write figures as PNG and SVG with captions in FIGURES.md, tables of LuGre friction as JSON and
     in TABLES.md, and claims.md and claims.json. Exit code: 0, 1 when a known verdict on a statement
-    is not confirmed or a table deviates, 2 when the FMU could not run.
+    is not confirmed or a table deviates, 2 when the FMU could not run, crashed or exceeded the time
+    limit; what is finished by then is kept.
 
     \b
     Examples:
@@ -44,13 +53,13 @@ def paper_command(
       slider-resonator paper --out paper --only figure_8 --only claims --json
     """
     with progress_bar() as progress:
-        outcome = reproduce(default_fmu(fmu), out, only, progress)
+        outcome = reproduce(default_fmu(fmu), out, only, progress, time_limit)
     print_result(outcome, _sentences(outcome), as_json=as_json)
     context.exit(0 if outcome.confirmed else 1)
 
 
 def _sentences(outcome: Outcome) -> str:
-    lines = [f"written  {outcome.out} in {outcome.wall_time:.1f} s"]
+    lines = [f"written  {one_line(outcome.out)} in {outcome.wall_time:.1f} s"]
     lines.append(f"run      {', '.join(outcome.run)}")
     for table in outcome.tables:
         for name, size in table.largest.items():

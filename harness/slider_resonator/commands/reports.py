@@ -19,7 +19,7 @@ from slider_resonator.checks.verdict import place
 from slider_resonator.commands.options import Target
 from slider_resonator.output.console import output
 from slider_resonator.output.targets import distinct
-from slider_resonator.output.terminal import escaped
+from slider_resonator.output.terminal import indented
 
 PRINTED = Path("-")
 """The value of `--json` without a file."""
@@ -111,7 +111,7 @@ def print_verdicts(
     if as_json:
         click.echo(validations_as_json(validations))
     for validation in validations:
-        if validation.checks and not as_json:
+        if (validation.checks or validation.not_applied) and not as_json:
             print_validation(output(), validation, details=details, only_failed=only_failed)
         print_run_failures(validation.fmu, validation.run_failures)
 
@@ -121,4 +121,4 @@ def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:
     for failure in run_failures:
         scene = f"{failure.scene}{place(failure.at, ' at ')}"
         where = f"{fmu}: scene {scene}: " if failure.scene else ""
-        click.echo(escaped(f"error: {where}{failure.reason}"), err=True)
+        click.echo(indented(f"error: {where}{failure.reason}"), err=True)

@@ -14,7 +14,20 @@ from slider_resonator.output.terminal import escaped, rendered
 
 def print_result(result: Any, text: str, *, as_json: bool) -> None:
     """Print the result as JSON or as text."""
-    click.echo(to_json(result) if as_json else escaped(text))
+    if as_json:
+        print_json(result)
+    else:
+        print_text(text)
+
+
+def print_json(result: Any) -> None:
+    """Print the result as one JSON document."""
+    click.echo(to_json(result))
+
+
+def print_text(text: str, *, err: bool = False) -> None:
+    """Print text that may hold foreign parts, on standard error with `err`."""
+    click.echo(escaped(text), err=err)
 
 
 def print_table(table: Table) -> None:

@@ -28,6 +28,7 @@ from slider_resonator.fmu.run import run
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.readable import readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
+from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import Scene, find_scene, read_scene
 
 if TYPE_CHECKING:
@@ -170,8 +171,8 @@ def _summary(
 def _sentences(summary: RunSummary, scene: Scene) -> str:
     lines = [] if summary.auto is None else summary.auto.sentences()
     lines += [
-        f"scene    {summary.scene}: {scene.title}",
-        f"FMU      {summary.fmu}",
+        f"scene    {summary.scene}: {one_line(scene.title)}",
+        f"FMU      {one_line(summary.fmu)}",
         f"run      {summary.simulated_time:.6g} s, {summary.drive_periods:.6g} drive periods in "
         f"{summary.communication_steps} communication steps",
         f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
@@ -182,5 +183,5 @@ def _sentences(summary: RunSummary, scene: Scene) -> str:
         f"{summary.wall_time_per_simulated_time:.3g} per simulated second, "
         f"{summary.microseconds_per_drive_period:.3g} us per drive period",
     ]
-    lines += [f"written  {file}" for file in (summary.out, summary.plot) if file]
+    lines += [f"written  {one_line(file)}" for file in (summary.out, summary.plot) if file]
     return "\n".join(lines)

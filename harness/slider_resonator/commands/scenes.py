@@ -5,8 +5,7 @@ from __future__ import annotations
 import click
 
 from slider_resonator.commands.options import json_option
-from slider_resonator.commands.results import print_table
-from slider_resonator.output.json_output import to_json
+from slider_resonator.commands.results import print_json, print_table
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene import built_in_scenes, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -19,6 +18,19 @@ def scenes_command(quantities: bool, as_json: bool) -> None:
     """List the built-in scenes, or the quantities and references for your own scenes.
 
     The command run takes scenes with a length, in simulated seconds; validate takes all.
+
+    \b
+    The tables of a scene file, of which only name and title are needed:
+      name, title, description
+      [device]    parameters that differ from table 1
+      [inputs]    phase, load, frequency_ratio: a number, { steps }, { ramp } or { csv }
+      [tuning]    tunable parameters that change in the run, given as inputs are
+      [beside]    device and inputs of a second instance
+      [run]       stop_time or drive_periods; step_size, steps_per_period or step_sizes;
+                  start_time; read_twice: also after values change, before the step
+      [[expect]]  quantity; reference, value, at_most or at_least; relative, absolute, tube; why
+      [sweep]     variable, values
+      [need]      accuracy that the command choose meets
 
     \b
     Examples:
@@ -45,7 +57,7 @@ def _list_quantities(as_json: bool) -> None:
             }
             for name, quantity in QUANTITIES.items()
         ]
-        click.echo(to_json(rows))
+        print_json(rows)
         return
     cells = [
         (name, q.kind, q.unit, q.meaning, ", ".join(q.references) or "-")
@@ -68,7 +80,7 @@ def _list_scenes(as_json: bool) -> None:
             }
             for scene in scenes
         ]
-        click.echo(to_json(rows))
+        print_json(rows)
         return
     cells = []
     for scene in scenes:

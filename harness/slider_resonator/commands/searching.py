@@ -15,6 +15,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.readable import readable
+from slider_resonator.output.terminal import one_line
 from slider_resonator.steady.search_result import SearchResult
 
 
@@ -38,7 +39,7 @@ def _sentences(outcome: SearchResult, what: str, value: float | None, unit: str)
     found = "none" if value is None else f"{readable(value, 10)} {unit}"
     lines = [
         f"{what:<17}{found}",
-        f"status           {outcome.status}: {outcome.reason}",
+        f"status           {outcome.status}: {one_line(outcome.reason)}",
         f"averaged theory  {readable(outcome.predicted, 10)} {unit} (the FMU's own output)",
     ]
     if outcome.common_period is not None:

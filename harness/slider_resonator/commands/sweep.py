@@ -6,14 +6,23 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import Target, default_fmu, fmu_option, json_option
-from slider_resonator.commands.results import print_result
+from slider_resonator.commands.options import (
+    Target,
+    default_fmu,
+    fmu_option,
+    json_option,
+    time_limit_option,
+)
+from slider_resonator.commands.results import print_result, print_text
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
+from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.sweep.grid import read_grid
+from slider_resonator.studies.sweep.journal import journal_path
 from slider_resonator.studies.sweep.local import available_cores
 from slider_resonator.studies.sweep.sweeping import SweepResult, run_sweep
 from slider_resonator.studies.sweep.table import SUFFIXES
+from slider_resonator.studies.sweep.worker import TIME_LIMIT
 
 
 @click.command("sweep")
@@ -24,6 +33,8 @@ from slider_resonator.studies.sweep.table import SUFFIXES
 @click.option("--workers", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
 @click.option("--restart", is_flag=True, help="Discard the points of an earlier attempt.")
+@click.option("--overwrite", is_flag=True, help="Replace the table of another grid.")
+@time_limit_option(TIME_LIMIT, "For each point; one that takes longer fails.")
 @json_option
 @click.pass_context
 def sweep_command(
@@ -35,13 +46,16 @@ def sweep_command(
     workers: int | None,
     dask: str | None,
     restart: bool,
+    overwrite: bool,
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Compute measures over a grid, a list or a random sample of parameters and inputs.
 
     Finished points are kept beside the table until it is written: after an interruption, even a
     kill, the same command continues and writes the same table, byte for byte, with any number of
-    workers anywhere. A point that fails is a row with its error. Exit code: 0, 1 when a point
+    workers anywhere. A point that fails is a row with its error; one without an answer, such as a
+    steady velocity that does not exist, is counted and drawn as such. Exit code: 0, 1 when a point
     fails, 2 when the sweep could not run.
 
     \b
@@ -79,20 +93,29 @@ def sweep_command(
             workers=workers or available_cores(),
             dask=dask,
             restart=restart,
+            overwrite=overwrite,
+            time_limit=time_limit,
             progress=progress,
         )
     if plot is not None:
         draw_sweep(sweep, result.columns, plot)
+    for line in result.damaged:
+        print_text(
+            f"{journal_path(out)} line {line}: damaged; its point was computed again", err=True
+        )
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
+    facts["unanswered"] = result.unanswered
     document = {"out": str(out), **facts, "first_error": result.first_error}
     print_result(document, _sentences(result, out), as_json=as_json)
     context.exit(1 if result.failed else 0)
 
 
 def _sentences(result: SweepResult, out: Path) -> str:
-    lines = [f"written  {out}: {result.points} points"]
+    lines = [f"written  {one_line(str(out))}: {result.points} points"]
     if result.found:
         lines.append(f"found    {result.found} of them finished before")
+    if result.unanswered:
+        lines.append(f"none     {result.unanswered} points have no answer to a measure")
     if result.failed:
         lines.append(f"failed   {result.failed} points; the first error: {result.first_error}")
     return "\n".join(lines)

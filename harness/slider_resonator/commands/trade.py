@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import Target, default_fmus, json_option, out_folder_option
-from slider_resonator.fmu.instance import instantiate
-from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.output.console import progress_bar
-from slider_resonator.output.json_output import to_json
+from slider_resonator.commands.options import (
+    Target,
+    default_fmus,
+    json_option,
+    out_folder_option,
+    time_limit_option,
+)
+from slider_resonator.commands.results import print_json, print_text
+from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.output.console import noting_on_interrupt, progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
+from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import find_scene, read_scene
 from slider_resonator.studies.trade.files import write_omissions, write_rows
 from slider_resonator.studies.trade.measure import BUDGET, REPEATS, measure_trade
@@ -23,6 +30,9 @@ from slider_resonator.studies.trade.plots import draw_picture
 from slider_resonator.studies.trade.problem import Problem, problem_of
 from slider_resonator.studies.trade.result import Trade
 from slider_resonator.studies.trade.summary import comparisons, standings
+
+TIME_LIMIT = 600.0
+"""Default time limit of a run or a search of an FMU, s."""
 
 
 @click.command("trade")
@@ -66,6 +76,7 @@ from slider_resonator.studies.trade.summary import comparisons, standings
     help="Markdown or HTML file for the tables from need to model to cost, which go between the "
     "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
 )
+@time_limit_option(TIME_LIMIT, "For each run and search of an FMU.")
 @json_option
 def trade_command(
     scenes: Sequence[str],
@@ -76,6 +87,7 @@ def trade_command(
     periods: int | None,
     picture: Path | None,
     pages: Sequence[Path],
+    time_limit: float,
     as_json: bool,
 ) -> None:
     """Measure error and cost of every model of the FMUs and of other methods on scenes.
@@ -85,7 +97,8 @@ def trade_command(
     counts. SCENES are built-in names or files, by default table_1; each point of a sweep is
     measured. The reference is always the scene's full device, at whatever fidelity the scene runs.
     Scenes with constant inputs run for at least 1000 drive periods. Needs heyoka, and scikit-sundae
-    for CVODE (pip install 'slider-resonator[peers]'). Exit code: 0, or 2 when it could not run.
+    for CVODE (pip install 'slider-resonator[peers]'). Exit code: 0, or 2 when it could not run, an
+    FMU crashed or exceeded the time limit; the tables of the scenes before are kept.
 
     \b
     Examples:
@@ -99,11 +112,11 @@ def trade_command(
         progress = stack.enter_context(progress_bar())
         instances = {}
         for path in fmus or default_fmus():
-            fmu = stack.enter_context(open_fmu(path))
+            fmu = stack.enter_context(IsolatedFmu(path, time_limit))
             build = "native" if fmu.runs_without_python else "Python"
-            name = build if build not in instances else f"{build} {fmu.path.name}"
-            instances[name] = stack.enter_context(instantiate(fmu))
+            instances[build if build not in instances else f"{build} {path.name}"] = fmu
         make_folder(out)
+        stack.enter_context(noting_on_interrupt(partial(_kept, trades, problems, out)))
         for problem in problems:
             trades.append(
                 measure_trade(problem, instances, progress, repeats=repeats, budget=budget)
@@ -111,17 +124,17 @@ def trade_command(
             # After each scene, so that a later failure does not lose minutes of measurement.
             write_rows(out / "trade.csv", trades)
             write_omissions(out / "omissions.csv", trades)
-    write_trades(out / "index.html", trades)
+            write_trades(out / "index.html", trades)
     if picture is not None:
         draw_picture(trades[0], picture)
     for page in pages:
         write_choices(page, trades)
     if as_json:
-        click.echo(to_json([_entry(trade) for trade in trades]))
+        print_json([_entry(trade) for trade in trades])
     else:
         for trade in trades:
             _print(trade)
-        click.echo(f"written {out / 'index.html'}")
+        print_text(f"written {one_line(str(out / 'index.html'))}")
 
 
 def _problems(scenes: Sequence[str], periods: int | None) -> list[Problem]:
@@ -131,14 +144,21 @@ def _problems(scenes: Sequence[str], periods: int | None) -> list[Problem]:
     return problems
 
 
+def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> str:
+    if not trades:
+        return "no scene is finished; nothing is kept"
+    rest = ", ".join(dict.fromkeys(problem.name for problem in problems[len(trades) :]))
+    return f"{len(trades)} of {len(problems)} scenes are kept in {out}; not measured: {rest}"
+
+
 def _entry(trade: Trade) -> dict[str, object]:
     return {"trade": trade, "standings": standings(trade)}
 
 
 def _print(trade: Trade) -> None:
-    click.echo(title(trade))
+    print_text(one_line(title(trade)))
     for target, sentences in comparisons(trade):
-        click.echo(f"  {target}")
+        print_text(f"  {one_line(target)}")
         for line in sentences:
-            click.echo(f"    {line}")
-    click.echo(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")
+            print_text(f"    {one_line(line)}")
+    print_text(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")

@@ -7,8 +7,41 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 
-def _parameter(start: float, unit: str) -> Any:
-    return field(default=start, metadata={"unit": unit})
+@dataclass(frozen=True)
+class Bounds:
+    """What the interface says of a parameter besides its start: unit, bounds, nominal value.
+
+    A `tunable` parameter can be set in a run. An FMU of an interface before version `since` may
+    lack it: it then counts as `without`.
+    """
+
+    unit: str
+    minimum: float | None = None
+    maximum: float | None = None
+    nominal: float | None = None
+    tunable: bool = False
+    since: str = "0.1.0"
+    without: float | None = None
+
+
+def _real(
+    start: float,
+    unit: str,
+    minimum: float | None = None,
+    *,
+    maximum: float | None = None,
+    nominal: float | None = None,
+    tunable: bool = False,
+) -> Any:
+    bounds = Bounds(unit, minimum, maximum, start if nominal is None else nominal, tunable)
+    return field(default=start, metadata={"bounds": bounds})
+
+
+def _choice(
+    start: int, minimum: int, maximum: int, *, since: str = "0.1.0", without: int | None = None
+) -> Any:
+    bounds = Bounds("1", minimum, maximum, since=since, without=without)
+    return field(default=start, metadata={"bounds": bounds})
 
 
 @dataclass(frozen=True)
@@ -16,30 +49,32 @@ class Device:
     """Parameters of the slider with an embedded resonator, SI units, start values of table 1.
 
     Names are those of the FMU parameters. ``friction_law`` is 0 (Coulomb) or 1 (LuGre),
-    ``fidelity`` the number of resolved degrees of freedom (0 averaged, 1, 2).
+    ``fidelity`` the number of resolved degrees of freedom (0 averaged, 1, 2), and
+    ``averaging_order`` the order of the averaged motion.
     """
 
-    slider_mass: float = _parameter(1.0, "kg")
-    resonator_mass: float = _parameter(0.1, "kg")
-    resonator_frequency: float = _parameter(3500.0, "rad/s")
-    damping_ratio: float = _parameter(0.05, "1")
-    normal_preload: float = _parameter(1.0, "N")
-    normal_amplitude: float = _parameter(1.0, "N")
-    base_amplitude: float = _parameter(1e-4, "m")
-    drive_frequency: float = _parameter(3500.0, "rad/s")
-    tangential_force: float = _parameter(0.0, "N")
-    friction_coefficient: float = _parameter(0.1, "1")
-    friction_faces: int = _parameter(2, "1")
-    friction_law: int = _parameter(0, "1")
-    bristle_stiffness: float = _parameter(1e5, "1/m")
-    bristle_damping: float = _parameter(10.0, "s/m")
-    fidelity: int = _parameter(2, "1")
-    tolerance: float = _parameter(1e-8, "1")
-    initial_position: float = _parameter(0.0, "m")
-    initial_velocity: float = _parameter(0.0, "m/s")
-    initial_resonator_displacement: float = _parameter(0.0, "m")
-    initial_resonator_velocity: float = _parameter(0.0, "m/s")
-    initial_bristle_deflection: float = _parameter(0.0, "m")
+    slider_mass: float = _real(1.0, "kg", 1e-12)
+    resonator_mass: float = _real(0.1, "kg", 0.0)
+    resonator_frequency: float = _real(3500.0, "rad/s", 1e-6)
+    damping_ratio: float = _real(0.05, "1", 0.0)
+    normal_preload: float = _real(1.0, "N", 0.0, tunable=True)
+    normal_amplitude: float = _real(1.0, "N", 0.0, tunable=True)
+    base_amplitude: float = _real(1e-4, "m", 0.0, tunable=True)
+    drive_frequency: float = _real(3500.0, "rad/s", 1e-6, tunable=True)
+    tangential_force: float = _real(0.0, "N", nominal=1.0, tunable=True)
+    friction_coefficient: float = _real(0.1, "1", 0.0, tunable=True)
+    friction_faces: int = _choice(2, 1, 2)
+    friction_law: int = _choice(0, 0, 1)
+    bristle_stiffness: float = _real(1e5, "1/m", 0.0)
+    bristle_damping: float = _real(10.0, "s/m", 0.0)
+    fidelity: int = _choice(2, 0, 2)
+    tolerance: float = _real(1e-8, "1", 1e-14, maximum=1e-2)
+    initial_position: float = _real(0.0, "m", nominal=1e-3)
+    initial_velocity: float = _real(0.0, "m/s", nominal=0.1)
+    initial_resonator_displacement: float = _real(0.0, "m", nominal=1e-3)
+    initial_resonator_velocity: float = _real(0.0, "m/s", nominal=1.0)
+    initial_bristle_deflection: float = _real(0.0, "m", nominal=1e-6)
+    averaging_order: int = _choice(2, 1, 2, since="0.2.0", without=1)
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, float]) -> Device:

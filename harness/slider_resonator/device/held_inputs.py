@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
 
 
 @dataclass(frozen=True)
@@ -19,6 +21,22 @@ class HeldInputs:
     phase: float = 0.0
     load: float = 0.0
     frequency_ratio: float = 1.0
+
+    def tuned_device(self, device: Device) -> Device:
+        """Return the device of a run as it is over these inputs."""
+        return device
+
+
+@dataclass(frozen=True)
+class TunedInputs(HeldInputs):
+    """Held inputs together with the tunable parameters that a run changes, by name."""
+
+    tuned: tuple[tuple[str, float], ...] = ()
+
+    def tuned_device(self, device: Device) -> Device:
+        """Return the device of a run with the parameters as they are over these inputs."""
+        values: dict[str, Any] = dict(self.tuned)
+        return replace(device, **values)
 
 
 def check_contiguous(held: Sequence[HeldInputs]) -> None:

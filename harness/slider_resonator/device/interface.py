@@ -1,40 +1,118 @@
-"""The interface that the harness requires of an FMU: names and SI units of inputs and outputs.
+"""The interface that the harness requires of an FMU: every variable with all that is said of it.
 
-Repeated here on purpose: an FMU whose own table is wrong must not agree with itself.
+Repeated here on purpose: an FMU whose own table is wrong must not agree with itself. A variable
+that came after version `FIRST` of the interface may be missing; the FMU is judged on the rest.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import dataclass
+from functools import partial
+from typing import Literal
 
-from slider_resonator.device.device import Device
+from slider_resonator.device.device import Bounds, Device
 
-INPUTS: Mapping[str, str] = {"phase": "rad", "load": "N", "frequency_ratio": "1"}
+FIRST = "0.1.0"
+"""First version of the interface, all of whose variables an FMU must have."""
+
+Causality = Literal["input", "parameter", "output"]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of the interface, SI units.
+
+    An output has no `start`, and `depends_on` the inputs that act on it at once; None leaves that
+    open. A parameter that came with version `since` counts as `without` in an FMU that lacks it.
+    """
+
+    name: str
+    causality: Causality
+    variability: str
+    unit: str
+    kind: Literal["Real", "Integer"] = "Real"
+    start: float | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    nominal: float | None = None
+    depends_on: tuple[str, ...] | None = ()
+    since: str = FIRST
+    without: float | None = None
+
+
+_input = partial(Variable, causality="input", variability="continuous")
+_output = partial(Variable, causality="output", variability="continuous")
+_count = partial(Variable, causality="output", variability="discrete")
+
+_INPUTS = ("phase", "load", "frequency_ratio")
+
+
+def _parameter(name: str, start: float) -> Variable:
+    bounds: Bounds = Device.__dataclass_fields__[name].metadata["bounds"]
+    return Variable(
+        name,
+        "parameter",
+        "tunable" if bounds.tunable else "fixed",
+        bounds.unit,
+        "Integer" if isinstance(start, int) else "Real",
+        start,
+        bounds.minimum,
+        bounds.maximum,
+        bounds.nominal,
+        since=bounds.since,
+        without=bounds.without,
+    )
+
+
+_ALL = (
+    _input("phase", unit="rad", start=0.0, nominal=1.0),
+    _input("load", unit="N", start=0.0, nominal=0.1),
+    _input("frequency_ratio", unit="1", start=1.0, nominal=1.0),
+    *(_parameter(name, start) for name, start in vars(Device()).items()),
+    _output("position", unit="m", nominal=1e-3),
+    _output("velocity", unit="m/s", nominal=0.1),
+    _output("mean_velocity", unit="m/s", nominal=0.1),
+    _output("resonator_displacement", unit="m", nominal=1e-3),
+    _output("resonator_velocity", unit="m/s", nominal=1.0),
+    _output("normal_force", unit="N", nominal=1.0, depends_on=("phase",)),
+    _output("friction_force", unit="N", nominal=0.1, depends_on=_INPUTS),
+    _count("contact_mode", unit="1", minimum=-1.0, maximum=2.0, depends_on=_INPUTS),
+    _count("reversals", unit="1", minimum=0.0),
+    _output("stick_fraction", unit="1", minimum=0.0, maximum=1.0, nominal=1.0),
+    _count("last_event_time", unit="s"),
+    _output("steady_velocity", unit="m/s", nominal=0.1, depends_on=_INPUTS),
+    _output("blocking_force", unit="N", nominal=0.1, depends_on=("phase", "frequency_ratio")),
+    _count("prediction_valid", unit="1", minimum=0.0, maximum=1.0, depends_on=None, since="0.2.0"),
+    _output("slow_motion_error", unit="m/s", depends_on=None, since="0.2.0"),
+)
+
+VARIABLES: Mapping[str, Variable] = {variable.name: variable for variable in _ALL}
+"""Every variable by name."""
+
+
+def _units(causality: Causality, *, later: bool) -> Mapping[str, str]:
+    return {
+        name: variable.unit
+        for name, variable in VARIABLES.items()
+        if variable.causality == causality and (later or variable.since == FIRST)
+    }
+
+
+INPUTS = _units("input", later=False)
 """Input name to unit."""
 
-INPUT_STARTS: Mapping[str, float] = {"phase": 0.0, "load": 0.0, "frequency_ratio": 1.0}
+INPUT_STARTS: Mapping[str, float] = {name: VARIABLES[name].start or 0.0 for name in INPUTS}
 """Default value of each input."""
 
-PARAMETERS: Mapping[str, str] = {f.name: f.metadata["unit"] for f in fields(Device)}
+PARAMETERS = _units("parameter", later=True)
 """Parameter name to unit."""
 
-INTEGERS = frozenset(f.name for f in fields(Device) if f.type == "int")
+TUNABLES = tuple(name for name in PARAMETERS if VARIABLES[name].variability == "tunable")
+"""Parameters that can be set in a run; all others are fixed when it begins."""
+
+INTEGERS = frozenset(name for name in PARAMETERS if VARIABLES[name].kind == "Integer")
 """Parameters that are Integers; all others, and all inputs, are Real."""
 
-OUTPUTS: Mapping[str, str] = {
-    "position": "m",
-    "velocity": "m/s",
-    "mean_velocity": "m/s",
-    "resonator_displacement": "m",
-    "resonator_velocity": "m/s",
-    "normal_force": "N",
-    "friction_force": "N",
-    "contact_mode": "1",
-    "reversals": "1",
-    "stick_fraction": "1",
-    "last_event_time": "s",
-    "steady_velocity": "m/s",
-    "blocking_force": "N",
-}
-"""Output name to unit."""
+OUTPUTS = _units("output", later=False)
+"""Output name to unit, of those that every FMU has."""

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs, TunedInputs
 from slider_resonator.device.interface import INPUT_STARTS
 
 GRID_TOLERANCE = 1e-9
@@ -91,22 +91,35 @@ def ramp(points: Sequence[tuple[float, float]]) -> Signal:
     return Signal(tuple(t for t, _ in points), tuple(v for _, v in points), hold=False)
 
 
-def communication_points(stop: float, step: float, jumps: Iterable[float] = ()) -> Array:
+Steps = float | Sequence[float]
+"""Size of the communication steps in s, or several sizes that follow each other over and over."""
+
+
+def communication_points(stop: float, step: Steps, jumps: Iterable[float] = ()) -> Array:
     """Return the times 0, step, 2 step, ..., stop (s) together with the jumps inside, shape (n,).
 
     A grid point next to a jump is replaced by it, so that no step starts just
     before a jump and holds the old value throughout. Raises ValueError as `step_count` does.
     """
-    grid = step * np.arange(step_count(stop, step), dtype=np.float64)
+    sizes = [step] if isinstance(step, float | int) else list(step)
+    grid = sizes[0] * np.arange(step_count(stop, step), dtype=np.float64)
+    if len(sizes) > 1:
+        grid = np.cumsum([0.0, *sizes * (len(grid) // len(sizes))])
     inside = {time for time in jumps if 0.0 < time < stop}
-    return _merged(grid, np.array(sorted({0.0, stop} | inside)), GRID_TOLERANCE * step)
+    fixed = np.array(sorted({0.0, stop} | inside))
+    return _merged(grid[grid < stop], fixed, GRID_TOLERANCE * min(sizes))
 
 
-def step_count(stop: float, step: float) -> int:
+def step_count(stop: float, step: Steps) -> int:
     """Return the number of steps of size `step` (s) up to `stop` (s); the last may be shorter.
 
-    Raises ValueError for times that are not positive and for more than `MAX_STEPS` steps.
+    Of several sizes each counts as often as the others, up to the last. Raises ValueError for times
+    that are not positive and for more than `MAX_STEPS` steps.
     """
+    if not isinstance(step, float | int):
+        if not min(step) > 0.0:
+            raise ValueError(f"steps of {min(step)!r} s: must be positive")
+        return len(step) * step_count(stop, float(sum(step)))
     if not (stop > 0.0 and step > 0.0):
         raise ValueError(f"a stop time of {stop!r} s in steps of {step!r} s: both must be positive")
     ratio = stop / step * (1.0 - GRID_TOLERANCE)
@@ -136,7 +149,9 @@ def nearest(points: Array, targets: Array) -> NDArray[np.intp]:
 class Schedule:
     """The three inputs and the communication points (s), shape (n,), starting at 0.
 
-    Inputs are sampled at each communication point and held until the next.
+    Inputs are sampled at each communication point and held until the next, and so is the `tuning`
+    of tunable parameters, by name. `start_time` (s) is what the FMU gets as time 0. With
+    `reads_twice` outputs are read where values change, both before and after they are set.
     """
 
     times: Array
@@ -146,10 +161,39 @@ class Schedule:
         default_factory=lambda: constant(INPUT_STARTS["frequency_ratio"])
     )
 
+    _: KW_ONLY
+    tuning: Mapping[str, Signal] = field(default_factory=dict)
+    start_time: float = 0.0
+    reads_twice: bool = False
+
     def sampled(self) -> Array:
         """Return phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
         signals = (self.phase, self.load, self.frequency_ratio)
         return np.column_stack([signal.over(self.times) for signal in signals])
+
+    def tuned(self) -> Array:
+        """Return the parameters of `tuning` at each communication point, (n, k)."""
+        columns = [signal.over(self.times) for signal in self.tuning.values()]
+        return np.array(columns, dtype=np.float64).reshape(-1, len(self.times)).T
+
+    def changes(self) -> NDArray[np.intp]:
+        """Return the indices of the points after the first at which a value changes, (m,).
+
+        Nothing is set at the last point.
+        """
+        values = np.column_stack([self.sampled(), self.tuned()])[:-1]
+        return np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
+
+    def readings(self) -> Array:
+        """Return the times (s) at which outputs are read, (r,): the communication points.
+
+        With `reads_twice` one that a change follows comes twice, the second time one rounding
+        later: a reference at that time is under the new values.
+        """
+        if not self.reads_twice:
+            return self.times
+        after = np.nextafter(self.times[self.changes()], np.inf)
+        return np.sort(np.concatenate([self.times, after]))
 
     def refined(self, begin: float, step: float) -> Schedule:
         """Return the same held inputs with more points from `begin` (s) on.
@@ -166,8 +210,14 @@ class Schedule:
 
         Those within `distance` (s) of a point of this schedule are left out.
         """
-        merged = _merged(times, self.times, distance)
-        return Schedule(merged, *map(self._as_held, (self.phase, self.load, self.frequency_ratio)))
+        return replace(
+            self,
+            times=_merged(times, self.times, distance),
+            phase=self._as_held(self.phase),
+            load=self._as_held(self.load),
+            frequency_ratio=self._as_held(self.frequency_ratio),
+            tuning={name: self._as_held(signal) for name, signal in self.tuning.items()},
+        )
 
     def _as_held(self, signal: Signal) -> Signal:
         """Return a signal as it is held between the points of this schedule."""
@@ -177,26 +227,45 @@ class Schedule:
 
     def held(self) -> list[HeldInputs]:
         """Return the inputs as the FMU sees them, equal neighbours merged into one interval."""
-        sampled = self.sampled()[:-1]
-        changes = np.flatnonzero(np.any(sampled[1:] != sampled[:-1], axis=1)) + 1
-        starts = [0, *changes.tolist()]
-        stops = [*changes.tolist(), len(sampled)]
-        return [
+        sampled, tuned = self.sampled(), self.tuned()
+        changes = self.changes().tolist()
+        starts = [0, *changes]
+        stops = [*changes, len(sampled) - 1]
+        held = [
             HeldInputs(float(self.times[i]), float(self.times[j]), *map(float, sampled[i]))
             for i, j in zip(starts, stops, strict=True)
+        ]
+        if not self.tuning:
+            return held
+        names = tuple(self.tuning)
+        return [
+            TunedInputs(**vars(inputs), tuned=tuple(zip(names, tuned[i].tolist(), strict=True)))
+            for inputs, i in zip(held, starts, strict=True)
         ]
 
 
 def schedule(
-    stop: float,
-    step: float,
-    *,
-    phase: Signal | None = None,
-    load: Signal | None = None,
-    frequency_ratio: Signal | None = None,
+    stop: float, step: Steps, tuning: Mapping[str, Signal] | None = None, /, **signals: Signal
 ) -> Schedule:
-    """Return the schedule over [0, stop] (s) with a step (s) and all jumps as points."""
-    given = {"phase": phase, "load": load, "frequency_ratio": frequency_ratio}
-    signals = {name: signal for name, signal in given.items() if signal is not None}
-    jumps = [time for signal in signals.values() for time in signal.jumps]
-    return Schedule(communication_points(stop, step, jumps), **signals)
+    """Return the schedule over [0, stop] (s) with a step (s) and all jumps as points.
+
+    `signals` are the inputs by name, `tuning` the tunable parameters that change.
+    """
+    tuning = tuning or {}
+    jumps = [time for signal in (*signals.values(), *tuning.values()) for time in signal.jumps]
+    times = communication_points(stop, step, jumps)
+    return Schedule(times, *in_order(signals), tuning=tuning)
+
+
+def in_order(signals: Mapping[str, Signal]) -> tuple[Signal, Signal, Signal]:
+    """Return phase, load and frequency ratio; those left out keep their start.
+
+    Raises ValueError for another name.
+    """
+    unknown = signals.keys() - INPUT_STARTS.keys()
+    if unknown:
+        raise ValueError(f"inputs {', '.join(sorted(unknown))}: must be {', '.join(INPUT_STARTS)}")
+    phase, load, ratio = (
+        signals.get(name) or constant(start) for name, start in INPUT_STARTS.items()
+    )
+    return phase, load, ratio

@@ -10,16 +10,21 @@ LARGEST_INTEGER = 2**31 - 1
 """FMI 2.0 passes Integers as C ints, which would silently lose the upper bits of more."""
 
 
-def check_value(name: str, value: float) -> None:
-    """Raise ValueError, with name, value and requirement; ranges are left to the FMU.
+POSITIVE = frozenset({"slider_mass", "resonator_frequency", "drive_frequency"})
+"""Parameters that the harness itself divides by, for instance to count drive periods."""
+NOT_NEGATIVE = frozenset({"resonator_mass", "normal_preload"})
+"""Parameters whose sums and roots it takes before an FMU sees them."""
 
-    The drive frequency is an exception: the harness needs it to count drive periods.
-    """
+
+def check_value(name: str, value: float) -> None:
+    """Raise ValueError, with name, value and requirement; other ranges are left to the FMU."""
     if name in INTEGERS:
         check_integer(name, value)
     elif not isfinite(value):
         raise ValueError(f"{name} = {value!r}: must be a finite number")
-    elif name == "drive_frequency" and not value > 0.0:
+    elif name in NOT_NEGATIVE and value < 0.0:
+        raise ValueError(f"{name} = {value!r}: must be a number from 0 on")
+    elif name in POSITIVE and not value > 0.0:
         raise ValueError(f"{name} = {value!r}: must be a number above 0")
 
 

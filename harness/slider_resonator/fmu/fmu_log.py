@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterable
 from ctypes import byref
 from typing import Any
 
@@ -23,6 +24,11 @@ from fmpy.fmi2 import (
 from fmpy.logging import addLoggerProxy
 
 _collectors: dict[bytes, list[str]] = {}
+
+MAX_MESSAGES = 100
+"""Maximum number of messages that are kept of a call, the first ones."""
+MAX_LENGTH = 10_000
+"""Maximum characters of a message that are kept."""
 
 _PYTHON_EXCEPTION = re.compile(
     r"""\w+ py exception encountered: .*\n\w+\((?P<text>(['"]).*\2),?\)\Z""", re.DOTALL
@@ -41,14 +47,20 @@ def plain_words(message: str) -> str:
         return message
 
 
+def in_one_line(messages: Iterable[str]) -> str:
+    """Return messages in one line, each once."""
+    return "; ".join(dict.fromkeys(" ".join(message.split()) for message in messages))
+
+
 def _dispatch(
     environment: Any, instance_name: bytes, status: int, category: bytes, message: bytes
 ) -> None:
     collector = _collectors.get(instance_name)
     if collector is None:
         printLogMessage(environment, instance_name, status, category, message)
-    else:
-        collector.append(plain_words(message.decode("utf-8", errors="replace").strip()))
+    elif len(collector) < MAX_MESSAGES:
+        text = (message or b"")[:MAX_LENGTH].decode("utf-8", errors="replace").strip()
+        collector.append(plain_words(text))
 
 
 _logger = fmi2CallbackLoggerTYPE(_dispatch)

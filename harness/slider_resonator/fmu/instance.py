@@ -13,13 +13,15 @@ from typing import Any
 import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
+from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelVariable
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
-from slider_resonator.errors import FmuError, Refusal, unknown_name
+from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu import fmu_log
+from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.opening import Fmu
 
 EQUAL = 1e-6
@@ -28,7 +30,7 @@ EQUAL = 1e-6
 _numbers = count(1)
 
 
-def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
+def call(slave: FMU2Slave | Fmi3Slave, name: str, *arguments: Any) -> None:
     """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
 
     Arguments are converted to the types that fmpy has declared for the function.
@@ -41,7 +43,7 @@ def call(slave: FMU2Slave, name: str, *arguments: Any) -> None:
 class Block:
     """A fixed set of Real variables, read and written many times without allocation."""
 
-    def __init__(self, slave: FMU2Slave, references: Sequence[int]) -> None:
+    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
         size = len(references)
         self.values = (c_double * size)()
         arguments = (fmi2ValueReference * size)(*references), size, self.values
@@ -71,7 +73,7 @@ class _Explained:
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if isinstance(error, FMICallException):
             instance = self.instance
-            logged = "; ".join(dict.fromkeys(instance.messages))
+            logged = fmu_log.in_one_line(instance.messages)
             reason = logged or f"{error} The FMU logged no reason."
             where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
             raise Refusal(f"{where}: {reason}") from error
@@ -94,7 +96,7 @@ class Instance:
     an `explained` block. Must be freed with `end`.
     """
 
-    slave: FMU2Slave
+    slave: FMU2Slave | Fmi3Slave
     messages: list[str]
 
     def __init__(self, fmu: Fmu) -> None:
@@ -114,15 +116,19 @@ class Instance:
         self._name = f"harness{next(_numbers)}"
         self.messages, callbacks = fmu_log.collect(self._name)
         try:
-            self.slave = FMU2Slave(
-                instanceName=self._name,
-                guid=self.fmu.description.guid,
-                modelIdentifier=self.fmu.identifier,
-                unzipDirectory=str(self.fmu.folder),
-            )
-            self.slave.instantiate(callbacks=callbacks, loggingOn=True)
+            about = {
+                "instanceName": self._name,
+                "guid": self.fmu.description.guid,
+                "modelIdentifier": self.fmu.identifier,
+                "unzipDirectory": str(self.fmu.folder),
+            }
+            if self.fmu.version == "3.0":
+                self.slave = Fmi3Slave(FMU3Slave(**about), self.messages)
+            else:
+                self.slave = FMU2Slave(**about)
+                self.slave.instantiate(callbacks=callbacks, loggingOn=True)
         except Exception as error:  # fmpy raises bare Exception for every error here
-            reason = "; ".join([str(error), *self.messages])
+            reason = fmu_log.in_one_line([str(error), *self.messages])
             fmu_log.forget(self._name)
             raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
         self.time = 0.0
@@ -145,20 +151,54 @@ class Instance:
     ) -> None:
         """Initialise with the given parameters and inputs, all others at their start.
 
-        Raises FmuError for an unknown name and Refusal for a value that the FMU does not take.
+        Raises FmuError for an unknown name, NotApplicable for a variable that the FMU may lack and
+        Refusal for a value that it does not take.
         """
-        self.time = start_time
         with self.explained():
-            if self._used:
-                call(self.slave, "fmi2Reset")
-            self._used = True
-            self._initialised = False
-            stop = (False, 0.0) if stop_time is None else (True, stop_time)
-            call(self.slave, "fmi2SetupExperiment", False, 0.0, start_time, *stop)
-            self._set(values)
+            self.set_up(stop_time, start_time=start_time)
+            self.set(values)
             call(self.slave, "fmi2EnterInitializationMode")
-            call(self.slave, "fmi2ExitInitializationMode")
-            self._initialised = True
+            self.begin()
+
+    def set_up(self, stop_time: float | None = None, *, start_time: float = 0.0) -> None:
+        """Reset the instance, where it was used before, and set up an experiment (s)."""
+        self.time = start_time
+        if self._used:
+            call(self.slave, "fmi2Reset")
+        self._used = True
+        self._initialised = False
+        stop = (False, 0.0) if stop_time is None else (True, stop_time)
+        call(self.slave, "fmi2SetupExperiment", False, 0.0, start_time, *stop)
+
+    def begin(self) -> None:
+        """Leave initialisation mode."""
+        call(self.slave, "fmi2ExitInitializationMode")
+        self._initialised = True
+
+    def set(self, values: Mapping[str, float]) -> None:
+        """Set parameters and inputs; raises FmuError and NotApplicable as `start` does.
+
+        Integers are set one by one and all Reals in one call, each of which costs a drive period.
+        """
+        values = self.fmu.settings(values)
+        plan = self._plan(self._settable, values, self.fmu.settable)
+        for name, reference in plan.integers.items():
+            try:
+                check_integer(name, values[name])
+            except ValueError as error:
+                raise FmuError(str(error)) from error
+            self.slave.setInteger([reference], [int(values[name])])
+        plan.block.write([values[name] for name in plan.reals])
+
+    def terminate(self) -> None:
+        """End a run."""
+        call(self.slave, "fmi2Terminate")
+        self._initialised = False
+
+    def resumed(self, time: float) -> None:
+        """Note that a state of a run was set, at a time in s."""
+        self.time = time
+        self._used = self._initialised = True
 
     def check_steps(self, times: Array) -> None:
         """Raise FmuError for an FMU that takes equal steps only, if those to `times` (s) differ."""
@@ -204,20 +244,7 @@ class Instance:
         fmu_log.forget(self._name)
 
     def _variable(self, name: str) -> ModelVariable:
-        if name not in self.fmu.variables:
-            raise FmuError(unknown_name("variable", name, self.fmu.variables))
-        return self.fmu.variables[name]
-
-    def _set(self, values: Mapping[str, float]) -> None:
-        """Set Integers one by one and all Reals in one call, each of which costs a drive period."""
-        plan = self._plan(self._settable, values, self.fmu.settable)
-        for name, reference in plan.integers.items():
-            try:
-                check_integer(name, values[name])
-            except ValueError as error:
-                raise FmuError(str(error)) from error
-            self.slave.setInteger([reference], [int(values[name])])
-        plan.block.write([values[name] for name in plan.reals])
+        return self.fmu.variable(name)
 
     def _plan(
         self,

@@ -6,43 +6,90 @@ from collections.abc import Iterator
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
-from slider_resonator.device.interface import INPUTS, INTEGERS, OUTPUTS, PARAMETERS
+from slider_resonator.device.interface import FIRST, VARIABLES, Variable
 from slider_resonator.fmu.units import unit_problems
 
 
 def interface_problems(description: ModelDescription) -> list[str]:
     """Return every deviation from names, causalities, types and units.
 
-    Order, value references and other variables are free. A unit of the interface must be what its
-    name says where the description defines it.
+    Order, value references and other variables are free, and those after the first version of the
+    interface may be missing. A unit of the interface must be what its name says where the
+    description defines it.
     """
-    variables = {variable.name: variable for variable in description.modelVariables}
+    found = {variable.name: variable for variable in description.modelVariables}
     problems: list[str] = []
-    for causality, expected in (("input", INPUTS), ("parameter", PARAMETERS), ("output", OUTPUTS)):
-        for name, unit in expected.items():
-            if name not in variables:
-                problems.append(f"{causality} {name} is missing")
-            else:
-                problems += _departures(variables[name], causality, unit)
-    units = dict.fromkeys([*INPUTS.values(), *PARAMETERS.values(), *OUTPUTS.values()])
-    for unit in units:
+    for name, variable in VARIABLES.items():
+        if name in found:
+            problems += _departures(found[name], variable)
+        elif variable.since == FIRST:
+            problems.append(f"{variable.causality} {name} is missing")
+    for unit in dict.fromkeys(variable.unit for variable in VARIABLES.values()):
         problems += unit_problems(unit, description.unitDefinitions)
     return problems
 
 
-def _departures(variable: ModelVariable, causality: str, unit: str) -> Iterator[str]:
-    name = variable.name
-    if variable.causality != causality:
-        yield f"{name} is {variable.causality}, must be {causality}"
-    kind = "Integer" if name in INTEGERS else "Real"
-    if variable.type != kind:
-        yield f"{name} is of type {variable.type}, must be {kind}"
-    found = _unit(variable)
-    if found != unit:
-        yield f"{name} has unit {found}, must be {unit}"
+def description_faults(description: ModelDescription) -> list[str]:
+    """Return every deviation from starts, bounds, nominal values, variabilities, dependencies.
+
+    Nominal values and the bounds of an output may be left out, and so may its dependencies: it then
+    depends on all inputs.
+    """
+    faults: list[str] = []
+    for found in description.modelVariables:
+        if found.name in VARIABLES:
+            faults += _other_values(found, VARIABLES[found.name])
+    declared = {unknown.variable.name: unknown.dependencies for unknown in description.outputs}
+    for name, variable in VARIABLES.items():
+        if variable.causality != "output" or all(
+            v.name != name for v in description.modelVariables
+        ):
+            continue
+        if name not in declared:
+            faults.append(f"{name} is not among the outputs of ModelStructure")
+        elif declared[name] is not None and variable.depends_on is not None:
+            dependencies = {other.name for other in declared[name]}
+            for missing in sorted(set(variable.depends_on) - dependencies):
+                faults.append(f"{name} is declared independent of {missing}, which acts on it")
+            for other in sorted(dependencies - set(variable.depends_on)):
+                faults.append(f"{name} is declared to depend on {other}, which does not act on it")
+    return faults
 
 
-def _unit(variable: ModelVariable) -> str:
-    """Return the unit of a variable, "1" where it has none."""
-    declared = variable.declaredType.unit if variable.declaredType else None
-    return str(variable.unit or declared or "1")
+def _departures(found: ModelVariable, variable: Variable) -> Iterator[str]:
+    name = found.name
+    if found.causality != variable.causality:
+        yield f"{name} is {found.causality}, must be {variable.causality}"
+    if found.type != variable.kind:
+        yield f"{name} is of type {found.type}, must be {variable.kind}"
+    unit = _attribute(found, "unit") or "1"
+    if unit != variable.unit:
+        yield f"{name} has unit {unit}, must be {variable.unit}"
+
+
+def _other_values(found: ModelVariable, variable: Variable) -> Iterator[str]:
+    name = found.name
+    if found.variability != variable.variability:
+        yield f"{name} is {found.variability}, must be {variable.variability}"
+    attributes = {
+        "start": variable.start,
+        "min": variable.minimum,
+        "max": variable.maximum,
+        "nominal": variable.nominal,
+    }
+    for attribute, needed in attributes.items():
+        text = _attribute(found, attribute)
+        given = None if text is None else float(text)
+        may_be_left_out = attribute == "nominal" or variable.causality == "output"
+        if given != needed and not (may_be_left_out and None in (given, needed)):
+            given_text = "none" if given is None else repr(given)
+            needed_text = "none" if needed is None else repr(float(needed))
+            yield f"{attribute} of {name} is {given_text}, must be {needed_text}"
+
+
+def _attribute(variable: ModelVariable, name: str) -> str | None:
+    """Return an attribute of a variable, that of its type where it has none."""
+    own = getattr(variable, name)
+    if own is None and variable.declaredType is not None:
+        own = getattr(variable.declaredType, name, None)
+    return None if own is None else str(own)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,9 +12,14 @@ from xml.etree import ElementTree as ET
 import fmpy
 from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
 
-from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.errors import FmuError, unknown_name
+from slider_resonator.device.interface import FIRST, INPUTS, PARAMETERS, VARIABLES
+from slider_resonator.errors import FmuError, NotApplicable, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
+from slider_resonator.fmu.limits import MAX_ENTRIES, max_unpacked
+from slider_resonator.output.temporary import temporary_folder
+
+_TYPES_OF_FMI_3 = {"Float64": "Real", "Int32": "Integer"}
+"""Type of FMI 3.0 to that of FMI 2.0, which the harness speaks of."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,11 @@ class Fmu:
     folder: Path
     description: ModelDescription
     variables: Mapping[str, ModelVariable]
+
+    @property
+    def version(self) -> str:
+        """The version of FMI: 2.0 or 3.0."""
+        return "3.0" if self.description.fmiVersion.startswith("3.") else "2.0"
 
     @property
     def identifier(self) -> str:
@@ -48,29 +56,82 @@ class Fmu:
         allowed = [*PARAMETERS, *INPUTS]
         if name not in allowed:
             raise FmuError(unknown_name("parameter or input", name, allowed))
-        return self.variables[name]
+        return self.variable(name)
+
+    def variable(self, name: str) -> ModelVariable:
+        """Return a variable; FmuError for an unknown name, NotApplicable for one it may lack."""
+        if name in self.variables:
+            return self.variables[name]
+        if name in VARIABLES:
+            raise self._lacks(name)
+        raise FmuError(unknown_name("variable", name, self.variables))
+
+    def settings(self, values: Mapping[str, float]) -> Mapping[str, float]:
+        """Return the values to set, without those of variables that it lacks and counts as anyway.
+
+        Raises NotApplicable for another value of such a variable.
+        """
+        lacking = [name for name in values if name in VARIABLES and name not in self.variables]
+        for name in lacking:
+            if values[name] != VARIABLES[name].without:
+                raise self._lacks(name, values[name])
+        return {name: value for name, value in values.items() if name not in lacking}
+
+    def _lacks(self, name: str, value: float | None = None) -> NotApplicable:
+        wanted = "" if value is None else f" = {value:g}"
+        since = VARIABLES[name].since
+        return NotApplicable(f"needs {name}{wanted}, which came with interface {since}")
+
+    def require(self, capability: str, *, of: bool = True) -> None:
+        """Raise NotApplicable unless a capability flag of the description has the given value."""
+        if bool(getattr(self.description.coSimulation, capability)) is not of:
+            raise NotApplicable(f"needs {capability} = {str(of).lower()}")
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """The outputs of the interface that it has."""
+        found = (v.name for v in VARIABLES.values() if v.causality == "output")
+        return tuple(name for name in found if name in self.variables)
+
+    @property
+    def lacks(self) -> tuple[str, ...]:
+        """The variables of the interface after its version `FIRST` that it does not have."""
+        return _lacking(self.variables)
 
 
 @contextmanager
 def open_fmu(path: str | Path) -> Iterator[Fmu]:
     """Unpack the FMU at `path` for the length of the block.
 
-    Raises FmuError when it is no FMI 2.0 co-simulation FMU, lacks a variable of the interface,
-    gives one of them another causality, type or unit, or has no binary for this platform.
+    Raises FmuError when it is no co-simulation FMU of FMI 2.0 or 3.0, lacks a variable of the
+    interface, gives one of them another causality, type or unit, has no binary for this platform,
+    or is too large unpacked.
     """
     path = Path(path)
     description = _read_description(path)
     variables = {variable.name: variable for variable in description.modelVariables}
     _check_interface(path, description)
-    folder = Path(tempfile.mkdtemp(prefix="slider-resonator-"))
-    try:
+    with temporary_folder() as folder:
+        unpacked = folder / "unpacked"
         try:
-            fmpy.extract(path, folder)
+            fmpy.extract(path, unpacked)
         except Exception as error:  # fmpy raises bare Exception for illegal paths
             raise FmuError(f"{path}: cannot be unpacked: {error}") from error
-        yield Fmu(path, folder, description, variables)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        yield Fmu(path, unpacked, description, variables)
+
+
+def lacking(path: Path) -> tuple[str, ...]:
+    """Return the later variables of the interface that an FMU file lacks; of no usable FMU none."""
+    try:
+        description = _read_description(path)
+    except FmuError:
+        return ()
+    return _lacking([variable.name for variable in description.modelVariables])
+
+
+def _lacking(names: Iterable[str]) -> tuple[str, ...]:
+    present = set(names)
+    return tuple(name for name, v in VARIABLES.items() if v.since != FIRST and name not in present)
 
 
 def _read_description(path: Path) -> ModelDescription:
@@ -81,14 +142,37 @@ def _read_description(path: Path) -> ModelDescription:
     if not zipfile.is_zipfile(path):
         raise FmuError(f"{path}: not an FMU: it is no zip archive")
     try:
+        check_unpacked_size(path)
         version = _fmi_version(path)
-        if version != "2.0":
-            raise FmuError(f"{path}: FMI version {version}; must be 2.0")
-        return read_model_description(str(path))
+        if version not in ("2.0", "3.0"):
+            raise FmuError(f"{path}: FMI version {version}; must be 2.0 or 3.0")
+        description = read_model_description(str(path))
+        for variable in description.modelVariables:
+            variable.type = _TYPES_OF_FMI_3.get(variable.type, variable.type)
+        return description
     except FmuError:
         raise
     except Exception as error:  # fmpy, lxml and the schema each raise their own
         raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
+
+
+def check_unpacked_size(path: Path) -> None:
+    """Raise FmuError for an archive that unpacks to more than the limits, before it is unpacked.
+
+    A file that is no archive is left to who opens it.
+    """
+    if not zipfile.is_zipfile(path):
+        return
+    with zipfile.ZipFile(path) as archive:
+        entries = archive.infolist()
+    size = sum(entry.file_size for entry in entries)
+    if len(entries) > MAX_ENTRIES:
+        raise FmuError(f"{path}: {len(entries)} files; must be at most {MAX_ENTRIES}")
+    if size > max_unpacked():
+        raise FmuError(
+            f"{path}: {size >> 20} MiB unpacked; must be at most {max_unpacked() >> 20} MiB "
+            "(--max-unpacked)"
+        )
 
 
 def _fmi_version(path: Path) -> str:
@@ -105,8 +189,21 @@ def _check_interface(path: Path, description: ModelDescription) -> None:
     if description.coSimulation is None:
         raise FmuError(f"{path}: an FMU for model exchange only; must be co-simulation")
     problems = interface_problems(description)
-    platforms = fmpy.supported_platforms(str(path))
-    if not problems and fmpy.platform not in platforms:
-        problems.append(f"no binary for {fmpy.platform}, only for {', '.join(platforms) or 'none'}")
+    if not problems:
+        problems += _platform_problems(path, description)
     if problems:
         raise FmuError(f"{path}: not usable as a slider-resonator: {'; '.join(problems)}")
+
+
+def _platform_problems(path: Path, description: ModelDescription) -> list[str]:
+    if description.fmiVersion == "2.0":
+        ours, platforms = fmpy.platform, fmpy.supported_platforms(str(path))
+    else:
+        # fmpy does not know the platform tuples of other processors.
+        ours = fmpy.platform_tuple
+        with zipfile.ZipFile(path) as archive:
+            parts = [name.split("/") for name in archive.namelist()]
+        platforms = sorted({p[1] for p in parts if p[0] == "binaries" and len(p) > 2})
+    if ours in platforms:
+        return []
+    return [f"no binary for {ours}, only for {', '.join(platforms) or 'none'}"]

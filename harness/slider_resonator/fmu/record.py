@@ -10,7 +10,7 @@ from slider_resonator.arrays import Array
 
 @dataclass(frozen=True)
 class Record:
-    """The inputs and outputs of an FMU at the communication points `times` (s), shape (n,).
+    """The inputs and outputs of an FMU at the readings of a schedule, `times` (s), shape (n,).
 
     `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as held
     from each point on. `wall_time` (s) covers initialisation and stepping, `start_cpu` and

@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from slider_resonator.device.interface import INPUTS, OUTPUTS
+from slider_resonator.arrays import Array
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.instance import Block, Instance
 from slider_resonator.fmu.record import Record
 
 
@@ -18,36 +19,108 @@ def run(
     parameters: Mapping[str, float],
     schedule: Schedule,
     *,
-    outputs: Sequence[str] = tuple(OUTPUTS),
+    outputs: Sequence[str] | None = None,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Record:
-    """Run the schedule from the given parameters and return the outputs at all its points.
+    """Run the schedule from the given parameters and return the outputs at all its readings.
 
-    `progress` is called about a hundred times with the share of the points that is done. Raises
-    FmuError and Refusal as `Instance.start` and `Instance.check_steps` do.
+    Without `outputs` all that the FMU has are read. Parameters that the schedule tunes start as it
+    says. `progress` is called about a hundred times with the share of the points that is done.
+    Raises FmuError and Refusal as `Instance.start` and `Instance.check_steps` do.
     """
-    times = schedule.times
-    inputs = schedule.sampled()
-    held = inputs.tolist()
-    values = np.empty((len(times), len(outputs)))
     began, began_cpu = time.perf_counter(), time.process_time()
-    first = dict(zip(INPUTS, held[0], strict=True))
-    instance.start({**parameters, **first}, stop_time=float(times[-1]))
+    running = Running(instance, schedule, outputs)
+    instance.start(
+        {**parameters, **running.first}, running.stop_time, start_time=schedule.start_time
+    )
     start_cpu = time.process_time() - began_cpu
-    instance.check_steps(times[1:])
-    block = instance.block(outputs)
+    running.check_steps()
     stepping_cpu = time.process_time()
-    report_every = max(1, len(times) // 100)
+    report_every = max(1, running.steps // 100)
     with instance.explained():
-        values[0] = block.read()
-        for index, target in enumerate(times[1:].tolist(), start=1):
-            if index > 1 and held[index - 1] != held[index - 2]:
-                instance.set_inputs(held[index - 1])
-            instance.step_to(target)
-            values[index] = block.read()
-            if index % report_every == 0:
-                progress(index / (len(times) - 1))
+        running.read()
+        for step in range(running.steps):
+            running.advance(step)
+            if (step + 1) % report_every == 0:
+                progress((step + 1) / running.steps)
     step_cpu = time.process_time() - stepping_cpu
     wall_time = time.perf_counter() - began
-    columns = {name: values[:, i].copy() for i, name in enumerate(outputs)}
-    return Record(times, inputs, columns, wall_time, start_cpu, step_cpu)
+    readings, values = schedule.readings(), np.array(running.rows)
+    held = running.inputs[np.searchsorted(schedule.times, readings, side="right") - 1]
+    columns = {name: values[:, i].copy() for i, name in enumerate(running.outputs)}
+    return Record(readings, held, columns, wall_time, start_cpu, step_cpu)
+
+
+class Running:
+    """A run of a schedule on an instance, step by step; `rows` are the outputs read so far.
+
+    `first` are the inputs and tuned parameters with which the instance must be started.
+    """
+
+    def __init__(
+        self, instance: Instance, schedule: Schedule, outputs: Sequence[str] | None = None
+    ) -> None:
+        self.instance = instance
+        self.outputs = instance.fmu.outputs if outputs is None else tuple(outputs)
+        self.rows: list[list[float]] = []
+        self.inputs: Array = schedule.sampled()
+        self._tuned = schedule.tuned()
+        self._schedule = schedule
+        self._times = schedule.times.tolist()
+        self._changes = set(schedule.changes().tolist())
+        self._block: Block | None = None
+        self._tunables: Block | None = None
+        names = (*INPUTS, *schedule.tuning)
+        self.first = dict(zip(names, [*self.inputs[0], *self._tuned[0]], strict=True))
+
+    @property
+    def steps(self) -> int:
+        """Number of communication steps."""
+        return len(self._times) - 1
+
+    @property
+    def stop_time(self) -> float:
+        """Time (s) of the end as the FMU gets it."""
+        return float(self._schedule.start_time + self._times[-1])
+
+    def check_steps(self) -> None:
+        """Raise FmuError as `Instance.check_steps` does."""
+        self.instance.check_steps(self._schedule.start_time + self._schedule.times[1:])
+
+    def read(self) -> None:
+        """Read the outputs into a new row."""
+        if self._block is None:
+            self._block = self.instance.block(self.outputs)
+        self.rows.append(self._block.read())
+
+    def step_size(self, step: int) -> float:
+        """Return the size (s) of a step."""
+        return float(self._times[step + 1] - self._times[step])
+
+    def values_at(self, step: int) -> dict[str, float]:
+        """Return the inputs and tuned parameters over a step."""
+        values = [*self.inputs[step].tolist(), *self._tuned[step].tolist()]
+        return dict(zip(self.first, values, strict=True))
+
+    def advance(self, step: int, before: Callable[[], None] | None = None) -> None:
+        """Set what changes, read where the schedule says so, call `before`, step and read."""
+        if step in self._changes:
+            self._set_values(step)
+            if self._schedule.reads_twice:
+                self.read()
+        if before is not None:
+            before()
+        start, target = self._schedule.start_time, self._times[step + 1]
+        if start:  # what the schedule says, not the sum of rounded steps
+            self.instance.time = start + self._times[step]
+            self.instance.step_by(target - self._times[step])
+        else:
+            self.instance.step_to(target)
+        self.read()
+
+    def _set_values(self, step: int) -> None:
+        self.instance.set_inputs(self.inputs[step].tolist())
+        if self._schedule.tuning:
+            if self._tunables is None:
+                self._tunables = self.instance.block(list(self._schedule.tuning))
+            self._tunables.write(self._tuned[step].tolist())

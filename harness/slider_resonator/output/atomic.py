@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import os
+import re
+import shutil
+import sys
 import tempfile
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from slider_resonator.errors import HarnessError
+
+MIN_AGE = 60.0
+"""Age (s) below which a temporary file may be of a process on another machine."""
 
 
 @contextmanager
@@ -17,9 +24,10 @@ def replacing(path: Path) -> Iterator[Path]:
 
     If the block fails, `path` stays unchanged. Raises HarnessError when it cannot be written.
     """
+    clear_abandoned(path.parent, path.stem)
     try:
         handle, name = tempfile.mkstemp(
-            prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent
+            prefix=temporary_prefix(path.stem), suffix=path.suffix, dir=path.parent
         )
         os.close(handle)
         temporary = Path(name)
@@ -31,6 +39,41 @@ def replacing(path: Path) -> Iterator[Path]:
             temporary.unlink(missing_ok=True)
     except OSError as error:
         raise HarnessError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def temporary_prefix(name: str) -> str:
+    """Return how the name of what will replace `name` begins: with the number of this process."""
+    return f".{name}-{os.getpid()}-"
+
+
+def clear_abandoned(folder: Path, name: str) -> None:
+    """Remove what processes that were killed have left beside `name`."""
+    if sys.platform == "win32":
+        return
+    temporary = re.compile(rf"\.{re.escape(name)}-(\d+)-")
+    with suppress(OSError):
+        for path in folder.iterdir():
+            found = temporary.match(path.name)
+            if found and not _runs(int(found[1])) and time.time() - _changed(path) > MIN_AGE:
+                if path.is_dir() and not path.is_symlink():
+                    shutil.rmtree(path, ignore_errors=True)
+                else:
+                    path.unlink(missing_ok=True)
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def _changed(path: Path) -> float:
+    """Return when a file, or a file in a folder, was last changed."""
+    return max(one.lstat().st_mtime for one in (path, *path.glob("*")))
 
 
 def write_text(path: Path, text: str) -> None:

@@ -11,6 +11,8 @@ from typing import NoReturn
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
+from slider_resonator.output.terminal import one_line
+
 LOG_WIDTH = 120
 """Columns of output that does not go to a terminal."""
 
@@ -36,13 +38,40 @@ def exit_with(code: int) -> NoReturn:
     sys.exit(code)
 
 
+def open_closed_streams() -> None:
+    """Open standard streams that were closed at the start, so that no other file takes their place.
+
+    Python has None for them, and the first files that are opened would get their numbers.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # the lowest free number
+    for name, number in (("stdout", 1), ("stderr", 2)):
+        if getattr(sys, name) is None:
+            setattr(sys, name, os.fdopen(number, "w", encoding="utf-8", closefd=False))
+
+
+@contextmanager
+def noting_on_interrupt(note: Callable[[], str]) -> Iterator[None]:
+    """Add to an interruption within the block what is kept, and how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt as error:
+        error.add_note(note())
+        raise
+
+
 @contextmanager
 def progress_bar() -> Iterator[Callable[[str, float], None]]:
     """Yield a function that takes the current task and the share of the work done, 0 to 1."""
     if not sys.stderr.isatty():
         yield lambda label, share: None
         return
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task("", total=1.0)
-        yield lambda label, share: progress.update(task, description=label, completed=share)
+        yield lambda label, share: progress.update(
+            task, description=one_line(label), completed=share
+        )

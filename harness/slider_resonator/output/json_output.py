@@ -21,7 +21,9 @@ def to_json(result: Any) -> str:
     Each object at the top begins with `schema_version`. A complex number becomes [real, imaginary];
     what is not finite becomes null.
     """
-    return json.dumps(_versioned(_plain(result)), indent=2, allow_nan=False)
+    text = json.dumps(_versioned(_plain(result)), indent=2, allow_nan=False)
+    # In strings only: GitHub Actions finds commands of this form anywhere in a line of a log.
+    return text.replace("##[", "\\u0023#[")
 
 
 def _versioned(document: Any) -> Any:

@@ -10,10 +10,14 @@ from slider_resonator.output.table import Cell, Style, Table
 _MARKUP = re.compile(r"[\\`*|~$]|(?<![^\W_])_|_(?![^\W_])|(?<=\])\(")
 """Characters with a meaning; an underscore inside a word and a bracket by itself have none."""
 
+_ADDRESS = re.compile(r":(?=//)|(?<=www)\.|@", re.IGNORECASE)
+"""What makes a link of an address that stands by itself."""
+
 
 def escaped(text: str) -> str:
     """Return the text escaped for one line of Markdown or a cell of a table."""
     html = printable(text).replace("&", "&amp;").replace("<", "&lt;")
+    html = _ADDRESS.sub(lambda found: f"&#{ord(found[0])};", html)
     return "<br>".join(_MARKUP.sub(r"\\\g<0>", html).splitlines())
 
 

@@ -29,6 +29,16 @@ def escaped(text: str) -> str:
     return _WORKFLOW_COMMAND.sub(lambda found: f"{found[0]} ", printable(text))
 
 
+def one_line(text: str) -> str:
+    """Return foreign text, such as a path, for the middle of a line."""
+    return escaped(" ".join(text.splitlines()))
+
+
+def indented(text: str) -> str:
+    """Return a message, escaped, whose further lines cannot pass for messages of their own."""
+    return "\n  ".join(escaped(text).splitlines())
+
+
 def rendered(table: Table) -> rich.table.Table:
     """Return the table for rich to print; each row with a heading begins a section."""
     shown = rich.table.Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)

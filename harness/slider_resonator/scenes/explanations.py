@@ -12,6 +12,7 @@ from slider_resonator.scenes.schema import SceneTable
 
 _REQUIREMENTS: Mapping[str, str] = {
     "dict_type": "a table of keys and values",
+    "bool_type": "true or false",
     "finite_number": "a finite number",
     "float_type": "a number",
     "greater_than": "a number above {gt:g}",
@@ -21,6 +22,7 @@ _REQUIREMENTS: Mapping[str, str] = {
     "string_pattern_mismatch": "a word of letters, digits, _ and -",
     "string_type": "a text in quotes",
     "too_long": "a list of {max_length} numbers",
+    "too_short": "a list of at least {min_length} number",
     "tuple_type": "a list in brackets",
 }
 """What a value must be, by the type of error that pydantic finds."""

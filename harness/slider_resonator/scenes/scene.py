@@ -28,6 +28,7 @@ from slider_resonator.scenes.csv_signal import csv_points
 from slider_resonator.scenes.explanations import explanations
 from slider_resonator.scenes.schema import (
     ExpectTable,
+    InputsTable,
     InputTable,
     NeedTable,
     RunTable,
@@ -37,11 +38,20 @@ from slider_resonator.scenes.schema import (
 
 
 @dataclass(frozen=True)
+class Beside:
+    """The device parameters that differ from their start, and inputs, of a second instance."""
+
+    parameters: Mapping[str, float]
+    signals: Mapping[str, Signal]
+
+
+@dataclass(frozen=True)
 class Scene:
     """A valid scene; it can be pickled. Raises SceneError for a run of too many steps.
 
     `parameters` are the device parameters that differ from their start, `signals` the inputs by
-    name. `source` names the scene in messages; `files` are all that it was read from.
+    name, `tuning` the parameters that change in the run. `beside` is what a second instance runs.
+    `source` names the scene in messages; `files` are all that it was read from.
     """
 
     name: str
@@ -55,12 +65,14 @@ class Scene:
     sweep: SweepTable | None
     need: NeedTable | None
     files: tuple[Path, ...]
+    tuning: Mapping[str, Signal] = field(default_factory=dict)
+    beside: Beside | None = None
 
     def __post_init__(self) -> None:
         if self.stop_time is None or self.step_size is None:
             return
         try:
-            step_count(self.stop_time, self.step_size)
+            step_count(self.stop_time, self._steps)
         except ValueError as error:
             raise SceneError(f"{self.source}: run: {error}") from error
 
@@ -82,11 +94,23 @@ class Scene:
         return self.run.stop_time or (self.run.drive_periods or 0.0) * self.drive_period
 
     @property
+    def start_time(self) -> float:
+        """Time at which the run starts, s; all others count from there."""
+        return self.run.start_time if self.run else 0.0
+
+    @property
     def step_size(self) -> float | None:
-        """Communication step in seconds, None for a scene without a run."""
+        """Communication step in seconds, the largest of several; None for a scene without a run."""
+        return None if self.run is None else max(self._steps)
+
+    @property
+    def _steps(self) -> tuple[float, ...]:
         if self.run is None:
-            return None
-        return self.run.step_size or self.drive_period / (self.run.steps_per_period or 1.0)
+            return ()
+        if self.run.step_sizes is not None:
+            return self.run.step_sizes
+        per_period = self.run.steps_per_period or 1.0
+        return (self.run.step_size or self.drive_period / per_period,)
 
     @property
     def values(self) -> dict[str, float]:
@@ -100,7 +124,21 @@ class Scene:
                 f"{self.source}: scene {self.name} has no [run] and cannot be run; the command "
                 "scenes shows which can"
             )
-        return schedule(self.stop_time, self.step_size, **self.signals)
+        assert self.run is not None
+        plan = schedule(self.stop_time, self._steps, self.tuning, **self.signals)
+        return replace(plan, start_time=self.start_time, reads_twice=self.run.read_twice)
+
+    def check_plain(self, command: str) -> None:
+        """Raise SceneError where a command ignores what the scene says of its run."""
+        run = self.run
+        keys = {
+            "tuning": bool(self.tuning),
+            "run.start_time": run is not None and run.start_time != 0.0,
+            "run.step_sizes": run is not None and run.step_sizes is not None,
+        }
+        found = [key for key, given in keys.items() if given]
+        if found:
+            raise SceneError(f"{self.source}: {command} takes no scene with {', '.join(found)}")
 
     def with_values(self, values: Mapping[str, float]) -> Scene:
         """Return the scene with parameters replaced, and inputs by a constant.
@@ -113,12 +151,13 @@ class Scene:
             self,
             parameters={**self.parameters, **parameters},
             signals={**self.signals, **inputs},
+            tuning={name: s for name, s in self.tuning.items() if name not in values},
         )
 
     def with_step(self, step_size: float) -> Scene:
         """Return the scene, which must have a run, with communication steps of a size in s."""
         assert self.run is not None
-        step = {"step_size": step_size, "steps_per_period": None}
+        step = {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
         return replace(self, run=self.run.model_copy(update=step))
 
     def points(self) -> tuple[ScenePoint, ...]:
@@ -166,23 +205,40 @@ def scene_from(content: Mapping[str, Any], source: str, folder: Path = Path()) -
         table = SceneTable.model_validate(content)
     except ValidationError as error:
         raise SceneError("\n".join(explanations(source, error))) from error
-    inputs = {name: getattr(table.inputs, name) for name in INPUTS}
+    tables = _tables_of(table.inputs)
+    given = {**tables, **table.tuning.given}
+    beside = _tables_of(table.beside.inputs) if table.beside else {}
+
+    def signals(tables: Mapping[str, InputTable], where: str) -> dict[str, Signal]:
+        return {n: _signal(t, n, f"{source}: {where}.{n}", folder) for n, t in tables.items()}
+
+    tuning = signals(table.tuning.given, "tuning")
     return Scene(
         name=table.name,
         title=table.title,
         description=table.description.strip(),
         source=source,
-        parameters=table.device,
-        signals={name: _signal(given, name, source, folder) for name, given in inputs.items()},
+        parameters={**table.device, **{name: s.at(0.0) for name, s in tuning.items()}},
+        signals=signals(tables, "inputs"),
         run=table.run,
         expect=table.expect,
         sweep=table.sweep,
         need=table.need,
-        files=tuple(folder / given.csv for given in inputs.values() if given.csv is not None),
+        files=tuple(
+            folder / one.csv for one in (*given.values(), *beside.values()) if one.csv is not None
+        ),
+        tuning=tuning,
+        beside=Beside(table.beside.device, signals(beside, "beside.inputs"))
+        if table.beside
+        else None,
     )
 
 
-def _signal(table: InputTable, name: str, source: str, folder: Path) -> Signal:
+def _tables_of(inputs: InputsTable) -> dict[str, InputTable]:
+    return {name: getattr(inputs, name) for name in INPUTS}
+
+
+def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
     try:
         if table.steps is not None:
             return steps(table.steps)
@@ -193,7 +249,7 @@ def _signal(table: InputTable, name: str, source: str, folder: Path) -> Signal:
             return steps(points) if table.between == "hold" else ramp(points)
         return constant(table.constant or 0.0)
     except ValueError as error:
-        raise SceneError(f"{source}: inputs.{name}: {error}") from error
+        raise SceneError(f"{where}: {error}") from error
 
 
 def built_in_scenes() -> dict[str, Path]:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
-from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.interface import INPUTS, PARAMETERS, TUNABLES
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, Quantity
@@ -65,19 +65,66 @@ class InputsTable(_Table):
     frequency_ratio: InputTable = InputTable(constant=1.0)
 
 
+class TuningTable(_Table):
+    """Tunable parameters over time, given as inputs are; those left out stay as in `device`."""
+
+    normal_preload: InputTable | None = None
+    normal_amplitude: InputTable | None = None
+    base_amplitude: InputTable | None = None
+    drive_frequency: InputTable | None = None
+    tangential_force: InputTable | None = None
+    friction_coefficient: InputTable | None = None
+
+    @model_validator(mode="after")
+    def _possible(self) -> TuningTable:
+        for name, table in self.given.items():
+            points = table.steps or table.ramp or ()
+            for value in (*(value for _, value in points), table.constant):
+                if value is not None:
+                    check_value(name, value)
+        return self
+
+    @property
+    def given(self) -> dict[str, InputTable]:
+        """The tuned parameters by name."""
+        tables = {name: getattr(self, name) for name in TUNABLES}
+        return {name: table for name, table in tables.items() if table is not None}
+
+
+class BesideTable(_Table):
+    """A second instance of the FMU, with a device and inputs of its own, beside the first."""
+
+    device: dict[str, Number] = {}
+    inputs: InputsTable = InputsTable()
+
+    @field_validator("device")
+    @classmethod
+    def _known_parameters(cls, device: dict[str, float]) -> dict[str, float]:
+        return _checked_device(device)
+
+
 class RunTable(_Table):
-    """How long the scene runs and in which communication steps, in seconds or drive periods."""
+    """How long the scene runs and in which communication steps, in seconds or drive periods.
+
+    `step_sizes` (s) follow each other over and over; the last step ends at the stop. `start_time`
+    (s) is the time at which the FMU starts; all other times of a scene count from there. With
+    `read_twice` outputs are read before and after values change, and both are compared.
+    """
 
     stop_time: Positive | None = None
     drive_periods: Positive | None = None
     step_size: Positive | None = None
     steps_per_period: Positive | None = None
+    step_sizes: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
+    start_time: Number = 0.0
+    read_twice: Annotated[bool, Field(strict=True)] = False
 
     @model_validator(mode="after")
     def _one_of_each(self) -> RunTable:
-        for pair in (("stop_time", "drive_periods"), ("step_size", "steps_per_period")):
-            given = [name for name in pair if getattr(self, name) is not None]
-            _exactly_one("run", given, " or ".join(pair))
+        lengths = ("stop_time", "drive_periods")
+        for names in (lengths, ("step_size", "steps_per_period", "step_sizes")):
+            given = [name for name in names if getattr(self, name) is not None]
+            _exactly_one("run", given, " or ".join(names))
         return self
 
 
@@ -251,6 +298,8 @@ class SceneTable(_Table):
     description: str = ""
     device: dict[str, Number] = {}
     inputs: InputsTable = InputsTable()
+    tuning: TuningTable = TuningTable()
+    beside: BesideTable | None = None
     run: RunTable | None = None
     expect: tuple[ExpectTable, ...] = ()
     sweep: SweepTable | None = None
@@ -259,27 +308,39 @@ class SceneTable(_Table):
     @field_validator("device")
     @classmethod
     def _known_parameters(cls, device: dict[str, float]) -> dict[str, float]:
-        for name, value in device.items():
-            if name not in PARAMETERS:
-                raise ValueError(unknown_name("parameter", name, PARAMETERS))
-            check_value(name, value)
-        return device
+        return _checked_device(device)
 
     @model_validator(mode="after")
     def _runnable(self) -> SceneTable:
+        for name in self.tuning.given:
+            if name in self.device:
+                raise ValueError(f"{name} is in [device] and in [tuning]; must be in one of them")
+            if self.run is None:
+                raise ValueError(f"tuning.{name} is for a run: [run] is missing")
         for expect in self.expect:
             quantity = QUANTITIES[expect.quantity]
             if quantity.needs_run and self.run is None:
                 raise ValueError(f"{expect.quantity} is measured in a run: [run] is missing")
-            if not quantity.needs_run and not self._constant_inputs():
-                raise ValueError(f"{expect.quantity} needs constant inputs")
+            if quantity.needs_constants and not self._constant():
+                raise ValueError(f"{expect.quantity} needs constant inputs and parameters")
+            if quantity.needs_beside and self.beside is None:
+                raise ValueError(f"{expect.quantity} needs a second instance: [beside] is missing")
         for need in self.need.needs if self.need else ():
             if need in RUN_NEEDS and self.run is None:
                 raise ValueError(f"need.{need} is measured in a run: [run] is missing")
-            if need in STEADY_NEEDS and not self._constant_inputs():
-                raise ValueError(f"need.{need} needs constant inputs")
+            if need in STEADY_NEEDS and not self._constant():
+                raise ValueError(f"need.{need} needs constant inputs and parameters")
         return self
 
-    def _constant_inputs(self) -> bool:
+    def _constant(self) -> bool:
         inputs = (self.inputs.phase, self.inputs.load, self.inputs.frequency_ratio)
-        return all(table.constant is not None for table in inputs)
+        tables = (*inputs, *self.tuning.given.values())
+        return all(table.constant is not None for table in tables)
+
+
+def _checked_device(device: dict[str, float]) -> dict[str, float]:
+    for name, value in device.items():
+        if name not in PARAMETERS:
+            raise ValueError(unknown_name("parameter", name, PARAMETERS))
+        check_value(name, value)
+    return device

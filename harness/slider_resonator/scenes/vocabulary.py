@@ -26,6 +26,8 @@ class Quantity:
     `references` are the names of those that it can be compared with, `tube_references` those that
     can have a tube. An `exact` quantity, a count or a word, needs no tolerance. A signal
     `in_periods` is compared by its deviation in drive periods, any other as a share of its peak.
+    One that `needs_constants` is for constant inputs and parameters, one that `needs_beside` for a
+    scene with a second instance.
     """
 
     kind: Kind
@@ -36,6 +38,8 @@ class Quantity:
     exact: bool = False
     tube_references: tuple[str, ...] = ()
     in_periods: bool = False
+    needs_constants: bool = False
+    needs_beside: bool = False
 
     @property
     def relative_to_peak(self) -> bool:
@@ -44,22 +48,38 @@ class Quantity:
 
 
 def _number(unit: str, meaning: str, *references: str, exact: bool = False) -> Quantity:
-    """Return a quantity that needs no run."""
-    return Quantity("number", unit, meaning, references, exact=exact)
+    """Return a quantity of the steady motion, which needs no run."""
+    return Quantity("number", unit, meaning, references, exact=exact, needs_constants=True)
 
 
 def _word(meaning: str) -> Quantity:
-    return Quantity("word", "", meaning, exact=True)
+    return Quantity("word", "", meaning, exact=True, needs_constants=True)
+
+
+def _count(meaning: str, *, needs_run: bool = True, needs_beside: bool = False) -> Quantity:
+    """Return a count of faults: of values that differ, or of calls that go wrong."""
+    return Quantity(
+        "number", "1", meaning, needs_run=needs_run, exact=True, needs_beside=needs_beside
+    )
 
 
 def _number_of_run(unit: str, meaning: str, *references: str, exact: bool = False) -> Quantity:
     return Quantity("number", unit, meaning, references, needs_run=True, exact=exact)
 
 
+def _signal(unit: str, meaning: str, *references: str, exact: bool = False) -> Quantity:
+    """Return a signal without tubes."""
+    return Quantity("signal", unit, meaning, references, needs_run=True, exact=exact)
+
+
 def _output(unit: str, meaning: str, *averaged: str) -> Quantity:
     """Return an output of the FMU that is compared at each communication point."""
     references = (*RESOLVED, *averaged)
     return Quantity("signal", unit, meaning, references, needs_run=True, tube_references=RESOLVED)
+
+
+def _prediction(unit: str, meaning: str) -> Quantity:
+    return Quantity("signal", unit, meaning, ("averaged",), needs_run=True)
 
 
 QUANTITIES: Mapping[str, Quantity] = {
@@ -83,23 +103,30 @@ QUANTITIES: Mapping[str, Quantity] = {
     "predicted_blocking_force": _number(
         "N", "the FMU's output blocking_force", "closed_form", "averaged"
     ),
+    "predicted_velocity_in_run": _prediction("m/s", "the FMU's output steady_velocity over time"),
+    "predicted_blocking_force_in_run": _prediction(
+        "N", "the FMU's output blocking_force over time"
+    ),
     "final_predicted_velocity": _number_of_run(
         "m/s", "the FMU's output steady_velocity at the end of the run", "averaged"
     ),
     "final_predicted_blocking_force": _number_of_run(
         "N", "the FMU's output blocking_force at the end of the run", "averaged"
     ),
+    "prediction_valid": _number_of_run(
+        "1", "the FMU's output prediction_valid at the end of the run", "averaged", exact=True
+    ),
     "position": _output("m", "slider position", "averaged"),
     "velocity": _output("m/s", "slider velocity", "averaged"),
-    "resonator_displacement": _output("m", "relative displacement"),
-    "resonator_velocity": _output("m/s", "relative velocity"),
-    "normal_force": _output("N", "normal force of a face"),
-    "friction_force": _output("N", "friction force of all faces"),
+    "resonator_displacement": _output("m", "relative displacement", "averaged"),
+    "resonator_velocity": _output("m/s", "relative velocity", "averaged"),
+    "normal_force": _output("N", "normal force of a face", "averaged"),
+    "friction_force": _output("N", "friction force of all faces", "averaged"),
     "contact_mode": Quantity(
         "signal",
         "1",
         "share of points in another contact mode",
-        RESOLVED,
+        (*RESOLVED, "averaged"),
         needs_run=True,
         exact=True,
     ),
@@ -113,21 +140,38 @@ QUANTITIES: Mapping[str, Quantity] = {
     "mean_velocity": _number_of_run(
         "m/s",
         "mean velocity over the last whole drive period of the run",
-        *("located_events", "averaged"),
+        *(*RESOLVED, "averaged"),
+    ),
+    "mean_velocity_in_run": _signal(
+        "m/s",
+        "mean velocity over the last whole drive period before each point, first since the start",
+        *(*RESOLVED, "averaged"),
     ),
     "stick_fraction": _number_of_run(
-        "1", "share of the last whole drive period of the run spent sticking", "located_events"
+        "1", "share of the last whole drive period of the run spent sticking", *RESOLVED
+    ),
+    "stick_fraction_in_run": _signal(
+        "1",
+        "share of the last whole drive period before each point spent sticking, first since the "
+        "start",
+        *(*RESOLVED, "averaged"),
     ),
     "reversals": _number_of_run("1", "reversals of sliding during the run", *RESOLVED, exact=True),
+    "reversals_in_run": _signal(
+        "1",
+        "share of points with another number of reversals so far",
+        *(*RESOLVED, "averaged"),
+        exact=True,
+    ),
     "event_times": Quantity(
         "signal",
         "drive periods",
         "time of the last event before each point of the run",
-        ("located_events", "taylor"),
+        (*RESOLVED, "averaged"),
         needs_run=True,
         in_periods=True,
     ),
-    "last_event_time": _number_of_run("s", "time of the last event of the run", "located_events"),
+    "last_event_time": _number_of_run("s", "time of the last event of the run", *RESOLVED),
     "ripple_amplitude": _number_of_run(
         "m", "amplitude of the fast oscillation of the position", "closed_form"
     ),
@@ -136,6 +180,37 @@ QUANTITIES: Mapping[str, Quantity] = {
         "Hz",
         "dominant frequency of the mean velocity in the later half of the run",
         "closed_form",
+    ),
+    "reset_differences": _count(
+        "outputs of the run that differ between a new instance and one that is reset"
+    ),
+    "restored_differences": _count(
+        "outputs of the run that differ after a state is restored, whatever was done meanwhile"
+    ),
+    "transferred_differences": _count(
+        "outputs of the run that differ in another instance that takes over a serialised state"
+    ),
+    "beside_differences": _count(
+        "outputs that differ while two instances step in turn, from those of each alone",
+        needs_beside=True,
+    ),
+    "overwritten_differences": _count(
+        "outputs of the run that differ where other and refused values are set before each value"
+    ),
+    "reading_differences": _count(
+        "outputs of the run that differ where everything is read again between the calls"
+    ),
+    "refusal_faults": _count(
+        "values and calls that must be refused, by name and without a trace in the run, and are not"
+    ),
+    "start_faults": _count(
+        "variables without their described start, or that do not keep what is set", needs_run=False
+    ),
+    "description_faults": _count(
+        "differences of the model description from the interface", needs_run=False
+    ),
+    "dependency_faults": _count(
+        "outputs on which a variable acts that is not among their dependencies", needs_run=False
     ),
 }
 """Every quantity by the name that scene files use."""

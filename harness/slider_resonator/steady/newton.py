@@ -24,6 +24,8 @@ DIFFERENCE = 1e-4
 MAX_ITERATIONS = 60
 SINGULAR = 1e-9
 """Smallest over largest singular value of a Jacobian that counts as singular."""
+SINGULAR_STEPS = 4
+"""Last steps with a singular Jacobian: a family of zeros may be curved."""
 KEEP = 0.05
 """Largest ratio of successive corrections for which the Jacobian is kept."""
 SMALLEST_DAMPING = 1.0 / 256.0
@@ -37,7 +39,7 @@ class Root:
 
     `x` shape (n,); `jacobian` (n, n) is the last one that was computed, at `jacobian_at` (n,);
     `correction` is the norm of the Newton step that remains and `residual` the largest remaining
-    function value, both in units of the scale. With a singular Jacobian, `x` is one last step
+    function value, both in units of the scale. With a singular Jacobian, `x` is some last steps
     onward in the directions that it does determine: a residual that is then gone shows a family of
     zeros, one that stays shows that there is none.
     """
@@ -116,8 +118,12 @@ def solve(
         if contraction > KEEP:
             at, jacobian = y, central_jacobian(scaled, y, steps)
             inverse = _inverse(jacobian)
-    y = y - np.linalg.pinv(jacobian, rcond=SINGULAR) @ value
-    value = scaled(y)
+    determined = np.linalg.pinv(jacobian, rcond=SINGULAR)
+    for _ in range(SINGULAR_STEPS):
+        y = y - determined @ value
+        value = scaled(y)
+        if np.abs(value).max() <= tolerance:
+            break
     return result("singular")
 
 

@@ -17,12 +17,14 @@ from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import located_events, lugre_scipy
+from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.newton import Vector
 from slider_resonator.steady.search import WARM_UP, WarmedUp, blocked_point, steady_point
 from slider_resonator.steady.shooting import FixedPoint
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
+_INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))
 SAMPLES = 16
 TOLERANCE = 1e-9
 """Accuracy in units of the scale: the integrator's own 1e-12 per period, amplified by
@@ -115,6 +117,8 @@ class _ReferencePeriodMap:
         resonator = STATE[1:3] if device.fidelity == 2 else ()
         bristle = STATE[3:] if device.friction_law == 1 else ()
         self.names = (STATE[0], *resonator, *bristle)
+        at_rest: dict[str, Any] = dict.fromkeys(_INITIAL, 0.0)
+        self._velocity_from_rest = initial_state(replace(device, **at_rest))[1]
 
     def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
         """Run one common period."""
@@ -145,8 +149,9 @@ class _ReferencePeriodMap:
 
     def _run(self, state: Vector, load: float, times: Vector) -> tuple[Vector, Vector]:
         """Return states (m, n) and positions (m,) at times (m,), from a state at time 0."""
-        initial: dict[str, Any] = {f"initial_{name}": 0.0 for name in ("position", *STATE)}
+        initial: dict[str, Any] = dict.fromkeys(_INITIAL, 0.0)
         initial |= {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
+        initial["initial_velocity"] -= self._velocity_from_rest
         device = replace(self.device, **initial)
         held = [HeldInputs(0.0, float(times[-1]), self.phase, load, self.ratio)]
         run = self.simulate(device, held, times)

@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.steady.neighbours import DISTANCE, one_sided_multipliers
 from slider_resonator.steady.newton import DIFFERENCE, Matrix, Root, Vector, central_jacobian, solve
 
 PeriodMap = Callable[[Vector], tuple[Vector, float]]
@@ -26,6 +27,10 @@ NEUTRAL = 1e-7
 """A multiplier this close to the unit circle counts as neutral, within its error."""
 FRESH = 1e-6
 """A Jacobian taken this close to the fixed point, in units of the scale, gives its multipliers."""
+
+KINK = 0.1
+"""Difference of the multipliers on both sides, in units of 1 minus the multiplier between them,
+from which on the larger of them counts."""
 
 FAMILY = 1e-9
 """Residual, in units of the scale, below which a singular map has a family of fixed points."""
@@ -94,6 +99,14 @@ def fixed_point(
     if root.status != "converged":
         return _failure(root, len(displacements))
     jacobian = _fresh_jacobian(change, root, scale)
+    multipliers = _multipliers(jacobian)
+    sides = one_sided_multipliers(change, root.x, jacobian, scale)
+    if sides is not None:
+        error = max(NEUTRAL, tolerance / DISTANCE)
+        if min(abs(side - 1.0) for side in sides) <= error:
+            return _family(root, len(displacements))
+        if abs(sides[0] - sides[1]) > KINK * abs(1.0 - multipliers[0]):
+            multipliers[0] = max(sides, key=abs)
     change(root.x)
     return FixedPoint(
         state=root.x,
@@ -102,7 +115,7 @@ def fixed_point(
         iterations=root.iterations,
         evaluations=len(displacements),
         residual=root.residual,
-        multipliers=_multipliers(jacobian),
+        multipliers=multipliers,
     )
 
 
@@ -161,16 +174,23 @@ def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
     return values[np.argsort(-np.abs(values))]
 
 
+def _family(root: Root, evaluations: int) -> NoFixedPoint:
+    """Explain a motion with neighbours that repeat, too."""
+    return NoFixedPoint(
+        "not_unique",
+        "a whole family of motions repeats: friction does not choose among them, each start "
+        "keeps its own velocity",
+        root.iterations,
+        evaluations,
+        root.residual,
+    )
+
+
 def _failure(root: Root, evaluations: int) -> NoFixedPoint:
     """Explain a failed iteration."""
     numbers = (root.iterations, evaluations, root.residual)
     if root.status == "singular" and root.residual <= FAMILY:
-        return NoFixedPoint(
-            "not_unique",
-            "a whole family of motions repeats: friction does not choose among them, each start "
-            "keeps its own velocity",
-            *numbers,
-        )
+        return _family(root, evaluations)
     if root.status == "singular":
         return NoFixedPoint(
             "no_fixed_point",

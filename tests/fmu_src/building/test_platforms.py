@@ -6,11 +6,30 @@ import sys
 import pytest
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.platforms import HOST, PLATFORMS, host_platform, platforms_named
+from fmu_src.building.platforms import (
+    AARCH64_LINUX,
+    HOST,
+    PLATFORMS,
+    host_platform,
+    platforms_named,
+)
 
 
 def test_no_names_stand_for_all() -> None:
     assert platforms_named([]) == list(PLATFORMS.values())
+
+
+def test_fmi_3_has_a_name_for_arm_linux() -> None:
+    assert platforms_named([], "3.0") == [*PLATFORMS.values(), AARCH64_LINUX]
+    with pytest.raises(BuildError, match="'aarch64-linux' refused: must be one of linux64, win64"):
+        platforms_named(["aarch64-linux"])
+
+
+@pytest.mark.parametrize("machine", ["aarch64", "arm64"])
+def test_arm_linux_is_a_host_of_fmi_3(monkeypatch: pytest.MonkeyPatch, machine: str) -> None:
+    monkeypatch.setattr(sys, "platform", "linux")
+    monkeypatch.setattr(platform, "machine", lambda: machine)
+    assert host_platform("3.0") == AARCH64_LINUX
 
 
 def test_platforms_are_unique_and_in_table_order() -> None:

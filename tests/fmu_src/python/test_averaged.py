@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from fmu_src.python.slider_component.averaged import averaged
 from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.plant import equivalent_force
+from slider_resonator.device.device import Device as ReferenceDevice
+from slider_resonator.references.averaged.prediction_validity import prediction_valid
 from tests.problems import STEADY_VELOCITIES
 
 TABLE_1 = Device()
@@ -92,3 +96,31 @@ def test_undamped_resonance_has_no_steady_velocity() -> None:
         drive_frequency=16.0,
     )
     assert averaged(resonant, Inputs(), 0.0).steady_velocity == 0.0
+
+
+devices = st.builds(
+    Device,
+    resonator_mass=st.sampled_from([0.0, 0.1, 3.0]),
+    resonator_frequency=st.floats(500.0, 9000.0),
+    damping_ratio=st.sampled_from([0.0, 0.05, 1.5]),
+    normal_preload=st.sampled_from([0.0, 0.3, 1.0]),
+    normal_amplitude=st.sampled_from([0.0, 0.5, 2.0]),
+    base_amplitude=st.floats(-11.0, -4.0).map(lambda decade: 10.0**decade),
+    tangential_force=st.sampled_from([0.0, 0.1, -3.0]),
+    friction_law=st.sampled_from([0, 1]),
+    bristle_stiffness=st.sampled_from([1e3, 1e6, 1e9]),
+)
+
+
+@given(
+    devices,
+    st.floats(-3.0, 3.0),
+    st.floats(-0.3, 0.3),
+    st.sampled_from([0.0, 1.0, 1.5, 2.0, math.pi, -3.0]),
+)
+def test_validity_is_that_of_the_reference(
+    device: Device, phase: float, load: float, ratio: float
+) -> None:
+    reference = ReferenceDevice.from_mapping(asdict(device))
+    expected = prediction_valid(reference, phase, load, ratio)
+    assert averaged(device, Inputs(phase, load, ratio), 0.0).valid == expected

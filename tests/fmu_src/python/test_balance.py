@@ -73,3 +73,15 @@ def test_without_a_balance_the_end_counts(level: float, end: float) -> None:
 def test_the_balance_is_that_of_bisection(excess: Excess, rises: bool, tolerance: float) -> None:
     turning, _ = found(excess, rises=rises)
     assert turning == pytest.approx(by_bisection(excess), abs=tolerance)
+
+
+@given(st.floats(0.2, 2.0), st.floats(0.02, 1.0), st.floats(-1.0, 1.0))
+def test_a_flat_balance_ends_where_friction_begins(begin: float, width: float, tilt: float) -> None:
+    """Rounding may tilt what is flat: the answer is the smallest angle, the highest velocity."""
+
+    def excess(turning: float) -> float:
+        beyond = min(turning - begin, max(turning - begin - width, 0.0))
+        return -0.3 * beyond + 0.9e-15 * tilt
+
+    turning, _ = found(excess)
+    assert turning == pytest.approx(begin, abs=1e-11)

@@ -16,6 +16,7 @@ from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import Law, law_of
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.plant import steady_resonator
 from tests.fmu_src.python.motions import REST, after, begin
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5]), st.floats(-3.0, 3.0))
@@ -97,7 +98,11 @@ def test_mirror_symmetry(device: Device, held_inputs: Inputs) -> None:
         held_inputs.frequency_ratio,
     )
     mirrored_law = law_of(device, mirrored_inputs)
-    mirrored = mirrored_law.start(State(*(-part for part in moment.state)), -moment.position)
+    start = State(*(-part for part in moment.state))
+    if device.fidelity == 1:
+        rate = (device.drive_frequency * steady_resonator(device)).real
+        start = start._replace(rate=rate)  # the velocity is then that of the slider
+    mirrored = mirrored_law.start(start, -moment.position)
     moment = law.advance(moment, duration(device))
     mirrored = mirrored_law.advance(mirrored, duration(device))
     size = scale(device, moment)

@@ -29,7 +29,7 @@ WAVE = np.sin(np.linspace(0.0, 50.0, 1000))
 
 
 def fmu(**parts: Any) -> FmuSide:
-    scene = SimpleNamespace(name="scene", source="scene.toml")
+    scene = SimpleNamespace(name="scene", source="scene.toml", start_time=0.0)
     return cast(FmuSide, SimpleNamespace(scene=scene, **parts))
 
 
@@ -250,7 +250,7 @@ def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) 
     side = fmu(record=RecordOf(last_event_time=0.5 * found), drive_period=0.5)
     verdict = judge(
         side,
-        reference(event_times=lambda name: no_tube(events)),
+        reference(in_run=lambda name, measure: no_tube(events)),
         quantity="event_times",
         reference="located_events",
         tube=1e-3,

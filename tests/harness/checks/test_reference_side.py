@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from slider_resonator.checks.period_means import last_events
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.references.resolved import located_events
 from tests.harness.scene_text import scene_of
@@ -27,8 +28,8 @@ def test_the_mean_velocity_is_that_of_the_last_whole_period() -> None:
     reference = side(RUN.replace("12.3", "12").replace("8", "1"))
     position = reference.signal("located_events", "position")
     expected = (position[-1] - position[-2]) / reference.drive_period
-    assert reference.mean_velocity == pytest.approx(expected, rel=1e-12)
-    assert side(RUN).mean_velocity == pytest.approx(expected, rel=1e-9), (
+    assert reference.mean_velocity("located_events") == pytest.approx(expected, rel=1e-12)
+    assert side(RUN).mean_velocity("located_events") == pytest.approx(expected, rel=1e-9), (
         "the third of a period after it does not count"
     )
 
@@ -36,8 +37,8 @@ def test_the_mean_velocity_is_that_of_the_last_whole_period() -> None:
 def test_a_device_that_never_moves_sticks_all_the_time() -> None:
     weak = "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n"
     reference = side(weak + RUN)
-    assert reference.stick_fraction == pytest.approx(1.0, abs=1e-12)
-    assert reference.last_event_time == 0.0
+    assert reference.stick_fraction("located_events") == pytest.approx(1.0, abs=1e-12)
+    assert reference.last_event_time("located_events") == 0.0
 
 
 def test_closed_forms_are_those_of_the_paper() -> None:
@@ -60,10 +61,11 @@ def test_the_difference_frequency_counts_from_the_nearest_multiple(ratio: float)
     assert reference.difference_frequency == pytest.approx(11.1408460, rel=1e-7)
 
 
-def test_a_run_shorter_than_a_period_has_no_mean_velocity() -> None:
+def test_in_a_run_shorter_than_a_period_the_mean_is_that_since_the_start() -> None:
     reference = side(RUN.replace("12.3", "0.7"))
-    with pytest.raises(ValueError, match="shorter than one drive period"):
-        _ = reference.mean_velocity
+    position = reference.signal("located_events", "position")
+    mean = reference.mean_velocity("located_events")
+    assert mean == pytest.approx(position[-1] / reference.times[-1], rel=1e-12)
 
 
 @pytest.mark.parametrize("law", [0, 1])
@@ -106,14 +108,27 @@ def test_a_tube_contains_signals_shifted_by_less_than_its_width() -> None:
 
 def test_event_times_are_in_drive_periods_and_open_where_they_coincide() -> None:
     reference = side(RUN)
-    tube = reference.event_times("located_events")
+    tube = reference.in_run("located_events", last_events)
     last = tube.middle[-1] * reference.drive_period
-    assert last == pytest.approx(reference.last_event_time, rel=1e-12)
+    assert last == pytest.approx(reference.last_event_time("located_events"), rel=1e-12)
     assert (tube.middle * reference.drive_period <= reference.times).all()
     assert (np.diff(tube.middle) >= 0.0).all()
     assert np.array_equal(tube.lower, tube.upper), "no event falls on a communication point here"
     rest = side("[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n" + RUN)
-    assert not rest.event_times("located_events").upper.any()
+    assert not rest.in_run("located_events", last_events).upper.any()
+
+
+def test_predictions_follow_the_inputs_before_each_point() -> None:
+    inputs = (
+        "[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.02]] }\n"
+        "frequency_ratio = { steps = [[0.0, 1.0], [0.002, 1.5], [0.003, 1.0]] }\n"
+    )
+    reference = side(inputs + "[run]\nstop_time = 0.004\nstep_size = 0.001\n")
+    found = reference.predictions("predicted_velocity")
+    at_start = side(RUN).predicted_velocity
+    assert found[:2] == pytest.approx([at_start] * 2), "a point on a change is still before it"
+    assert found[2] == side("[inputs]\nload = 0.02\n" + RUN).predicted_velocity
+    assert found[-1] == reference.at_the_end.predicted_velocity
 
 
 def test_at_the_end_of_a_run_the_inputs_are_the_last_and_the_phase_has_its_lead() -> None:

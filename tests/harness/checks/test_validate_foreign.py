@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import Validation, validate
+from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness import faulty_fmus
 from tests.harness.foreign_fmus import foreign
 
@@ -49,6 +50,58 @@ def test_references_order_and_missing_capabilities_do_not_matter(
     validation = judged(stranger, tmp_path, STEADY)
     assert validation.exit_code == 0, (validation.run_failures, validation.checks)
     assert len(validation.checks) == 4
+
+
+LIFE = """
+name = "life"
+title = "Life of an instance"
+
+[beside.inputs]
+phase = 1.0
+
+[run]
+drive_periods = 2
+steps_per_period = 8
+"""
+
+
+def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(
+    stranger: Path, tmp_path: Path
+) -> None:
+    counts = [name for name in QUANTITIES if name.endswith(("_differences", "_faults"))]
+    expect = '[[expect]]\nquantity = "{}"\nvalue = 0\nwhy = "it must"\n'
+    path = tmp_path / "life.toml"
+    path.write_text(LIFE + "".join(map(expect.format, counts)))
+    (validation,) = validate([stranger], [path])
+    assert validation.exit_code == 0, (validation.run_failures, validation.checks)
+    reasons = {one.quantity: one.reason for one in validation.not_applied}
+    assert reasons == {
+        "restored_differences": "needs canGetAndSetFMUstate = true",
+        "transferred_differences": "needs canGetAndSetFMUstate = true",
+        "beside_differences": "needs canBeInstantiatedOnlyOncePerProcess = false",
+    }
+    assert {check.quantity for check in validation.checks} == set(counts) - set(reasons)
+
+
+def test_a_scene_that_needs_a_later_variable_does_not_apply(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    """An FMU of the first interface averages to first order: it is judged on that."""
+    old = faulty_fmus.without_later_variables(native_fmu, tmp_path / "old.fmu")
+    scenes = []
+    for order in (1, 2):
+        path = faulty_fmus.scene(tmp_path, f"order_{order}")
+        device = f"\n[device]\nfidelity = 0\naveraging_order = {order}\n"
+        text = path.read_text().replace("located_events", "averaged").replace("1e-8", "1e-5")
+        path.write_text(text + device)
+        scenes.append(path)
+    (validation,) = validate([old], scenes)
+    assert validation.exit_code == 0, validation.run_failures
+    assert [check.scene for check in validation.checks] == ["order_1"]
+    (missing,) = validation.not_applied
+    assert (missing.scene, missing.quantity) == ("order_2", "position")
+    assert missing.reason == "needs averaging_order = 2, which came with interface 0.2.0"
+    assert set(validation.lacks) == {"averaging_order", "prediction_valid", "slow_motion_error"}
 
 
 def test_a_run_with_unequal_steps_is_refused_where_the_fmu_takes_equal_ones(

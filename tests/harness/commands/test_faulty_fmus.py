@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import pytest
@@ -63,12 +63,21 @@ def test_an_ended_command_ends_the_fmu_and_leaves_nothing(
     temporary = tmp_path / "temporary"
     temporary.mkdir()
     command = subprocess.Popen(
-        [sys.executable, "-m", "slider_resonator", "run", str(fmu), "table_1"],
+        [
+            sys.executable,
+            "-m",
+            "slider_resonator",
+            "run",
+            str(fmu),
+            "table_1",
+            "--time-limit",
+            "30",
+        ],
         env={**os.environ, "TMPDIR": str(temporary)},
         stderr=subprocess.PIPE,
         text=True,
     )
-    while not list(temporary.glob("*/*/binaries")):
+    while not list(temporary.glob("*/*/unpacked/binaries")):
         assert command.poll() is None
         time.sleep(0.1)
     time.sleep(0.5)  # until it is in the loop
@@ -79,3 +88,29 @@ def test_an_ended_command_ends_the_fmu_and_leaves_nothing(
     assert not list(temporary.iterdir())
     running = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True)
     assert str(fmu) not in running.stdout
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_a_killed_command_takes_the_fmu_and_its_folder_along(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "loop.fmu", "IN_STEP=LOOP")
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    with subprocess.Popen(
+        [sys.executable, "-m", "slider_resonator", "run", str(fmu), "table_1"],
+        env={**os.environ, "TMPDIR": str(temporary)},
+    ) as command:
+        wait_until(lambda: bool(list(temporary.glob("*/*/unpacked/binaries"))))
+        command.kill()
+    wait_until(lambda: not list(temporary.iterdir()))
+    running = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True)
+    assert str(fmu) not in running.stdout
+
+
+def wait_until(condition: Callable[[], bool]) -> None:
+    for _ in range(600):
+        if condition():
+            return
+        time.sleep(0.05)
+    raise AssertionError("it takes too long")

@@ -53,3 +53,37 @@ def test_mutation_runs_that_cannot_start_are_refused(python_fmu: Path, tmp_path:
         ([python_fmu, "--file", "__init__.py"], "nothing to change"),
     ):
         assert reason in refused("mutants", *arguments)
+
+
+def test_native_changes_are_listed(native_fmu: Path) -> None:
+    result = call("mutants", native_fmu, "--native", "--list", "--file", "lugre.c")
+    assert result.exit_code == 0, result.output
+    assert "tolerance_ignored [fault]" in result.output
+    assert "tighter_series [harmless]" in result.output
+    result = call("mutants", native_fmu, "--native", "--list", "--json", "--sample", "5")
+    assert_public_keys("mutants --native --list", result.output)
+    assert len(json.loads(result.output)["changes"]) == 5
+
+
+@pytest.mark.slow
+def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
+    only = ("--native", "--file", "settling.c", "--scene", "averaged_long_steps", "--jobs", "1")
+    result = call("mutants", native_fmu, *only, "--json")
+    assert_public_keys("mutants --native", result.output)
+    written = json.loads(result.output)
+    assert {c["name"]: c["rejected"] for c in written["changes"]} == {
+        "settled_too_early": True,
+        "settled_without_way": False,
+        "later_settling": False,
+    }
+    assert written["rate"] == 1.0
+    assert result.exit_code == 0
+
+
+def test_native_runs_that_cannot_start_are_refused(native_fmu: Path, python_fmu: Path) -> None:
+    for arguments, reason in (
+        ([python_fmu], "has no C sources to change"),
+        ([native_fmu, "--file", "lugr.c"], "did you mean 'lugre.c'"),
+        ([native_fmu, "--kind", "event"], "must be without --kind and --html"),
+    ):
+        assert reason in refused("mutants", "--native", *arguments)

@@ -1,7 +1,9 @@
 from __future__ import annotations
 
 import json
+from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -26,6 +28,14 @@ def test_what_cannot_run_exits_with_2(arguments: list[str], tmp_path: Path) -> N
     assert result.exit_code == 2
 
 
+def in_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run measurements, which need no FMU here, where they are replaced: in this process."""
+    fmu = SimpleNamespace(guid="{1}", run=lambda task: task(None))
+    monkeypatch.setattr(
+        "slider_resonator.studies.paper.reproduce.IsolatedFmu", lambda *_: nullcontext(fmu)
+    )
+
+
 def test_an_unconfirmed_claim_exits_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -35,6 +45,7 @@ def test_an_unconfirmed_claim_exits_with_1(
     claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, "agrees", "it does not", False)
     group = ClaimGroup("claims_x", "X", (lambda instance: [claim],))
     monkeypatch.setattr(reproduce, "GROUPS", (group,))
+    in_process(monkeypatch)
     arguments = ["--out", tmp_path, "--only", "claims", "--fmu", native_fmu]
     result = call("paper", *arguments)
     assert result.exit_code == 1
@@ -56,6 +67,7 @@ def test_a_table_that_deviates_exits_with_1(
     name = "lugre_device"
     table = PaperTable(name, "Forces", "", {"error": "error"}, {"error": 0.1}, measure)
     monkeypatch.setattr(reproduce, "TABLES", {name: table})
+    in_process(monkeypatch)
     arguments = ["--out", tmp_path, "--only", name, "--fmu", native_fmu]
     result = call("paper", *arguments)
     assert result.exit_code == 1

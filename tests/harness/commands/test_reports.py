@@ -27,7 +27,7 @@ def test_output_of_an_fmu_commands_neither_terminal_nor_ci(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     print_run_failures("my.fmu", [RunFailure("", "crashed\x1b[2J\n::stop-commands::all", {})])
-    assert capsys.readouterr().err == "error: crashed\ufffd[2J\n: :stop-commands::all\n"
+    assert capsys.readouterr().err == "error: crashed\ufffd[2J\n  : :stop-commands::all\n"
 
 
 def test_an_error_before_any_fmu_is_in_every_report(tmp_path: Path) -> None:

@@ -63,9 +63,9 @@ def test_mistakes_are_named_by_their_option_before_the_fmu_is_opened(
 
 
 def test_a_refusal_of_the_fmu_is_reported_once_without_its_wrapping(python_fmu: Path) -> None:
-    result = call("run", python_fmu, "lift_off", "--set", "slider_mass=-1", "--json")
+    result = call("run", python_fmu, "lift_off", "--set", "friction_coefficient=-1", "--json")
     assert result.exit_code == 2
-    assert result.stdout.count("slider_mass = -1.0 refused") == 1
+    assert result.stdout.count("friction_coefficient = -1.0 refused") == 1
     assert "Refusal(" not in result.output
     assert "exception" not in result.output
 

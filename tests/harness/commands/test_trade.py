@@ -18,6 +18,7 @@ from slider_resonator.studies.trade.peer_methods import peer_methods
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import Omission, Trade
 from tests.harness.calling import call, refused
+from tests.harness.in_process import InProcess
 from tests.harness.public_json import assert_public_keys
 from tests.harness.studies.trade.problems import HEAD, TABLE_1, problem
 from tests.harness.studies.trade.test_needs import TRADE
@@ -45,7 +46,10 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     assert len(omissions) == len(document["trade"]["omissions"])
     short = problem(tmp_path, TABLE_1, max_periods=8)
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
-        methods = [*FmuMethods(short, "native", instance).methods(), *peer_methods(short)]
+        methods = [
+            *FmuMethods(short, "native", InProcess(instance)).methods(),
+            *peer_methods(short),
+        ]
     followed = {row["method"] for row in rows if row["answer"] == "run"}
     omitted = {o["method"] for o in omissions if o["quantity"] == "all"}
     assert {method.label.name for method in methods} == followed | omitted
@@ -110,3 +114,19 @@ def test_the_public_keys_stay(
     monkeypatch.setattr(command, "measure_trade", lambda *_, **__: measured)
     arguments = ["--out", tmp_path, "--fmu", native_fmu, "--json"]
     assert_public_keys("trade", call("trade", *arguments).stdout)
+
+
+def test_an_interruption_says_what_is_kept(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def measure(problem: Problem, *_: object, **__: object) -> Trade:
+        if problem.name == "lugre":
+            raise KeyboardInterrupt
+        return TRADE
+
+    monkeypatch.setattr(command, "measure_trade", measure)
+    out = tmp_path / "out"
+    result = call("trade", "table_1", "lugre", "--out", out, "--fmu", native_fmu)
+    assert result.exit_code == 130
+    assert f"interrupted\n  1 of 2 scenes are kept in {out}; not measured: lugre" in result.stderr
+    assert (out / "index.html").is_file()

@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous
 from slider_resonator.device.schedule import (
     MAX_STEPS,
@@ -28,6 +31,46 @@ def test_ramp_is_a_polyline_without_jumps() -> None:
     signal = ramp([(0.0, 1.0), (1.0, 1.0), (2.0, 3.0)])
     assert [signal.at(t) for t in (-1.0, 0.5, 1.5, 2.0, 5.0)] == [1.0, 1.0, 2.0, 3.0, 3.0]
     assert signal.jumps == ()
+
+
+def test_sizes_of_steps_follow_each_other_and_the_last_step_ends_at_the_stop() -> None:
+    times = communication_points(1.0, (0.1, 0.3), jumps=[0.45])
+    assert times == pytest.approx([0.0, 0.1, 0.4, 0.45, 0.5, 0.8, 0.9, 1.0])
+    assert step_count(1.0, (0.1, 0.3)) == 6, "as many as whole rounds have"
+    with pytest.raises(ValueError, match="must be positive"):
+        step_count(1.0, (0.1, 0.0))
+
+
+def test_a_tuned_parameter_parts_the_inputs() -> None:
+    plan = schedule(
+        1.0,
+        0.25,
+        {"normal_preload": steps([(0.0, 1.0), (0.3, 2.0)])},
+        load=steps([(0.0, 0.1), (0.5, 0.2)]),
+    )
+    assert plan.times.tolist() == [0.0, 0.25, 0.3, 0.5, 0.75, 1.0]
+    assert plan.changes().tolist() == [2, 3]
+    assert plan.readings().tolist() == plan.times.tolist(), "read once unless it is asked"
+    held = plan.held()
+    check_contiguous(held)
+    assert [(h.start, h.load, h.tuned_device(Device()).normal_preload) for h in held] == [
+        (0.0, 0.1, 1.0),
+        (0.3, 0.1, 2.0),
+        (0.5, 0.2, 2.0),
+    ]
+    assert held[1].tuned_device(Device(slider_mass=3.0)) == Device(
+        slider_mass=3.0, normal_preload=2.0
+    )
+    assert HeldInputs(0.0, 1.0).tuned_device(Device()) == Device()
+
+
+def test_outputs_are_read_before_and_after_a_change() -> None:
+    plan = schedule(1.0, 0.5, load=steps([(0.0, 0.1), (0.5, 0.2), (1.0, 0.3)]))
+    plan = replace(plan, reads_twice=True)
+    before, after = 0.5, float(np.nextafter(0.5, 1.0))
+    assert plan.readings().tolist() == [0.0, before, after, 1.0], "nothing is set at the stop"
+    finer = plan.refined(0.5, 0.25)
+    assert (finer.reads_twice, finer.readings().tolist()) == (True, [0, before, after, 0.75, 1.0])
 
 
 @given(

@@ -19,6 +19,10 @@ from slider_resonator.device.values import check_integer, check_value
         ("friction_faces", 1.5, "friction_faces = 1.5: must be an integer"),
         ("fidelity", 2.0**32 + 2, "must be an integer up to 2147483647"),
         ("drive_frequency", 0.0, "drive_frequency = 0.0: must be a number above 0"),
+        ("slider_mass", 0.0, "slider_mass = 0.0: must be a number above 0"),
+        ("resonator_frequency", -1.0, "resonator_frequency = -1.0: must be a number above 0"),
+        ("resonator_mass", -0.1, "resonator_mass = -0.1: must be a number from 0 on"),
+        ("normal_preload", -0.1, "normal_preload = -0.1: must be a number from 0 on"),
     ],
 )
 def test_invalid_value_is_refused_by_name(name: str, value: float, message: str) -> None:
@@ -26,8 +30,9 @@ def test_invalid_value_is_refused_by_name(name: str, value: float, message: str)
         check_value(name, value)
 
 
-def test_ranges_are_not_checked() -> None:
-    check_value("slider_mass", -1.0)
+def test_other_ranges_are_not_checked() -> None:
+    check_value("friction_coefficient", -1.0)
+    check_value("normal_preload", 0.0)
     check_value("fidelity", 7.0)
     check_value("load", 1e300)
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.errors import FmuError
+from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.fmu import limits, opening
 from slider_resonator.fmu.opening import open_fmu
 from tests.harness import faulty_fmus
 
@@ -45,10 +46,10 @@ def test_a_file_that_is_missing_or_no_fmu_is_named(tmp_path: Path) -> None:
     assert "no modelDescription" in refusal(tmp_path / "empty.fmu")
 
 
-@pytest.mark.parametrize("version", ["1.0", "3.0"])
+@pytest.mark.parametrize("version", ["1.0", "3.1"])
 def test_another_version_of_fmi_is_named(tmp_path: Path, version: str) -> None:
     xml = f'<fmiModelDescription fmiVersion="{version}" modelName="x"/>'
-    assert f"FMI version {version}; must be 2.0" in refusal(described(tmp_path, xml))
+    assert f"FMI version {version}; must be 2.0 or 3.0" in refusal(described(tmp_path, xml))
 
 
 def test_a_description_that_is_not_xml_is_an_error_of_the_fmu(tmp_path: Path) -> None:
@@ -81,3 +82,31 @@ def test_every_departure_from_the_interface_is_listed(python_fmu: Path, tmp_path
 def test_only_parameters_and_inputs_can_be_set(python_fmu: Path, name: str, message: str) -> None:
     with open_fmu(python_fmu) as fmu, pytest.raises(FmuError, match=message):
         fmu.settable(name)
+
+
+def test_an_archive_that_unpacks_to_too_much_is_refused_unopened(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(limits.UNPACKED, "1")
+    bomb = tmp_path / "bomb.fmu"
+    with zipfile.ZipFile(bomb, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr(XML, b" " * 3 * 2**20)
+    assert bomb.stat().st_size < 10_000
+    assert refusal(bomb).endswith("3 MiB unpacked; must be at most 1 MiB (--max-unpacked)")
+
+
+def test_an_archive_of_too_many_files_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(opening, "MAX_ENTRIES", 2)
+    crowd = tmp_path / "crowd.fmu"
+    with zipfile.ZipFile(crowd, "w") as archive:
+        for name in (XML, "a", "b"):
+            archive.writestr(name, "")
+    assert refusal(crowd).endswith("3 files; must be at most 2")
+
+
+def test_a_limit_that_is_no_number_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(limits.MEMORY, "much")
+    with pytest.raises(HarnessError, match="SLIDER_RESONATOR_MAX_MEMORY = 'much': must be a whole"):
+        limits.max_memory()

@@ -87,7 +87,8 @@ def test_markdown_keeps_each_row_on_its_line_with_all_cells() -> None:
         ("<b>&amp;", "&lt;b>&amp;amp;"),
         ("`code` *strong* ~gone~ $x$ \\", "\\`code\\` \\*strong\\* \\~gone\\~ \\$x\\$ \\\\"),
         ("_soft_ steady_velocity", "\\_soft\\_ steady_velocity"),
-        ("speed [m/s], ![image](http://x)", "speed [m/s], ![image]\\(http://x)"),
+        ("speed [m/s], ![image](http://x)", "speed [m/s], ![image]\\(http&#58;//x)"),
+        ("www.example.org me@example.org", "www&#46;example.org me&#64;example.org"),
         ("\x1b[31m", "�[31m"),
     ],
 )

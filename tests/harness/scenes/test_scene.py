@@ -6,8 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.device.interface import TUNABLES
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, scene_from
+from slider_resonator.scenes.schema import TuningTable
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 STEPS = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
@@ -89,6 +91,31 @@ def test_inputs_of_every_kind(tmp_path: Path) -> None:
     assert 0.01 in scene.schedule().times, "a step of an input is a communication point"
 
 
+def test_tuned_parameters_start_as_the_tuning_says_and_a_value_replaces_it(tmp_path: Path) -> None:
+    text = "[tuning]\nnormal_preload = { steps = [[0, 2.0], [0.01, 3.0]] }\n"
+    scene = read_scene(write(tmp_path, HEAD + RUN + text))
+    assert scene.device.normal_preload == 2.0
+    schedule = scene.schedule()
+    assert 0.01 in schedule.times, "a step of a parameter is a communication point"
+    devices = [inputs.tuned_device(scene.device) for inputs in schedule.held()]
+    assert [device.normal_preload for device in devices] == [2.0, 3.0]
+    replaced = scene.with_values({"normal_preload": 5.0})
+    assert replaced.device.normal_preload == 5.0
+    assert not replaced.schedule().tuning
+
+
+def test_commands_that_ignore_the_tuning_refuse_it(tmp_path: Path) -> None:
+    run = "[run]\nstop_time = 1.0\nstep_sizes = [0.1, 0.2]\nstart_time = 3.0\n"
+    scene = read_scene(write(tmp_path, HEAD + run))
+    with pytest.raises(SceneError, match="choose takes no scene with run"):
+        scene.check_plain("choose")
+    read_scene(write(tmp_path, HEAD + RUN)).check_plain("choose")
+
+
+def test_every_tunable_parameter_has_a_key() -> None:
+    assert tuple(TuningTable.model_fields) == TUNABLES
+
+
 def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Path) -> None:
     (tmp_path / "l.csv").write_text("time,value\n0,1\n0.05,2\n")
     text = '[inputs]\nload = { csv = "l.csv", between = "hold" }\n'
@@ -123,6 +150,42 @@ def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Pa
         ("[run]\nstop_time = 1e9\nstep_size = 1e-4\n", ["run", "1e+09", "1e+13", "3000000"]),
         ("[run]\nstop_time = 1\nsteps_per_period = 1e308\n", ["run", "communication steps"]),
         ("device = 3\n", ["device = 3", "a table"]),
+        ("[run]\nstop_time = 1\nstep_sizes = []\n", ["run.step_sizes", "at least 1 number"]),
+        ("[run]\nstop_time = 1\nstep_sizes = [0.1, 0]\n", ["run.step_sizes[1]", "above 0"]),
+        (
+            "[run]\nstop_time = 1\nstep_size = 1\nstep_sizes = [1]\n",
+            ["run", "step_size or steps_per_period or step_sizes"],
+        ),
+        (RUN + "start_time = inf\n", ["run.start_time = inf", "must be a finite number"]),
+        (RUN + "read_twice = 1\n", ["run.read_twice = 1", "must be true or false"]),
+        (RUN + "[tuning]\nnormal_prelod = 1\n", ["tuning", "did you mean 'normal_preload'?"]),
+        (RUN + "[tuning]\nslider_mass = 1\n", ["tuning.slider_mass", "unknown key"]),
+        (RUN + "[tuning]\nnormal_preload = {}\n", ["tuning.normal_preload", "exactly one"]),
+        (
+            RUN + "[tuning]\nnormal_preload = { steps = [[1, 0], [0, 1]] }\n",
+            ["tuning.normal_preload", "increase"],
+        ),
+        (
+            RUN + "[tuning]\ndrive_frequency = { steps = [[0, 1], [1, 0]] }\n",
+            ["drive_frequency = 0.0", "above 0"],
+        ),
+        ("[tuning]\nnormal_preload = 1\n", ["tuning.normal_preload", "[run] is missing"]),
+        (
+            RUN + "[device]\nnormal_preload = 1\n[tuning]\nnormal_preload = 1\n",
+            ["normal_preload is in [device] and in [tuning]"],
+        ),
+        ("[beside.device]\nslider_mas = 1\n", ["beside.device", "'slider_mass'"]),
+        ("[beside.inputs]\nphse = 1\n", ["beside.inputs.phse", "'phase'"]),
+        (
+            RUN + '[[expect]]\nquantity = "beside_differences"\nvalue = 0\nwhy = "x"\n',
+            ["beside_differences needs a second instance", "[beside] is missing"],
+        ),
+        (
+            RUN
+            + "[tuning]\nnormal_preload = { steps = [[0, 1], [0.1, 2]] }\n[[expect]]\n"
+            + 'quantity = "steady_status"\nvalue = "steady"\nwhy = "x"\n',
+            ["steady_status needs constant inputs and parameters"],
+        ),
         ("run = 3\n", ["run = 3", "a table"]),
         ("expect = 3\n", ["expect = 3", "headed [[expect]]"]),
         ('[expect]\nwhy = "x"\n', ["expect", "headed [[expect]]"]),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -30,9 +32,38 @@ def test_linear_contraction_is_solved_by_one_jacobian(slow: float) -> None:
     assert found.displacement == pytest.approx(2.0 * target[0], rel=1e-8)
     assert np.abs(np.sort(found.multipliers.real) - np.sort([slow, 0.2])).max() < 1e-9
     assert found.stability == "stable"
-    assert found.evaluations <= 14, (
-        f"a linear map needs one Jacobian and its multipliers, used {found.evaluations}"
+    assert found.evaluations <= 20, (
+        f"a linear map needs one Jacobian and both neighbours, used {found.evaluations}"
     )
+
+
+def kinked(below: float, above: float) -> Callable[[Vector], tuple[Vector, float]]:
+    """A slow direction with one multiplier below the fixed point and one above, and a fast one."""
+    basis = np.array([[1.0, 0.3], [-0.2, 1.0]])
+
+    def period_map(state: Vector) -> tuple[Vector, float]:
+        slow, fast = np.linalg.solve(basis, state - 0.4)
+        end = np.array([slow * (above if slow > 0.0 else below), 0.2 * fast + 0.1 * slow**2])
+        return basis @ end + 0.4, 0.0
+
+    return period_map
+
+
+@pytest.mark.parametrize("sides", [(1.0, 0.99), (0.99, 1.0), (1.0, 1.0)])
+def test_an_end_of_a_family_is_no_steady_motion(sides: tuple[float, float]) -> None:
+    found = fixed_point(kinked(*sides), np.array([0.5, 0.3]), ONES)
+    assert isinstance(found, NoFixedPoint)
+    assert found.status == "not_unique"
+
+
+@pytest.mark.parametrize(
+    ("sides", "stability"), [((0.9, 0.99), "stable"), ((1.1, 0.8), "unstable")]
+)
+def test_the_weaker_side_of_a_kink_counts(sides: tuple[float, float], stability: str) -> None:
+    found = fixed_point(kinked(*sides), np.array([0.5, 0.3]), ONES)
+    assert isinstance(found, FixedPoint)
+    assert found.multipliers[0] == pytest.approx(max(sides), rel=1e-6)
+    assert found.stability == stability
 
 
 def test_saturating_map_converges_from_a_far_guess() -> None:

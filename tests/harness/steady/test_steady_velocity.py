@@ -42,6 +42,21 @@ def test_steady_velocity_near_saturation_is_found(instance: Instance, load: floa
     assert motion.predicted == pytest.approx(motion.steady_velocity, rel=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("ratio", "amplitude", "phase"),
+    [(2.0, 3.0, 0.3), (2.0, 2.0, 1.0), (4.0, 3.0, 2.5), (-2.0, 3.0, 2.5)],
+)
+def test_a_family_of_motions_has_no_steady_one(
+    instance: Instance, ratio: float, amplitude: float, phase: float
+) -> None:
+    """Even ratios with flight while sliding turns; the search begins at an end of the family."""
+    values = {"frequency_ratio": ratio, "normal_amplitude": amplitude, "phase": phase}
+    motion = find_steady(instance, values)
+    assert motion.status == "not_unique"
+    assert motion.steady_velocity is None
+    assert motion.predicted > 0.01
+
+
 def test_stuck_device_does_not_creep(instance: Instance) -> None:
     motion = find_steady(instance, {"base_amplitude": 5e-9, "normal_amplitude": 0.5})
     assert motion.status == "stuck"

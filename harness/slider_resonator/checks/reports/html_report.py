@@ -8,7 +8,15 @@ from pathlib import Path
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.deviation_plot import deviation_png
 from slider_resonator.checks.validate import Curves, Validation, worst_of_sweeps
-from slider_resonator.checks.verdict import TITLE, place, sentence, title, value_text
+from slider_resonator.checks.verdict import (
+    TITLE,
+    judged_without,
+    not_applied,
+    place,
+    sentence,
+    title,
+    value_text,
+)
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -45,6 +53,9 @@ def _section(validation: Validation) -> list[str]:
         f'<p><span class="{colour}">{outcome}</span>: {passed} of {len(validation.checks)} checks '
         f"passed in {validation.wall_time:.1f} s</p>",
     ]
+    without = judged_without(validation)
+    if without:
+        parts.append(f"<p>{escaped(without)}</p>")
     for failure in validation.run_failures:
         where = f"{failure.scene}{place(failure.at, ' at ')}: " if failure.scene else ""
         parts.append(f'<p class="fail">{escaped(where + failure.reason)}</p>')
@@ -54,6 +65,11 @@ def _section(validation: Validation) -> list[str]:
     if validation.checks:
         table = Table(COLUMNS, [_row(check) for check in validation.checks])
         parts.append(folded(f"All {len(validation.checks)} checks", rendered(table)))
+    if validation.not_applied:
+        columns = texts("scene", "quantity", "not applicable because")
+        table = Table(columns, not_applied(validation))
+        label = f"{len(validation.not_applied)} checks that do not apply"
+        parts.append(folded(label, rendered(table)))
     return parts
 
 

@@ -41,5 +41,7 @@ def _plain(validation: Validation) -> dict[str, object]:
         "exit_code": validation.exit_code,
         "wall_time": validation.wall_time,
         "errors": validation.run_failures,
+        "lacks": validation.lacks,
+        "not_applicable": validation.not_applied,
         "checks": checks,
     }

@@ -8,7 +8,14 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 from slider_resonator.checks.validate import RunFailure, Validation
-from slider_resonator.checks.verdict import TITLE, place, sentence, title
+from slider_resonator.checks.verdict import (
+    TITLE,
+    judged_without,
+    not_applied,
+    place,
+    sentence,
+    title,
+)
 from slider_resonator.output.atomic import replacing
 
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -28,7 +35,7 @@ def write_junit(
         _suite(root, validation)
     if error:
         _suite(root, Validation(title, (), 0.0, (RunFailure("", error, {}),)))
-    counts = {"tests": 0, "failures": 0, "errors": 0}
+    counts = {"tests": 0, "failures": 0, "errors": 0, "skipped": 0}
     for suite in root:
         for name in counts:
             counts[name] += int(suite.attrib[name])
@@ -44,13 +51,23 @@ def _suite(root: ET.Element, validation: Validation) -> None:
         root,
         "testsuite",
         name=_text(validation.fmu),
-        tests=str(len(validation.checks) + len(validation.run_failures)),
+        tests=str(
+            len(validation.checks) + len(validation.run_failures) + len(validation.not_applied)
+        ),
         failures=str(sum(not check.passed for check in validation.checks)),
         errors=str(len(validation.run_failures)),
+        skipped=str(len(validation.not_applied)),
         time=f"{validation.wall_time:.3f}",
     )
+    without = judged_without(validation)
+    if without:
+        properties = ET.SubElement(suite, "properties")
+        ET.SubElement(properties, "property", name="judged", value=_text(without))
+    for scene, quantity, reason in not_applied(validation):
+        case = ET.SubElement(suite, "testcase", classname=scene, name=quantity)
+        ET.SubElement(case, "skipped", message=_text(f"not applicable: {reason}"))
     for check in validation.checks:
-        case = ET.SubElement(suite, "testcase", classname=check.scene, name=title(check))
+        case = ET.SubElement(suite, "testcase", classname=check.scene, name=_text(title(check)))
         if not check.passed:
             failure = ET.SubElement(case, "failure", message=_text(sentence(check)))
             failure.text = _text(f"{sentence(check)}\nexpected because: {check.why}")

@@ -6,7 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from slider_resonator.checks.validate import Validation
-from slider_resonator.checks.verdict import TITLE, place, sentence, title
+from slider_resonator.checks.verdict import (
+    TITLE,
+    judged_without,
+    not_applied,
+    place,
+    sentence,
+    title,
+)
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
@@ -38,9 +45,24 @@ def append_summary(
 def _parts(validations: Sequence[Validation], error: str) -> list[str]:
     parts = [f"Could not run: {escaped(error)}"] if error else []
     if validations:
-        columns = numbers("checks passed", "failed", "could not be run", "seconds")
+        columns = numbers(
+            "checks passed", "failed", "could not be run", "not applicable", "seconds"
+        )
         rows = [_fmu(validation) for validation in validations]
         parts.append(rendered(Table([*texts("FMU", "verdict"), *columns], rows)))
+    parts += [
+        escaped(f"{Path(validation.fmu).name}: {without}")
+        for validation in validations
+        if (without := judged_without(validation))
+    ]
+    skipped: list[Row] = [
+        (Path(validation.fmu).name, *row)
+        for validation in validations
+        for row in not_applied(validation)[:MAX_ROWS]
+    ]
+    if skipped:
+        columns = texts("FMU", "scene", "quantity", "not applicable because")
+        parts.append(rendered(Table(columns, skipped)))
     failures = [row for validation in validations for row in _failures(validation)]
     if failures:
         parts.append(rendered(Table(texts("FMU", "scene", "quantity", "verdict"), failures)))
@@ -49,7 +71,10 @@ def _parts(validations: Sequence[Validation], error: str) -> list[str]:
 
 def _fmu(validation: Validation) -> Row:
     failed = sum(not check.passed for check in validation.checks)
-    counts = (len(validation.checks) - failed, failed, len(validation.run_failures))
+    counts = (
+        *(len(validation.checks) - failed, failed),
+        *(len(validation.run_failures), len(validation.not_applied)),
+    )
     seconds = f"{validation.wall_time:.1f}"
     return (validation.fmu, OUTCOMES[validation.exit_code], *map(str, counts), seconds)
 

@@ -9,7 +9,13 @@ from rich.text import Text
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
-from slider_resonator.checks.verdict import place, sentence, value_text
+from slider_resonator.checks.verdict import (
+    judged_without,
+    not_applied,
+    place,
+    sentence,
+    value_text,
+)
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.output.terminal import STYLES, escaped, rendered
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -47,6 +53,8 @@ def print_validation(
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
             shown = escaped(f"{text}\n     {sentence(check)}")
             console.print(Text.assemble(("FAIL ", STYLES[Style.FAIL]), shown))
+    for scene, quantity, reason in not_applied(validation):
+        console.print(escaped(f"not applicable: {scene}: {quantity}: {reason}"), soft_wrap=True)
     console.print(_summary(validation), soft_wrap=True)
 
 
@@ -58,6 +66,9 @@ def _summary(validation: Validation) -> Text:
             parts += [(f"{count} {what}", STYLES[Style.FAIL]), (", ", "")]
     count = len(validation.checks)
     parts.append((f"{count - failed} of {count} checks passed in {validation.wall_time:.1f} s", ""))
+    without = judged_without(validation)
+    if without:
+        parts.append((f"; {escaped(without)}", STYLES[Style.NOTE]))
     return Text.assemble(*parts)
 
 

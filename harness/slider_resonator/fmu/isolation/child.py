@@ -1,9 +1,9 @@
 """The process of an isolated FMU, which runs tasks on one instance.
 
-`python -m slider_resonator.fmu.isolation.child FMU SECONDS` reads requests from its standard input
-and writes messages to its standard output, both pickled. The FMU itself sees an empty standard
-input, and what it prints goes to standard error. A call that takes longer than SECONDS ends the
-process with a traceback, also inside native code.
+`python -m slider_resonator.fmu.isolation.child FMU SECONDS FOLDER` reads requests from its standard
+input and writes messages to its standard output, both pickled. The FMU itself sees an empty
+standard input and runs in a folder in FOLDER; what it prints goes to standard error. A call that
+takes longer than SECONDS ends the process, also inside native code, with a traceback in FOLDER.
 """
 
 from __future__ import annotations
@@ -15,32 +15,68 @@ import sys
 import traceback
 from collections.abc import Iterator
 from functools import partial
+from pathlib import Path
 from typing import BinaryIO
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.isolation.messages import Failure, Message, Progress, Request, Result
+from slider_resonator.fmu.isolation.layout import TRACEBACK, WORK
+from slider_resonator.fmu.isolation.messages import (
+    Failure,
+    Message,
+    Opened,
+    Progress,
+    Request,
+    Result,
+    Started,
+)
 from slider_resonator.fmu.opening import open_fmu
+
+if sys.platform != "win32":
+    import resource
+
+
+MAX_WRITTEN = 2**26
+"""Maximum size (bytes) of a file that the FMU writes, also of what it prints."""
 
 
 def main() -> None:
     """Instantiate the FMU and run tasks until there are no more requests."""
-    path, limit = sys.argv[1], float(sys.argv[2])
+    path, limit, folder = sys.argv[1], float(sys.argv[2]), Path(sys.argv[3])
     requests, messages = _take_standard_streams()
-    faulthandler.enable()
-    faulthandler.dump_traceback_later(limit, exit=True)
+    _limit_files()
+    # Not with what the FMU prints, which may be endless, or look like a traceback.
+    trace = (folder / TRACEBACK).open("w", encoding="utf-8")
+    faulthandler.enable(trace)
+
+    def begin() -> None:
+        faulthandler.dump_traceback_later(limit, exit=True, file=trace)
+        _send(messages, Started())
+
     try:
-        with open_fmu(path) as fmu, instantiate(fmu) as instance:
-            faulthandler.cancel_dump_traceback_later()
-            _send(messages, Result())
-            for request in _read(requests):
-                faulthandler.dump_traceback_later(limit, exit=True)
-                message = _run(instance, request, messages)
+        with open_fmu(path) as fmu:
+            (folder / WORK).mkdir()
+            os.chdir(folder / WORK)
+            begin()
+            with instantiate(fmu) as instance:
                 faulthandler.cancel_dump_traceback_later()
-                _send(messages, message)
-            faulthandler.dump_traceback_later(limit, exit=True)
+                opened = Opened(fmu.runs_without_python, str(fmu.description.guid))
+                _send(messages, Result(opened))
+                for request in _read(requests):
+                    begin()
+                    message = _run(instance, request, messages)
+                    faulthandler.cancel_dump_traceback_later()
+                    _send(messages, message)
+                begin()
     except HarnessError as error:
         _send(messages, Failure(error))
+
+
+def _limit_files() -> None:
+    """Limit the files that this process writes, and let it leave no memory dump."""
+    if sys.platform != "win32":
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_WRITTEN, MAX_WRITTEN))
 
 
 def _take_standard_streams() -> tuple[BinaryIO, BinaryIO]:

@@ -7,6 +7,8 @@ from pathlib import Path
 
 PACKAGE_PATH = str(Path(__file__).resolve().parents[3])
 """The folder that this package is imported from."""
+FOLDER = "SLIDER_RESONATOR_FOLDER"
+"""The variable by which all processes of one temporary folder are known."""
 
 
 def child_environment(folder: str, *search_path: str) -> dict[str, str]:
@@ -14,6 +16,6 @@ def child_environment(folder: str, *search_path: str) -> dict[str, str]:
 
     This package is importable there, and what is in the folders of `search_path`.
     """
-    temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+    own = dict.fromkeys(("TMPDIR", "TEMP", "TMP", FOLDER), folder)
     search = os.pathsep.join([PACKAGE_PATH, *filter(None, search_path)])
-    return {**os.environ, **temporary, "PYTHONPATH": search}
+    return {**os.environ, **own, "PYTHONPATH": search}

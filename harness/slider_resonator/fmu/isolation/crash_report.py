@@ -6,6 +6,9 @@ import re
 import signal
 from collections.abc import Mapping
 
+from slider_resonator.fmu.isolation.supervised import Ending
+from slider_resonator.fmu.limits import max_memory
+
 MAX_PRINTED = 500
 """Maximum characters of the FMU's own output in the report."""
 
@@ -22,24 +25,35 @@ _CALLS: Mapping[str, str] = {
 """Function of `slider_resonator.fmu.instance` to the FMI functions that it calls."""
 
 _FRAME = re.compile(r'File ".*[\\/]fmu[\\/]instance\.py", line \d+ in (\w+)')
-_TRACEBACK = re.compile(r"^(Fatal Python error: |Timeout \(|Windows fatal exception: )", re.M)
+_LIMIT_MISSED = "Timeout ("
 
 
-def crash_report(log: str, code: int | None, limit: float) -> str:
-    """Return a sentence on how the process ended; `code` is None where it had to be killed.
+def missed_limit(trace: str, ending: Ending) -> bool:
+    """Whether a process ended itself at its time limit, or had to be ended."""
+    if ending.memory is not None or ending.escaped:
+        return False
+    return ending.code is None or (ending.code > 0 and _LIMIT_MISSED in trace)
 
-    `log` is what it wrote to standard error, with the traceback of the call it was in; `limit` is
-    its time limit (s).
+
+def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
+    """Return a sentence on how the process of an FMU ended.
+
+    `printed` is the end of what it wrote to standard error, `trace` the traceback of the call that
+    it was in, `limit` its time limit (s).
     """
-    timed_out = code is None or (code > 0 and "Timeout (" in log)
-    call = next((_CALLS[name] for name in _FRAME.findall(log) if name in _CALLS), "")
+    call = next((_CALLS[name] for name in _FRAME.findall(trace) if name in _CALLS), "")
     where = f" in {call}" if call else ""
-    if timed_out:
+    if ending.memory is not None:
+        report = (
+            f"the FMU was ended: it had {ending.memory >> 20} MiB in memory; must be at most "
+            f"{max_memory() >> 20} MiB (--max-memory)"
+        )
+    elif ending.escaped:
+        report = "the FMU has ended the process that watches it, and was ended"
+    elif missed_limit(trace, ending):
         report = f"no answer within the time limit of {limit:g} s{where}: the FMU was ended"
     else:
-        report = f"the FMU crashed{where}: its process ended with {_ending(code)}"
-    found = _TRACEBACK.search(log)
-    printed = log[: found.start()] if found else log
+        report = f"the FMU crashed{where}: its process ended with {_ending(ending.code)}"
     own = " ".join(printed.split())[-MAX_PRINTED:]
     return f"{report}; it printed: {own}" if own else report
 

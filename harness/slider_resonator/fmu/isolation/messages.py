@@ -16,6 +16,19 @@ class Request:
 
 
 @dataclass(frozen=True)
+class Started:
+    """Calls of the FMU begin: what they need has been loaded."""
+
+
+@dataclass(frozen=True)
+class Opened:
+    """The FMU is instantiated; whether it runs without Python, and its GUID."""
+
+    runs_without_python: bool
+    guid: str
+
+
+@dataclass(frozen=True)
 class Progress:
     """The share of the present task that is done, from 0 to 1."""
 
@@ -24,7 +37,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Result:
-    """The return value of a task; an empty first result means that the FMU is instantiated."""
+    """The return value of a task; that of opening the FMU is `Opened`."""
 
     value: Any = None
 
@@ -36,5 +49,5 @@ class Failure:
     error: Exception
 
 
-Message = Progress | Result | Failure
+Message = Started | Progress | Result | Failure
 """A message from the process of the FMU."""

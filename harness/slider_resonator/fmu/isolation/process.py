@@ -7,27 +7,41 @@ import pickle
 import queue
 import subprocess
 import sys
-import tempfile
 import threading
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import ExitStack
 from pathlib import Path
 from time import monotonic
 from typing import IO, Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.child_environment import child_environment
-from slider_resonator.fmu.isolation.crash_report import crash_report
-from slider_resonator.fmu.isolation.messages import Failure, Message, Progress, Request, Result
-from slider_resonator.fmu.isolation.process_group import end_group
+from slider_resonator.fmu.isolation.crash_report import crash_report, missed_limit
+from slider_resonator.fmu.isolation.layout import PRINTED, TRACEBACK
+from slider_resonator.fmu.isolation.messages import (
+    Failure,
+    Message,
+    Opened,
+    Progress,
+    Request,
+    Result,
+    Started,
+)
+from slider_resonator.fmu.isolation.request_pipe import RequestPipe
+from slider_resonator.fmu.isolation.supervised import Supervised
+from slider_resonator.output.temporary import temporary_folder
 
 TIME_LIMIT = 120.0
 """Default time limit of a task, s; the slowest built-in scene takes a few."""
-GRACE = 60.0
-"""Seconds beyond the time limit after which a process that did not end itself is killed: Python
-and the modules of a task must be loaded in them, also on a busy machine."""
+LOADING = 60.0
+"""Longest time (s) in which Python and the modules of a task must be loaded, also on a busy
+machine."""
+GRACE = 2.0
+"""Seconds beyond the time limit after which a process that did not end itself is killed."""
 POLL_INTERVAL = 0.5
 """Interval (s) at which the process is polled."""
+MAX_READ = 2**16
+"""Bytes that are read of the end of what an FMU has printed."""
 
 Task = Callable[..., Any]
 """A picklable function, called as `task(instance)` in the process of the FMU; one that reports
@@ -35,7 +49,11 @@ progress, as `task(instance, progress=report)`, where `report(share)` sends the 
 
 
 class FmuDied(FmuError):
-    """The process of the FMU crashed or exceeded its time limit, and has been cleaned up."""
+    """The process of the FMU crashed or exceeded a limit, and has been cleaned up."""
+
+    def __init__(self, message: str, *, missed_limit: bool = False) -> None:
+        super().__init__(message)
+        self.missed_limit = missed_limit
 
 
 class IsolatedFmu:
@@ -48,34 +66,43 @@ class IsolatedFmu:
     def __init__(self, fmu: Path, time_limit: float = TIME_LIMIT) -> None:
         self.time_limit = time_limit
         self._killed = False
+        self._resources = ExitStack()
         # Also for the unpacked FMU, which a process that has crashed leaves behind.
-        self._folder = tempfile.TemporaryDirectory(
-            prefix="slider-resonator-", ignore_cleanup_errors=True
-        )
-        self._log = Path(self._folder.name) / "printed.txt"
-        with self._log.open("wb") as log:
-            self._process = subprocess.Popen(
-                # -P: the present folder must not be on the search path.
-                [
-                    *(sys.executable, "-P", "-m", "slider_resonator.fmu.isolation.child"),
-                    *(str(fmu), repr(time_limit)),
-                ],
-                env=child_environment(self._folder.name, os.environ.get("PYTHONPATH", "")),
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=log,
-                start_new_session=True,
-            )
-        self._messages: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
-        self._reader = threading.Thread(
-            target=_collect, args=(self._process.stdout, self._messages), daemon=True
-        )
-        self._reader.start()
+        self._folder = self._resources.enter_context(temporary_folder())
         try:
-            self.result()
+            self._start(fmu)
+            opened: Opened = self.result()
         except BaseException:
             self.kill()
             raise
+        self.runs_without_python = opened.runs_without_python
+        self.guid = opened.guid
+
+    def _start(self, fmu: Path) -> None:
+        with self._log.open("wb") as log:
+            self._process = Supervised(
+                # -P: the present folder must not be on the search path.
+                [
+                    *(sys.executable, "-P", "-m", "slider_resonator.fmu.isolation.child"),
+                    *(str(fmu), repr(self.time_limit), str(self._folder)),
+                ],
+                self._folder,
+                child_environment(str(self._folder), os.environ.get("PYTHONPATH", "")),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=log,
+            )
+        requests, answers = self._process.process.stdin, self._process.process.stdout
+        assert requests is not None
+        assert answers is not None
+        self._requests = self._resources.enter_context(RequestPipe(requests))
+        self._messages: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
+        threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
+        self._resources.callback(self._process.end)
+
+    @property
+    def _log(self) -> Path:
+        return self._folder / PRINTED
 
     def __enter__(self) -> IsolatedFmu:
         """Return the isolated FMU."""
@@ -98,22 +125,22 @@ class IsolatedFmu:
         return self.result(progress)
 
     def submit(self, task: Task, *, reports_progress: bool = False) -> None:
-        """Send a task without waiting; FmuDied when the process has ended already."""
+        """Send a task without waiting for its result; FmuDied when the process has ended."""
         if self._killed:
             raise FmuDied("the process of the FMU has been ended")
         request = pickle.dumps(Request(task, reports_progress))
-        assert self._process.stdin is not None
         try:
-            self._process.stdin.write(request)
-            self._process.stdin.flush()
+            self._requests.write(request, LOADING + self.time_limit)
         except OSError as error:
             raise self._died() from error
 
     def result(self, progress: Callable[[float], None] | None = None) -> Any:
         """Wait for the task that was submitted first, and return or raise as `run` does."""
-        deadline = monotonic() + self.time_limit + GRACE
+        deadline = monotonic() + LOADING
         while True:
             match self._receive(deadline):
+                case Started():
+                    deadline = monotonic() + self.time_limit + GRACE
                 case Progress(share):
                     if progress is not None:
                         progress(share)
@@ -126,32 +153,25 @@ class IsolatedFmu:
         """Free the FMU and end its process; FmuDied when it crashes or hangs meanwhile."""
         if self._killed:
             return
-        assert self._process.stdin is not None
         try:
-            self._process.stdin.close()
-            if self._process.wait(self.time_limit + GRACE) != 0:
+            self._requests.close()
+            if not self._process.wait(self.time_limit + GRACE) or self._process.end().code != 0:
                 raise self._died()
-        except (OSError, subprocess.TimeoutExpired) as error:
+        except OSError as error:
             raise self._died() from error
         finally:
             self.kill()
 
     def kill(self) -> None:
         """End the process and all that it started, and remove its files."""
-        if self._killed:
-            return
-        self._killed = True
-        end_group(self._process)
-        assert self._process.stdin is not None
-        with suppress(OSError):  # the process has closed its end of the pipe
-            self._process.stdin.close()
-        self._reader.join(POLL_INTERVAL)
-        self._folder.cleanup()
+        if not self._killed:
+            self._killed = True
+            self._resources.close()
 
     def _receive(self, deadline: float) -> Message:
         """Return the next message; does not rely on the end of the pipe, which a child may hold."""
         while True:
-            ended = self._process.poll() is not None
+            ended = self._process.poll()
             left = deadline - monotonic()
             try:
                 message = self._messages.get(timeout=max(0.0, min(POLL_INTERVAL, left)))
@@ -165,14 +185,23 @@ class IsolatedFmu:
 
     def _died(self) -> FmuDied:
         """Return the error for a process that has ended or must be ended, and clean up."""
-        try:
-            code: int | None = self._process.wait(POLL_INTERVAL)
-        except subprocess.TimeoutExpired:
-            code = None
-            end_group(self._process)
-        log = self._log.read_text(encoding="utf-8", errors="replace")
+        self._process.wait(POLL_INTERVAL)
+        ending = self._process.end()
+        trace = _last(self._folder / TRACEBACK)
+        report = crash_report(_last(self._log), trace, ending, self.time_limit)
+        missed = missed_limit(trace, ending)
         self.kill()
-        return FmuDied(crash_report(log, code, self.time_limit))
+        return FmuDied(report, missed_limit=missed)
+
+
+def _last(file: Path) -> str:
+    """Return the last part of a file, empty where there is none."""
+    try:
+        with file.open("rb") as opened:
+            opened.seek(max(0, file.stat().st_size - MAX_READ))
+            return opened.read(MAX_READ).decode("utf-8", errors="replace")
+    except OSError:
+        return ""
 
 
 def _collect(file: IO[bytes], messages: queue.SimpleQueue[Message | None]) -> None:

@@ -12,6 +12,8 @@ from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
 
 MAX_CRASHES = 3
 """Crashes or missed time limits after which no more tasks are run."""
+MAX_MISSED = 2
+"""Missed time limits among them, each of which takes as long as the limit."""
 
 Item = TypeVar("Item")
 
@@ -40,11 +42,12 @@ def run_tasks(
     """Run a task for each item, one after the other, and yield each outcome.
 
     `meanwhile` is called for an item while the FMU is at work on it. After a crash or a missed
-    `time_limit` (s) the other items of that `name` are left out, and after `max_crashes` all.
+    `time_limit` (s) the other items of that `name` are left out, and after `max_crashes`, or
+    `MAX_MISSED` missed time limits, all; after None of them none.
     """
     process: IsolatedFmu | None = None
     crashed: set[str] = set()
-    crashes = 0
+    crashes = missed = 0
     try:
         for index, (item, task) in enumerate(tasks):
             if name(item) in crashed:
@@ -65,10 +68,11 @@ def run_tasks(
                 if isinstance(error, FmuDied):
                     crashed.add(name(item))
                     crashes += 1
+                    missed += error.missed_limit
                 yield Finished(item, error=error)
             else:
                 yield Finished(item, result)
-            if crashes == max_crashes:
+            if max_crashes is not None and (crashes >= max_crashes or missed >= MAX_MISSED):
                 rest = [name(other) for other, _ in tasks[index + 1 :]]
                 left_out = [one for one in dict.fromkeys(rest) if one not in crashed]
                 if left_out:

@@ -9,6 +9,7 @@ The fast motion is that of (32)-(34).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -20,6 +21,7 @@ from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, ch
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
 from slider_resonator.references.averaged.averaged_coulomb import slow_start
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged.block import slide_of_block
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
@@ -28,6 +30,10 @@ from slider_resonator.references.phase import advanced
 MAX_DETUNING = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow. For a
 load that repeats after several turns: of turns times the ratio, times the turns."""
+
+STEPS_PER_BEAT = 32
+"""Steps of the integrator, at least, in the time in which the phase of the normal load drifts by a
+turn."""
 
 
 @dataclass(frozen=True)
@@ -64,51 +70,89 @@ def mean_friction(
     )
 
 
+def full_friction(device: Device, phase: float, ratio: float) -> float:
+    """Return the mean friction in N of a block that slides without vibration, under either law.
+
+    ``phase`` in rad is that of the normal load, which counts only at ratio 0.
+    """
+    share = averaged_coulomb.mean_friction(1.0, 1.0, device.amplitude_ratio, phase, ratio)
+    return device.mean_friction * share
+
+
 def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> AveragedMotion:
     """Return the averaged motion under held inputs at ``times`` (shape (n,), s).
 
     ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
     start. The initial values fix the momentum and the centre of slider and resonator; right after
-    the start the fast motion is the steady one, whatever they are. Raises ValueError for inputs
+    the start the fast motion is the steady one, whatever they are. Without vibration it is the
+    motion of a block under dry friction. Raises ValueError for inputs
     with gaps, times outside them, and as `equivalent_force` does; RuntimeError when the slow motion
-    cannot be integrated.
+    cannot be integrated. Where a run tunes the drive the motion of slider and resonator goes on
+    without a jump, and so what is left of it without the drive's own swing jumps.
     """
     check_contiguous(held)
     check_times(times, held)
-    force = equivalent_force(device)
-    share = device.mass_ratio
-    slow = device.initial_velocity + share * device.initial_resonator_velocity + slow_start(device)
+    start, share = device, device.mass_ratio
+    drive = _Drive.of(held[0].tuned_device(device))
+    slow = device.initial_velocity + share * device.initial_resonator_velocity + drive.velocity
     centre = device.initial_position + share * device.initial_resonator_displacement
     theta = psi = 0.0
     rows = np.empty((0, 3))
+    last = np.array([device.initial_position, device.initial_velocity])
     for inputs in held:
+        tuned = inputs.tuned_device(start)
+        before, drive = drive, _Drive.of(tuned)
+        slow += (drive.velocity - before.velocity) * math.cos(theta)
+        centre += (drive.displacement - before.displacement) * math.sin(theta)
+        device, force = tuned, equivalent_force(tuned)
         local = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
         grid = np.union1d(local, [0.0, inputs.stop - inputs.start])
-        slope = _slow_acceleration(device, force, inputs, theta, psi)
-        moved, velocity = slow_trajectory(slope, grid, slow / force.velocity_amplitude)
-        moved, velocity = force.velocity_amplitude * moved, force.velocity_amplitude * velocity
+        if force.velocity_amplitude == 0.0:
+            friction = full_friction(device, inputs.phase + psi, inputs.frequency_ratio)
+            mass = device.total_mass
+            moved, velocity = slide_of_block(slow, friction, inputs.load, mass, grid)
+        else:
+            slope, drift = _slow_acceleration(device, force, inputs, theta, psi)
+            max_step = 2.0 * math.pi / (STEPS_PER_BEAT * drift) if drift else math.inf
+            moved, velocity = slow_trajectory(
+                slope, grid, slow / force.velocity_amplitude, max_step
+            )
+            moved, velocity = force.velocity_amplitude * moved, force.velocity_amplitude * velocity
         places = np.searchsorted(grid, local)
-        angle = theta + device.drive_frequency * local - force.angle
-        position = centre + moved[places] - force.ripple_amplitude * np.sin(angle)
-        fast = -force.velocity_amplitude * np.cos(angle)
-        slow_there = velocity[places]
-        rows = np.vstack([rows, np.column_stack([position, slow_there + fast, slow_there])])
+        angle = theta + device.drive_frequency * grid - force.angle
+        position = centre + moved - force.ripple_amplitude * np.sin(angle)
+        motion = np.column_stack([position, velocity - force.velocity_amplitude * np.cos(angle)])
+        there = motion[places]
+        there[local <= np.spacing(inputs.start)] = last
+        last = motion[-1]
+        rows = np.vstack([rows, np.column_stack([there, velocity[places]])])
         centre += float(moved[-1])
         slow = float(velocity[-1])
         turned = device.drive_frequency * float(grid[-1])
         theta, psi = advanced(theta, turned), advanced(psi, inputs.frequency_ratio * turned)
-    if times.size and times[0] == held[0].start:
-        rows[0, :2] = device.initial_position, device.initial_velocity
     return AveragedMotion(times, *rows.T)
+
+
+@dataclass(frozen=True)
+class _Drive:
+    """Amplitudes in m/s and m of the swing that the drive gives to the centre of the masses."""
+
+    velocity: float
+    displacement: float
+
+    @classmethod
+    def of(cls, device: Device) -> _Drive:
+        velocity = slow_start(device)
+        return cls(velocity, velocity / device.drive_frequency)
 
 
 def _slow_acceleration(
     device: Device, force: EquivalentForce, inputs: HeldInputs, theta: float, psi: float
-) -> Callable[[float, float], float]:
-    """Return the rate of V as a function of time and V, both V in units of the fast velocity.
+) -> tuple[Callable[[float, float], float], float]:
+    """Return the rate of V as a function of time and V, and how fast it varies with time (rad/s).
 
-    Time is that since the inputs were set, where base excitation and normal load have the angles
-    ``theta`` and ``psi``.
+    Both V are in units of the fast velocity. Time is that since the inputs were set, where base
+    excitation and normal load have the angles ``theta`` and ``psi``.
     """
     turns = turns_until_repeat(device.amplitude_ratio, inputs.frequency_ratio, MAX_DETUNING)
     ratio = inputs.frequency_ratio
@@ -124,4 +168,4 @@ def _slow_acceleration(
         )
         return -(friction + inputs.load) / momentum
 
-    return acceleration
+    return acceleration, abs(drift) * max(turns, 1)

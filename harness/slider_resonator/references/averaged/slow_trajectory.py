@@ -11,21 +11,25 @@ from slider_resonator.arrays import Array
 
 
 def slow_trajectory(
-    acceleration: Callable[[float, float], float], times: Array, velocity: float = 0.0
+    acceleration: Callable[[float, float], float],
+    times: Array,
+    velocity: float = 0.0,
+    max_step: float = np.inf,
 ) -> tuple[Array, Array]:
     """Return slow position and velocity at ``times`` (n,), from position 0 at the first of them.
 
-    ``acceleration`` is a function of time and velocity. Raises RuntimeError when it cannot be
-    integrated.
+    ``acceleration`` is a function of time and velocity; where it depends on time, steps of at most
+    ``max_step`` resolve it. Raises RuntimeError when it cannot be integrated.
     """
     solution = solve_ivp(
         lambda time, state: (state[1], acceleration(time, state[1])),
         (times[0], times[-1]),
         (0.0, velocity),
-        method="LSODA",
+        method="DOP853" if np.isfinite(max_step) else "LSODA",
         t_eval=times,
-        rtol=1e-8,
+        rtol=1e-10 if np.isfinite(max_step) else 1e-8,
         atol=1e-10,
+        max_step=max_step,
     )
     if not solution.success:
         raise RuntimeError(f"the slow motion cannot be integrated: {solution.message}")

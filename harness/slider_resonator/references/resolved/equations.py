@@ -223,9 +223,18 @@ def equations_of(device: Device) -> Equations:
 
 
 def initial_state(device: Device) -> State:
-    """Return the initial state; in fidelity 1 the resonator has none of its own."""
+    """Return the initial state; in fidelity 1 the resonator has none of its own.
+
+    There it vibrates steadily from the start, and the momentum of the pair is that of the initial
+    velocities: the slider takes what the resonator does not have. Raises ValueError as
+    `equations_of` does.
+    """
     if device.fidelity == 1:
-        return (device.initial_position, device.initial_velocity, 0.0, 0.0)
+        amplitude, _ = _steady_resonator(device)
+        momentum = device.total_mass * device.initial_velocity
+        momentum += device.resonator_mass * device.initial_resonator_velocity
+        momentum -= device.resonator_mass * device.drive_frequency * amplitude.real
+        return (device.initial_position, momentum / device.total_mass, 0.0, 0.0)
     return (
         device.initial_position,
         device.initial_velocity,

@@ -17,7 +17,6 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
-from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
 from slider_resonator.references.resolved.first_crossing import first_crossing
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.scipy_methods import (
@@ -54,12 +53,12 @@ def simulate(
     cover the whole span of the inputs. Raises ValueError for a device that the equations do not
     cover, another method, inputs with gaps, and times outside them.
     """
-    equations, solver = equations_of(device), scipy_method(method)
+    solver = scipy_method(method)
 
     def follow(segment: Segment) -> SegmentResult:
-        return _Motion(equations, segment).follow(solver, rtol, atol, steps_per_period)
+        return _Motion(segment).follow(solver, rtol, atol, steps_per_period)
 
-    return ModeSequence(equations, follow, initial_state(device), times).run(held)
+    return ModeSequence(device, follow, times).run(held)
 
 
 class _Motion:
@@ -68,11 +67,11 @@ class _Motion:
     The integrated states are (displacement since the start of the segment, velocity, Y, Y').
     """
 
-    def __init__(self, equations: Equations, segment: Segment) -> None:
-        self._equations = equations
+    def __init__(self, segment: Segment) -> None:
+        self._equations = segment.equations
         self._segment = segment
-        self._rate = equations.drive_frequency
-        self._angle_rate = segment.frequency_ratio * equations.drive_frequency
+        self._rate = segment.equations.drive_frequency
+        self._angle_rate = segment.frequency_ratio * self._rate
 
     def follow(
         self, method: Method, rtol: float, atol: float, steps_per_period: int

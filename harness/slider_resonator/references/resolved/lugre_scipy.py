@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
-from slider_resonator.references.resolved.contact import LIFTED
+from slider_resonator.references.resolved.contact import LIFTED, is_lifted, time_to_contact_change
+from slider_resonator.references.resolved.contact_record import ContactRecord
 from slider_resonator.references.resolved.equations import initial_state
-from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
+from slider_resonator.references.resolved.lugre_equations import lugre_equations_of
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.scipy_methods import Method, scipy_method, take_step
 from slider_resonator.references.resolved.trajectory import LugreTrajectory
@@ -37,13 +40,13 @@ def simulate_lugre(
 
     Takes the inputs that ``lugre_taylor.simulate_lugre`` takes. ``method`` is LSODA, Radau
     or, for soft bristles, DOP853, ``atol`` is in fractions of characteristic sizes of the states.
-    Reversals are counted between the ends of steps, and ``event_times`` is empty. Raises ValueError
-    as the other does, and for another method; RuntimeError if a step fails.
+    Reversals are looked for between the ends of steps, and located in the dense output. Raises
+    ValueError as the other does, and for another method; RuntimeError if a step fails.
     """
     solver = scipy_method(method)
     check_contiguous(held)
     check_times(times, held)
-    run = _Run(device, lugre_equations_of(device), times)
+    run = _Run(device, times)
     for inputs in held:
         run.follow(inputs, solver, rtol, atol)
     return run.recorder.lugre_trajectory()
@@ -52,20 +55,23 @@ def simulate_lugre(
 class _Run:
     """The state (position, velocity, Y, Y', z) of a run between held inputs, samples and counts."""
 
-    def __init__(self, device: Device, lugre: LugreEquations, times: Array) -> None:
+    def __init__(self, device: Device, times: Array) -> None:
         self.recorder = Recorder(times)
-        self._lugre = lugre
-        self._equations = lugre.equations
-        self._device = device
+        self._start = self._device = device
+        self._lugre = lugre_equations_of(device)
+        self._equations = self._lugre.equations
         self._state = np.array([*initial_state(device), device.initial_bristle_deflection])
         self._theta = 0.0
         self._psi = 0.0
 
     def follow(self, inputs: HeldInputs, method: Method, rtol: float, atol: float) -> None:
-        equations = self._equations
+        self._device = inputs.tuned_device(self._start)
+        self._lugre = lugre_equations_of(self._device)
+        self._equations = equations = self._lugre.equations
         ratio = inputs.frequency_ratio
         scales = np.append(equations.state_scales(inputs.load), self._lugre.max_deflection)
         start = self._state[0]
+        events = _Events(self.recorder.contact, self._switches(inputs), inputs.start)
         solver = method(
             self._slopes(inputs),
             0.0,
@@ -78,19 +84,39 @@ class _Run:
         while solver.status == "running":
             take_step(solver, inputs.start, "use a greater rtol")
             self.recorder.steps += 1
-            self.recorder.contact.slide(int(np.sign(solver.y[1])))
+            events.follow(solver)
             reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
             local = self.recorder.pending(reached) - inputs.start
             if local.size:
                 states = solver.dense_output()(local).T
                 states[:, 0] += start
                 self._keep(inputs, local, states)
+        events.finish(inputs.stop - inputs.start)
         self.recorder.evaluations += solver.nfev
         turned = equations.drive_frequency * (inputs.stop - inputs.start)
         self._theta += turned
         self._psi += ratio * turned
         self._state = solver.y
         self._state[0] += start
+
+    def _switches(self, inputs: HeldInputs) -> tuple[bool, list[float]]:
+        """Return whether the contact is open at first, and when it lifts and touches down (s).
+
+        Times are since the inputs are held.
+        """
+        equations = self._equations
+        load = equations.normal_preload, equations.normal_amplitude
+        rate = inputs.frequency_ratio * equations.drive_frequency
+        angle, span = self._psi + inputs.phase, inputs.stop - inputs.start
+        first = lifted = is_lifted(*load, angle, rate)
+        times: list[float] = []
+        time = 0.0
+        while (time := time + time_to_contact_change(lifted, *load, angle + rate * time, rate)) < (
+            span
+        ):
+            times.append(time)
+            lifted = not lifted
+        return first, times
 
     def _slopes(self, inputs: HeldInputs) -> Callable[[float, Array], list[float]]:
         equations = self._equations
@@ -140,3 +166,47 @@ class _Run:
             np.where(load > 0.0, np.sign(velocity), float(LIFTED)),
             deflection,
         )
+
+
+class _Events:
+    """Enters contact modes and reversals, in the order of their times, while inputs are held."""
+
+    def __init__(
+        self, contact: ContactRecord, switches: tuple[bool, list[float]], start: float
+    ) -> None:
+        self._contact = contact
+        self._lifted, self._switches = switches
+        self._start = start
+
+    def follow(self, solver: Any) -> None:
+        """Take in a step of a solver."""
+        direction = int(np.sign(solver.y[1]))
+        if direction * self._contact.direction < 0:
+            dense = solver.dense_output()
+
+            def velocity(time: float) -> float:
+                return float(dense(time)[1])
+
+            begin, end = solver.t_old, solver.t
+            turned = begin
+            if velocity(begin) * velocity(end) < 0.0:
+                turned = brentq(velocity, begin, end, xtol=1e-18, rtol=1e-15)
+            self._move(turned)
+            self._enter(direction, turned)
+        else:
+            self._enter(direction, solver.t_old)
+            self._move(solver.t)
+
+    def finish(self, time: float) -> None:
+        """Take in what is left up to a time (s) since the inputs are held."""
+        self._move(time)
+
+    def _move(self, time: float) -> None:
+        while self._switches and self._switches[0] <= time:
+            switch = self._switches.pop(0)
+            self._lifted = not self._lifted
+            self._enter(self._contact.direction, switch)
+
+    def _enter(self, direction: int, time: float) -> None:
+        self._contact.slide(direction, self._start + time)
+        self._contact.enter(LIFTED if self._lifted else direction, self._start + time)

@@ -19,7 +19,7 @@ from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, ch
 from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import LIFTED, is_lifted, time_to_contact_change
 from slider_resonator.references.resolved.equations import initial_state
-from slider_resonator.references.resolved.lugre_equations import LugreEquations, lugre_equations_of
+from slider_resonator.references.resolved.lugre_equations import lugre_equations_of
 from slider_resonator.references.resolved.polynomial_roots import first_fall
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.taylor_system import (
@@ -65,7 +65,7 @@ def simulate_lugre(
     """
     check_contiguous(held)
     check_times(times, held)
-    run = _Run(device, lugre_equations_of(device), times, bristle, tolerance)
+    run = _Run(device, times, bristle, tolerance)
     for inputs in held:
         run.follow(inputs)
     return run.recorder.lugre_trajectory()
@@ -78,16 +78,10 @@ class _Run:
     in the present direction, kept apart because it decays far below the rounding of the stretch.
     """
 
-    def __init__(
-        self,
-        device: Device,
-        lugre: LugreEquations,
-        times: Array,
-        bristle: Bristle,
-        tolerance: float,
-    ) -> None:
+    def __init__(self, device: Device, times: Array, bristle: Bristle, tolerance: float) -> None:
         self.recorder = Recorder(times)
-        self._lugre = lugre
+        self._device = device
+        self._lugre = lugre = lugre_equations_of(device)
         self._equations = lugre.equations
         self._from_path = bristle == "path"
         self._integrator = taylor_integrator(bristle, tolerance)
@@ -100,6 +94,7 @@ class _Run:
         self._psi = 0.0
 
     def follow(self, inputs: HeldInputs) -> None:
+        self._tune(inputs)
         equations = self._equations
         rate, ratio = equations.drive_frequency, inputs.frequency_ratio
         force, self._scales = scales_of(equations, inputs.load)
@@ -125,6 +120,15 @@ class _Run:
         missed = np.zeros(len(self.recorder.pending(inputs.stop)))
         self._keep(inputs, LIFTED if lifted else self.recorder.contact.direction, missed, still)
 
+    def _tune(self, inputs: HeldInputs) -> None:
+        """Take the device as it is over these inputs; the deflection of the bristle stays."""
+        before = self._lugre
+        self._lugre = lugre_equations_of(inputs.tuned_device(self._device))
+        self._equations = self._lugre.equations
+        if self._lugre.max_deflection != before.max_deflection:
+            self._stretch *= before.max_deflection / self._lugre.max_deflection
+            self._shortfall = self._direction - self._stretch
+
     def _follow_contact(
         self, inputs: HeldInputs, lifted: bool, elapsed: Elapsed, span: float
     ) -> None:
@@ -144,7 +148,7 @@ class _Run:
                 )
             if step > 0.0:
                 mode = LIFTED if lifted else self._direction
-                self.recorder.contact.slide(self._direction)
+                self.recorder.contact.slide(self._direction, inputs.start + start / rate)
                 self.recorder.contact.enter(mode, inputs.start + start / rate)
                 local = (self.recorder.pending(inputs.stop) - inputs.start) * rate - start
                 stop = (inputs.stop - inputs.start) * rate - start

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
 from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import (
@@ -19,7 +20,7 @@ from slider_resonator.references.resolved.contact import (
     mode_at_rest,
     time_to_contact_change,
 )
-from slider_resonator.references.resolved.equations import Equations, State
+from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -30,9 +31,10 @@ _MAX_EVENTS_AT_ONE_INSTANT = 20
 class ModeSequence:
     """Follows the motion through held inputs, from theta = psi = 0 at the first start."""
 
-    def __init__(self, equations: Equations, follow: Follow, state: State, times: Array) -> None:
-        self.state = state
-        self._equations = equations
+    def __init__(self, device: Device, follow: Follow, times: Array) -> None:
+        self.state = initial_state(device)
+        self._device = device
+        self._equations = equations_of(device)
         self._follow = follow
         self._recorder = Recorder(times)
         self._contact = self._recorder.contact
@@ -51,6 +53,7 @@ class ModeSequence:
         check_contiguous(held)
         check_times(self._recorder.times, held)
         for inputs in held:
+            self._equations = equations_of(inputs.tuned_device(self._device))
             self._run_held(inputs)
         return self._recorder.trajectory()
 
@@ -86,6 +89,7 @@ class ModeSequence:
         local = elapsed.until(self._recorder.pending() - inputs.start)
         samples = local[: np.searchsorted(local, span, side="right")]
         segment = Segment(
+            equations=self._equations,
             mode=mode,
             start=inputs.start + elapsed.seconds,
             state=self.state,

@@ -62,6 +62,8 @@ class Recorder:
             sticks=self.contact.sticks,
             stick_time=self.contact.stick_time,
             event_times=np.array(self.contact.event_times),
+            reversal_times=np.array(self.contact.reversal_times),
+            modes=np.array(self.contact.modes, dtype=np.int64),
             steps=self.steps,
             evaluations=self.evaluations,
         )

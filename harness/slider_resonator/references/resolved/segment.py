@@ -6,18 +6,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from slider_resonator.arrays import Array
-from slider_resonator.references.resolved.equations import State
+from slider_resonator.references.resolved.equations import Equations, State
 
 
 @dataclass(frozen=True)
 class Segment:
     """A contact mode with constant inputs, to be followed for at most ``span`` s.
 
-    It begins ``start`` s into the run, at the drive angle ``theta`` and the angle ``angle`` of the
-    normal load, rad. The motion is sampled at ``samples`` (shape (n,), ascending, within (0, span],
-    s from its start).
+    It obeys ``equations`` and begins ``start`` s into the run, at the drive angle ``theta`` and the
+    angle ``angle`` of the normal load, rad. The motion is sampled at ``samples`` (shape (n,),
+    ascending, within (0, span], s from its start).
     """
 
+    equations: Equations
     mode: int
     start: float
     state: State

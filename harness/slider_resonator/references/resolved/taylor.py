@@ -16,7 +16,6 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import LIFTED, STICK
-from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.polynomial_roots import first_fall
 from slider_resonator.references.resolved.segment import Segment, SegmentResult
@@ -50,23 +49,22 @@ def simulate(
     that the equations do not cover, inputs with gaps, and times outside them; ModuleNotFoundError
     when heyoka is not installed.
     """
-    equations = equations_of(device)
     integrator = taylor_integrator("coulomb", tolerance)
 
     def follow(segment: Segment) -> SegmentResult:
-        return _ScaledMotion(equations, segment, integrator).follow()
+        return _ScaledMotion(segment, integrator).follow()
 
-    return ModeSequence(equations, follow, initial_state(device), times).run(held)
+    return ModeSequence(device, follow, times).run(held)
 
 
 class _ScaledMotion:
     """One segment of motion in drive angle as time and forces over a characteristic force."""
 
-    def __init__(self, equations: Equations, segment: Segment, integrator: Any) -> None:
-        self._equations = equations
+    def __init__(self, segment: Segment, integrator: Any) -> None:
+        self._equations = segment.equations
         self._segment = segment
         self._integrator = integrator
-        self._force, self._scales = scales_of(equations, segment.load)
+        self._force, self._scales = scales_of(segment.equations, segment.load)
 
     def follow(self) -> SegmentResult:
         segment, integrator = self._segment, self._integrator

@@ -18,7 +18,9 @@ class Trajectory:
     as it acts in M X'' = -F - load + ... (in stick the force that holds the slider).
     ``reversals`` counts slips that start opposite to the slip before them, whether directly, after
     a stick or after a flight; ``sticks`` counts stick phases that begin after the first instant.
-    ``event_times`` are the instants of every change of contact mode, s; ``stick_time`` is in s.
+    ``event_times`` are the instants of every change of contact mode, s, and ``modes`` the contact
+    modes at the first instant and from each of them on: one more. ``reversal_times`` (s) are those
+    of the reversals, NaN where they are not located; ``stick_time`` is in s.
     """
 
     time: Array
@@ -33,6 +35,8 @@ class Trajectory:
     sticks: int
     stick_time: float
     event_times: Array
+    reversal_times: Array
+    modes: NDArray[np.int64]
     steps: int
     evaluations: int
 

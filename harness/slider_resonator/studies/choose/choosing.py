@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from math import ceil, inf
 from pathlib import Path
 
 from slider_resonator.errors import FmuError, SceneError
-from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import (
     COULOMB,
@@ -35,16 +36,20 @@ DOUBTFUL = (0.3, 3.0)
 """Errors over allowed ones, from windows, that the whole scene must confirm."""
 MIN_PERIODS = 40
 """Minimum drive periods of a search by shooting."""
+TIME_LIMIT = 600.0
+"""Default time limit of a choice, s."""
 
 
-def choose(scene: Scene, fmu: str | Path) -> Choice:
+def choose(scene: Scene, fmu: str | Path, time_limit: float = TIME_LIMIT) -> Choice:
     """Return the cheapest model, tolerance and communication step that the scene's needs allow.
 
-    `fmu` is where it is tried. Raises SceneError for a scene without needs and FmuError or Refusal
-    where the FMU cannot run the resolved device.
+    `fmu` is where it is tried, in a process of its own that may take `time_limit` (s). Raises
+    SceneError for a scene without needs and FmuError or Refusal where the FMU cannot run the
+    resolved device.
     """
-    with open_fmu(fmu) as opened, instantiate(opened) as instance:
-        return choose_with(instance, scene)
+    with IsolatedFmu(Path(fmu), time_limit) as isolated:
+        choice: Choice = isolated.run(partial(choose_with, scene=scene))
+        return choice
 
 
 def choose_with(instance: Instance, scene: Scene) -> Choice:
@@ -77,6 +82,7 @@ class _Choosing:
                 f"{scene.source}: scene {scene.name} has no [need]; must have a table of what it "
                 "needs, such as mean_velocity = { rel = 0.01 }"
             )
+        scene.check_plain("choose")
         self.instance = instance
         self.scene = scene
         self.needs = scene.need.needs

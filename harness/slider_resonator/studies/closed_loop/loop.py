@@ -13,7 +13,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.trials.hosts.hosts import Host, package_version
 from slider_resonator.trials.hosts.job import Job
-from slider_resonator.trials.hosts.runs import run_jobs
+from slider_resonator.trials.hosts.runs import TIME_LIMIT, run_jobs
 
 Array = NDArray[np.float64]
 
@@ -47,15 +47,18 @@ class LoopRecord:
     load: Array
 
 
-def run_loop(package: Path, host: Host, duty: Duty) -> tuple[LoopRecord, LoopRecord]:
+def run_loop(
+    package: Path, host: Host, duty: Duty, time_limit: float = TIME_LIMIT
+) -> tuple[LoopRecord, LoopRecord]:
     """Run the loop at the fidelity of the design and at that of the proof.
 
-    The host is a process of its own. Raises HarnessError where it is missing or cannot run.
+    The host is a process of its own, which may take `time_limit` (s). Raises HarnessError where it
+    is missing or cannot run.
     """
     host.version()
     jobs = [_job(package, name, duty) for name in (DESIGN, PROOF)]
     records = []
-    for job, answer in zip(jobs, run_jobs(host, jobs), strict=True):
+    for job, answer in zip(jobs, run_jobs(host, jobs, time_limit), strict=True):
         if answer.error is not None:
             raise HarnessError(f"{package} does not run in {host.name}: {answer.error}")
         rows = np.array(answer.rows, dtype=np.float64)

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-import tempfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from fmpy.ssp.ssd import read_ssd
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.fmu.opening import check_unpacked_size
+from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.studies.choose.choosing import choose_with
+from slider_resonator.studies.choose.choice import Choice
+from slider_resonator.studies.choose.choosing import TIME_LIMIT, choose_with
 from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
 from slider_resonator.studies.closed_loop.loop import DESIGN, FIDELITY, LoopRecord, parameters
 
@@ -27,20 +29,22 @@ def predicted_errors(
     design: LoopRecord,
     duty: Duty,
     progress: Callable[[float], None] = lambda share: None,
+    time_limit: float = TIME_LIMIT,
 ) -> list[float | None]:
     """Return the largest error (m/s) of the mean velocity at fidelity 0 after each load step.
 
     The slider of the package is given the phase that the controller gave it in the design, at every
     communication point, and the loads. The error is asked for while the loop answers, where it has
     settled and at the end; None stands for a load under which averaged motion does not meet the
-    need, the mean velocity within the duty's band. Raises HarnessError without a slider.
+    need, the mean velocity within the duty's band. The slider runs in a process of its own, which
+    may take `time_limit` (s) for each prediction. Raises HarnessError without a slider.
     """
     device = _device(package)
-    with _slider(package) as instance:
+    with _slider(package, time_limit) as slider:
         largest: list[float | None] = []
         for index, interval in enumerate(duty.load_steps):
             found = [
-                _error(instance, _scene(design, duty, device, stop))
+                _error(slider, _scene(design, duty, device, stop))
                 for stop in _instants(duty, interval)
             ]
             progress((index + 1) / len(duty.load_steps))
@@ -63,8 +67,8 @@ def _device(package: Path) -> dict[str, float]:
     return {n.removeprefix("slider."): v for n, v in values.items() if n.startswith("slider.")}
 
 
-def _error(instance: Instance, scene: Scene) -> float | None:
-    choice = choose_with(instance, scene)
+def _error(slider: IsolatedFmu, scene: Scene) -> float | None:
+    choice: Choice = slider.run(partial(choose_with, scene=scene))
     return choice.error["mean_velocity"] if choice.meets and choice.fidelity == 0 else None
 
 
@@ -87,12 +91,13 @@ def _scene(design: LoopRecord, duty: Duty, device: Mapping[str, float], stop: in
 
 
 @contextmanager
-def _slider(package: Path) -> Iterator[Instance]:
-    """Instantiate the slider of a package."""
+def _slider(package: Path, time_limit: float) -> Iterator[IsolatedFmu]:
+    """Instantiate the slider of a package in a process of its own."""
+    check_unpacked_size(package)
     sources = {part.name: part.source for part in read_ssd(str(package)).system.elements}
     if "slider" not in sources:
         raise HarnessError(f"{package}: no component slider, only {', '.join(sources)}")
-    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(package) as archive:
-        fmu = archive.extract(sources["slider"], folder)
-        with open_fmu(fmu) as opened, instantiate(opened) as instance:
-            yield instance
+    with temporary_folder() as folder, zipfile.ZipFile(package) as archive:
+        fmu = Path(archive.extract(sources["slider"], folder))
+        with IsolatedFmu(fmu, time_limit) as slider:
+            yield slider

@@ -22,7 +22,7 @@ HEAD = (
 
 def write_figures(folder: Path, figures: Iterable[PaperFigure], fmu: str, guid: str) -> None:
     """Write FIGURES.md with the caption of each figure; HarnessError when it cannot be written."""
-    lines = ["# Figures", "", f"FMU {fmu}, GUID {guid}. {HEAD}", ""]
+    lines = ["# Figures", "", f"{_origin(fmu, guid)} {HEAD}", ""]
     for figure in figures:
         lines += [f"## {figure.name}: {figure.title}", "", f"![{figure.title}]({figure.name}.png)"]
         lines += ["", f"{figure.caption} ([SVG]({figure.name}.svg))", ""]
@@ -36,7 +36,7 @@ def write_tables(
 
     Raises HarnessError when they cannot be written.
     """
-    lines = ["# Tables", "", f"FMU {fmu}, GUID {guid}.", ""]
+    lines = ["# Tables", "", _origin(fmu, guid), ""]
     for table, data in tables:
         content = {
             "fmu": fmu,
@@ -70,7 +70,7 @@ def write_claims(
     claims = [claim for _, group in groups for claim in group]
     content = {"fmu": fmu, "guid": guid, "claims": claims}
     write_text(folder / "claims.json", to_json(content) + "\n")
-    lines = ["# Statements of the paper, and what was measured", "", f"FMU {fmu}, GUID {guid}."]
+    lines = ["# Statements of the paper, and what was measured", "", _origin(fmu, guid)]
     lines += [verdicts(claims), ""]
     for title, group in groups:
         columns = texts("statement", "where", "measured", "verdict", "why")
@@ -96,3 +96,7 @@ def _claim_row(claim: Claim) -> Row:
 
 def _number(value: float | None) -> str:
     return "none" if value is None else f"{value:.6g}"
+
+
+def _origin(fmu: str, guid: str) -> str:
+    return f"FMU {markdown.escaped(fmu)}, GUID {markdown.escaped(guid)}."

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.fmu.instance import instantiate
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.output.atomic import replacing, write_text
+from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.targets import make_folder
@@ -64,6 +66,8 @@ NAMES = (*FIGURES, *TABLES, CLAIMS)
 SUFFIXES = (".png", ".svg")
 RESULTS = "results"
 """Folder of measured data within the report."""
+TIME_LIMIT = 900.0
+"""Default time limit of a figure, a table or a group of claims, s."""
 
 Progress = Callable[[str, float], None]
 
@@ -97,11 +101,18 @@ class Outcome:
         return tables and all(claim.confirmed for claim in self.claims)
 
 
-def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress) -> Outcome:
+def reproduce(
+    fmu_path: Path,
+    out: Path,
+    only: Sequence[str],
+    progress: Progress,
+    time_limit: float = TIME_LIMIT,
+) -> Outcome:
     """Write the report to the folder ``out``; ``only`` names some of `NAMES`, () is all.
 
-    Raises HarnessError for an unknown name, a file or folder that cannot be written, and as
-    `open_fmu` does.
+    The FMU runs in a process of its own, which may take ``time_limit`` (s) for each of them. Raises
+    HarnessError for an unknown name, a file or folder that cannot be written, and as `IsolatedFmu`
+    does.
     """
     for name in only:
         if name not in NAMES:
@@ -114,11 +125,11 @@ def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress
     groups = GROUPS if CLAIMS in chosen else ()
     jobs: list[PaperFigure | PaperTable | ClaimGroup] = [*figures, *tables, *groups]
     found: dict[str, Any] = {}
-    with open_fmu(fmu_path) as fmu, instantiate(fmu) as instance:
-        guid = str(fmu.description.guid)
+    with noting_on_interrupt(lambda: _kept(found, out)), IsolatedFmu(fmu_path, time_limit) as fmu:
+        guid = fmu.guid
         for index, job in enumerate(jobs):
             progress(job.name, index / len(jobs))
-            found[job.name] = job.measure(instance)
+            found[job.name] = fmu.run(partial(_measure, job.name))
             results = to_json({"guid": guid, "data": found[job.name]})
             write_text(out / RESULTS / f"{job.name}.json", results + "\n")
             if isinstance(job, PaperFigure):
@@ -143,6 +154,21 @@ def reproduce(fmu_path: Path, out: Path, only: Sequence[str], progress: Progress
         claims=[claim for _, group in claims for claim in group],
         wall_time=perf_counter() - began,
     )
+
+
+def _kept(found: Mapping[str, Any], out: Path) -> str:
+    kept = f"kept in {out}: {', '.join(found)}" if found else "nothing is finished"
+    return f"{kept}; --only makes the others"
+
+
+def _measure(name: str, instance: Instance) -> Any:
+    """Measure a figure, a table or a group of claims, in the process of the FMU."""
+    jobs: Mapping[str, PaperFigure | PaperTable | ClaimGroup] = {
+        **FIGURES,
+        **TABLES,
+        **{group.name: group for group in GROUPS},
+    }
+    return jobs[name].measure(instance)
 
 
 def _draw(figure: PaperFigure, data: Data, out: Path) -> None:

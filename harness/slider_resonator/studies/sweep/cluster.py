@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from concurrent.futures import CancelledError as FutureCancelled
 from concurrent.futures import Future
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlug
 from slider_resonator import __version__
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.studies.sweep.measures import Task
-from slider_resonator.studies.sweep.worker import ChunkRunner, Point, Rows, failed_row
+from slider_resonator.studies.sweep.worker import TIME_LIMIT, ChunkRunner, Point, Rows, failed_row
 
 CONNECT_SECONDS = 30
 
@@ -29,12 +29,15 @@ class FmuPlugin(WorkerPlugin):
     Raises HarnessError on a worker with another version of this package: its rows could differ.
     """
 
-    def __init__(self, digest: str, file_name: str, content: bytes) -> None:
+    def __init__(
+        self, digest: str, file_name: str, content: bytes, time_limit: float = TIME_LIMIT
+    ) -> None:
         self.name = f"slider-resonator-{digest}"
         self.version = __version__
         self.digest = digest
         self.file_name = file_name
         self.content = content
+        self.time_limit = time_limit
 
     def setup(self, worker: Worker) -> None:
         """Write the FMU on the worker's machine, in the folder that goes with the worker."""
@@ -46,7 +49,7 @@ class FmuPlugin(WorkerPlugin):
         folder = tempfile.mkdtemp(prefix="fmu-", dir=worker.local_directory)
         fmu = Path(folder) / self.file_name
         fmu.write_bytes(self.content)
-        _runners[self.digest] = ChunkRunner(fmu)
+        _runners[self.digest] = ChunkRunner(fmu, self.time_limit)
 
     def teardown(self, worker: Worker) -> None:
         """End the FMU's processes on the worker."""
@@ -83,24 +86,29 @@ class DaskWorkers:
     @property
     def count(self) -> int:
         """How many threads the workers have at present."""
-        threads: dict[str, int] = self.client.nthreads()  # type: ignore[no-untyped-call]
+        with _naming_loss(self.address):
+            threads: dict[str, int] = self.client.nthreads()  # type: ignore[no-untyped-call]
         return max(1, sum(threads.values()))
 
     def submit(self, points: Sequence[Point]) -> Future[Rows]:
         """Begin to compute a chunk."""
-        future: Future[Rows] = self._executor.submit(run_chunk, self.task, self.digest, points)
-        return future
+        with _naming_loss(self.address):
+            future: Future[Rows] = self._executor.submit(run_chunk, self.task, self.digest, points)
+            return future
 
     def replace_lost(self) -> None:
         """Check that the cluster is still there: it replaces its workers itself."""
         if self.client.status != "running":
             raise HarnessError(
-                f"{self.address}: the cluster is lost; the same command continues the sweep"
+                f"--dask {self.address}: the scheduler is lost; the same command continues the "
+                "sweep"
             )
 
 
 @contextmanager
-def dask_workers(task: Task, digest: str, fmu: Path, address: str) -> Iterator[DaskWorkers]:
+def dask_workers(
+    task: Task, digest: str, fmu: Path, address: str, time_limit: float = TIME_LIMIT
+) -> Iterator[DaskWorkers]:
     """Yield the workers of the scheduler at `address`; HarnessError where none answers."""
     try:
         client = Client(  # type: ignore[no-untyped-call]
@@ -109,10 +117,23 @@ def dask_workers(task: Task, digest: str, fmu: Path, address: str) -> Iterator[D
     except (OSError, ValueError) as error:
         raise HarnessError(f"--dask {address}: no scheduler answers: {error}") from error
     with client:
-        plugin = FmuPlugin(digest, fmu.name, fmu.read_bytes())
-        client.register_plugin(plugin)
+        plugin = FmuPlugin(digest, fmu.name, fmu.read_bytes(), time_limit)
+        with _naming_loss(address):
+            client.register_plugin(plugin)
         try:
             yield DaskWorkers(client, address, task, digest)
         finally:
             if client.status == "running":
-                client.unregister_worker_plugin(plugin.name)  # type: ignore[no-untyped-call]
+                with suppress(OSError):
+                    client.unregister_worker_plugin(plugin.name)  # type: ignore[no-untyped-call]
+
+
+@contextmanager
+def _naming_loss(address: str) -> Iterator[None]:
+    """Turn the loss of the scheduler into a HarnessError that names it."""
+    try:
+        yield
+    except OSError as error:  # also that of a closed connection and of a timeout
+        raise HarnessError(
+            f"--dask {address}: the scheduler is lost; the same command continues the sweep"
+        ) from error

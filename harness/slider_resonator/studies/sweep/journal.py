@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import zlib
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -16,7 +18,7 @@ try:
 except ImportError:  # Windows: two sweeps into one file are then not noticed
     fcntl = None  # type: ignore[assignment]
 
-FORMAT = 1
+FORMAT = 2
 
 
 def journal_path(table: Path) -> Path:
@@ -27,8 +29,9 @@ def journal_path(table: Path) -> Path:
 class Journal:
     """One line of JSON for each finished point, after a line that says which sweep it is.
 
-    A line that was cut off by the end of its writer is dropped, and its point is computed again.
-    With `restart` all that the file holds is discarded.
+    Each begins with a checksum. A line that was cut off by the end of its writer is dropped, and so
+    are those whose numbers are in `damaged`: their points are computed again. With `restart` all
+    that the file holds is discarded.
     Raises HarnessError for the journal of another sweep, for a file that is none, and while another
     process writes it.
     """
@@ -36,6 +39,7 @@ class Journal:
     def __init__(self, path: Path, digest: str, *, restart: bool = False) -> None:
         self.path = path
         self.rows: dict[int, Row] = {}
+        self.damaged: list[int] = []
         try:
             self._file: BinaryIO = path.open("a+b")
             self._lock()
@@ -65,7 +69,8 @@ class Journal:
         return self
 
     def __exit__(self, *error: object) -> None:
-        self._file.close()
+        with suppress(OSError):  # of a full disk, which `add` has reported
+            self._file.close()
 
     def _lock(self) -> None:
         if fcntl is None:
@@ -77,29 +82,45 @@ class Journal:
             raise HarnessError(f"{self.path}: another sweep is writing it") from error
 
     def _read(self, digest: str) -> None:
+        """Read the rows; drop a line that was cut off at the end, and those that are damaged."""
         self._file.seek(0)
-        sound = 0
-        for number, line in enumerate(self._file):
-            entry = _entry(line)
-            if entry is None:
-                if number == 0 and line.endswith(b"\n"):
-                    raise HarnessError(
-                        f"{self.path}: is no journal of a sweep; move it away, or discard it "
-                        "with --restart"
-                    )
-                break
-            if number == 0:
-                self._check(entry, digest)
+        lines = self._file.read().splitlines(keepends=True)
+        for number, line in enumerate(lines, start=1):
+            whole = line.endswith(b"\n")
+            entry = _entry(line) if whole else None
+            if number == 1:
+                if whole:
+                    self._check(entry, digest)
+            elif entry is None:
+                if whole:
+                    self.damaged.append(number)
             else:
-                point, cells, failure = entry
-                self.rows[point] = (point, cells, failure)
-            sound += len(line)
-        self._file.truncate(sound)
+                self._keep(number, entry)
+        if self.damaged or not lines or not lines[-1].endswith(b"\n"):
+            self._file.truncate(0)
+            self._write([_line({"format": FORMAT, "sweep": digest}), *map(_line, self._in_order())])
         self._file.seek(0, os.SEEK_END)
-        if sound == 0:
-            self._write([_line({"format": FORMAT, "sweep": digest})])
+
+    def _in_order(self) -> list[Row]:
+        return list(self.rows.values())
+
+    def _keep(self, number: int, entry: object) -> None:
+        """Keep the row of a line; HarnessError for what is sound and no row."""
+        match entry:
+            case [int(point), list(cells), None | str() as failure]:
+                self.rows[point] = (point, cells, failure)
+            case _:
+                raise HarnessError(
+                    f"{self.path} line {number}: is no point of a sweep; must be number, results "
+                    "and error; --restart discards the file"
+                )
 
     def _check(self, header: object, digest: str) -> None:
+        if not isinstance(header, dict) or "sweep" not in header:
+            raise HarnessError(
+                f"{self.path} line 1: is no journal of a sweep, or damaged; move the file away, or "
+                "discard it with --restart"
+            )
         if header != {"format": FORMAT, "sweep": digest}:
             raise HarnessError(
                 f"{self.path}: holds points of another sweep, another FMU or another version; "
@@ -115,14 +136,20 @@ class Journal:
 
 
 def _line(entry: object) -> str:
-    return json.dumps(entry, separators=(",", ":")) + "\n"
+    text = json.dumps(entry, separators=(",", ":"))
+    return f"{_checksum(text.encode())} {text}\n"
 
 
 def _entry(line: bytes) -> Any:
-    """Return the content of a line, None for an incomplete one."""
-    if not line.endswith(b"\n"):
+    """Return the content of a line, None for one that is damaged."""
+    checksum, _, text = line.rstrip(b"\n").partition(b" ")
+    if checksum != _checksum(text).encode():
         return None
     try:
-        return json.loads(line)
+        return json.loads(text)
     except ValueError:
         return None
+
+
+def _checksum(text: bytes) -> str:
+    return f"{zlib.crc32(text):08x}"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from slider_resonator.errors import FmuError
 from slider_resonator.studies.sweep.measures import Task
-from slider_resonator.studies.sweep.worker import ChunkRunner, Point, Rows
+from slider_resonator.studies.sweep.worker import TIME_LIMIT, ChunkRunner, Point, Rows
 
 
 def available_cores() -> int:
@@ -26,10 +26,10 @@ class LocalWorkers:
     losses: tuple[type[BaseException], ...] = (FmuError,)
     attempts = 3
 
-    def __init__(self, task: Task, fmu: Path, count: int) -> None:
+    def __init__(self, task: Task, fmu: Path, count: int, time_limit: float) -> None:
         self.task = task
         self.count = count
-        self._runner = ChunkRunner(fmu.resolve())
+        self._runner = ChunkRunner(fmu.resolve(), time_limit)
         self._threads = ThreadPoolExecutor(count)
 
     def submit(self, points: Sequence[Point]) -> Future[Rows]:
@@ -48,9 +48,11 @@ class LocalWorkers:
 
 
 @contextmanager
-def local_workers(task: Task, fmu: Path, count: int) -> Iterator[LocalWorkers]:
-    """Yield `count` processes for the length of the block."""
-    workers = LocalWorkers(task, fmu, count)
+def local_workers(
+    task: Task, fmu: Path, count: int, time_limit: float = TIME_LIMIT
+) -> Iterator[LocalWorkers]:
+    """Yield `count` processes for the length of the block; `time_limit` (s) is that of a point."""
+    workers = LocalWorkers(task, fmu, count, time_limit)
     try:
         yield workers
     finally:

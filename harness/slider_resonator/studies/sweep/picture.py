@@ -17,6 +17,7 @@ from slider_resonator.studies.sweep.grid import Sweep
 from slider_resonator.studies.sweep.measures import Array, unit
 from slider_resonator.studies.sweep.table import Columns
 
+NO_ANSWER = "no answer"
 MAX_LINES = 6
 """Values of a variable that are drawn as a line each; more of them make a map."""
 
@@ -50,6 +51,7 @@ def draw_sweep(sweep: Sweep, columns: Columns, path: Path) -> None:
                 _over_grid(axes, sweep, values, result, label)
             else:
                 points = axes.scatter(values[names[0]], values[names[1]], c=result, s=12)
+                _unanswered(axes, values[names[0]], values[names[1]], result)
                 axes.set_ylabel(_variable(names[1]))
                 figure.colorbar(points, ax=axes, label=label)
             if not axes.get_xlabel():
@@ -82,6 +84,7 @@ def _over_grid(
         largest = float(np.nanmax(np.abs(image)))
         limit = {"vmin": -largest, "vmax": largest, "cmap": "RdBu_r"}
     mesh = axes.pcolormesh(x, y, image, shading="nearest", rasterized=True, **limit)
+    _unanswered(axes, values[one], values[other], result)
     axes.grid(False)
     axes.set_ylabel(_variable(other))
     axes.figure.colorbar(mesh, ax=axes, label=label)
@@ -90,7 +93,27 @@ def _over_grid(
 def _line(axes: Axes, x: Array, y: Array, label: str | None) -> None:
     order = np.argsort(x, kind="stable")
     marker = "." if len(x) <= 200 else ""
-    axes.plot(x[order], y[order], marker=marker, label=label)
+    (line,) = axes.plot(x[order], y[order], marker=marker, label=label)
+    missing = x[np.isnan(y)]
+    if missing.size:
+        axes.plot(
+            missing,
+            np.zeros(missing.size),
+            "x",
+            color=line.get_color(),
+            label=f"{label}: {NO_ANSWER}" if label else NO_ANSWER,
+            transform=axes.get_xaxis_transform(),  # on the axis, whatever the results are
+            clip_on=False,
+        )
+        axes.legend()
+
+
+def _unanswered(axes: Axes, x: Array, y: Array, result: Array) -> None:
+    """Mark the points without a result."""
+    missing = np.isnan(result)
+    if missing.any():
+        axes.plot(x[missing], y[missing], "x", color="0.5", markersize=4, label=NO_ANSWER)
+        axes.legend()
 
 
 def _variable(name: str) -> str:

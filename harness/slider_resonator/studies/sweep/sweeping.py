@@ -13,21 +13,34 @@ from pathlib import Path
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.studies.sweep.grid import Sweep
 from slider_resonator.studies.sweep.journal import Journal, journal_path
 from slider_resonator.studies.sweep.local import local_workers
 from slider_resonator.studies.sweep.running import Workers, run_points
-from slider_resonator.studies.sweep.table import Columns, check_writer, table_columns, write_table
-from slider_resonator.studies.sweep.worker import Row
+from slider_resonator.studies.sweep.table import (
+    Columns,
+    check_writer,
+    holds_other_points,
+    table_columns,
+    write_table,
+)
+from slider_resonator.studies.sweep.worker import TIME_LIMIT, Row
 
 
 @dataclass(frozen=True)
 class SweepResult:
-    """A finished sweep: `found` points were finished before it began, `failed` have an error."""
+    """A finished sweep: `found` points were finished before it began, `failed` have an error.
+
+    `unanswered` have no error, but a measure that does not exist there, such as a steady velocity.
+    `damaged` are the lines of the journal that were dropped, and their points computed again.
+    """
 
     points: int
     found: int
     failed: int
+    unanswered: int
+    damaged: Sequence[int]
     first_error: str | None
     columns: Columns
 
@@ -40,14 +53,23 @@ def run_sweep(
     workers: int,
     dask: str | None = None,
     restart: bool = False,
+    overwrite: bool = False,
+    time_limit: float = TIME_LIMIT,
     progress: Callable[[str, float], None] = lambda label, share: None,
 ) -> SweepResult:
     """Compute the points that the journal beside `out` does not hold, and write the table.
 
-    `workers` is the number of processes here, unless `dask` is the address of a scheduler.
-    Raises HarnessError where the sweep cannot be run; what is finished then stays in the journal.
+    `workers` is the number of processes here, unless `dask` is the address of a scheduler. A point
+    that takes longer than `time_limit` (s) fails. Raises HarnessError where the sweep cannot be run
+    or, without `overwrite`, `out` is the table of other points; what is finished stays in the
+    journal.
     """
     check_writer(out)
+    if not overwrite and holds_other_points(out, sweep.task, sweep.points):
+        raise HarnessError(
+            f"{out}: is not a table of this grid's points; must be a new file, or --overwrite to "
+            "replace it"
+        )
     with open_fmu(fmu):
         pass  # the file is checked once, not at every point
     fmu_digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
@@ -62,27 +84,53 @@ def run_sweep(
 
         keep([])
         if left:
-            with _workers(sweep, fmu_digest, fmu, min(workers, len(left)), dask) as at_work:
+            count = min(workers, len(left))
+            with (
+                noting_on_interrupt(lambda: _kept(journal, len(sweep.points))),
+                _workers(sweep, fmu_digest, fmu, count, dask, time_limit) as at_work,
+            ):
                 run_points(at_work, sweep.task, left, keep)
         columns = table_columns(sweep.task, sweep.points, journal.rows)
         write_table(out, sweep.task, columns)
         journal.remove()
     errors = [error for error in columns["error"] if error is not None]
     return SweepResult(
-        len(sweep.points), found, len(errors), errors[0] if errors else None, columns
+        points=len(sweep.points),
+        found=found,
+        failed=len(errors),
+        unanswered=_unanswered(sweep, columns),
+        damaged=journal.damaged,
+        first_error=errors[0] if errors else None,
+        columns=columns,
+    )
+
+
+def _unanswered(sweep: Sweep, columns: Columns) -> int:
+    """Return how many points have no error, but lack a measure."""
+    measures = zip(*(columns[name] for name in sweep.task.measures), strict=True)
+    return sum(
+        error is None and None in values
+        for error, values in zip(columns["error"], measures, strict=True)
+    )
+
+
+def _kept(journal: Journal, points: int) -> str:
+    return (
+        f"{len(journal.rows)} of {points} points are kept in {journal.path}; the same command goes "
+        "on from there"
     )
 
 
 def _workers(
-    sweep: Sweep, digest: str, fmu: Path, count: int, dask: str | None
+    sweep: Sweep, digest: str, fmu: Path, count: int, dask: str | None, time_limit: float
 ) -> AbstractContextManager[Workers]:
     if dask is None:
-        return local_workers(sweep.task, fmu, count)
+        return local_workers(sweep.task, fmu, count, time_limit)
     if find_spec("distributed") is None:
         raise HarnessError("--dask needs dask.distributed: pip install 'slider-resonator[cluster]'")
     from slider_resonator.studies.sweep.cluster import dask_workers
 
-    return dask_workers(sweep.task, digest, fmu, dask)
+    return dask_workers(sweep.task, digest, fmu, dask, time_limit)
 
 
 def _digest(sweep: Sweep, fmu_digest: str) -> str:

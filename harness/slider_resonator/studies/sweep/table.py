@@ -42,6 +42,33 @@ def table_columns(
     return dict(zip(names, map(list, zip(*lines, strict=True)), strict=True))
 
 
+def holds_other_points(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> bool:
+    """Whether a file is there that is not a table of these points."""
+    if not path.exists():
+        return False
+    names = ["point", *task.names]
+    try:
+        found = (
+            _read_csv(path, names) if path.suffix.lower() == ".csv" else _read_parquet(path, names)
+        )
+    except (OSError, ValueError, KeyError, csv.Error):
+        return True
+    return found != [(float(number), *point) for number, point in enumerate(points)]
+
+
+def _read_csv(path: Path, names: Sequence[str]) -> list[tuple[float, ...]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file, strict=True))
+    return [tuple(float(row[name]) for name in names) for row in rows]
+
+
+def _read_parquet(path: Path, names: Sequence[str]) -> list[tuple[float, ...]]:
+    from pyarrow import parquet
+
+    columns = parquet.read_table(path, columns=list(names)).to_pydict()
+    return [tuple(map(float, row)) for row in zip(*(columns[name] for name in names), strict=True)]
+
+
 def write_table(path: Path, task: Task, columns: Columns) -> None:
     """Write the table; the suffix chooses the format. Numbers come back to the last digit."""
     with replacing(path) as temporary:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -13,8 +13,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.studies.sweep.measures import Cell, Task, measure
 
-TIME_LIMIT = 600.0
-"""Time limit of a chunk, s; a chunk is sized to take a fraction of a second."""
+TIME_LIMIT = 120.0
+"""Default time limit of a point, s."""
 
 Point = tuple[int, tuple[float, ...]]
 """Number of a point and its values."""
@@ -27,30 +27,53 @@ Rows = tuple[list[Row], float]
 class ChunkRunner:
     """Computes chunks of points; every thread that asks has a process of its own for the FMU."""
 
-    def __init__(self, fmu: Path) -> None:
+    def __init__(self, fmu: Path, time_limit: float = TIME_LIMIT) -> None:
         self.fmu = fmu
+        self.time_limit = time_limit
         self._own = threading.local()
         self._processes: list[IsolatedFmu] = []
 
     def run(self, task: Task, points: Sequence[Point]) -> Rows:
         """Return the rows of the points; a point that fails has a row with its error.
 
-        Raises FmuDied when the FMU ended its process; the next chunk gets a new one.
+        So has one that takes longer than the time limit. Raises FmuDied when the FMU ended its
+        process otherwise; the next chunk gets a new one.
         """
+        rows: list[Row] = []
+        seconds = 0.0
+        while len(rows) < len(points):
+            left = points[len(rows) :]
+            try:
+                isolated = self._isolated()
+            except FmuDied:
+                raise
+            except FmuError as error:
+                text = _text(error, self.fmu)
+                return [*rows, *(failed_row(task, number, text) for number, _ in left)], seconds
+            try:
+                for row, taken in self._results(isolated, task, left):
+                    rows.append(row)
+                    seconds += taken
+            except FmuDied as error:
+                if not error.missed_limit:
+                    raise
+                rows.append(failed_row(task, points[len(rows)][0], str(error)))
+                seconds += self.time_limit
+        return rows, seconds
+
+    def _results(
+        self, isolated: IsolatedFmu, task: Task, points: Sequence[Point]
+    ) -> Iterator[tuple[Row, float]]:
+        """Yield the row of each point and the seconds that it took; end the process on an error."""
         try:
-            isolated = self._isolated()
-        except FmuDied:
-            raise
-        except FmuError as error:
-            text = _text(error, self.fmu)
-            return [failed_row(task, number, text) for number, _ in points], 0.0
-        try:
-            rows: Rows = isolated.run(partial(measure_points, task=task, points=points))
+            for point in points:
+                isolated.submit(partial(measure_point, task=task, point=point))
+            for _ in points:
+                yield isolated.result()
         except BaseException:
             isolated.kill()
             self._processes = [one for one in self._processes if one is not isolated]
             raise
-        return rows
 
     def end(self) -> None:
         """End all processes, also in the middle of a chunk."""
@@ -61,19 +84,19 @@ class ChunkRunner:
     def _isolated(self) -> IsolatedFmu:
         isolated: IsolatedFmu | None = getattr(self._own, "isolated", None)
         if isolated is None or isolated not in self._processes:
-            isolated = self._own.isolated = IsolatedFmu(self.fmu, TIME_LIMIT)
+            isolated = self._own.isolated = IsolatedFmu(self.fmu, self.time_limit)
             self._processes.append(isolated)
         return isolated
 
 
-def measure_points(instance: Instance, task: Task, points: Sequence[Point]) -> Rows:
-    """Return the rows of the points, in the process of the FMU.
+def measure_point(instance: Instance, task: Task, point: Point) -> tuple[Row, float]:
+    """Return the row of a point and the seconds that it took, in the process of the FMU.
 
     After a point that fails the instance is recreated, whatever state the failure left it in.
     """
     began = time.perf_counter()
-    rows = [_row(instance, task, number, values) for number, values in points]
-    return rows, time.perf_counter() - began
+    row = _row(instance, task, *point)
+    return row, time.perf_counter() - began
 
 
 def failed_row(task: Task, number: int, error: str) -> Row:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from math import ceil
+from time import process_time
+from typing import Any, Protocol
 
 import numpy as np
 
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
@@ -33,13 +37,31 @@ MAX_RUNS = 20
 _UNRESOLVED = {"event_times": "averaged motion has no events"}
 
 
+class TaskRunner(Protocol):
+    """An FMU that runs tasks, such as an isolated one."""
+
+    def run(self, task: Callable[[Instance], Any]) -> Any:
+        """Return the result of a picklable task."""
+
+
 class FmuMethods:
     """The methods of an FMU on a problem; `build` is its name, such as `native`."""
 
-    def __init__(self, problem: Problem, build: str, instance: Instance) -> None:
+    def __init__(self, problem: Problem, build: str, fmu: TaskRunner) -> None:
         self.problem = problem
         self.build = build
-        self.instance = instance
+        self.fmu = fmu
+        self._cpu = 0.0
+
+    def _clock(self) -> float:
+        """Return the CPU time (s) that the FMU has taken so far, in its own process."""
+        return self._cpu
+
+    def _run(self, task: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
+        """Run `task(instance, ...)` and add its CPU time."""
+        taken, result = self.fmu.run(partial(_timed, partial(task, **options), arguments))
+        self._cpu += taken
+        return result
 
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
@@ -88,7 +110,7 @@ class FmuMethods:
             schedule = self.problem.schedule(periods, size)
             taken: list[float] = []
             while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
-                taken.append(run(self.instance, values, schedule, outputs=OUTPUTS).step_cpu)
+                taken.append(self._run(run, values, schedule, outputs=OUTPUTS).step_cpu)
             return sum(taken) / len(taken)
 
         return Method(
@@ -97,6 +119,7 @@ class FmuMethods:
             seconds,
             min_periods=ceil(step),
             missing={} if fidelity else _UNRESOLVED,
+            clock=self._clock,
         )
 
     def _follow(
@@ -106,7 +129,8 @@ class FmuMethods:
         readings = self.problem.readings(periods)
         closest = 1e-9 * min(size, self.problem.period)
         outputs = (*OUTPUTS, "last_event_time", "reversals")
-        record = run(self.instance, values, own.read_at(readings, closest), outputs=outputs)
+        schedule = own.read_at(readings, closest)
+        record: Record = self._run(run, values, schedule, outputs=outputs)
         at = np.searchsorted(record.times, own.times)
         return Solution(
             times=record.times,
@@ -126,13 +150,14 @@ class FmuMethods:
         def find(_: float) -> SteadyAnswer:
             search: SearchResult
             if quantity == "steady_velocity":
-                search = find_steady(self.instance, values)
+                search = self._run(find_steady, values)
             else:
                 free = {name: value for name, value in values.items() if name != "load"}
-                search = find_blocking(self.instance, free)
+                search = self._run(find_blocking, free)
             return SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
 
-        return SteadyMethod(self._label(fidelity, law, USUAL_TOLERANCE, None), quantity, find)
+        label = self._label(fidelity, law, USUAL_TOLERANCE, None)
+        return SteadyMethod(label, quantity, find, self._clock)
 
     def _prediction(self, quantity: str) -> SteadyMethod:
         """Return the value of an output that holds averaged theory, at the start of a run."""
@@ -141,7 +166,20 @@ class FmuMethods:
         family = f"{self.build} FMU, output {quantity}"
 
         def find(_: float) -> SteadyAnswer:
-            self.instance.start(values)
-            return SteadyAnswer(self.instance.value(quantity), "", 0)
+            return SteadyAnswer(self._run(_value_at_start, values, quantity), "", 0)
 
-        return SteadyMethod(Label(AVERAGED, family, family, law), quantity, find)
+        return SteadyMethod(Label(AVERAGED, family, family, law), quantity, find, self._clock)
+
+
+def _timed(
+    task: Callable[..., Any], arguments: Sequence[Any], instance: Instance
+) -> tuple[float, Any]:
+    """Return the CPU time (s) of a task and its result, in the process of the FMU."""
+    began = process_time()
+    result = task(instance, *arguments)
+    return process_time() - began, result
+
+
+def _value_at_start(instance: Instance, values: Mapping[str, float], output: str) -> float:
+    instance.start(values)
+    return instance.value(output)

@@ -6,12 +6,11 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from math import inf
-from time import process_time
 from typing import Any
 
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.trade.fmu_methods import FmuMethods
+from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.studies.trade.fmu_methods import FmuMethods, TaskRunner
 from slider_resonator.studies.trade.in_turn import Progress, Timed, in_turn
 from slider_resonator.studies.trade.method import Label, Method, SteadyMethod, cpu_seconds
 from slider_resonator.studies.trade.peer_methods import peer_answers, peer_methods
@@ -48,7 +47,7 @@ class _Candidate:
 
 def measure_trade(
     problem: Problem,
-    instances: Mapping[str, Instance],
+    instances: Mapping[str, TaskRunner],
     progress: Progress,
     *,
     repeats: int = REPEATS,
@@ -57,7 +56,8 @@ def measure_trade(
     """Measure all methods on a problem; `instances` are our FMUs by name.
 
     After a warm-up of all methods, times are taken in turn, `repeats` times or as often as the
-    `budget` (s of CPU time) of a method allows. Raises HarnessError where the reference fails.
+    `budget` (s of CPU time) of a method allows. Raises HarnessError where the reference fails, and
+    FmuDied for an FMU that crashes or exceeds its time limit.
     """
     with warnings.catch_warnings():
         # The error of a result covers what scipy warns of on the way to it.
@@ -67,7 +67,7 @@ def measure_trade(
 
 def _measured(
     problem: Problem,
-    instances: Mapping[str, Instance],
+    instances: Mapping[str, TaskRunner],
     progress: Progress,
     repeats: int,
     budget: float,
@@ -157,6 +157,8 @@ def _follow(
             if further / here * taken > budget:
                 break
         found = errors(problem, solution, reference.windows, periods)
+    except FmuDied:
+        raise
     except _FAILURES as error:
         notes.add(label, "all", str(error))
         return []
@@ -192,9 +194,9 @@ def _expected(problem: Problem, reference: Reference) -> list[str]:
 
 
 def _timed_run(method: Method, periods: int) -> tuple[float, Solution]:
-    began = process_time()
+    began = method.clock()
     solution = method.run(periods)
-    return process_time() - began, solution
+    return method.clock() - began, solution
 
 
 def _answer(
@@ -211,9 +213,11 @@ def _answer(
         notes.add(answer.label, answer.quantity, reason)
         return []
     try:
-        began = process_time()
+        began = answer.clock()
         found = answer.find(budget)
-        taken = process_time() - began
+        taken = answer.clock() - began
+    except FmuDied:
+        raise
     except _FAILURES as error:
         notes.add(answer.label, answer.quantity, str(error))
         return []
@@ -222,7 +226,11 @@ def _answer(
         return []
     errors_found = {answer.quantity: abs(found.value - expected) / abs(expected)}
     row = _row(problem, answer.label, answer.quantity, found.periods, errors_found)
-    return [_Candidate(row, lambda: cpu_seconds(lambda: answer.find(inf)), 1.0, taken)]
+
+    def seconds() -> float:
+        return cpu_seconds(lambda: answer.find(inf), answer.clock)
+
+    return [_Candidate(row, seconds, 1.0, taken)]
 
 
 def _row(

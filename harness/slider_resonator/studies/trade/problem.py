@@ -12,7 +12,13 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.device.schedule import Schedule, Signal, communication_points, schedule
+from slider_resonator.device.schedule import (
+    Schedule,
+    Signal,
+    communication_points,
+    in_order,
+    schedule,
+)
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.scenes.scene import Scene
 
@@ -125,7 +131,7 @@ class Problem:
             name: Signal(begins, tuple(signal.over(middles).tolist()))
             for name, signal in self.signals.items()
         }
-        return Schedule(times, **held).held()
+        return Schedule(times, *in_order(held)).held()
 
 
 def problem_of(
@@ -134,8 +140,9 @@ def problem_of(
     """Return the problem of a scene; `varied` are the values of its sweep.
 
     `max_periods` cuts the run short. Raises SceneError for a scene without a run whose inputs
-    vary.
+    vary, and as `Scene.check_plain` does.
     """
+    scene.check_plain("trade")
     full = replace(scene.device, fidelity=2)
     period = 2.0 * pi / full.drive_frequency
     varying = any(len(set(signal.values)) > 1 for signal in scene.signals.values())

@@ -47,6 +47,8 @@ def measure_golden(fmu: FmuSide) -> Golden:
             measured = measure(name, fmu)
         except SceneError:
             continue
+        if not measured.applicable:
+            continue
         found[name] = _decimated(measured) if name in SIGNALS else measured
     if "ripple_amplitude" not in found:  # too few points to see a ripple
         found.pop("ripple_frequency", None)

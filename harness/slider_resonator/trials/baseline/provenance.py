@@ -8,6 +8,7 @@ import platform
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import fmpy
 import numpy as np
@@ -59,7 +60,12 @@ def scene_digest(scene: Scene) -> str:
     """Return the SHA-256 of a scene without its names and expectations."""
     swept = (scene.sweep.variable, scene.sweep.values) if scene.sweep else None
     signals = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.signals.items())]
+    runs: tuple[Any, ...]
     runs = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size, swept)
+    run = scene.run
+    if scene.tuning or (run and (run.start_time or run.step_sizes or run.read_twice)):
+        tuning = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.tuning.items())]
+        runs = (*runs, tuning, run)
     return hashlib.sha256(repr(runs).encode()).hexdigest()
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.output.atomic import clear_abandoned, temporary_prefix
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from slider_resonator.trials.baseline.golden import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
 from slider_resonator.trials.baseline.provenance import Provenance
@@ -55,7 +56,9 @@ def write_recorded(folder: Path, recorded: Recorded) -> None:
     """
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        fresh = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+        clear_abandoned(folder.parent, folder.name)
+        prefix = temporary_prefix(folder.name)
+        fresh = Path(tempfile.mkdtemp(prefix=prefix, dir=folder.parent))
         try:
             _write(fresh / NUMBERS, _number_rows(recorded))
             if any(name in SIGNALS for golden in recorded.points.values() for name in golden):
@@ -72,7 +75,8 @@ def write_recorded(folder: Path, recorded: Recorded) -> None:
 def replace_folder(fresh: Path, folder: Path) -> None:
     """Move a folder to the place of another, if there is one; OSError when that fails."""
     if folder.exists():
-        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as old:
+        prefix = temporary_prefix(folder.name)
+        with tempfile.TemporaryDirectory(prefix=prefix, dir=folder.parent) as old:
             folder.rename(Path(old) / folder.name)
             fresh.rename(folder)
     else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from urllib.parse import quote
 
 from slider_resonator.output import markdown
 from slider_resonator.output.atomic import replacing, write_text
@@ -60,9 +61,9 @@ def _page(matrix: Matrix) -> str:
     others = [one for one in matrix.verdicts if one.verdict != PASSED]
     axes = [_axis_row(axis, verdicts) for axis, verdicts in matrix.by_axis().items()]
     parts = [
-        f"## {name}",
+        f"## {markdown.escaped(name)}",
         matrix.summary.replace("\n", "\n\n"),
-        f"![{name}: the matrix]({_picture(matrix)})",
+        f"![{markdown.escaped(name)}: the matrix]({quote(_picture(matrix))})",
         "### By axis",
         markdown.rendered(Table(AXIS_COLUMNS, axes)),
     ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import chain
 
+from slider_resonator.trials.extremes.beat_axes import beat_cells
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.device_axes import device_cells
 from slider_resonator.trials.extremes.event_axes import event_cells
@@ -13,4 +14,5 @@ from slider_resonator.trials.extremes.step_axes import step_cells
 
 def all_cells(*, long: bool = False) -> list[MatrixCell]:
     """Return every cell; `long` adds resolved runs of up to 1e8 periods, some minutes each."""
-    return list(chain(device_cells(), input_cells(), step_cells(long=long), event_cells()))
+    steps = step_cells(long=long)
+    return list(chain(device_cells(), input_cells(), beat_cells(), steps, event_cells()))

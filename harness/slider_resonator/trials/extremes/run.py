@@ -30,11 +30,15 @@ TIME_LIMIT = 300.0
 
 @dataclass(frozen=True)
 class Matrix:
-    """The verdicts of an FMU, one for each cell, and the wall time in s."""
+    """The verdicts of an FMU, one for each cell, and the wall time in s.
+
+    An interrupted run has cells that were `not_run`.
+    """
 
     fmu: str
     verdicts: tuple[CellVerdict, ...]
     wall_time: float
+    not_run: int = 0
 
     def by_axis(self) -> dict[str, list[CellVerdict]]:
         """Return axis to verdicts, in order."""
@@ -54,8 +58,8 @@ class Matrix:
 
     @property
     def passed(self) -> bool:
-        """Whether no cell failed."""
-        return self.count(FAILED) == 0
+        """Whether all cells ran and none failed."""
+        return self.count(FAILED) == 0 and not self.not_run
 
     @property
     def most_expensive(self) -> CellVerdict | None:
@@ -68,7 +72,8 @@ class Matrix:
         """The counts and the worst cost, in words."""
         lines = [
             f"{len(self.verdicts)} cells: {self.count(PASSED)} passed, "
-            f"{self.count(REFUSED)} refused by name, {self.count(FAILED)} failed, none skipped; "
+            f"{self.count(REFUSED)} refused by name, {self.count(FAILED)} failed, "
+            f"{self.not_run or 'none'} {'not run' if self.not_run else 'skipped'}; "
             f"{self.wall_time:.0f} s",
             f"{sum(one.has(REFERENCE) for one in self.verdicts)} cells compared with a reference, "
             f"which gave up in {sum(one.has(NO_REFERENCE) for one in self.verdicts)} others",
@@ -88,10 +93,12 @@ def run_matrix(
     cells: Sequence[MatrixCell],
     progress: Callable[[str, float], None],
     time_limit: float = TIME_LIMIT,
+    keep: Callable[[Matrix], None] = lambda matrix: None,
 ) -> Matrix:
     """Run and judge every cell; FmuError when the FMU cannot be run at all.
 
-    A crash or a missed `time_limit` (s) fails its cell only.
+    A crash or a missed `time_limit` (s) fails its cell only. `keep` is called with what there is
+    when the run is interrupted or stopped by an error.
     """
     began = time.perf_counter()
     verdicts: list[CellVerdict] = []
@@ -99,24 +106,33 @@ def run_matrix(
     def report(cell: MatrixCell) -> None:
         progress(f"{fmu.name}: {cell.axis}", len(verdicts) / len(cells))
 
+    def matrix() -> Matrix:
+        seconds = time.perf_counter() - began
+        return Matrix(str(fmu), tuple(verdicts), seconds, len(cells) - len(verdicts))
+
     tasks = [(cell, partial(observe, cell=cell)) for cell in cells]
-    with closing(
-        run_tasks(
-            fmu,
-            tasks,
-            time_limit,
-            name=lambda cell: cell.name,
-            meanwhile=report,
-            max_crashes=None,
-        )
-    ) as finished:
-        for one in finished:
-            if one.item is None:
-                raise one.error or FmuError(f"{fmu}: cannot be run")
-            if one.error is None:
-                verdicts.append(judge(one.item, one.result))
-            elif isinstance(one.error, FmuDied):
-                verdicts.append(broken(one.item, str(one.error)))
-            else:
-                raise one.error
-    return Matrix(str(fmu), tuple(verdicts), time.perf_counter() - began)
+    try:
+        with closing(
+            run_tasks(
+                fmu,
+                tasks,
+                time_limit,
+                name=lambda cell: cell.name,
+                meanwhile=report,
+                max_crashes=None,
+            )
+        ) as finished:
+            for one in finished:
+                if one.item is None:
+                    raise one.error or FmuError(f"{fmu}: cannot be run")
+                if one.error is None:
+                    verdicts.append(judge(one.item, one.result))
+                elif isinstance(one.error, FmuDied):
+                    verdicts.append(broken(one.item, str(one.error)))
+                else:
+                    raise one.error
+    except BaseException:
+        if verdicts:
+            keep(matrix())
+        raise
+    return matrix()

@@ -85,6 +85,7 @@ def _many_periods(model: Model, periods: float) -> MatrixCell:
     if model.friction_law == 0:
         why = "the steady motion, found without a long run, does not drift"
         limits = (Limit("mean_velocity", STEADY[model.fidelity], 1e-6, why),)
-    # In two halves, since no step may have more than 1e8 turns of the fastest oscillation.
-    holds = 2 * (Hold(periods * PERIOD / 10.0, 5, phase=0.0),)
+    # In parts of up to 1e4 periods, one step each in the other partition: its work is bounded.
+    parts = max(2, min(100, round(periods / 1e4)))
+    holds = parts * (Hold(periods * PERIOD / (5 * parts), 5, phase=0.0),)
     return MatrixCell("drive periods", f"{periods:.0e}", model, {}, holds, limits=limits)

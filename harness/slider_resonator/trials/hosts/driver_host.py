@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -22,14 +23,40 @@ BINARY = {
 }
 
 
+@dataclass(frozen=True)
+class DriverFiles:
+    """The files of a driver's standard input, output and error."""
+
+    script: Path
+    printed: Path
+    errors: Path
+
+
+Execute = Callable[[Sequence[str], DriverFiles], str]
+"""Runs a driver and returns how it ended, such as "ended with 0"."""
+
+
 def run(job: Job) -> Rows:
     """Step the FMU in a driver compiled for this machine."""
     return run_natively(Path(job.fmu), commands(job))
 
 
-def run_natively(fmu: Path, script: str) -> Rows:
+def run_natively(fmu: Path, script: str, execute: Execute | None = None) -> Rows:
     """Run a script in the driver for this machine, as `run_driver`."""
-    return run_driver(fmu, script, [str(native_driver())], *BINARY[platform.system()], str)
+    command, binary = [str(native_driver())], BINARY[platform.system()]
+    return run_driver(fmu, script, command, *binary, str, execute or execute_directly)
+
+
+def execute_directly(command: Sequence[str], files: DriverFiles) -> str:
+    """Run a driver without a time limit."""
+    # Files, not pipes: Wine's server keeps what it inherits open long after the driver's end.
+    with (
+        files.script.open() as stdin,
+        files.printed.open("w") as stdout,
+        files.errors.open("w") as stderr,
+    ):
+        done = subprocess.run(command, stdin=stdin, stdout=stdout, stderr=stderr, check=False)
+    return f"ended with {done.returncode}"
 
 
 def run_driver(
@@ -39,11 +66,12 @@ def run_driver(
     folder: str,
     suffix: str,
     path_for_driver: Callable[[Path], str],
+    execute: Execute,
 ) -> Rows:
     """Run a script in `command`, a driver, on the FMU's binary; return the numbers it prints.
 
-    `path_for_driver` returns the driver's name of a file. Raises RuntimeError with the driver's
-    messages.
+    `path_for_driver` returns the driver's name of a file, `execute` how the driver ended. Raises
+    RuntimeError with the driver's messages.
     """
     description = describe(str(fmu))
     with tempfile.TemporaryDirectory(prefix="slider-resonator-") as name:
@@ -52,22 +80,15 @@ def run_driver(
             archive.extractall(unpacked)
         library = unpacked / "binaries" / folder / f"{description.identifier}{suffix}"
         arguments = [path_for_driver(library), description.guid, (unpacked / "resources").as_uri()]
-        printed, errors = unpacked / "stdout.txt", unpacked / "stderr.txt"
-        # Files, not pipes: Wine's server keeps what it inherits open long after the driver's end.
-        with printed.open("w") as stdout, errors.open("w") as stderr:
-            done = subprocess.run(
-                [*command, *arguments],
-                input=script,
-                stdout=stdout,
-                stderr=stderr,
-                text=True,
-                check=False,
-            )
-        if done.returncode != 0:
-            problem = errors.read_text(errors="replace").strip()
-            raise RuntimeError(f"the driver ended with {done.returncode}: {problem}")
+        files = DriverFiles(*(unpacked / name for name in ("script", "printed", "errors")))
+        files.script.write_text(script)
+        ended = execute([*command, *arguments], files)
+        if ended != "ended with 0":
+            problem = files.errors.read_text(errors="replace").strip()
+            raise RuntimeError(f"the driver {ended}: {problem}")
         return [
-            [float(value) for value in line.split()] for line in printed.read_text().splitlines()
+            [float(value) for value in line.split()]
+            for line in files.printed.read_text().splitlines()
         ]
 
 

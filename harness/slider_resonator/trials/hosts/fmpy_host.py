@@ -6,13 +6,18 @@ import shutil
 
 from fmpy import extract
 from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
 
-from slider_resonator.trials.hosts.job import Job, Rows, describe, serve
+from slider_resonator.trials.hosts.job import Description, Job, Rows, describe, serve
 
 
 def run(job: Job) -> Rows:
     """Step the FMU through its slave."""
     description = describe(job.fmu)
+    return _run_3(job, description) if description.version == "3.0" else _run_2(job, description)
+
+
+def _run_2(job: Job, description: Description) -> Rows:
     folder = extract(job.fmu)
     try:
         slave = FMU2Slave(
@@ -39,6 +44,48 @@ def run(job: Job) -> Rows:
         return rows
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def _run_3(job: Job, description: Description) -> Rows:
+    """Step an FMU of FMI 3.0 in event mode: to each event, and on to the end of the step."""
+    folder = extract(job.fmu)
+    try:
+        slave = FMU3Slave(
+            instanceName="slider",
+            guid=description.guid,
+            modelIdentifier=description.identifier,
+            unzipDirectory=folder,
+        )
+        slave.instantiate(loggingOn=True, eventModeUsed=True, earlyReturnAllowed=True)
+        for name, value in job.first().items():
+            setter = slave.setInt32 if isinstance(value, int) else slave.setFloat64
+            setter(description.refer([name]), [value])
+        slave.enterInitializationMode(startTime=0.0)
+        slave.exitInitializationMode()
+        _leave_event_mode(slave)
+        inputs, outputs = description.refer(list(job.inputs)), description.refer(job.outputs)
+        rows, time = [], 0.0
+        for index in range(job.steps):
+            slave.setFloat64(inputs, [values[index] for values in job.inputs.values()])
+            end = (index + 1) * job.step
+            while time < end:
+                event, _, early, reached = slave.doStep(time, end - time)
+                time = reached if early else end
+                if event:
+                    slave.enterEventMode()
+                    _leave_event_mode(slave)
+            rows.append([float(value) for value in slave.getFloat64(outputs)])
+        slave.terminate()
+        slave.freeInstance()
+        return rows
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _leave_event_mode(slave: FMU3Slave) -> None:
+    while slave.updateDiscreteStates()[0]:
+        pass
+    slave.enterStepMode()
 
 
 if __name__ == "__main__":

@@ -23,8 +23,8 @@ class Host:
     """A simulator, run as `python -m slider_resonator.trials.hosts.MODULE`.
 
     `version` raises HarnessError where the host is missing. `loads_python` is whether it can
-    load an FMU that needs Python in the process, `couples` whether it runs the native FMU behind
-    the Python one.
+    load an FMU that needs Python in the process, `loads_fmi_3` whether it can load one of FMI 3.0,
+    `couples` whether it runs the native FMU behind the Python one.
     """
 
     name: str
@@ -32,6 +32,7 @@ class Host:
     version: Callable[[], str]
     python: Path = Path(sys.executable)
     loads_python: bool = True
+    loads_fmi_3: bool = False
     couples: bool = False
 
 
@@ -62,7 +63,8 @@ def hosts(own_environment: Path = OWN_ENVIRONMENT) -> tuple[Host, ...]:
     """Return all hosts, the one that others are compared with first."""
     own = own_environment / ("Scripts" if sys.platform == "win32" else "bin") / "python"
     return (
-        Host("fmpy", "fmpy_host", lambda: package_version("fmpy")),
+        Host("fmpy", "fmpy_host", lambda: package_version("fmpy"), loads_fmi_3=True),
+        Host("ecos", "ecos_host", lambda: package_version("ecospy"), loads_fmi_3=True),
         Host("libcosimpy", "libcosim_host", lambda: package_version("libcosimpy")),
         Host("pathsim-fmi", "pathsim_host", lambda: package_version("pathsim-fmi")),
         Host("cofmupy", "cofmupy_host", lambda: package_version("cofmupy", own), own),

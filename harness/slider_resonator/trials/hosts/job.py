@@ -50,11 +50,15 @@ class HostAnswer:
 
 @dataclass(frozen=True)
 class Description:
-    """What a host needs of a model description: value references by name, and two texts."""
+    """What a host needs of a model description: value references by name, and three texts.
+
+    `guid` is the instantiation token of FMI 3.0, `version` that of FMI.
+    """
 
     guid: str
     identifier: str
     references: Mapping[str, int]
+    version: str
 
     def refer(self, names: Sequence[str]) -> list[int]:
         """Return the value references of `names`."""
@@ -67,10 +71,12 @@ def describe(fmu: str) -> Description:
         root = ET.parse(file).getroot()
     references = {
         variable.attrib["name"]: int(variable.attrib["valueReference"])
-        for variable in root.iter("ScalarVariable")
+        for variable in root.iterfind("ModelVariables/*")
     }
     (simulation,) = root.iter("CoSimulation")
-    return Description(root.attrib["guid"], simulation.attrib["modelIdentifier"], references)
+    version = root.attrib["fmiVersion"]
+    guid = root.attrib["guid" if version == "2.0" else "instantiationToken"]
+    return Description(guid, simulation.attrib["modelIdentifier"], references, version)
 
 
 def write_jobs(path: Path, jobs: Sequence[Job]) -> None:

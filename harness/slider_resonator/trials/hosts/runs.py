@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import subprocess
-import tempfile
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,15 +11,18 @@ import numpy as np
 
 from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.child_environment import child_environment
-from slider_resonator.fmu.isolation.process_group import end_group
+from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.hosts.hosts import Host
 from slider_resonator.trials.hosts.job import HostAnswer, Job, Rows, read_answers, write_jobs
+from slider_resonator.trials.hosts.program import run_program
 
 STEP, STEPS = 1e-3, 40
 
 TIME_LIMIT = 600.0
 """Time limit of all cases in a host, s: the first cross-compilation builds a C library."""
+
+FMI_3 = "native, FMI 3.0"
+"""The FMU that is compared with that of FMI 2.0."""
 
 MAX_PRINTED = 1000
 """Maximum characters of a crashed host's output in the message."""
@@ -94,46 +96,22 @@ def table_1_jobs(fmu: Path) -> list[Job]:
     ]
 
 
-def run_jobs(host: Host, jobs: Sequence[Job]) -> list[HostAnswer]:
+def run_jobs(host: Host, jobs: Sequence[Job], time_limit: float = TIME_LIMIT) -> list[HostAnswer]:
     """Run jobs in a host, in a process of its own, and return one answer for each.
 
-    Where the host crashed or exceeded `TIME_LIMIT` (s), the missing answers are errors that say so.
+    Where the host crashed or exceeded `time_limit` (s), the missing answers are errors that say so.
     """
-    with tempfile.TemporaryDirectory(
-        prefix="slider-resonator-", ignore_cleanup_errors=True
-    ) as name:
-        todo, done, log = (Path(name, f) for f in ("jobs.json", "answers.jsonl", "printed.txt"))
+    with temporary_folder() as folder:
+        todo, done, log = (folder / name for name in ("jobs.json", "answers.jsonl", "printed.txt"))
         write_jobs(todo, jobs)
-        command = [str(host.python), "-P", "-m", f"slider_resonator.trials.hosts.{host.module}"]
-        code = _run([*command, str(todo), str(done)], log)
+        # Else a link would stand for the interpreter that it leads to, without its packages.
+        python = os.path.abspath(host.python)
+        command = [python, "-P", "-m", f"slider_resonator.trials.hosts.{host.module}"]
+        end = run_program([*command, str(todo), str(done)], folder, log, time_limit)
         answers = read_answers(done)
-        end = f"ended after {TIME_LIMIT:g} s" if code is None else f"ended with {code}"
         printed = log.read_text(errors="replace").strip()[-MAX_PRINTED:]
     missing = len(jobs) - len(answers)
     return answers + [HostAnswer([], f"the host {end}: {printed}")] * missing
-
-
-def _run(command: Sequence[str], log: Path) -> int | None:
-    """Run a host and return its exit code, None at the time limit; end what it started.
-
-    What it prints goes to the file `log`: a pipe would stay open as long as any process it started.
-    """
-    with log.open("wb") as file:
-        process = subprocess.Popen(
-            command,
-            # Hosts leave what they have unpacked where it is when an FMU fails.
-            env=child_environment(str(log.parent)),
-            stdin=subprocess.DEVNULL,
-            stdout=file,
-            stderr=file,
-            start_new_session=True,
-        )
-        try:
-            return process.wait(TIME_LIMIT)
-        except subprocess.TimeoutExpired:
-            return None
-        finally:
-            end_group(process)
 
 
 def coupled(jobs: Sequence[Job], leaders: Sequence[Rows]) -> list[Job]:
@@ -157,24 +135,38 @@ def compare(ours: Rows, theirs: HostAnswer) -> HostComparison:
     return HostComparison(float(np.max(deviations)))
 
 
-def run_host(host: Host, reference: Host, native: Path, python: Path) -> list[HostResult]:
+def run_host(
+    host: Host,
+    reference: Host,
+    native: Path,
+    python: Path,
+    native_3: Path,
+    time_limit: float = TIME_LIMIT,
+) -> list[HostResult]:
     """Run table 1 in `host` with each FMU that it can load, and compare with `reference`.
 
-    Raises HarnessError where the host is missing, or an FMU does not run in `reference`.
+    `native_3`, of FMI 3.0, is compared with `native`, of FMI 2.0. Raises HarnessError where the
+    host is missing, or an FMU does not run in `reference`.
     """
     version = host.version()
     if host.couples:
         jobs = table_1_jobs(native)
-        leaders = _run_in_reference(reference, table_1_jobs(python))
-        ours = _run_in_reference(reference, coupled(jobs, leaders))
-        theirs = run_jobs(host, [replace(job, partner=str(python.resolve())) for job in jobs])
+        leaders = _run_in_reference(reference, table_1_jobs(python), time_limit)
+        ours = _run_in_reference(reference, coupled(jobs, leaders), time_limit)
+        behind = [replace(job, partner=str(python.resolve())) for job in jobs]
+        theirs = run_jobs(host, behind, time_limit)
         return [HostResult(host.name, version, "native behind Python", by_case(ours, theirs))]
     results = []
     for name, fmu in (("native", native), ("Python", python)):
         if name == "native" or host.loads_python:
             jobs = table_1_jobs(fmu)
-            compared = by_case(_run_in_reference(reference, jobs), run_jobs(host, jobs))
+            ours = _run_in_reference(reference, jobs, time_limit)
+            compared = by_case(ours, run_jobs(host, jobs, time_limit))
             results.append(HostResult(host.name, version, name, compared))
+    if host.loads_fmi_3:
+        ours = _run_in_reference(reference, table_1_jobs(native), time_limit)
+        compared = by_case(ours, run_jobs(host, table_1_jobs(native_3), time_limit))
+        results.append(HostResult(host.name, version, FMI_3, compared))
     return results
 
 
@@ -184,8 +176,8 @@ def by_case(ours: Sequence[Rows], theirs: Sequence[HostAnswer]) -> dict[Case, Ho
     return dict(zip(CASES, (compare(*pair) for pair in pairs), strict=True))
 
 
-def _run_in_reference(reference: Host, jobs: Sequence[Job]) -> list[Rows]:
-    answers = run_jobs(reference, jobs)
+def _run_in_reference(reference: Host, jobs: Sequence[Job], time_limit: float) -> list[Rows]:
+    answers = run_jobs(reference, jobs, time_limit)
     for job, answer in zip(jobs, answers, strict=True):
         if answer.error is not None:
             raise HarnessError(f"{job.fmu}: does not run in {reference.name}: {answer.error}")

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import tau
 from pathlib import Path
 from statistics import median
 
-from slider_resonator.trials.hosts.driver_host import initialised, run_natively
+from slider_resonator.errors import FmuError
+from slider_resonator.trials.hosts.driver_host import DriverFiles, initialised, run_natively
 from slider_resonator.trials.hosts.job import describe
+from slider_resonator.trials.hosts.program import run_program
 
 
 @dataclass(frozen=True)
@@ -61,22 +63,40 @@ class StepCost:
 
 
 def measure_steps(
-    fmu: Path, repeats: int, progress: Callable[[str, float], None]
+    fmu: Path, repeats: int, progress: Callable[[str, float], None], time_limit: float
 ) -> tuple[StepCost, ...]:
-    """Time every kind of step in the C driver, in turn; RuntimeError with its message.
+    """Time every kind of step in the C driver, in turn.
 
-    The input that is set is the load, to a new value each time.
+    The input that is set is the load, to a new value each time. Raises FmuError with the driver's
+    message where it fails or exceeds `time_limit` (s) for one kind.
     """
     times: dict[str, list[float]] = {step.name: [] for step in STEPS}
     for repeat in range(repeats):
         for index, step in enumerate(STEPS):
             progress(f"C host: {step.name}", (repeat + index / len(STEPS)) / repeats)
-            times[step.name].append(run_natively(fmu, _commands(fmu, step))[-1][0])
+            times[step.name].append(_microseconds(fmu, step, time_limit))
     progress("", 1.0)
     return tuple(
         StepCost(s.name, len(s.outputs), median(t), min(t), max(t))
         for s, t in zip(STEPS, times.values(), strict=True)
     )
+
+
+def _microseconds(fmu: Path, step: Step, time_limit: float) -> float:
+    """Return what a step costs in the driver, which is supervised."""
+
+    def execute(command: Sequence[str], files: DriverFiles) -> str:
+        folder = files.script.parent
+        given, printed, errors = files.script, files.printed, files.errors
+        return run_program(command, folder, printed, time_limit, script=given, errors=errors)
+
+    try:
+        rows = run_natively(fmu, _commands(fmu, step), execute)
+    except RuntimeError as error:
+        raise FmuError(f"{fmu}: {step.name}: {error}") from error
+    if not rows:
+        raise FmuError(f"{fmu}: {step.name}: the driver ended before it had taken the steps")
+    return rows[-1][0]
 
 
 def short_step_ratio(costs: Iterable[StepCost]) -> float:

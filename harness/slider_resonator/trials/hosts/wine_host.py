@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import os
+import subprocess
+from contextlib import suppress
 from functools import cache
 from pathlib import Path, PureWindowsPath
 
 from slider_resonator.trials.hosts.compiler import SOURCES, WINDOWS, compile_program, zig_compiler
-from slider_resonator.trials.hosts.driver_host import BINARY, commands, run_driver, temporary_folder
+from slider_resonator.trials.hosts.driver_host import (
+    BINARY,
+    commands,
+    execute_directly,
+    run_driver,
+    temporary_folder,
+)
 from slider_resonator.trials.hosts.job import Job, Rows, serve
 
 LIKE_THE_FMU = ("-g0", "-s")
@@ -18,7 +26,7 @@ def run(job: Job) -> Rows:
     """Step the FMU's Windows binary."""
     command = ["wine", str(windows_driver())]
     fmu, script = Path(job.fmu), commands(job)
-    return run_driver(fmu, script, command, *BINARY["Windows"], seen_from_windows)
+    return run_driver(fmu, script, command, *BINARY["Windows"], seen_from_windows, execute_directly)
 
 
 def seen_from_windows(path: Path) -> str:
@@ -39,3 +47,6 @@ if __name__ == "__main__":
     # Without these a new Wine prefix asks to download Mono and Gecko.
     os.environ.setdefault("WINEDLLOVERRIDES", "mscoree=;mshtml=")
     serve(run)
+    # The server is killed after this process; it saves what Wine needs when it ends by itself.
+    with suppress(OSError, subprocess.TimeoutExpired):
+        subprocess.run(["wineserver", "-w"], check=False, timeout=30.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from random import Random
+from typing import TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.trials.mutants.archive import DESCRIPTION, PythonFmu
@@ -11,6 +12,8 @@ from slider_resonator.trials.mutants.enumerate_source import source_mutants
 from slider_resonator.trials.mutants.faults import fault_mutants, missing_names
 from slider_resonator.trials.mutants.mutant import Mutant
 from slider_resonator.trials.mutants.units import unit_mutants
+
+Change = TypeVar("Change")
 
 
 def fmu_mutants(fmu: PythonFmu, files: Sequence[str] = ()) -> list[Mutant]:
@@ -38,7 +41,7 @@ def fmu_mutants(fmu: PythonFmu, files: Sequence[str] = ()) -> list[Mutant]:
     return found
 
 
-def sample(mutants: Sequence[Mutant], count: int, seed: int) -> list[Mutant]:
+def sample(mutants: Sequence[Change], count: int, seed: int) -> list[Change]:
     """Return `count` of the mutants in their order, the same ones for the same seed."""
     if count >= len(mutants):
         return list(mutants)

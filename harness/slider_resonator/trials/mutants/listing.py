@@ -28,7 +28,7 @@ def print_run(console: Console, run: MutationRun) -> None:
         console.print(heading, reason, Text(escaped(verdict.mutant.diff)), sep="\n")
     for status, meaning in STATUSES.items():
         console.print(f"{status:12} {run.counts[status]:5}  {meaning}")
-    console.print(summary(run), markup=False, soft_wrap=True)
+    console.print(escaped(summary(run)), markup=False, soft_wrap=True)
 
 
 def summary(run: MutationRun) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -11,6 +10,7 @@ from pathlib import Path
 
 from slider_resonator.checks.verdict import place
 from slider_resonator.errors import FmuError
+from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.mutant import Mutant
 from slider_resonator.trials.mutants.points import probe_points, scene_points
@@ -66,8 +66,7 @@ def run_mutants(
     Raises FmuError when the unchanged FMU is rejected, and SceneError as `scene_points` does.
     """
     began = time.perf_counter()
-    with tempfile.TemporaryDirectory(prefix="slider-resonator-mutants-") as name:
-        folder = Path(name)
+    with temporary_folder() as folder:
         points = scene_points(scene_files, progress)
         progress("the unchanged FMU", 0.0)
         _check_original(path, points, time_limit)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import ast
 import sys
-import tempfile
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -18,6 +17,7 @@ from pathlib import Path
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measuring import measure_all
+from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.enumerate_source import Function, blocks
 from slider_resonator.trials.mutants.trial import ExpectedPoint
@@ -46,8 +46,8 @@ def reaches(
 
     Raises FmuError when the FMU cannot run one of them.
     """
-    with tempfile.TemporaryDirectory(prefix="slider-resonator-mutants-") as folder:
-        noting = Path(folder) / "noting.fmu"
+    with temporary_folder() as folder:
+        noting = folder / "noting.fmu"
         noted = {fmu.path_of(name): noting_source(text) for name, text in fmu.modules.items()}
         fmu.write(noting, noted)
         shares = [points[i::jobs] for i in range(jobs)]

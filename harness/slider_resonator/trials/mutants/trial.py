@@ -18,6 +18,7 @@ from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.tolerance import Tolerance
 from slider_resonator.checks.verdict import place, sentence
+from slider_resonator.errors import NotApplicable
 from slider_resonator.scenes.scene import ScenePoint
 
 TRAJECTORY_OUTPUTS: Mapping[str, float | None] = {
@@ -94,6 +95,8 @@ def trial(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> Reje
     with closing(measure_points(fmu, points, measure, time_limit)) as finished:
         for one in finished:
             point = one.item
+            if isinstance(one.error, NotApplicable):
+                continue
             if one.error is not None or point is None:
                 return Rejection(point.name if point else "", "", str(one.error))
             for check in _checks(point, one.result):
@@ -118,7 +121,7 @@ def _checks(point: ExpectedPoint, seen: Observed) -> Iterator[Check]:
     for expect, measured, expected in zip(
         point.scene.expect, seen.measured, point.expected, strict=True
     ):
-        if measured.value is not None or expected is not None:
+        if measured.applicable and (measured.value is not None or expected is not None):
             yield compare(Comparison.of(expect), measured, expected, point)
     for name, values in point.outputs.items():
         allowed = TRAJECTORY_OUTPUTS[name]

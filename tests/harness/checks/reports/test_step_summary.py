@@ -13,9 +13,9 @@ def test_tables_are_appended(tmp_path: Path) -> None:
     append_summary(path, [GOOD, BAD, BROKEN])
     text = path.read_text()
     assert text.startswith("# Before\n")
-    assert "| good.fmu | pass | 1 | 0 | 0 | 1.5 |" in text
-    assert "| bad.fmu | **fail** | 1 | 2 | 0 | 2.5 |" in text
-    assert "| broken.fmu | **could not be run** | 1 | 1 | 1 | 3.0 |" in text
+    assert "| good.fmu | pass | 1 | 0 | 0 | 0 | 1.5 |" in text
+    assert "| bad.fmu | **fail** | 1 | 2 | 0 | 0 | 2.5 |" in text
+    assert "| broken.fmu | **could not be run** | 1 | 1 | 1 | 0 | 3.0 |" in text
     assert "from 0.0125 s on" in text
 
 

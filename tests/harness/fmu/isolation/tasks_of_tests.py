@@ -70,3 +70,25 @@ def start_child(instance: Instance, pid_file: Path, then: str) -> None:
         if then == "abort":
             os.abort()
         child.returncode = 0  # else this waits for it
+
+
+def start_daemon(instance: Instance, pid_file: Path) -> None:
+    """Start a process that leaves the session, and whose parent ends at once."""
+    if os.fork() == 0:
+        os.setsid()
+        child = os.fork()
+        if child:
+            pid_file.write_text(str(child))
+            os._exit(0)
+        time.sleep(600.0)
+    os.wait()
+
+
+def working_folder(instance: Instance) -> str:
+    return os.getcwd()
+
+
+def print_much(instance: Instance) -> None:
+    """Print more than a file may have."""
+    for _ in range(80):
+        os.write(1, bytes(2**20))

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -12,6 +13,7 @@ import pytest
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu.isolation import process
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
+from slider_resonator.fmu.isolation.request_pipe import RequestPipe
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 
 
@@ -109,9 +111,43 @@ def test_a_process_that_the_fmu_started_neither_survives_nor_blocks(
     assert _has_ended(int(pid_file.read_text()))
 
 
-def _has_ended(pid: int) -> bool:
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux hands orphans over")
+def test_a_process_that_has_left_the_session_is_ended(native_fmu: Path, tmp_path: Path) -> None:
+    pid_file = tmp_path / "pid"
+    with IsolatedFmu(native_fmu, 60.0) as isolated:
+        isolated.run(partial(tasks.start_daemon, pid_file=pid_file))
+        assert not _has_ended(int(pid_file.read_text()), tries=1)
+    assert _has_ended(int(pid_file.read_text()))
+
+
+def test_the_fmu_runs_in_a_folder_of_its_own(isolated: IsolatedFmu, temporary: Path) -> None:
+    folder = Path(isolated.run(tasks.working_folder))
+    assert folder != Path.cwd()
+    assert not list(folder.iterdir())
+    isolated.kill()
+    assert not folder.exists()
+
+
+def test_what_an_fmu_prints_is_limited(isolated: IsolatedFmu) -> None:
+    with pytest.raises(RuntimeError, match="File too large"):
+        isolated.run(tasks.print_much)
+    assert isolated.run(partial(tasks.position_after, time=0.01)) != 0.0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a write into a pipe of Windows waits")
+def test_a_process_that_does_not_read_is_no_trap_for_the_writer() -> None:
+    reading, writing = os.pipe()
+    with (
+        open(reading, "rb"),
+        RequestPipe(open(writing, "wb")) as pipe,
+        pytest.raises(TimeoutError),
+    ):
+        pipe.write(bytes(2**20), seconds=0.2)
+
+
+def _has_ended(pid: int, tries: int = 100) -> bool:
     """Whether a process is gone within seconds, or waits as a zombie for who started it."""
-    for _ in range(100):
+    for _ in range(tries):
         try:
             os.kill(pid, 0)
             if Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z":

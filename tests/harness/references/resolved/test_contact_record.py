@@ -40,3 +40,11 @@ def test_stick_time_adds_up_in_stick_only() -> None:
     record.enter(STICK, 2.5)
     record.stay(0.25)
     assert record.stick_time == 0.75
+
+
+def test_modes_and_reversals_have_their_times() -> None:
+    record = record_of(SLIP_FORWARD, LIFTED, SLIP_BACKWARD, STICK)
+    assert record.modes == [SLIP_FORWARD, LIFTED, SLIP_BACKWARD, STICK]
+    assert record.reversal_times == [2.0]
+    record.slide(SLIP_FORWARD)
+    assert record.reversals == 2, "a reversal without a time counts"

@@ -60,3 +60,15 @@ def test_inputs_with_a_gap_are_refused() -> None:
     held = [HeldInputs(0.0, 0.005), HeldInputs(0.006, DURATION)]
     with pytest.raises(ValueError, match="held inputs 1"):
         lugre_scipy.simulate_lugre(Device(), held, TIMES)
+
+
+@pytest.mark.parametrize("name", ["table 1", "ratio 1.37, lift-off", "schedule", "one face"])
+def test_reversals_lift_offs_and_touchdowns_are_located(name: str) -> None:
+    device, held = PROBLEMS[name]
+    exact = lugre_taylor.simulate_lugre(device, held, TIMES)
+    found = lugre_scipy.simulate_lugre(device, held, TIMES)
+    assert found.modes.tolist() == exact.modes.tolist()
+    for times in ("event_times", "reversal_times"):
+        of_exact, of_found = getattr(exact, times), getattr(found, times)
+        assert len(of_exact) > 4
+        assert of_found == pytest.approx(of_exact, abs=1e-10), "5e-8 of a drive period"

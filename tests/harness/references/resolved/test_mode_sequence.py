@@ -5,7 +5,6 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -34,10 +33,7 @@ def coast(event_at: float = np.inf, event: int = 0) -> Follow:
 def run(
     device: Device, held: list[HeldInputs], times: list[float], follow: Follow | None = None
 ) -> Trajectory:
-    sequence = ModeSequence(
-        equations_of(device), follow or coast(), initial_state(device), np.array(times)
-    )
-    return sequence.run(held)
+    return ModeSequence(device, follow or coast(), np.array(times)).run(held)
 
 
 def test_sample_on_a_boundary_belongs_to_the_inputs_before() -> None:

@@ -12,7 +12,7 @@ from math import inf
 import numpy as np
 
 from slider_resonator.checks.measures.frequency import dominant_frequency
-from slider_resonator.device.schedule import Schedule, Signal, schedule
+from slider_resonator.device.schedule import Schedule, Signal, in_order, schedule
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
@@ -145,7 +145,7 @@ class Judge:
                     for name, s in signals.items()
                 }
             values = {**self.scene.parameters, **self.reference}
-            samples = Schedule(times, **signals)
+            samples = Schedule(times, *in_order(signals))
             self._true_records[step] = run(self.instance, values, samples, outputs=SHOWN)
         return self._true_records[step]
 

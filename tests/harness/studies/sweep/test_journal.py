@@ -1,12 +1,13 @@
 from __future__ import annotations
 
+import sys
 from math import inf
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.studies.sweep.journal import Journal, journal_path
+from slider_resonator.studies.sweep.journal import Journal, _line, journal_path
 from slider_resonator.studies.sweep.worker import Row
 
 ROWS: list[Row] = [
@@ -25,7 +26,7 @@ def test_rows_come_back_to_the_last_digit(tmp_path: Path) -> None:
         assert list(journal.rows.values()) == ROWS
 
 
-@pytest.mark.parametrize("keep", range(0, 140, 7))
+@pytest.mark.parametrize("keep", range(0, 180, 9))
 def test_a_file_cut_anywhere_keeps_its_whole_lines_and_goes_on(keep: int, tmp_path: Path) -> None:
     path = tmp_path / "journal"
     with Journal(path, "a") as journal:
@@ -79,3 +80,48 @@ def test_a_file_that_is_no_journal_is_left_alone_unless_discarded(tmp_path: Path
         journal.add(ROWS)
     with Journal(path, "a") as journal:
         assert list(journal.rows.values()) == ROWS
+
+
+@pytest.mark.parametrize("line", [2, 3, 4])
+def test_a_flipped_digit_drops_its_line_only_and_is_named(line: int, tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    with Journal(path, "a") as journal:
+        journal.add(ROWS)
+    content = path.read_bytes().splitlines(keepends=True)
+    flipped = content[line - 1].replace(b"[%d," % (line - 2), b"[7,", 1)
+    assert flipped != content[line - 1]
+    path.write_bytes(b"".join([*content[: line - 1], flipped, *content[line:]]))
+    with Journal(path, "a") as journal:
+        assert journal.damaged == [line]
+        sound = [row for row in ROWS if row[0] != line - 2]
+        assert list(journal.rows.values()) == sound
+        journal.add([ROWS[line - 2]])
+    with Journal(path, "a") as journal:
+        assert journal.damaged == []
+        assert sorted(journal.rows) == [0, 1, 2]
+
+
+def test_a_line_that_is_no_point_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    with Journal(path, "a") as journal:
+        journal.add(ROWS)
+    with path.open("a", encoding="utf-8") as file:
+        file.write(_line({"point": 3}))
+    with pytest.raises(HarnessError, match=r"journal line 5: is no point of a sweep"):
+        Journal(path, "a")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no limit on files, which stands for the disk")
+def test_a_full_disk_is_named(tmp_path: Path) -> None:
+    import resource
+
+    path = tmp_path / "journal"
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    with Journal(path, "a") as journal:
+        journal.add(ROWS[:1])
+        try:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (path.stat().st_size + 10, before[1]))
+            with pytest.raises(HarnessError, match="journal: cannot be written: File too large"):
+                journal.add(ROWS[1:])
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -18,7 +19,7 @@ from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.sweep.grid import read_grid
-from slider_resonator.studies.sweep.journal import journal_path
+from slider_resonator.studies.sweep.journal import Journal, journal_path
 from slider_resonator.studies.sweep.sweeping import run_sweep
 
 DEADLINE = 120.0
@@ -68,7 +69,8 @@ def test_points_of_another_grid_are_refused_unless_discarded(
     grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "a.csv"
-    journal_path(out).write_text('{"format":1,"sweep":"other"}\n', encoding="utf-8")
+    with Journal(journal_path(out), "other"):
+        pass
     sweep = read_grid(grid)
     with pytest.raises(HarnessError, match="another sweep"):
         run_sweep(sweep, native_fmu, out, workers=1)
@@ -173,3 +175,54 @@ def test_velocities_are_those_of_the_command_steady(
             values = {name: result.columns[name][index] for name in names}
             alone = find_steady(instance, values)
             assert result.columns["steady_velocity"][index] == alone.steady_velocity, values
+
+
+def test_the_table_of_another_grid_is_replaced_only_when_asked(
+    grid: Path, native_fmu: Path, tmp_path: Path
+) -> None:
+    other = tmp_path / "other.toml"
+    other.write_text("[grid]\nphase = [0.1, 0.2]\n", encoding="utf-8")
+    for name in ("a.csv", "a.parquet"):
+        out = tmp_path / name
+        run_sweep(read_grid(other), native_fmu, out, workers=1)
+        table = out.read_bytes()
+        run_sweep(read_grid(other), native_fmu, out, workers=1)
+        assert out.read_bytes() == table, "its own table is written again"
+        with pytest.raises(HarnessError, match=f"{name}: is not a table of this grid's points"):
+            run_sweep(read_grid(grid), native_fmu, out, workers=1)
+        assert out.read_bytes() == table
+        assert not journal_path(out).exists()
+    other.write_text("[grid]\nphase = [0.1, 0.3]\n", encoding="utf-8")
+    with pytest.raises(HarnessError, match="--overwrite"):
+        run_sweep(read_grid(other), native_fmu, out, workers=1)
+    assert run_sweep(read_grid(other), native_fmu, out, workers=1, overwrite=True).points == 2
+
+
+def test_points_without_an_answer_are_counted(native_fmu: Path, tmp_path: Path) -> None:
+    """No load below the friction of contact stops a slider that the vibration does not drive."""
+    away = tmp_path / "away.toml"
+    away.write_text("[grid]\nload = [0.0, 1.0]\n", encoding="utf-8")
+    result = run_sweep(read_grid(away), native_fmu, tmp_path / "a.csv", workers=1)
+    assert (result.points, result.failed, result.unanswered) == (2, 0, 1)
+
+
+def test_a_damaged_line_costs_its_point_only(grid: Path, native_fmu: Path, tmp_path: Path) -> None:
+    sweep, out = read_grid(grid), tmp_path / "a.csv"
+    run_sweep(sweep, native_fmu, out, workers=1)
+    table = out.read_bytes()
+
+    def interrupt(label: str, share: float) -> None:
+        if share >= 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt) as caught:
+        run_sweep(sweep, native_fmu, out, workers=1, progress=interrupt)
+    (note,) = caught.value.__notes__
+    assert f"of {len(sweep.points)} points are kept in {journal_path(out)}" in note
+    content = journal_path(out).read_bytes().splitlines(keepends=True)
+    content[2] = re.sub(rb"\d(?=\D*$)", lambda digit: b"%d" % (9 - int(digit[0])), content[2])
+    journal_path(out).write_bytes(b"".join(content))
+    result = run_sweep(sweep, native_fmu, out, workers=1)
+    assert result.damaged == [3]
+    assert result.found == len(content) - 2
+    assert out.read_bytes() == table

@@ -10,7 +10,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.studies.sweep import cluster, worker
 from slider_resonator.studies.sweep.measures import Run, Task
-from slider_resonator.studies.sweep.worker import ChunkRunner, measure_points
+from slider_resonator.studies.sweep.worker import ChunkRunner, measure_point
 from tests.harness.faulty_fmus import compiled
 
 TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run(1, 1, 0))
@@ -73,7 +73,8 @@ def test_a_crash_is_raised_and_the_next_chunk_gets_a_new_process(
 def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(
     instance: Instance,
 ) -> None:
-    (failed, sound), _ = measure_points(instance, TASK, [(0, (-1.0,)), (1, (0.1,))])
+    failed, _ = measure_point(instance, TASK, (0, (-1.0,)))
+    sound, _ = measure_point(instance, TASK, (1, (0.1,)))
     assert failed[:2] == (0, [None, None])
     assert "friction_coefficient = -1" in str(failed[2])
     assert sound[1][1] == "steady"
@@ -88,3 +89,17 @@ def test_the_error_of_a_missing_file_hides_the_folder_of_the_worker(tmp_path: Pa
 def test_a_worker_without_the_fmu_is_reported() -> None:
     ((_, _, error),), _ = cluster.run_chunk(TASK, "unheard of", SOUND)
     assert error == "this worker has not been given the FMU"
+
+
+def test_a_point_that_takes_too_long_is_a_row_and_the_others_go_on(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    """Endless at a coefficient of 0.5, which is the first value that is read back."""
+    slow = "static int set; if (set) { LOOP } set = 1;"
+    fmu = compiled(native_fmu, tmp_path / "slow.fmu", f"IN_STEP={slow}", "VALUE=1.0")
+    task = Task(("friction_coefficient",), (), ("velocity.rms",), 20, Run(1, 1, 0))
+    runner = ChunkRunner(fmu, time_limit=1.0)
+    rows, _ = runner.run(task, [(0, (0.1,)), (1, (0.2,)), (2, (0.3,))])
+    runner.end()
+    assert [row[2] is None for row in rows] == [True, False, True], rows
+    assert "no answer within the time limit of 1 s in fmi2DoStep" in str(rows[1][2])

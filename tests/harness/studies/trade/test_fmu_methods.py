@@ -14,6 +14,7 @@ from slider_resonator.studies.trade.method import Method
 from slider_resonator.studies.trade.problem import Problem
 from slider_resonator.studies.trade.result import AVERAGED
 from slider_resonator.studies.trade.solution import errors
+from tests.harness.in_process import InProcess
 from tests.harness.studies.trade.problems import LUGRE, RAMP, TABLE_1, problem, reference_of
 
 
@@ -23,7 +24,7 @@ def followed(problem: Problem, method: Method) -> dict[str, float]:
 
 
 def pick(problem: Problem, instance: Instance, fidelity: int, step: float) -> Method:
-    methods = FmuMethods(problem, "native", instance).methods()
+    methods = FmuMethods(problem, "native", InProcess(instance)).methods()
     return next(
         method
         for method in methods
@@ -62,7 +63,8 @@ def test_averaged_motion_has_a_mean_velocity_and_no_events(
 def test_every_fidelity_step_and_law_is_there(tmp_path: Path, instance: Instance) -> None:
     for text, tolerances in ((TABLE_1, 1), (LUGRE, 5)):
         labels = [
-            m.label for m in FmuMethods(problem(tmp_path, text), "native", instance).methods()
+            m.label
+            for m in FmuMethods(problem(tmp_path, text), "native", InProcess(instance)).methods()
         ]
         assert len({label.name for label in labels}) == len(labels)
         for fidelity in (0, 1, 2):
@@ -74,7 +76,7 @@ def test_every_fidelity_step_and_law_is_there(tmp_path: Path, instance: Instance
 
 
 def test_answers_are_those_of_the_commands(tmp_path: Path, instance: Instance) -> None:
-    answers = list(FmuMethods(problem(tmp_path, TABLE_1), "native", instance).answers())
+    answers = list(FmuMethods(problem(tmp_path, TABLE_1), "native", InProcess(instance)).answers())
     found = {(a.label.name, a.quantity): a.find(inf).value for a in answers}
     assert found["native FMU, fidelity 2", "steady_velocity"] == pytest.approx(0.126667, rel=1e-6)
     assert found["native FMU, fidelity 2", "blocking_force"] == pytest.approx(0.0851861, rel=1e-6)

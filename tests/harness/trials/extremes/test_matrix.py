@@ -43,6 +43,11 @@ AXES = {
     "grazing release": {"peak below the limit", "peak at the limit", "peak above the limit"},
     "simultaneous": {"drive peaks where the load vanishes", "no force at all"},
     "inputs jump every step": {"seed 1"},
+    "beat against step": {"1 beat", "90 beats", "1/3 beat"},
+    "start in flight": {"ratio 0.01", "ratio -0.003", "ratio 1e-06"},
+    "late jump": {"phase", "load", "frequency_ratio"},
+    "neutral motions": {"ratio 2", "ratio 4"},
+    "overflow": {"friction_coefficient 1e+308", "resonator_mass 1e+300"},
     "state restored": {"mid-stick"},
 }
 """The values that every axis must have at least."""
@@ -54,7 +59,20 @@ def test_every_value_is_there(axis: str) -> None:
 
 
 def test_every_device_is_run_by_every_model_that_covers_it() -> None:
-    for axis in ("Omega", "q", "alpha", "mu", "r_m", "xi", "resonance", "communication step"):
+    for axis in (
+        "beat against step",
+        "start in flight",
+        "late jump",
+        "overflow",
+        "Omega",
+        "q",
+        "alpha",
+        "mu",
+        "r_m",
+        "xi",
+        "resonance",
+        "communication step",
+    ):
         counts = Counter(cell.value for cell in all_cells() if cell.axis == axis)
         assert set(counts.values()) == {len(MODELS)}, axis
 

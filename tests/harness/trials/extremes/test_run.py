@@ -6,7 +6,7 @@ import pytest
 
 from slider_resonator.errors import FmuError
 from slider_resonator.trials.extremes.cell import Hold, MatrixCell, Model
-from slider_resonator.trials.extremes.run import run_matrix
+from slider_resonator.trials.extremes.run import Matrix, run_matrix
 from slider_resonator.trials.extremes.verdict import FAILED, PASSED
 from tests.harness.faulty_fmus import compiled
 
@@ -34,3 +34,18 @@ def test_an_fmu_that_crashes_in_every_cell_fails_each(native_fmu: Path, tmp_path
 def test_an_fmu_that_cannot_be_opened_is_no_verdict(tmp_path: Path) -> None:
     with pytest.raises(FmuError, match="no such file"):
         run_matrix(tmp_path / "none.fmu", [QUICK], lambda *_: None)
+
+
+def test_an_interrupted_run_gives_what_has_run(native_fmu: Path) -> None:
+    def interrupt(label: str, share: float) -> None:
+        if share > 0.0:
+            raise KeyboardInterrupt
+
+    kept: list[Matrix] = []
+    with pytest.raises(KeyboardInterrupt):
+        run_matrix(native_fmu, [QUICK, QUICK, QUICK], interrupt, 60.0, kept.append)
+    (matrix,) = kept
+    assert [one.verdict for one in matrix.verdicts] == [PASSED]
+    assert matrix.not_run == 2
+    assert not matrix.passed
+    assert "0 failed, 2 not run" in matrix.summary

@@ -74,15 +74,23 @@ def test_no_file_is_no_answer(tmp_path: Path) -> None:
     assert read_answers(tmp_path / "none.jsonl") == []
 
 
-def test_a_description_is_read_without_any_package(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("version", "token", "tag"),
+    [("2.0", "guid", "ScalarVariable"), ("3.0", "instantiationToken", "Float64")],
+)
+def test_a_description_is_read_without_any_package(
+    tmp_path: Path, version: str, token: str, tag: str
+) -> None:
     fmu = tmp_path / "some.fmu"
     with zipfile.ZipFile(fmu, "w") as archive:
         archive.writestr(
             "modelDescription.xml",
-            '<fmiModelDescription guid="g"><CoSimulation modelIdentifier="i"/><ModelVariables>'
-            '<ScalarVariable name="a" valueReference="7"/>'
-            '<ScalarVariable name="b" valueReference="3"/></ModelVariables></fmiModelDescription>',
+            f'<fmiModelDescription fmiVersion="{version}" {token}="g">'
+            '<CoSimulation modelIdentifier="i"/><ModelVariables>'
+            f'<{tag} name="a" valueReference="7"/>'
+            f'<{tag} name="b" valueReference="3"/></ModelVariables></fmiModelDescription>',
         )
     description = describe(str(fmu))
+    assert description.version == version
     assert (description.guid, description.identifier) == ("g", "i")
     assert description.refer(["b", "a"]) == [3, 7]

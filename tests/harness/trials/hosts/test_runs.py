@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.device.interface import INPUTS, OUTPUTS
-from slider_resonator.trials.hosts import runs
 from slider_resonator.trials.hosts.hosts import Host
 from slider_resonator.trials.hosts.job import HostAnswer
 from slider_resonator.trials.hosts.runs import (
@@ -52,14 +51,11 @@ def test_a_host_that_dies_leaves_the_answers_before(tmp_path: Path) -> None:
     assert second.error == "the host ended with 3: cannot go on"
 
 
-def test_a_host_that_hangs_is_ended_with_all_it_started(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(runs, "TIME_LIMIT", 0.5)
+def test_a_host_that_hangs_is_ended_with_all_it_started(tmp_path: Path) -> None:
     began = time.monotonic()
-    (answer,) = run_jobs(host(tmp_path, "sleep 60"), table_1_jobs(FMU)[:1])
+    (answer,) = run_jobs(host(tmp_path, "sleep 60"), table_1_jobs(FMU)[:1], time_limit=0.5)
     assert answer.error is not None
-    assert answer.error.startswith("the host ended after 0.5 s")
+    assert answer.error.startswith("the host was ended after 0.5 s")
     assert time.monotonic() - began < 20.0
 
 

@@ -18,7 +18,7 @@ from slider_resonator.trials.hosts.step_cost import (
 
 @pytest.mark.slow
 def test_every_step_is_timed(native_fmu: Path) -> None:
-    costs = measure_steps(native_fmu, 1, lambda name, share: None)
+    costs = measure_steps(native_fmu, 1, lambda name, share: None, 60.0)
     assert [cost.name for cost in costs] == [step.name for step in STEPS]
     assert all(0.0 < cost.fastest <= cost.microseconds <= cost.slowest for cost in costs)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from slider_resonator.output import markdown
 from slider_resonator.trials.hosts.hosts import hosts
-from slider_resonator.trials.hosts.runs import CASES, HostComparison, HostResult
+from slider_resonator.trials.hosts.runs import CASES, FMI_3, HostComparison, HostResult
 from slider_resonator.trials.hosts.table import BEGIN, COLUMNS, END, host_table, write_table
 
 README = Path(__file__).parents[4] / "README.md"
@@ -55,4 +55,5 @@ def test_the_table_of_the_readme_is_one_that_this_code_writes() -> None:
     assert list(found) == [host.name for host in hosts()]
     for host in hosts():
         fmus = ["native", "Python"] if host.loads_python else ["native"]
+        fmus += [FMI_3] if host.loads_fmi_3 else []
         assert found[host.name] == (["native behind Python"] if host.couples else fmus)

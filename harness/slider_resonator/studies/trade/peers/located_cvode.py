@@ -17,7 +17,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
-from slider_resonator.references.resolved.equations import Equations, equations_of, initial_state
+from slider_resonator.references.resolved.equations import Equations
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -36,16 +36,17 @@ def simulate(
     Raises ValueError as the other does; RuntimeError when the solver gives up;
     ModuleNotFoundError without scikit-sundae.
     """
-    solver, equations = cvode(), equations_of(device)
+    solver = cvode()
 
     def follow(segment: Segment) -> SegmentResult:
-        return _follow(solver, equations, segment, tolerance)
+        return _follow(solver, segment, tolerance)
 
-    return ModeSequence(equations, follow, initial_state(device), times).run(held)
+    return ModeSequence(device, follow, times).run(held)
 
 
-def _follow(cvode: Any, equations: Equations, segment: Segment, tolerance: float) -> SegmentResult:
+def _follow(cvode: Any, segment: Segment, tolerance: float) -> SegmentResult:
     """Follow one segment; the integrated position is the displacement since its start."""
+    equations = segment.equations
     slopes = equations.slopes(
         segment.mode, segment.load, segment.theta, segment.angle, segment.frequency_ratio
     )

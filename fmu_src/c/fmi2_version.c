@@ -1,0 +1,11 @@
+/* The names of FMI 2.0. */
+#include "fmi_version.h"
+
+const FmiVersion FMI = {
+    .min_reference = 0,
+    .reference_offset = 0,
+    .states = TERMINATED + 1,
+    .state_names = {"instantiated", "initialization mode", "step complete", "terminated"},
+    .type_names = {"Real", "Integer", "Boolean", "String"},
+    .token = "fmuGUID",
+};

@@ -1,0 +1,91 @@
+/* FMI 3.0 for co-simulation: steps, and the event mode between them.
+ *
+ * If the host uses event mode and allows early return, a step ends at the first reversal, stick,
+ * release, lift-off or touchdown, located to rounding. Otherwise it passes over them. */
+#include "fmi3_api.h"
+#include "lifecycle.h"
+
+bool results_check(const char *call, bool all_given, Refusal *refusal) {
+    return all_given
+           || refuse(refusal, "%s: a null pointer refused: must point to memory for a result", call);
+}
+
+fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint,
+                      fmi3Float64 communicationStepSize,
+                      fmi3Boolean noSetFMUStatePriorToCurrentPoint,
+                      fmi3Boolean *eventHandlingNeeded, fmi3Boolean *terminateSimulation,
+                      fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
+    (void)noSetFMUStatePriorToCurrentPoint;
+    Instance *own = instance;
+    Refusal refusal;
+    if (own == NULL
+        || !results_check("fmi3DoStep",
+                          eventHandlingNeeded && terminateSimulation && earlyReturn
+                              && lastSuccessfulTime, &refusal)) {
+        return answer(own, false, &refusal);
+    }
+    Component *component = &own->component;
+    bool event = false, done;
+    if (own->event_mode_used && own->early_return_allowed) {
+        done = component_step_to_event(component, currentCommunicationPoint, communicationStepSize,
+                                       &event, &refusal);
+    } else {
+        done = component_step(component, currentCommunicationPoint, communicationStepSize,
+                              &refusal);
+    }
+    double end = currentCommunicationPoint + communicationStepSize;
+    *eventHandlingNeeded = event;
+    *terminateSimulation = fmi3False;
+    *earlyReturn = event && component->now.time < end;
+    *lastSuccessfulTime = component->now.time;
+    return answer(own, done, &refusal);
+}
+
+/* Refuse what needs event mode where the host announced that it does not use it. */
+static bool event_mode_check(const Instance *instance, const char *call, Refusal *refusal) {
+    return instance->event_mode_used
+           || refuse(refusal, "%s refused: eventModeUsed = false; must be true at instantiation",
+                     call);
+}
+
+fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
+    Instance *own = instance;
+    Refusal refusal;
+    bool done = own != NULL && event_mode_check(own, "fmi3EnterEventMode", &refusal)
+                && component_enter_event_mode(&own->component, &refusal);
+    return answer(own, done, &refusal);
+}
+
+fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
+    Instance *own = instance;
+    Refusal refusal;
+    bool done = own != NULL && event_mode_check(own, "fmi3EnterStepMode", &refusal)
+                && component_enter_step_mode(&own->component, &refusal);
+    return answer(own, done, &refusal);
+}
+
+/* Nothing is left to do at an event: the step that ended there has changed the contact mode. */
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
+                                    fmi3Boolean *terminateSimulation,
+                                    fmi3Boolean *nominalsOfContinuousStatesChanged,
+                                    fmi3Boolean *valuesOfContinuousStatesChanged,
+                                    fmi3Boolean *nextEventTimeDefined,
+                                    fmi3Float64 *nextEventTime) {
+    Instance *own = instance;
+    Refusal refusal;
+    bool done = own != NULL
+                && results_check("fmi3UpdateDiscreteStates",
+                                 discreteStatesNeedUpdate && terminateSimulation
+                                     && nominalsOfContinuousStatesChanged
+                                     && valuesOfContinuousStatesChanged && nextEventTimeDefined
+                                     && nextEventTime, &refusal)
+                && require("updateDiscreteStates", own->component.now.lifecycle, EVENT_MODE,
+                           &refusal);
+    if (done) {
+        *discreteStatesNeedUpdate = *terminateSimulation = fmi3False;
+        *nominalsOfContinuousStatesChanged = *valuesOfContinuousStatesChanged = fmi3False;
+        *nextEventTimeDefined = fmi3False;
+        *nextEventTime = 0.0;
+    }
+    return answer(own, done, &refusal);
+}

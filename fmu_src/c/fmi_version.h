@@ -1,0 +1,47 @@
+/* What versions of FMI name differently. */
+#ifndef SLIDER_FMI_VERSION_H
+#define SLIDER_FMI_VERSION_H
+
+/* STEP_COMPLETE of FMI 2.0 is the step mode of FMI 3.0; only FMI 3.0 has EVENT_MODE. */
+typedef enum {
+    INSTANTIATED,
+    INITIALIZATION,
+    STEP_COMPLETE,
+    TERMINATED,
+    EVENT_MODE,
+    LIFECYCLES
+} Lifecycle;
+
+/* Types of values; the table of variables has those of the first two. */
+typedef enum {
+    REAL_TYPE,
+    INTEGER_TYPE,
+    BOOLEAN_TYPE,
+    STRING_TYPE,
+    FLOAT32_TYPE,
+    INT8_TYPE,
+    UINT8_TYPE,
+    INT16_TYPE,
+    UINT16_TYPE,
+    UINT32_TYPE,
+    INT64_TYPE,
+    UINT64_TYPE,
+    BINARY_TYPE,
+    CLOCK_TYPE,
+    VALUE_TYPES
+} ValueType;
+
+/* `states` are the first so many of Lifecycle. The reference of a variable is its place in the table
+ * plus `reference_offset`; `min_reference` is the lowest that any variable has. */
+typedef struct {
+    unsigned min_reference, reference_offset;
+    int states;
+    const char *state_names[LIFECYCLES];
+    const char *type_names[VALUE_TYPES];
+    const char *token; /* FMI's name of MODEL_GUID */
+} FmiVersion;
+
+/* The version that this FMU is for. */
+extern const FmiVersion FMI;
+
+#endif

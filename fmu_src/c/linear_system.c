@@ -1,0 +1,56 @@
+#include "linear_system.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Smallest pivot, over the largest entry of the matrix, that counts as different from 0. */
+#define SMALLEST_PIVOT 1e-13
+
+static double largest_entry(double matrix[UNKNOWNS][UNKNOWNS], int count) {
+    double largest = 0.0;
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < count; j++) {
+            largest = fmax(largest, fabs(matrix[i][j]));
+        }
+    }
+    return largest;
+}
+
+static void swap(double *a, double *b) {
+    double kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int count) {
+    double rows[UNKNOWNS][UNKNOWNS];
+    memcpy(rows, matrix, sizeof rows);
+    double smallest = SMALLEST_PIVOT * largest_entry(rows, count);
+    for (int k = 0; k < count; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < count; i++) {
+            pivot = fabs(rows[i][k]) > fabs(rows[pivot][k]) ? i : pivot;
+        }
+        if (!(fabs(rows[pivot][k]) > smallest)) {
+            return false;
+        }
+        for (int j = k; j < count && pivot != k; j++) {
+            swap(&rows[k][j], &rows[pivot][j]);
+        }
+        swap(&right[k], &right[pivot]);
+        for (int i = k + 1; i < count; i++) {
+            double share = rows[i][k] / rows[k][k];
+            for (int j = k + 1; j < count; j++) {
+                rows[i][j] -= share * rows[k][j];
+            }
+            right[i] -= share * right[k];
+        }
+    }
+    for (int k = count - 1; k >= 0; k--) {
+        for (int j = k + 1; j < count; j++) {
+            right[k] -= rows[k][j] * right[j];
+        }
+        right[k] /= rows[k][k];
+    }
+    return true;
+}

@@ -1,0 +1,101 @@
+#include "steady_orbit.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "state.h"
+
+/* Velocities at which orbits tell where steady motion is, and the most halvings in between. */
+enum { SAMPLES = 12, MAX_HALVINGS = 60 };
+
+/* Largest sampled velocity, in v_q: beyond grazing unless friction is strong. */
+#define SAMPLED_REACH 1.05
+
+/* Force, over full friction, that is rounding or the tolerance of a map. */
+#define NOISE 1e-9
+
+/* What lies between two velocities [m/s], at the first of which friction and load together drive
+ * the slider on, and at the second brake it. `orbit` is one of them. */
+typedef struct {
+    double low, high;
+    HeldOrbit orbit;
+} Bracket;
+
+/* Finds the steady motion in a bracket: by the tangent, or else between the halves. */
+static OrbitStatus refine(const PeriodMap *map, double lead, double load, Bracket *bracket,
+                          HeldOrbit *orbit) {
+    OrbitStatus status = ORBIT_NOT_CONVERGED;
+    for (int halving = 0; halving < MAX_HALVINGS; halving++) {
+        status = steady_orbit_at(map, lead, load, &bracket->orbit, orbit);
+        if (status == ORBIT_FOUND && bracket->low <= orbit->velocity &&
+            orbit->velocity <= bracket->high) {
+            return status;
+        }
+        double middle = 0.5 * (bracket->low + bracket->high);
+        status = held_orbit_at(map, lead, middle, &bracket->orbit, &bracket->orbit);
+        if (status != ORBIT_FOUND) {
+            return status;
+        }
+        *(bracket->orbit.friction + load > 0.0 ? &bracket->high : &bracket->low) = middle;
+    }
+    return ORBIT_NOT_CONVERGED;
+}
+
+/* What the samples have shown so far: the highest velocity [m/s] at which friction and load drive
+ * the slider on, whether one with a braking force may follow it, the samples in balance since, and
+ * how many brackets there are. */
+typedef struct {
+    double low;
+    bool drives;
+    int balanced, count;
+    Bracket bracket;
+} Scan;
+
+/* Takes in a velocity [m/s] and the force [N] on it; the orbit is that of the last sample. */
+static void scan_on(Scan *scan, double velocity, double excess, double noise,
+                    const HeldOrbit *sample) {
+    if (excess < -noise) {
+        scan->low = velocity;
+        scan->drives = true;
+    } else if (excess <= noise) {
+        scan->balanced++;
+        return;
+    } else if (scan->drives) {
+        scan->count += scan->balanced > 1 ? 2 : 1;
+        scan->bracket = (Bracket){scan->low, velocity, *sample};
+        scan->drives = false;
+    }
+    scan->balanced = 0;
+}
+
+OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrbit *orbit) {
+    double sliding = sliding_friction(map, lead), noise = NOISE * sliding;
+    double reach = 2.0 * SAMPLED_REACH * map->speed;
+    bool known = false;
+    OrbitStatus failure = ORBIT_RUNS_AWAY;
+    HeldOrbit sample = {0};
+    Scan scan = {0};
+    scan_on(&scan, -reach, load - sliding, noise, &sample);
+    for (int i = 0; i < SAMPLES; i++) {
+        double velocity = -SAMPLED_REACH * map->speed * cos(PI * (i + 0.5) / SAMPLES);
+        OrbitStatus status = held_orbit_at(map, lead, velocity, known ? &sample : NULL, &sample);
+        known = status == ORBIT_FOUND;
+        if (known) {
+            scan_on(&scan, velocity, load + sample.friction, noise, &sample);
+        } else {
+            failure = status;
+        }
+    }
+    scan_on(&scan, reach, load + sliding, noise, &sample);
+    if (scan.count != 1) {
+        return scan.count == 0 ? failure : ORBIT_UNDETERMINED;
+    }
+    return refine(map, lead, load, &scan.bracket, orbit);
+}
+
+OrbitStatus blocking_orbit(const PeriodMap *map, double lead, HeldOrbit *orbit, double *force) {
+    OrbitStatus status = held_orbit_at(map, lead, 0.0, NULL, orbit);
+    *force = status == ORBIT_FOUND ? -orbit->friction : 0.0;
+    return status;
+}

@@ -1,0 +1,104 @@
+"""Steady motion as a held orbit: the velocity at which a load is the one that holds.
+
+Both results are exact, for a held orbit is a periodic motion of the full device.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import cos, pi
+
+from .held_orbit import HeldOrbit, NoOrbitError, OrbitStatus, held_orbit_at, steady_orbit_at
+from .period_map import PeriodMap
+
+SAMPLES = 12
+"""Velocities at which orbits tell where steady motion is."""
+
+MAX_HALVINGS = 60
+"""Most halvings between two of them."""
+
+NOISE = 1e-9
+"""Force, over full friction, that is rounding or the tolerance of a map."""
+
+SAMPLED_REACH = 1.05
+"""Largest sampled velocity, in v_q: beyond grazing unless friction is strong."""
+
+
+@dataclass(slots=True)
+class _Scan:
+    """What samples have shown so far, up to forces of `noise` [N].
+
+    `low` is the highest velocity [m/s] at which friction and load drive the slider on, as long as
+    one with a braking force may follow it; `balanced` are the samples in balance since. Brackets
+    hold both velocities and the orbit of a sample.
+    """
+
+    noise: float
+    low: float | None = None
+    balanced: int = 0
+    brackets: list[tuple[float, float, HeldOrbit | None]] = field(default_factory=list)
+    stretches: int = 0
+
+    def on(self, velocity: float, excess: float, sample: HeldOrbit | None) -> None:
+        """Take in a velocity [m/s] and the force [N] on it."""
+        if excess < -self.noise:
+            self.low = velocity
+        elif excess <= self.noise:
+            self.balanced += 1
+            return
+        elif self.low is not None:
+            self.brackets.append((self.low, velocity, sample))
+            self.stretches += self.balanced > 1
+            self.low = None
+        self.balanced = 0
+
+
+def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
+    """The steady motion under `load` [N] to which motion at other velocities tends.
+
+    Orbits at a few velocities tell how many there are. Raises NoOrbitError: RUNS_AWAY for none,
+    UNDETERMINED for several, and the reason of the last failure where no orbit was found.
+    """
+    sliding, reach = period_map.sliding_friction(lead), 2.0 * SAMPLED_REACH * period_map.speed
+    scan, failure = _Scan(NOISE * sliding), OrbitStatus.RUNS_AWAY
+    sample: HeldOrbit | None = None
+    scan.on(-reach, load - sliding, sample)
+    for i in range(SAMPLES):
+        velocity = -SAMPLED_REACH * period_map.speed * cos(pi * (i + 0.5) / SAMPLES)
+        try:
+            sample = held_orbit_at(period_map, lead, velocity, sample)
+        except NoOrbitError as error:
+            failure, sample = error.status, None
+        else:
+            scan.on(velocity, load + sample.friction, sample)
+    scan.on(reach, load + sliding, sample)
+    if len(scan.brackets) + scan.stretches != 1:
+        raise NoOrbitError(OrbitStatus.UNDETERMINED if scan.brackets else failure)
+    return _refined(period_map, lead, load, *scan.brackets[0])
+
+
+def blocking_force(period_map: PeriodMap, lead: float) -> float:
+    """The load [N] that stops the slider. Raises NoOrbitError."""
+    return -held_orbit_at(period_map, lead, 0.0).friction
+
+
+def _refined(
+    period_map: PeriodMap,
+    lead: float,
+    load: float,
+    low: float,
+    high: float,
+    sample: HeldOrbit | None,
+) -> HeldOrbit:
+    """The steady motion between two velocities, by the tangent, or else between the halves."""
+    for _ in range(MAX_HALVINGS):
+        try:
+            orbit = steady_orbit_at(period_map, lead, load, sample)
+            if low <= orbit.velocity <= high:
+                return orbit
+        except NoOrbitError:
+            pass
+        middle = 0.5 * (low + high)
+        sample = held_orbit_at(period_map, lead, middle, sample)
+        low, high = (low, middle) if sample.friction + load > 0.0 else (middle, high)
+    raise NoOrbitError(OrbitStatus.NOT_CONVERGED)

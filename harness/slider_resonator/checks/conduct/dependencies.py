@@ -1,0 +1,93 @@
+"""What acts on an output at once, against the dependencies that the FMU declares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from fmpy.model_description import Unknown
+
+from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
+from slider_resonator.fmu.instance import Instance
+
+SITUATIONS: Sequence[Mapping[str, float]] = (
+    {},
+    {"initial_velocity": 0.3, "load": 0.1, "frequency_ratio": 3.0, "phase": 0.5},
+    {"fidelity": 1.0, "load": 0.03, "phase": 1.0},
+    {"fidelity": 0.0, "phase": 1.0},
+    {"friction_law": 1.0, "initial_velocity": 0.2, "phase": 0.2},
+)
+"""Devices and inputs in which variables are changed, one by one."""
+STEPS = 4
+STEP = 1.37e-4
+"""Steps (s) of a run after each of which an input is changed."""
+
+
+def dependency_faults(fmu: FmuSide) -> Findings:
+    """Change each variable at the start, and each input in a run, and see which outputs follow."""
+    instance, description = fmu.instance, fmu.instance.fmu.description
+    at_start = _declared(description.initialUnknowns)
+    in_run = _declared(description.outputs)
+    faults: list[str] = []
+    names = [name for name in (*PARAMETERS, *INPUTS) if name in instance.fmu.variables]
+    chosen = ("fidelity", "friction_law", "averaging_order")  # each has a situation of its own
+    for situation in SITUATIONS:
+        before = _started(instance, situation)
+        for name in names:
+            if name in chosen:
+                continue
+            value = situation.get(name, VARIABLES[name].start or 0.0)
+            after = _started(instance, {**situation, name: other_value(name, value)})
+            faults += _undeclared(name, before, after, at_start, "at the start")
+        _started(instance, situation)
+        with instance.explained():
+            for _ in range(STEPS):
+                instance.step_by(STEP)
+                faults += _after_inputs(instance, in_run)
+    return Findings.of(list(dict.fromkeys(faults)))
+
+
+def _after_inputs(instance: Instance, declared: Mapping[str, set[str] | None]) -> list[str]:
+    faults: list[str] = []
+    before, present = _outputs(instance), instance.read(list(INPUTS))
+    for name, value in present.items():
+        instance.set({name: other_value(name, value)})
+        faults += _undeclared(name, before, _outputs(instance), declared, "in a run")
+        instance.set({name: value})
+    return faults
+
+
+def _declared(unknowns: Iterable[Unknown]) -> dict[str, set[str] | None]:
+    """Return the dependencies of each unknown by name, None for all."""
+    return {
+        u.variable.name: None if u.dependencies is None else {v.name for v in u.dependencies}
+        for u in unknowns
+    }
+
+
+def _started(instance: Instance, values: Mapping[str, float]) -> Mapping[str, float]:
+    instance.start(values)
+    with instance.explained():
+        return _outputs(instance)
+
+
+def _outputs(instance: Instance) -> Mapping[str, float]:
+    return instance.read(instance.fmu.outputs)
+
+
+def _undeclared(
+    name: str,
+    before: Mapping[str, float],
+    after: Mapping[str, float],
+    declared: Mapping[str, set[str] | None],
+    when: str,
+) -> list[str]:
+    return [
+        f"{name} acts on {output} {when} without being declared"
+        for output, value in before.items()
+        if after[output] != value
+        and (found := declared.get(output, set())) is not None
+        and name not in found
+    ]

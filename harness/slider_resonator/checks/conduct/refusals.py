@@ -1,0 +1,227 @@
+"""Values and calls that an FMU must refuse, by name and without a trace in its run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2Discard
+
+from slider_resonator.checks.conduct.findings import Findings, differences
+from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.interface import VARIABLES, Variable
+from slider_resonator.errors import NotApplicable, Refusal
+from slider_resonator.fmu.instance import Instance, call
+from slider_resonator.fmu.run import Running
+
+STEP = 1.7e-3
+"""Size of a good step, s."""
+
+_LIFECYCLE: Mapping[str, Callable[[Instance], object]] = {
+    "fmi2SetupExperiment": lambda i: call(
+        i.slave, "fmi2SetupExperiment", False, 0.0, 0.0, False, 0.0
+    ),
+    "fmi2EnterInitializationMode": lambda i: call(i.slave, "fmi2EnterInitializationMode"),
+    "fmi2ExitInitializationMode": lambda i: call(i.slave, "fmi2ExitInitializationMode"),
+    "fmi2DoStep": lambda i: call(i.slave, "fmi2DoStep", i.time, STEP, True),
+    "fmi2Terminate": lambda i: call(i.slave, "fmi2Terminate"),
+    "setting load": lambda i: i.set({"load": 0.1}),
+}
+"""Calls that belong to some state of an instance."""
+
+OUT_OF_ORDER: Mapping[str, tuple[str, ...]] = {
+    "before a run": ("fmi2ExitInitializationMode", "fmi2DoStep"),
+    "in initialisation mode": ("fmi2SetupExperiment", "fmi2EnterInitializationMode", "fmi2DoStep"),
+    "in a run": (
+        "fmi2SetupExperiment",
+        "fmi2EnterInitializationMode",
+        "fmi2ExitInitializationMode",
+    ),
+    "after a run": tuple(_LIFECYCLE),
+}
+"""Calls that must be refused, by the state of the instance."""
+
+EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
+    **{f"a start time of {bad}": (False, 0.0, bad, False, 0.0) for bad in (math.nan, math.inf)},
+    **{f"a stop time of {bad}": (False, 0.0, 5.0, True, bad) for bad in (math.nan, 4.0)},
+    "a tolerance of nan": (True, math.nan, 0.0, False, 0.0),
+}
+"""Arguments of fmi2SetupExperiment that must be refused."""
+
+STEP_SIZES = (0.0, -0.0, -1e-3, math.nan, math.inf, -math.inf)
+JUMPS = (-STEP, 1e-5, STEP, 1e9, math.nan, math.inf)
+"""Distances (s) from the present time at which a step cannot begin."""
+
+
+@dataclass
+class _Trial:
+    """Calls that must be refused, and what was found wrong with them."""
+
+    instance: Instance
+    faults: list[str]
+
+    def refuses(self, what: str, attempt: Callable[[], object], name: str = "") -> None:
+        """Make a call; it must fail, with a log that has `name`, and change no variable."""
+        before = self._values()
+        del self.instance.messages[:]
+        try:
+            attempt()
+        except FMICallException as error:
+            if error.status == fmi2Discard:
+                self.faults.append(f"{what} gives fmi2Discard, at which hosts end a run")
+            if name and name not in " ".join(self.instance.messages):
+                self.faults.append(f"{what} is refused without naming {name}")
+            changed = {n for n, value in self._values().items() if value != before[n]}
+            if changed:
+                self.faults.append(f"{what} is refused but changes {', '.join(sorted(changed))}")
+        else:
+            self.faults.append(f"{what} is accepted")
+
+    def _values(self) -> Mapping[str, float]:
+        names = [name for name, v in VARIABLES.items() if v.causality != "output"]
+        return self.instance.read([n for n in names if n in self.instance.fmu.variables])
+
+    def refuses_values(self, when: str, variables: Iterator[Variable]) -> None:
+        """Set what lies outside the bounds of variables."""
+        for variable in variables:
+            for bad in bad_values(variable):
+                what = f"{variable.name} = {bad!r} {when}"
+                self.refuses(what, partial(self._set, variable, bad), variable.name)
+
+    def refuses_all(self, when: str, variables: Iterator[Variable]) -> None:
+        """Set variables, which must not be set at all, to other values."""
+        for variable in variables:
+            value = 0.5
+            if variable.start is not None:
+                value = other_value(variable.name, variable.start)
+            what = f"{variable.name} = {value!r} {when}"
+            self.refuses(what, partial(self._set, variable, value), variable.name)
+
+    def refuses_calls(self, when: str) -> None:
+        """Make the calls that are out of order."""
+        for name in OUT_OF_ORDER[when]:
+            self.refuses(f"{name} {when}", partial(_LIFECYCLE[name], self.instance))
+
+    def accepts_bounds(self, variables: Iterator[Variable]) -> None:
+        """Set variables to their bounds, which they can have."""
+        for variable in variables:
+            for bound in (variable.minimum, variable.maximum):
+                if bound is None:
+                    continue
+                try:
+                    self._set(variable, bound)
+                except FMICallException:
+                    self.faults.append(f"{variable.name} = {bound!r} is refused, a bound")
+
+    def _set(self, variable: Variable, value: float) -> None:
+        reference = [self.instance.fmu.variables[variable.name].valueReference]
+        if variable.kind == "Integer":
+            self.instance.slave.setInteger(reference, [int(value)])
+        else:
+            self.instance.slave.setReal(reference, [value])
+
+
+def bad_values(variable: Variable) -> list[float]:
+    """Return values that are not finite, and the nearest beyond the bounds of a variable."""
+    low, high = variable.minimum, variable.maximum
+    if variable.kind == "Integer":
+        assert low is not None
+        assert high is not None
+        return [low - 1.0, high + 1.0]
+    beyond = [math.nan, math.inf, -math.inf]
+    beyond += [] if low is None else [math.nextafter(low, -math.inf), low - 1.0]
+    return beyond + ([] if high is None else [math.nextafter(high, math.inf), high + 1.0])
+
+
+def refusal_faults(fmu: FmuSide) -> Findings:
+    """Try what must be refused before, in and after the run of the scene; the run goes on."""
+    instance, schedule = fmu.instance, fmu.scene.schedule()
+    if instance.fmu.version != "2.0":
+        raise NotApplicable("needs FMI 2.0, whose calls are tried")
+    quiet, running = Running(instance, schedule), Running(instance, schedule)
+    start = {**fmu.scene.parameters, **quiet.first}
+    with instance.explained():
+        instance.start(start, quiet.stop_time, start_time=schedule.start_time)
+        quiet.read()
+        for step in range(quiet.steps):
+            quiet.advance(step)
+    trial = _Trial(instance, [])
+    try:
+        _try_all(trial, running, start, schedule.start_time)
+    except Refusal as error:
+        if not trial.faults:
+            raise
+        return Findings.of([*trial.faults, f"and then {error}"])
+    what = "a run with refused calls"
+    outputs, times = instance.fmu.outputs, schedule.readings()
+    found = differences(what, outputs, times, running.rows, quiet.rows)
+    return Findings.of(trial.faults) + found
+
+
+def _try_all(
+    trial: _Trial, running: Running, start: Mapping[str, float], start_time: float
+) -> None:
+    """Try what must be refused; Refusal when the FMU then refuses what it must do."""
+    instance = trial.instance
+    present = [v for name, v in VARIABLES.items() if name in instance.fmu.variables]
+    settable = [v for v in present if v.causality != "output"]
+    _before_the_run(trial, settable)
+    with instance.explained():
+        instance.set_up(running.stop_time, start_time=start_time)
+        instance.set(start)
+        call(instance.slave, "fmi2EnterInitializationMode")
+    trial.refuses_values("in initialisation mode", iter(settable))
+    trial.refuses_calls("in initialisation mode")
+    with instance.explained():
+        instance.begin()
+        running.read()
+    for step in range(running.steps):
+        if step in (1, running.steps // 2 + 1):
+            _in_the_run(trial, present)
+        with instance.explained():
+            running.advance(step)
+    beyond = STEP + 1e-3 * abs(running.stop_time)
+    trial.refuses("a step beyond the stop", partial(_step, instance, instance.time, beyond))
+    with instance.explained():
+        instance.terminate()
+    trial.refuses_calls("after a run")
+
+
+def _before_the_run(trial: _Trial, settable: list[Variable]) -> None:
+    instance = trial.instance
+    with instance.explained():
+        instance.set_up()
+        call(instance.slave, "fmi2Reset")
+    for what, arguments in EXPERIMENTS.items():
+        trial.refuses(what, partial(call, instance.slave, "fmi2SetupExperiment", *arguments))
+    trial.refuses_values("before a run", iter(settable))
+    trial.refuses_calls("before a run")
+    trial.accepts_bounds(iter(settable))
+
+
+def _in_the_run(trial: _Trial, present: list[Variable]) -> None:
+    instance = trial.instance
+    anytime = [v for v in present if v.causality == "input" or v.variability == "tunable"]
+    fixed = [v for v in present if v.causality == "parameter" and v.variability == "fixed"]
+    trial.refuses_values("in a run", iter(anytime))
+    trial.refuses_all("in a run", iter(fixed))
+    trial.refuses_all("from outside", (v for v in present if v.causality == "output"))
+    trial.refuses_calls("in a run")
+    for size in STEP_SIZES:
+        trial.refuses(
+            f"a step of {size!r} s",
+            partial(_step, instance, instance.time, size),
+        )
+    for jump in JUMPS:
+        trial.refuses(
+            f"a step {jump!r} s away from the present time",
+            partial(_step, instance, instance.time + jump, STEP),
+        )
+
+
+def _step(instance: Instance, time: float, size: float) -> None:
+    call(instance.slave, "fmi2DoStep", time, size, True)

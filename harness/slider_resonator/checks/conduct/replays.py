@@ -1,0 +1,259 @@
+"""The same run in other ways, each of which must give the same outputs to the last bit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+
+from fmpy.fmi1 import FMICallException
+
+from slider_resonator.checks.conduct.findings import NOTHING, Findings, differences
+from slider_resonator.checks.conduct.other_values import other_inputs, other_value
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.interface import TUNABLES
+from slider_resonator.device.schedule import Schedule, in_order
+from slider_resonator.fmu.instance import Instance, call, instantiate
+from slider_resonator.fmu.run import Running
+from slider_resonator.fmu.saved_state import SavedState
+
+Rows = Sequence[Sequence[float]]
+
+SAVED_AT = (0.0, 0.37, 0.81)
+"""Shares of the steps of a run after which its state is saved."""
+TRANSFERRED_AT = (0.22, 0.53, 0.87)
+"""Shares of the steps after which another instance takes over."""
+DETOUR = 3
+"""Steps under other values before a state is restored."""
+
+
+class _Comparison:
+    """The run of a scene on an instance, and how the rows of another way of it differ."""
+
+    def __init__(self, fmu: FmuSide) -> None:
+        self.instance = fmu.instance
+        self.schedule = fmu.scene.schedule()
+        self.parameters = fmu.scene.parameters
+        self.rows = _plain(self.instance, self.parameters, self.schedule)
+        self._times = self.schedule.readings()
+
+    def of(self, what: str, rows: Rows, *, begin: int = 0) -> Findings:
+        """Return how rows from the reading `begin` on differ from those of the run."""
+        outputs = self.instance.fmu.outputs
+        return differences(what, outputs, self._times[begin:], rows, self.rows[begin:])
+
+
+def _started(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Running:
+    """Return a run that has been started, with its first reading."""
+    running = Running(instance, schedule)
+    values = {**parameters, **running.first}
+    instance.start(values, running.stop_time, start_time=schedule.start_time)
+    running.check_steps()
+    running.read()
+    return running
+
+
+def _plain(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Rows:
+    with instance.explained():
+        running = _started(instance, parameters, schedule)
+        _finish(running, 0)
+    return running.rows
+
+
+def _finish(running: Running, step: int) -> None:
+    for index in range(step, running.steps):
+        running.advance(index)
+
+
+@contextmanager
+def _another(instance: Instance) -> Iterator[Instance]:
+    """Instantiate the FMU once more; NotApplicable where a process can have it only once."""
+    instance.fmu.require("canBeInstantiatedOnlyOncePerProcess", of=False)
+    with instantiate(instance.fmu) as other:
+        yield other
+
+
+def reset_differences(fmu: FmuSide) -> Findings:
+    """Compare a run on a new instance with one after a reset: after a run, and in its middle."""
+    if not fmu.instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+        fmu.instance.recreate()
+    first = _Comparison(fmu)
+    instance, schedule = fmu.instance, first.schedule
+    again = _plain(instance, first.parameters, schedule)
+    found = first.of("after a reset", again)
+    with instance.explained():
+        running = _started(instance, first.parameters, schedule)
+        for step in range(running.steps // 2):
+            running.advance(step)
+        instance.terminate()
+    again = _plain(instance, first.parameters, schedule)
+    return found + first.of("after a run that was terminated and reset", again)
+
+
+def restored_differences(fmu: FmuSide) -> Findings:
+    """Save states in a run, and go on from each after the run and a detour."""
+    fmu.instance.fmu.require("canGetAndSetFMUstate")
+    plain = _Comparison(fmu)
+    instance = fmu.instance
+    found = NOTHING
+    with instance.explained():
+        running = _started(instance, plain.parameters, plain.schedule)
+        steps = sorted({int(share * running.steps) for share in SAVED_AT})
+        saved: list[tuple[int, int, SavedState]] = []
+        try:
+            for step in range(running.steps):
+                if step in steps:
+                    saved.append((step, len(running.rows), SavedState.of(instance)))
+                running.advance(step)
+            found += plain.of("while states are saved", running.rows)
+            for step, rows, state in reversed(saved):
+                state.restore()
+                _detour(running, step)
+                state.restore()
+                running.rows = []
+                running.read()
+                _finish(running, step)
+                what = f"restored after step {step}"
+                found += plain.of(what, running.rows, begin=rows - 1)
+        finally:
+            for _, _, state in saved:
+                state.free()
+    return found
+
+
+def _detour(running: Running, step: int) -> None:
+    """Take a few steps with other inputs and tunables."""
+    instance = running.instance
+    instance.set_inputs(other_inputs(running.inputs[0].tolist()))
+    present = instance.read(TUNABLES)
+    instance.set({name: other_value(name, value) for name, value in present.items()})
+    for index in range(step, min(step + DETOUR, running.steps)):
+        instance.step_by(running.step_size(index))
+
+
+def transferred_differences(fmu: FmuSide) -> Findings:
+    """Go on in another instance, at first new and then used, from serialised states."""
+    fmu.instance.fmu.require("canGetAndSetFMUstate")
+    fmu.instance.fmu.require("canSerializeFMUstate")
+    plain = _Comparison(fmu)
+    instance = fmu.instance
+    found = NOTHING
+    with _another(instance) as other, instance.explained():
+        running = _started(instance, plain.parameters, plain.schedule)
+        taken = Running(other, plain.schedule)
+        steps = {int(share * running.steps) for share in TRANSFERRED_AT}
+        for step in range(running.steps):
+            if step in steps:
+                state = SavedState.of(instance)
+                try:
+                    state.transfer(other)
+                finally:
+                    state.free()
+                taken.rows = []
+                taken.read()
+                _finish(taken, step)
+                what = f"in another instance from step {step} on"
+                found += plain.of(what, taken.rows, begin=len(running.rows) - 1)
+            running.advance(step)
+        found += plain.of("while its state is taken over", running.rows)
+    return found
+
+
+def beside_differences(fmu: FmuSide) -> Findings:
+    """Step two instances in turn, the second started later, and compare each with itself alone."""
+    assert fmu.scene.beside is not None
+    beside = fmu.scene.beside
+    plain = _Comparison(fmu)
+    phase, load, ratio = in_order(beside.signals)
+    own = replace(plain.schedule, phase=phase, load=load, frequency_ratio=ratio, tuning={})
+    with _another(fmu.instance) as other, fmu.instance.explained(), other.explained():
+        alone = _plain(other, beside.parameters, own)
+        first = _started(fmu.instance, plain.parameters, plain.schedule)
+        late = min(1, first.steps)
+        for step in range(late):
+            first.advance(step)
+        second = _started(other, beside.parameters, own)
+        for step in range(first.steps):
+            if step + late < first.steps:
+                first.advance(step + late)
+            second.advance(step)
+        found = plain.of("beside another instance", first.rows)
+        outputs, times = fmu.instance.fmu.outputs, own.readings()
+        return found + differences("the other instance", outputs, times, second.rows, alone)
+
+
+def overwritten_differences(fmu: FmuSide) -> Findings:
+    """Set another and a refused value before each value, at the start and in the run."""
+    plain = _Comparison(fmu)
+    instance, schedule = fmu.instance, plain.schedule
+    running = Running(instance, schedule)
+    wanted = dict(instance.fmu.settings({**plain.parameters, **running.first}))
+    accepted: list[str] = []
+    with instance.explained():
+        instance.set_up(running.stop_time, start_time=schedule.start_time)
+        for name, value in wanted.items():
+            instance.set({name: other_value(name, value)})
+            accepted += _refused(instance, name)
+        instance.set(wanted)
+        call(instance.slave, "fmi2EnterInitializationMode")
+        for name, value in reversed(wanted.items()):
+            instance.set({name: other_value(name, value)})
+            accepted += _refused(instance, name)
+            instance.set({name: value})
+        instance.begin()
+        running.read()
+        for step in range(running.steps):
+            present = running.values_at(step)
+            for name, value in present.items():
+                instance.set({name: other_value(name, value)})
+                accepted += _refused(instance, name)
+            instance.set(present)
+            running.advance(step)
+    found = plain.of("with values set again", running.rows)
+    return found + Findings.of(list(dict.fromkeys(accepted)))
+
+
+def _refused(instance: Instance, name: str) -> list[str]:
+    """Set a variable to NaN, an Integer to a value that none has; return a fault if it is taken."""
+    variable = instance.fmu.variables[name]
+    reference = [variable.valueReference]
+    try:
+        if variable.type == "Integer":
+            instance.slave.setInteger(reference, [1 << 20])
+        else:
+            instance.slave.setReal(reference, [math.nan])
+    except FMICallException:
+        return []
+    return [f"{name} takes a value that must be refused"]
+
+
+def reading_differences(fmu: FmuSide) -> Findings:
+    """Read all variables, one by one and backwards, between any two calls."""
+    plain = _Comparison(fmu)
+    instance, schedule = fmu.instance, plain.schedule
+    running = Running(instance, schedule)
+    names = [name for name, v in instance.fmu.variables.items() if v.type == "Real"]
+    blocks = [instance.block([name]) for name in names]
+    backwards = instance.block(list(reversed(names)))
+    unequal: list[str] = []
+
+    def read_all() -> None:
+        one_by_one = [block.read()[0] for block in blocks]
+        at_once = backwards.read()[::-1]
+        for name, first, second in zip(names, one_by_one, at_once, strict=True):
+            if first != second:
+                unequal.append(f"{name} read twice is {first!r} and {second!r}")
+
+    with instance.explained():
+        instance.set_up(running.stop_time, start_time=schedule.start_time)
+        instance.set({**plain.parameters, **running.first})
+        call(instance.slave, "fmi2EnterInitializationMode")
+        read_all()
+        instance.begin()
+        read_all()
+        running.read()
+        for step in range(running.steps):
+            running.advance(step, read_all)
+            read_all()
+    return plain.of("with more readings", running.rows) + Findings.of(unequal)

@@ -1,0 +1,47 @@
+"""What the variables of an FMU are before a run, and whether they keep what is set."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.fmu.instance import Instance, call
+
+
+def start_faults(fmu: FmuSide) -> Findings:
+    """Read every parameter and input new, when set, in a run and after a reset."""
+    instance = fmu.instance
+    if not instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+        instance.recreate()
+    starts = {
+        name: variable.start
+        for name, variable in VARIABLES.items()
+        if variable.start is not None and name in instance.fmu.variables
+    }
+    others = {name: other_value(name, start) for name, start in starts.items()}
+    # A device of bristles and the averaged motion must start with any of these values.
+    others |= {"fidelity": 2.0, "friction_law": 0.0}
+    faults: list[str] = []
+    with instance.explained():
+        faults += _unequal(instance, starts, "at first")
+        instance.set_up()
+        for name, value in others.items():
+            instance.set({name: value})
+        faults += _unequal(instance, others, "after it was set")
+        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.begin()
+        faults += _unequal(instance, others, "in a run")
+        instance.step_by(1e-3)
+        faults += _unequal(instance, others, "after a step")
+        instance.set_up()
+        faults += _unequal(instance, starts, "after a reset")
+    return Findings.of(faults)
+
+
+def _unequal(instance: Instance, values: Mapping[str, float], when: str) -> Iterator[str]:
+    for name, found in instance.read(list(values)).items():
+        if found != values[name]:
+            yield f"{name} is {found!r} {when}, must be {values[name]!r}"

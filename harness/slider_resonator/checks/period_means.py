@@ -1,0 +1,112 @@
+"""Means over whole drive periods, and counts, at every communication point of a trajectory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.references.resolved.contact import STICK
+from slider_resonator.references.resolved.trajectory import Trajectory
+
+COINCIDENCE = 1e-6
+"""Share of a drive period within which an event and a communication point coincide."""
+
+_ENDED = 1e-9
+"""Share of a drive period that may be missing from one that counts as ended."""
+
+
+@dataclass(frozen=True)
+class DriveTurns:
+    """The whole turns of a drive with `period` (s).
+
+    Of a drive whose frequency changes `times` (s) are those of the changes, first and last instant
+    included, and `turned` the turns by then; else both are empty.
+    """
+
+    period: float
+    times: tuple[float, ...] = ()
+    turned: tuple[float, ...] = ()
+
+    def ends(self, times: Array) -> Array:
+        """Return begin and end (s) of the last whole turn before each time, shape (n, 2).
+
+        Before the first is over they are the start, 0 s, and the time itself.
+        """
+        ended = self._ended(times)
+        numbers = np.column_stack([ended - 1.0, ended])
+        whole = numbers * self.period
+        if self.times:
+            whole = np.interp(numbers, self.turned, self.times)
+        running = np.column_stack([np.zeros_like(times), times])
+        return np.where(ended[:, None] >= 1.0, np.minimum(whole, times[:, None]), running)
+
+    def lengths(self, times: Array) -> Array:
+        """Return what lies between the `ends` (s), shape (n,)."""
+        if self.times:
+            return np.asarray(np.diff(self.ends(times), axis=1)[:, 0])
+        return np.where(self._ended(times) >= 1.0, self.period, times)
+
+    def _ended(self, times: Array) -> Array:
+        turned = np.interp(times, self.times, self.turned) if self.times else times / self.period
+        return np.asarray(np.floor(turned + _ENDED))
+
+
+def mean_velocities(run: Trajectory, times: Array, turns: DriveTurns) -> Array:
+    """Return the mean velocity (m/s) over the last whole drive period, shape (n,).
+
+    Before the first is over it is the mean since the start, and at the start the velocity. The
+    trajectory must have samples at the `ends` of turns.
+    """
+    ends, lengths = turns.ends(times), turns.lengths(times)
+    position = run.position[np.searchsorted(run.time, ends)]
+    at_start = run.velocity[np.searchsorted(run.time, times)]
+    means = np.diff(position, axis=1)[:, 0] / np.where(lengths > 0.0, lengths, 1.0)
+    return np.where(lengths > 0.0, means, at_start)
+
+
+def stick_fractions(run: Trajectory, times: Array, turns: DriveTurns) -> Array:
+    """Return the share of the last whole drive period spent sticking, shape (n,).
+
+    Before the first is over it is the share since the start, at the start 1 at rest and else 0.
+    """
+    edges = np.append(0.0, run.event_times)
+    stuck = np.diff(edges) * (run.modes[:-1] == STICK)
+    before = np.append(0.0, np.cumsum(stuck))
+
+    def stick_time(at: Array) -> Array:
+        last = np.searchsorted(edges, at, side="right") - 1
+        return np.asarray(before[last] + (at - edges[last]) * (run.modes[last] == STICK))
+
+    ends, lengths = turns.ends(times), turns.lengths(times)
+    shares = np.diff(stick_time(ends), axis=1)[:, 0] / np.where(lengths > 0.0, lengths, 1.0)
+    return np.where(lengths > 0.0, shares, float(run.modes[0] == STICK))
+
+
+def reversal_counts(run: Trajectory, times: Array, turns: DriveTurns) -> Tube:
+    """Return how many reversals there were up to each time; where they coincide, either number."""
+    counts = [
+        np.searchsorted(run.reversal_times, times + shift * turns.period, side="right").astype(
+            float
+        )
+        for shift in (0.0, -COINCIDENCE, COINCIDENCE)
+    ]
+    return Tube(*counts)
+
+
+def last_events(run: Trajectory, times: Array, turns: DriveTurns) -> Tube:
+    """Return the time of the last event before each time, in drive periods.
+
+    Events are changes of the contact mode and reversals. Where an event and a time coincide to
+    `COINCIDENCE`, the tube allows either order.
+    """
+    events = np.union1d(np.append(0.0, run.event_times), run.reversal_times)
+
+    def last_before(at: Array) -> Array:
+        return events[np.searchsorted(events, np.maximum(at, 0.0), side="right") - 1]
+
+    margin = COINCIDENCE * turns.period
+    bounds = [last_before(times + shift) for shift in (0.0, -margin, margin)]
+    return Tube(*(bound / turns.period for bound in bounds))

@@ -1,0 +1,135 @@
+"""Programs with foreign code, run so that they and all that they start end together."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+from slider_resonator.fmu.isolation.child_environment import FOLDER
+from slider_resonator.fmu.limits import max_memory
+
+SUPERVISOR = Path(__file__).with_name("supervisor.py")
+MAX_ENDING = 10.0
+"""Longest time (s) that ending a program may take."""
+MAX_ROUNDS = 100
+"""Largest number of times that processes are looked for which start others meanwhile."""
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a program ended: exit code, or minus the number of the signal; None where it is unknown.
+
+    `memory` (bytes) is what it had where that was above the limit. `escaped` says that it has
+    killed the process that watched it.
+    """
+
+    code: int | None
+    memory: int | None = None
+    escaped: bool = False
+
+
+class Supervised:
+    """A running program in a session of its own, with a temporary folder of its own.
+
+    `environment` must be that of `child_environment` for `folder`; the streams are those of
+    `subprocess.Popen`. On Windows what the program has started is not ended; on
+    other systems than Linux a child that has left the program's session is not.
+    """
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        folder: Path,
+        environment: Mapping[str, str],
+        *,
+        stdin: int | IO[bytes],
+        stdout: int | IO[bytes],
+        stderr: int | IO[bytes],
+    ) -> None:
+        self._folder = folder
+        self._ending: Ending | None = None
+        self._control: socket.socket | None = None
+        if sys.platform == "win32":
+            self.process = subprocess.Popen(
+                command, env=environment, stdin=stdin, stdout=stdout, stderr=stderr
+            )
+            return
+        self._control, theirs = socket.socketpair()
+        with theirs:
+            supervisor = [sys.executable, "-I", "-S", str(SUPERVISOR), str(theirs.fileno())]
+            self.process = subprocess.Popen(
+                [*supervisor, str(max_memory()), str(folder), *command],
+                env=environment,
+                pass_fds=[theirs.fileno()],
+                start_new_session=True,
+                stdin=stdin,
+                stdout=stdout,
+                stderr=stderr,
+            )
+
+    def poll(self) -> bool:
+        """Whether the program has ended, and all that it started with it."""
+        return self.process.poll() is not None
+
+    def wait(self, seconds: float) -> bool:
+        """Wait for the program's end; return whether it has come."""
+        with suppress(subprocess.TimeoutExpired):
+            self.process.wait(seconds)
+        return self.poll()
+
+    def end(self) -> Ending:
+        """End the program and all that it started, if it still runs, and return how it ended."""
+        if self._ending is None:
+            self._ending = self._end_directly() if self._control is None else self._end()
+        return self._ending
+
+    def _end_directly(self) -> Ending:
+        ran = self.process.poll() is None
+        self.process.kill()
+        code = self.process.wait()
+        return Ending(None if ran else code)
+
+    def _end(self) -> Ending:
+        assert self._control is not None
+        with self._control as control:
+            if self.process.poll() is None:
+                with suppress(OSError):
+                    control.sendall(b"end")
+            if not self.wait(MAX_ENDING):
+                self.process.kill()
+                self.process.wait()
+            report = b""
+            if self.process.returncode == 0:
+                with suppress(OSError):
+                    report = control.recv(4096)
+        if report:
+            return Ending(**json.loads(report))
+        _kill_marked(self._folder)
+        return Ending(None, escaped=True)
+
+
+def _kill_marked(folder: Path) -> None:
+    """Kill all processes that have inherited `folder` as theirs in the environment, by /proc."""
+    mark = os.fsencode(f"{FOLDER}={folder}")
+    for _ in range(MAX_ROUNDS):
+        found = []
+        for environment in Path("/proc").glob("[0-9]*/environ"):
+            with suppress(OSError):
+                if mark in environment.read_bytes().split(b"\0"):
+                    found.append(int(environment.parent.name))
+        if not found:
+            return
+        for process in found:
+            with suppress(OSError):
+                os.kill(process, signal.SIGKILL)
+        time.sleep(0.01)

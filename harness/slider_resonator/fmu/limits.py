@@ -1,0 +1,31 @@
+"""What an FMU may use; the environment passes the limits on to the process of the FMU."""
+
+from __future__ import annotations
+
+import os
+
+from slider_resonator.errors import HarnessError
+
+MEMORY = "SLIDER_RESONATOR_MAX_MEMORY"
+UNPACKED = "SLIDER_RESONATOR_MAX_UNPACKED"
+DEFAULTS = {MEMORY: 4096, UNPACKED: 1024}
+"""Variable to its value where it is not set, MiB."""
+MAX_ENTRIES = 20_000
+"""Maximum number of files in an FMU."""
+
+
+def max_memory() -> int:
+    """Return the bytes that an FMU and all that it starts may have in memory."""
+    return _bytes(MEMORY)
+
+
+def max_unpacked() -> int:
+    """Return the bytes that the files of an FMU may have together."""
+    return _bytes(UNPACKED)
+
+
+def _bytes(variable: str) -> int:
+    text = os.environ.get(variable) or str(DEFAULTS[variable])
+    if not text.isdecimal() or int(text) == 0:
+        raise HarnessError(f"{variable} = {text!r}: must be a whole number of MiB above 0")
+    return int(text) * 2**20

@@ -1,0 +1,83 @@
+"""Whether averaged theory applies to a device: it slides to and fro, and the load is held.
+
+Three conditions: there is a steady vibration; the load is below the mean friction of sliding; and
+the vibration overcomes this friction by itself, on the free slider and on one that is held. Against
+LuGre friction a vibration of amplitude u [m] meets a force of at most
+``faces N min(mu, |sigma_0 + i w sigma_1| u)``: what only bends the bristles is not held.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from slider_resonator.device.device import Device
+from slider_resonator.references.averaged.vibrating_contact import mean_load
+
+_RESONANCE_RESOLUTION = 1e-12
+
+
+def prediction_valid(device: Device, phase: float, load: float, ratio: float) -> bool:
+    """Return whether steady velocity and blocking force of averaged theory apply.
+
+    ``phase`` (rad) is that of the normal force relative to the base excitation, ``load`` in N.
+    """
+    normal = _mean_normal_force(device, phase, ratio)
+    sliding = device.friction_faces * device.friction_coefficient * normal
+    if not abs(load) < sliding:
+        return False
+    free = _forces(device, held=False)
+    if free is None:
+        return False
+    force, amplitude = free
+    stuck = _forces(device, held=True)
+    held_force = math.inf if stuck is None else stuck[0]
+    return min(force, held_force) > _resistance(device, normal, amplitude)
+
+
+def _mean_normal_force(device: Device, phase: float, ratio: float) -> float:
+    """Return the normal force (N) averaged over the phases that it takes, one at ratio 0."""
+    if ratio == 0.0:
+        return max(0.0, device.normal_preload + device.normal_amplitude * math.sin(phase))
+    if device.normal_preload == 0.0:
+        return device.normal_amplitude / math.pi
+    return device.normal_preload * mean_load(device.amplitude_ratio)
+
+
+def _resistance(device: Device, normal: float, amplitude: float) -> float:
+    """Return the largest friction (N) that a vibration of this amplitude (m) meets."""
+    share = device.friction_coefficient
+    if device.friction_law == 1:
+        bristle = complex(device.bristle_stiffness, device.drive_frequency * device.bristle_damping)
+        share = min(share, abs(bristle) * amplitude)
+    return device.friction_faces * normal * share
+
+
+def _forces(device: Device, *, held: bool) -> tuple[float, float] | None:
+    """Return the amplitude of the force (N) on a slider without friction, and of its motion (m).
+
+    The free slider is pushed by what moves slider and resonator as one mass, the held one by
+    spring, damper and direct drive. None for undamped resonance. It solves (26)-(27) for steady
+    amplitudes of exp(i w t).
+    """
+    w, m = device.drive_frequency, device.resonator_mass
+    coupling = complex(device.stiffness, w * device.damping)
+    swing = m * device.base_amplitude * w * w
+    if held:
+        resonance = abs(device.resonator_frequency**2 - w * w)
+        if device.damping_ratio == 0.0 and resonance <= _RESONANCE_RESOLUTION * w * w:
+            return None
+        displacement = swing / (coupling - m * w * w) if m else 0.0
+        return abs(coupling * displacement + device.tangential_force), 0.0
+    if m == 0.0:
+        force = abs(device.tangential_force)
+        return force, force / (device.slider_mass * w * w)
+    matrix = np.array(
+        [[-device.slider_mass * w * w, -coupling], [-m * w * w, coupling - m * w * w]]
+    )
+    scale = np.diag(1.0 / np.abs(matrix).max(axis=1))
+    if abs(np.linalg.det(scale @ matrix)) <= _RESONANCE_RESOLUTION:
+        return None
+    moved = abs(np.linalg.solve(matrix, [device.tangential_force, swing])[0])
+    return float(device.total_mass * w * w * moved), float(moved)

@@ -1,0 +1,145 @@
+"""Build native FMUs from changed C sources, compiling only what a change touches."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+import fmpy
+
+from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.trials.mutants.archive import DESCRIPTION
+
+FLAGS = ("-std=c99", "-O1", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-w")
+COMPILERS = ("gcc", "clang", "cc")
+TIME_LIMIT = 120.0
+"""Seconds for a call of the compiler."""
+
+_INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+_IDENTIFIER = re.compile(r'modelIdentifier="(\w+)"')
+
+
+@dataclass(frozen=True)
+class NativeSources:
+    """The C sources of an FMU by file name, its model description and model identifier."""
+
+    files: Mapping[str, str]
+    description: bytes
+    model: str
+
+    @property
+    def units(self) -> list[str]:
+        """The files to be compiled, in alphabetical order."""
+        return sorted(name for name in self.files if name.endswith(".c"))
+
+    def units_with(self, file: str) -> list[str]:
+        """Return the units that are or include a file, directly or not."""
+        return [unit for unit in self.units if file in self._included(unit)]
+
+    def _included(self, unit: str) -> set[str]:
+        found, waiting = set[str](), [unit]
+        while waiting:
+            name = waiting.pop()
+            if name not in found and name in self.files:
+                found.add(name)
+                waiting += _INCLUDE.findall(self.files[name])
+        return found
+
+
+def read_native_sources(path: Path) -> NativeSources:
+    """Read the C sources in an FMU; FmuError when it has none."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            inside = {PurePosixPath(name): name for name in archive.namelist()}
+            files = {
+                place.name: archive.read(name).decode("utf-8")
+                for place, name in inside.items()
+                if str(place.parent) == "sources" and place.suffix in (".c", ".h")
+            }
+            description = archive.read(DESCRIPTION) if DESCRIPTION in inside.values() else b""
+    except FileNotFoundError:
+        raise FmuError(f"{path}: no such file") from None
+    except (OSError, zipfile.BadZipFile, UnicodeDecodeError) as error:
+        raise FmuError(f"{path}: not an FMU: {error}") from error
+    model = _IDENTIFIER.search(description.decode("utf-8", "replace"))
+    if not files or model is None:
+        raise FmuError(
+            f"{path}: has no C sources to change; must be an FMU with a folder sources, such as "
+            "SliderResonator.fmu"
+        )
+    return NativeSources(files, description, model.group(1))
+
+
+class Workshop:
+    """Compiled units of the unchanged sources in a folder, and FMUs with one file changed.
+
+    Raises HarnessError when there is no C compiler or the sources do not compile.
+    """
+
+    def __init__(self, sources: NativeSources, folder: Path) -> None:
+        self._sources = sources
+        self._folder = folder
+        self._compiler = _compiler()
+        self._write(folder, sources.files)
+        self._compile(folder, sources.units)
+
+    def build(self, name: str, changed: Mapping[str, str]) -> Path:
+        """Return an FMU for this machine with some of the sources, by file name, replaced.
+
+        Raises HarnessError when they do not compile.
+        """
+        place = self._folder / name
+        place.mkdir()
+        units = sorted({u for file in changed for u in self._sources.units_with(file)})
+        self._write(place, {**self._sources.files, **changed})
+        self._compile(place, units)
+        objects = [
+            (place if unit in units else self._folder) / f"{unit}.o" for unit in self._sources.units
+        ]
+        library = place / f"{self._sources.model}{fmpy.sharedLibraryExtension}"
+        self._call(["-shared", "-o", str(library), *map(str, objects), "-lm"], place)
+        out = self._folder / f"{name}.fmu"
+        with zipfile.ZipFile(out, "w") as archive:  # stored: it is unpacked again at once
+            archive.writestr(DESCRIPTION, self._sources.description)
+            archive.write(library, f"binaries/{fmpy.platform}/{library.name}")
+        shutil.rmtree(place)
+        return out
+
+    def _write(self, folder: Path, files: Mapping[str, str]) -> None:
+        for name, text in files.items():
+            (folder / name).write_text(text, encoding="utf-8", newline="\n")
+
+    def _compile(self, folder: Path, units: list[str]) -> None:
+        for unit in units:
+            self._call([*FLAGS, "-c", unit, "-o", f"{unit}.o"], folder)
+
+    def _call(self, arguments: list[str], folder: Path) -> None:
+        command = [self._compiler, *arguments]
+        try:
+            done = subprocess.run(
+                command,
+                cwd=folder,
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=TIME_LIMIT,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise HarnessError(f"{self._compiler} takes more than {TIME_LIMIT:.0f} s") from error
+        if done.returncode != 0:
+            raise HarnessError(
+                f"{folder.name}: {self._compiler} cannot compile:\n{done.stderr.strip()}"
+            )
+
+
+def _compiler() -> str:
+    for name in COMPILERS:
+        found = shutil.which(name)
+        if found is not None:
+            return found
+    raise HarnessError(f"no C compiler is found; must be one of {', '.join(COMPILERS)}")

@@ -1,0 +1,313 @@
+"""Functions of FMI 3.0: order of calls, values, states, and what is refused."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from typing import Any
+
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi3 import (
+    FMU3Slave,
+    fmi3Error,
+    fmi3InstanceEnvironment,
+    fmi3LogMessageCallback,
+    fmi3OK,
+)
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fmu_src.python.slider_component.variables import VARIABLES
+from tests.fmu.host import Unpacked
+from tests.fmu.host_3 import Instance3, instance_3
+from tests.fmu.test_fmi3_structure import fmi_3_functions
+
+STEP = 1e-3
+TIME = 1
+NOT_OFFERED = (
+    "ActivateModelPartition",
+    "CompletedIntegratorStep",
+    "EnterConfigurationMode",
+    "EnterContinuousTimeMode",
+    "EvaluateDiscreteStates",
+    "ExitConfigurationMode",
+    "GetAdjointDerivative",
+    "GetContinuousStateDerivatives",
+    "GetContinuousStates",
+    "GetDirectionalDerivative",
+    "GetEventIndicators",
+    "GetIntervalDecimal",
+    "GetIntervalFraction",
+    "GetNominalsOfContinuousStates",
+    "GetNumberOfContinuousStates",
+    "GetNumberOfEventIndicators",
+    "GetNumberOfVariableDependencies",
+    "GetOutputDerivatives",
+    "GetShiftDecimal",
+    "GetShiftFraction",
+    "GetVariableDependencies",
+    "SetContinuousStates",
+    "SetIntervalDecimal",
+    "SetIntervalFraction",
+    "SetShiftDecimal",
+    "SetShiftFraction",
+    "SetTime",
+)
+OTHER_TYPES = (
+    *("Float32", "Int8", "UInt8", "Int16", "UInt16", "UInt32", "Int64", "UInt64"),
+    *("Boolean", "String"),
+)
+
+
+def call(instance: Instance3, function: str, *arguments: Any) -> int:
+    foreign = instance.slave.dll[function]
+    foreign.restype = ctypes.c_int
+    return int(foreign(ctypes.c_void_p(instance.slave.component), *arguments))
+
+
+@pytest.fixture
+def instance(unpacked_3: Unpacked) -> Any:
+    """An initialized instance in step mode, whose steps end at events."""
+    with instance_3(unpacked_3) as made:
+        yield made.initialize()
+
+
+def test_the_standard_has_all_its_functions_in_the_library(instance: Instance3) -> None:
+    for name in fmi_3_functions():
+        assert hasattr(instance.slave.dll, name)
+    assert instance.slave.getVersion() == "3.0"
+
+
+@pytest.mark.parametrize("name", NOT_OFFERED)
+def test_what_is_not_offered_says_so(instance: Instance3, name: str) -> None:
+    with instance.refuses(f"fmi3{name} refused"):
+        status = call(instance, f"fmi3{name}", *[ctypes.c_void_p()] * 8)
+        raise FMICallException(function=name, status=status)
+
+
+@pytest.mark.parametrize("kind", ["ModelExchange", "ScheduledExecution"])
+def test_other_interface_types_are_refused(instance: Instance3, kind: str) -> None:
+    said: list[bytes] = []
+    logger = fmi3LogMessageCallback(lambda _, status, category, text: said.append(text))
+    instantiate = instance.slave.dll[f"fmi3Instantiate{kind}"]
+    instantiate.restype = ctypes.c_void_p
+    nothing = ctypes.c_void_p()
+    arguments = [b"x", b"token", None, False, False, fmi3InstanceEnvironment(), logger]
+    rest = [nothing] * (3 if kind == "ScheduledExecution" else 0)
+    assert instantiate(*arguments, *rest) is None
+    assert said == [b"fmi3Instantiate%s refused: this FMU is for co-simulation" % kind.encode()]
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({"guid": "another"}, "instantiationToken = 'another' refused"),
+        ({"instanceName": ""}, "instanceName refused: it is empty"),
+        ({"intermediate": [TIME]}, "nRequiredIntermediateVariables = 1 refused"),
+    ],
+)
+def test_instantiation_is_refused(unpacked_3: Unpacked, changes: dict[str, Any], text: str) -> None:
+    about = {
+        "guid": unpacked_3.description.guid,
+        "modelIdentifier": "SliderResonator3",
+        "unzipDirectory": str(unpacked_3.folder),
+        "instanceName": "slider",
+    }
+    required = changes.get("intermediate")
+    slave = FMU3Slave(**about | {k: v for k, v in changes.items() if k in about})
+    log: list[str] = []
+    with pytest.raises(Exception, match="Failed to instantiate"):
+        slave.instantiate(
+            logMessage=lambda _, status, category, said: log.append(said.decode()),
+            requiredIntermediateVariables=required,
+        )
+    assert len(log) == 1
+    assert text in log[0]
+
+
+def test_time_is_read_and_not_set(instance: Instance3) -> None:
+    assert instance.get("load", "time", "phase") == (0.0, 0.0, 0.0)
+    instance.step_to(STEP)
+    assert instance.get("time") == (STEP,)
+    with instance.refuses("time (valueReference = 1) refused: it is the independent variable"):
+        instance.slave.setFloat64([TIME], [0.0])
+    with instance.refuses("time (valueReference = 1) refused: its type is Float64, not Int32"):
+        instance.slave.getInt32([TIME])
+
+
+@pytest.mark.parametrize("reference", [0, len(VARIABLES) + 2, 2**32 - 1])
+def test_an_unknown_reference_is_refused(instance: Instance3, reference: int) -> None:
+    last = len(VARIABLES) + 1
+    text = f"valueReference = {reference} refused: must be from 1 to {last}"
+    with instance.refuses(text):
+        instance.slave.getFloat64([reference])
+
+
+@pytest.mark.parametrize("variable", VARIABLES, ids=lambda v: v.name)
+def test_values_are_those_of_the_table(unpacked_3: Unpacked, variable: Any) -> None:
+    with instance_3(unpacked_3) as instance:
+        reference = instance.reference(variable.name)
+        if variable.causality == "output":
+            with instance.refuses(f"reading {variable.name} refused in state 'instantiated'"):
+                instance.slave.getFloat64([reference])
+            return
+        read = "getInt32" if variable.type == "Integer" else "getFloat64"
+        assert getattr(instance.slave, read)([reference]) == [variable.start]
+        other = "getFloat64" if variable.type == "Integer" else "getInt32"
+        with instance.refuses(f"{variable.name} (valueReference = {reference}) refused: its type"):
+            getattr(instance.slave, other)([reference])
+
+
+@pytest.mark.parametrize("type_name", OTHER_TYPES)
+def test_there_are_no_variables_of_other_types(instance: Instance3, type_name: str) -> None:
+    with instance.refuses(f"its type is Float64, not {type_name}"):
+        getattr(instance.slave, f"get{type_name}")([instance.reference("load")])
+    assert call(instance, f"fmi3Get{type_name}", None, 0, None, 0) == fmi3OK
+    assert call(instance, f"fmi3Set{type_name}", None, 0, None, 0) == fmi3OK
+
+
+@pytest.mark.parametrize(
+    ("values", "text"),
+    [
+        ({"load": math.nan}, "load = nan refused: must be a finite number"),
+        ({"phase": math.inf}, "phase = inf refused: must be a finite number"),
+        ({"normal_preload": -1.0}, "normal_preload = -1.0 refused: must be a finite number of at"),
+        ({"slider_mass": 2.0}, "slider_mass = 2.0 refused: it is fixed"),
+        ({"friction_faces": 3}, "friction_faces = 3 refused: it is fixed"),
+        ({"position": 0.0}, "position = 0.0 refused: it is an output"),
+    ],
+)
+def test_values_outside_the_table_are_refused(
+    instance: Instance3, values: dict[str, float], text: str
+) -> None:
+    with instance.refuses(text):
+        instance.set(**values)
+
+
+@pytest.mark.parametrize(
+    ("time", "size", "text"),
+    [
+        (0.0, 0.0, "communicationStepSize = 0.0 refused"),
+        (0.0, -1.0, "communicationStepSize = -1.0 refused"),
+        (0.0, math.nan, "communicationStepSize = nan refused"),
+        (1.0, STEP, "currentCommunicationPoint = 1.0 refused: must be the present time 0.0"),
+        (0.0, 1e9, "communicationStepSize = 1000000000.0 refused"),
+    ],
+)
+def test_bad_steps_are_refused(instance: Instance3, time: float, size: float, text: str) -> None:
+    with instance.refuses(text):
+        instance.slave.doStep(time, size)
+
+
+def test_null_pointers_are_refused(instance: Instance3) -> None:
+    step, zero = ctypes.c_double(STEP), ctypes.c_double(0.0)
+    nothing = [ctypes.c_void_p()] * 4
+    assert call(instance, "fmi3DoStep", zero, step, ctypes.c_bool(True), *nothing) == fmi3Error
+    assert "fmi3DoStep: a null pointer refused" in instance.log[-1][2]
+    assert call(instance, "fmi3GetFloat64", None, ctypes.c_size_t(1), None, ctypes.c_size_t(1)) == 3
+    assert call(instance, "fmi3GetFMUState", None) == fmi3Error
+    assert "null pointer" in instance.log[-1][2]
+    assert instance.slave.dll.fmi3Reset(None) == fmi3Error
+    many = (ctypes.c_uint32 * 1)(2)
+    value = (ctypes.c_double * 2)()
+    wrong = ctypes.c_size_t(2)
+    assert call(instance, "fmi3GetFloat64", many, ctypes.c_size_t(1), value, wrong) == fmi3Error
+    assert "nValues = 2 refused: must be 1" in instance.log[-1][2]
+
+
+def test_calls_out_of_order_are_refused(unpacked_3: Unpacked) -> None:
+    with instance_3(unpacked_3) as instance:
+        with instance.refuses("doStep refused in state 'instantiated'", "'step mode'"):
+            instance.slave.doStep(0.0, STEP)
+        instance.slave.enterInitializationMode()
+        with instance.refuses("enterInitializationMode refused in state 'initialization mode'"):
+            instance.slave.enterInitializationMode()
+        instance.slave.exitInitializationMode()
+        with instance.refuses("doStep refused in state 'event mode'"):
+            instance.slave.doStep(0.0, STEP)
+        with instance.refuses("enterEventMode refused in state 'event mode'"):
+            instance.slave.enterEventMode()
+        instance.handle_event(enter=False)
+        with instance.refuses("updateDiscreteStates refused in state 'step mode'"):
+            instance.slave.updateDiscreteStates()
+        instance.slave.enterEventMode()
+        instance.slave.terminate()
+        with instance.refuses("setting load refused in state 'terminated'"):
+            instance.set(load=0.1)
+        instance.slave.reset()
+        instance.initialize().step_to(STEP)
+
+
+def test_event_mode_needs_the_announcement_of_the_host(unpacked_3: Unpacked) -> None:
+    with instance_3(unpacked_3, event_mode=False) as instance:
+        instance.initialize()
+        with instance.refuses("fmi3EnterEventMode refused: eventModeUsed = false"):
+            instance.slave.enterEventMode()
+        instance.step_to(STEP)
+
+
+def test_the_experiment_is_checked(unpacked_3: Unpacked) -> None:
+    with instance_3(unpacked_3) as instance:
+        with instance.refuses("stopTime = -1.0 refused"):
+            instance.slave.enterInitializationMode(stopTime=-1.0)
+        instance.slave.enterInitializationMode(startTime=2.0, stopTime=2.5)
+        instance.slave.exitInitializationMode()
+        instance.handle_event(enter=False)
+        assert instance.get("time") == (2.0,)
+        with instance.refuses("the step must end by stopTime = 2.5"):
+            instance.slave.doStep(2.0, 1.0)
+
+
+def test_reset_gives_a_new_instance(instance: Instance3) -> None:
+    first = instance.step_to(3 * STEP), instance.state()
+    instance.slave.reset()
+    instance.time = 0.0
+    instance.initialize()
+    assert (instance.step_to(3 * STEP), instance.state()) == first
+
+
+def test_debug_logging_selects_categories(instance: Instance3) -> None:
+    instance.slave.setDebugLogging(False, [])
+    with pytest.raises(FMICallException):
+        instance.set(load=math.nan)
+    assert instance.log == []
+    with pytest.raises(FMICallException):
+        instance.slave.setDebugLogging(True, ["noise"])
+    instance.slave.setDebugLogging(True, ["logStatusError"])
+    with instance.refuses("fmi3SetDebugLogging: category 'noise' refused: must be one of"):
+        instance.slave.setDebugLogging(True, ["noise"])
+
+
+@pytest.mark.parametrize("position", range(0, 400, 37))
+def test_a_damaged_state_is_refused(instance: Instance3, position: int) -> None:
+    data = bytearray(instance.state())
+    data[position] ^= 0x55
+    with instance.refuses("FMU state refused"):
+        instance.slave.deserializeFMUState(bytes(data))
+
+
+def test_a_state_of_another_build_is_refused(instance: Instance3) -> None:
+    data = bytearray(instance.state())
+    data[8:44] = b"0" * 36
+    with instance.refuses("FMU state refused: it is of another build"):
+        instance.slave.deserializeFMUState(bytes(data))
+
+
+@settings(max_examples=15)
+@given(steps=st.lists(st.floats(1e-7, 4e-3), min_size=1, max_size=8))
+def test_a_replay_gives_the_same_bits(unpacked_3: Unpacked, steps: list[float]) -> None:
+    def go_on(instance: Instance3) -> list[object]:
+        found: list[object] = []
+        for size in steps:
+            found.append(instance.step_to(instance.time + size))
+        return [*found, instance.state()]
+
+    with instance_3(unpacked_3) as instance:
+        instance.initialize(phase=0.3, load=0.02)
+        instance.step_to(STEP)
+        data, time = instance.state(), instance.time
+        first = go_on(instance)
+        instance.restore(data)
+        instance.time = time
+        assert go_on(instance) == first

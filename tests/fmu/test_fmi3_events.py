@@ -1,0 +1,230 @@
+"""Early return of FMI 3.0 at located events: every one of them, exactly, and without an effect."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+from scipy.optimize import brentq
+
+from tests.fmu.host import OUTPUTS, Unpacked
+from tests.fmu.host_3 import Run, instance_3
+
+PERIOD = math.tau / 3500.0
+PERIODS = 200
+LIFTED = 2.0
+
+TABLE_1: dict[str, float] = {}
+STICK_SLIP = {"base_amplitude": 0.0, "load": 0.1}
+FLIGHT = {"normal_amplitude": 1.8, "friction_coefficient": 1.0, "phase": 0.7}
+LUGRE: dict[str, float] = {"friction_law": 1}
+DEVICES: dict[str, dict[str, float]] = {
+    "table 1": TABLE_1,
+    "table 1, one degree of freedom": {"fidelity": 1},
+    "table 1, LuGre": LUGRE,
+    "table 1, stiff bristles": {**LUGRE, "bristle_stiffness": 1e12, "tolerance": 1e-12},
+    "stick-slip": STICK_SLIP,
+    "flight": FLIGHT,
+    "flight, LuGre": {**LUGRE, **FLIGHT},
+    "presliding": {**LUGRE, "base_amplitude": 1e-6, "initial_resonator_displacement": 1e-5},
+}
+
+
+def run(
+    unpacked: Unpacked,
+    values: dict[str, float],
+    steps: int,
+    size: float,
+    *,
+    events: bool = True,
+) -> Run:
+    with instance_3(unpacked, event_mode=events, early_return=events) as instance:
+        return instance.initialize(**values).run(steps, size)
+
+
+def deviation(ours: Run, theirs: Run) -> float:
+    """Largest difference of any output over its peak."""
+    expected = np.array(theirs.rows)
+    peaks = np.abs(expected).max(axis=0)
+    found = np.abs(np.array(ours.rows) - expected).max(axis=0)
+    return float(np.max(found / np.where(peaks > 0.0, peaks, 1.0)))
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_every_reversal_ends_a_step(unpacked_3: Unpacked, device: str) -> None:
+    values = DEVICES[device]
+    stopping = run(unpacked_3, values, PERIODS, PERIOD)
+    passing = run(unpacked_3, values, PERIODS, PERIOD, events=False)
+    assert passing.events == []
+    last = dict(zip(OUTPUTS, passing.rows[-1], strict=True))
+    column = OUTPUTS.index("velocity")
+    peak = max(abs(row[column]) for row in passing.rows)
+    # Each reversal is counted by the step that begins there: between its event and the next one.
+    counts = [event.outputs["reversals"] for event in stopping.events]
+    assert counts[0] == 0.0
+    counts.append(last["reversals"])
+    modes = [event.outputs["contact_mode"] for event in stopping.events]
+    for index, (before, after) in enumerate(pairwise(counts)):
+        assert after - before in (0.0, 1.0), "two reversals, one event"
+        touches_down = index > 0 and modes[index - 1] == LIFTED != modes[index]
+        if after > before and not touches_down:
+            assert abs(stopping.events[index].outputs["velocity"]) <= 1e-14 * peak
+    assert deviation(stopping, passing) <= 1e-12
+
+
+def test_table_1_has_one_release_and_only_reversals(unpacked_3: Unpacked) -> None:
+    found = run(unpacked_3, TABLE_1, PERIODS, PERIOD)
+    reversals = dict(zip(OUTPUTS, found.rows[-1], strict=True))["reversals"]
+    assert len(found.events) == 1 + reversals > 1.9 * PERIODS
+    assert {event.outputs["velocity"] for event in found.events} == {0.0}
+    for event in found.events:
+        assert event.outputs["last_event_time"] == event.time
+
+
+def test_stick_slip_alternates_between_stick_and_release(unpacked_3: Unpacked) -> None:
+    events = run(unpacked_3, STICK_SLIP, PERIODS, PERIOD).events
+    modes = [event.outputs["contact_mode"] for event in events]
+    assert modes == [-1.0, 0.0] * (len(modes) // 2) + [-1.0] * (len(modes) % 2)
+    assert len(modes) >= 2 * PERIODS - 1
+    assert {event.outputs["velocity"] for event in events} == {0.0}
+
+
+def test_release_and_stop_of_a_driven_block_are_those_of_the_closed_form(
+    unpacked_3: Unpacked,
+) -> None:
+    """M x'' = f sin(w t) - F after the release at f sin(w t) = F, until x' = 0."""
+    mass, force, w = 1.0, 5.0, 3500.0
+    limit = 2.0 * 1.0 * 1.0
+    release = math.asin(limit / force) / w
+
+    def velocity(t: float) -> float:
+        drive = force * (math.cos(w * release) - math.cos(w * t)) / w
+        return (drive - limit * (t - release)) / mass
+
+    stop = brentq(velocity, 2.0 / w, 5.0 / w, xtol=1e-18, rtol=1e-15)
+    values = {"resonator_mass": 0.0, "normal_amplitude": 0.0, "friction_coefficient": 1.0}
+    values |= {"tangential_force": force, "slider_mass": mass, "base_amplitude": 0.0}
+    events = run(unpacked_3, values, 1, 5.5 / w).events
+    assert [e.time for e in events[:2]] == pytest.approx([release, stop], rel=1e-13)
+    assert [e.outputs["contact_mode"] for e in events[:2]] == [1.0, -1.0]
+
+
+def test_lift_off_and_touchdown_are_those_of_the_normal_load(unpacked_3: Unpacked) -> None:
+    preload, amplitude, w = 1.0, 1.8, 3500.0
+    dip = math.asin(preload / amplitude)
+    values = {"normal_amplitude": amplitude, "load": 0.0}
+    events = run(unpacked_3, values, 1, PERIOD).events
+    modes = [e.outputs["contact_mode"] for e in events]
+    times = [e.time for e in events]
+    lift = modes.index(LIFTED)
+    assert times[lift] == pytest.approx((math.pi + dip) / w, rel=1e-14)
+    assert times[lift + 1] == pytest.approx((math.tau - dip) / w, rel=1e-14)
+    assert modes[lift + 1] != LIFTED
+
+
+def test_averaged_motion_has_no_events(unpacked_3: Unpacked) -> None:
+    assert run(unpacked_3, {"fidelity": 0}, 10, 1e-3).events == []
+
+
+@pytest.mark.parametrize("options", [{"event_mode": False}, {"early_return": False}])
+def test_without_both_consents_a_step_runs_through(
+    unpacked_3: Unpacked, options: dict[str, bool]
+) -> None:
+    with instance_3(unpacked_3, **options) as instance:
+        found = instance.initialize().run(10, 1e-3)
+    assert found == run(unpacked_3, TABLE_1, 10, 1e-3, events=False)
+
+
+@pytest.mark.parametrize("device", ["table 1", "table 1, LuGre", "stick-slip", "flight"])
+@pytest.mark.parametrize("ulps", [-2, -1, 0, 1, 2])
+def test_steps_that_end_at_events_miss_none(unpacked_3: Unpacked, device: str, ulps: int) -> None:
+    """The end of a step beside an event: found in this step or in the next one, and once."""
+    values = DEVICES[device]
+    times = [event.time for event in run(unpacked_3, values, 1, 30 * PERIOD).events]
+    found: list[float] = []
+    with instance_3(unpacked_3) as instance:
+        instance.initialize(**values)
+        for time in [*(t + ulps * math.ulp(t) for t in times), 30 * PERIOD]:
+            found += [event.time for event in instance.step_to(time)]
+    assert found == pytest.approx(times, rel=1e-11)
+
+
+def test_a_state_at_an_event_goes_on_as_the_instance(unpacked_3: Unpacked) -> None:
+    with instance_3(unpacked_3) as one, instance_3(unpacked_3) as other:
+        one.initialize(**STICK_SLIP)
+        first = one.step_to(1.3 * PERIOD)
+        data = one.state()
+        other.restore(data)
+        other.time = one.time
+        assert other.state() == data
+        assert one.step_to(9 * PERIOD) == other.step_to(9 * PERIOD)
+        assert one.get(*OUTPUTS) == other.get(*OUTPUTS)
+        assert first
+
+
+def test_inputs_change_at_events(unpacked_3: Unpacked) -> None:
+    """In event mode values are set; the step after it moves under them."""
+    with instance_3(unpacked_3) as instance:
+        instance.initialize()
+        events = instance.step_to(0.9 * PERIOD)
+        assert events
+        instance.slave.enterEventMode()
+        instance.set(load=0.3, normal_preload=2.0)
+        instance.handle_event(enter=False)
+        assert instance.get("load") == (0.3,)
+        assert instance.get("normal_force")[0] > 2.0 - 1.0
+        instance.step_to(2 * PERIOD)
+
+
+def test_fmpy_stops_at_the_events(native_3_fmu: Path) -> None:
+    """Its own simulation, which records twice at an event."""
+    columns = ["velocity", "mean_velocity", "reversals"]
+    about = {"stop_time": 0.1, "output_interval": 1e-3, "output": columns}
+    stopping = simulate_fmu(
+        str(native_3_fmu), use_event_mode=True, early_return_allowed=True, **about
+    )
+    passing = simulate_fmu(str(native_3_fmu), **about)
+    assert np.count_nonzero(stopping["velocity"] == 0.0) >= passing["reversals"][-1] > 100.0
+    assert stopping["reversals"][-1] == passing["reversals"][-1]
+    assert stopping["mean_velocity"][-1] == pytest.approx(passing["mean_velocity"][-1], rel=1e-12)
+
+
+devices = st.fixed_dictionaries(
+    {
+        "friction_law": st.sampled_from([0, 1]),
+        "fidelity": st.sampled_from([1, 2]),
+        "friction_coefficient": st.floats(0.01, 5.0),
+        "normal_amplitude": st.floats(0.0, 2.5),
+        "base_amplitude": st.floats(0.0, 3e-4),
+        "frequency_ratio": st.sampled_from([0.0, 1.0, -1.0, 2.0, 3.0, 1.37]),
+        "phase": st.floats(-3.0, 3.0),
+        "load": st.floats(-0.5, 0.5),
+        "initial_velocity": st.floats(-0.3, 0.3),
+    }
+)
+
+
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(values=devices, steps=st.integers(1, 30))
+@example(values={**STICK_SLIP, "normal_amplitude": 1.0}, steps=7)
+def test_stopping_at_events_does_not_change_the_motion(
+    unpacked_3: Unpacked, values: dict[str, float], steps: int
+) -> None:
+    size = 10 * PERIOD / steps
+    stopping = run(unpacked_3, values, steps, size)
+    passing = run(unpacked_3, values, steps, size, events=False)
+    names = ("position", "velocity", "resonator_displacement", "reversals")
+    columns = [OUTPUTS.index(name) for name in names]
+    found, expected = (np.array(r.rows)[:, columns] for r in (stopping, passing))
+    scale = np.maximum(np.abs(expected).max(axis=0), 1e-7)
+    assert np.abs(found - expected) / scale == pytest.approx(0.0, abs=1e-9)
+    reversals = found[-1, -1]
+    assert reversals <= len(stopping.events), "no reversal without an event"
+    times = [event.time for event in stopping.events]
+    assert times == sorted(times)

@@ -1,0 +1,61 @@
+"""What a description may say differently from the interface, and what not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from fmpy import read_model_description
+
+from slider_resonator.fmu.interface_check import description_faults, interface_problems
+from tests.fmus import both_fmus
+from tests.harness.faulty_fmus import redescribed
+
+CHANGES: dict[str, tuple[bytes, bytes, str]] = {
+    "start": (b'start="3500.0"', b'start="3501.0"', "start of resonator_frequency is 3501.0"),
+    "min": (b'min="1e-12"', b'min="1e-11"', "min of slider_mass is 1e-11, must be 1e-12"),
+    "no max": (b'min="1" max="2"', b'min="1"', "max of friction_faces is none, must be 2.0"),
+    "max": (b'max="0.01"', b'max="0.1"', "max of tolerance is 0.1, must be 0.01"),
+    "nominal": (b'nominal="1e-08"', b'nominal="1e-06"', "nominal of tolerance is 1e-06"),
+    "variability": (
+        b'variability="tunable"',
+        b'variability="fixed"',
+        "normal_preload is fixed, must be tunable",
+    ),
+}
+
+
+@both_fmus
+def test_the_builds_say_what_the_interface_says(fmu: Path) -> None:
+    description = read_model_description(str(fmu))
+    assert interface_problems(description) == []
+    assert description_faults(description) == []
+
+
+@pytest.fixture
+def fmu(request: pytest.FixtureRequest) -> Path:
+    found: Path = request.getfixturevalue(f"{getattr(request, 'param', 'native')}_fmu")
+    return found
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_change_is_a_fault(native_fmu: Path, tmp_path: Path, name: str) -> None:
+    old, new, expected = CHANGES[name]
+    path = redescribed(native_fmu, tmp_path / "other.fmu", old, new)
+    (fault,) = description_faults(read_model_description(str(path), validate=False))
+    assert fault.startswith(expected)
+
+
+def test_dependencies_are_neither_missing_nor_invented(native_fmu: Path) -> None:
+    description = read_model_description(str(native_fmu))
+    outputs = {unknown.variable.name: unknown for unknown in description.outputs}
+    (phase,) = outputs["normal_force"].dependencies
+    outputs["normal_force"].dependencies = []
+    outputs["position"].dependencies = [phase]
+    outputs["velocity"].dependencies = None
+    description.outputs.remove(outputs["reversals"])
+    assert description_faults(description) == [
+        "position is declared to depend on phase, which does not act on it",
+        "normal_force is declared independent of phase, which acts on it",
+        "reversals is not among the outputs of ModelStructure",
+    ]

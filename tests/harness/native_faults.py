@@ -1,0 +1,110 @@
+"""Faults of the life of an instance, each a small change of the C sources."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from fmu_src.building.c_sources import slider_sources
+from fmu_src.building.native_fmu import build_native
+from fmu_src.building.platforms import HOST
+
+_PREPARED = "    component->prepared = running;\n"
+_CHECKED = "    if (isfinite(value) && value >= variable->minimum && value <= variable->maximum"
+
+FAULTS: Mapping[str, tuple[str, str, str, str]] = {
+    "a tuned value acts only after the next start": (
+        "component.c",
+        "    Device device = device_of(values);",
+        "    Device device = component->now.lifecycle == STEP_COMPLETE\n"
+        "                        ? component->laws[component->present].device : device_of(values);",
+        "tuned",
+    ),
+    "another drive frequency restarts the drive": (
+        "component.c",
+        _PREPARED,
+        _PREPARED + "    const double was = component->now.values[VR_DRIVE_FREQUENCY];\n"
+        "    if (changed[VR_DRIVE_FREQUENCY] != was) component->now.moment.theta = 0.0;\n",
+        "tuned",
+    ),
+    "a turn of two frequencies lasts as long as one of the last": (
+        "period.c",
+        "        double length = means->elapsed + last;",
+        "        double length = TAU / frequency;",
+        "tuned",
+    ),
+    "contact mode is that of the last step": (
+        "outputs.c",
+        "        return law_mode(law, moment);\n    case VR_REVERSALS:",
+        "        return moment->mode;\n    case VR_REVERSALS:",
+        "read_at_rest",
+    ),
+    "events are timed from the start": (
+        "component.c",
+        "component->now.time = component->now.last_event_time = experiment->start_time;",
+        "component->now.time = experiment->start_time;",
+        "late_start",
+    ),
+    "tiny steps do not move": (
+        "component.c",
+        "duration = step_size - owed;",
+        "duration = step_size < 1e-8 ? 0.0 : step_size - owed;",
+        "late_start",
+    ),
+    "instances share a count": (
+        "component.c",
+        "    now->moment = *after;\n",
+        "    static double total;\n"
+        "    double reversals = after->counts.reversals;\n"
+        "    total += reversals - now->moment.counts.reversals;\n"
+        "    now->moment = *after;\n"
+        "    now->moment.counts.reversals = total = reversals == 0.0 ? 0.0 : total;\n",
+        "tuned",
+    ),
+    "a value set back to its start is ignored": (
+        "component.c",
+        "values[i] == component->now.values[references[i]];",
+        "values[i] == VARIABLES[references[i]].start;",
+        "tuned",
+    ),
+    "a serialised state lacks the bristle": (
+        "snapshot.c",
+        "    FIELD(moment.bristle, FINITE, 0, 0),\n",
+        "",
+        "tuned_lugre",
+    ),
+    "a restored state keeps the present law": (
+        "component.c",
+        "    if (snapshot->moving && !prepare(",
+        "    if (snapshot->moving && !component->prepared && !prepare(",
+        "tuned_fidelity_1",
+    ),
+    "infinity is accepted": (
+        "values.c",
+        _CHECKED,
+        _CHECKED.replace("isfinite(value)", "isinf(value) || (value == value") + ")",
+        "interface",
+    ),
+    "another start of the bristle stiffness": (
+        "variables.c",
+        '"bristle_stiffness", false, true, 100000.0',
+        '"bristle_stiffness", false, true, 10000.0',
+        "interface",
+    ),
+    "a step of zero is accepted": (
+        "experiment.c",
+        "step_size > 0.0)",
+        "step_size >= 0.0)",
+        "interface",
+    ),
+}
+"""What is wrong: the C file, what to replace by what, and the scene that must notice."""
+
+
+def build_faulty(name: str, folder: Path) -> Path:
+    """Build the native FMU for this platform with one fault."""
+    file, old, new, _ = FAULTS[name]
+    code = dict(slider_sources())
+    assert code[file].count(old) == 1, f"{file} has changed: {old!r}"
+    code[file] = code[file].replace(old, new)
+    return build_native(folder, platforms=[HOST], code=code)

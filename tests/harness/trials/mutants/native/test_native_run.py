@@ -1,0 +1,74 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.scenes.scene import find_scene
+from slider_resonator.trials.mutants.native.changes import (
+    Change,
+    hand_written_faults,
+    harmless_variants,
+)
+from slider_resonator.trials.mutants.native.native_run import ChangeVerdict, NativeRun, run_changes
+from slider_resonator.trials.mutants.native.workshop import read_native_sources
+
+SCENES = ("less_than_a_period", "lugre_less_than_a_period", "averaged_less_than_a_period")
+REJECTED = ("mean_before_first_period", "first_bristle_sign", "swing_sign")
+SEEN_ELSEWHERE = "split_merges_mirror"
+HARMLESS = ("shorter_arcs", "stops_without_drift")
+
+
+def named(*names: str) -> list[Change]:
+    made = {change.name: change for change in (*hand_written_faults(), *harmless_variants())}
+    return [made[name] for name in names]
+
+
+@pytest.mark.slow
+def test_faults_are_rejected_and_variants_accepted(native_fmu: Path) -> None:
+    changes = named(*REJECTED, SEEN_ELSEWHERE, *HARMLESS)
+    files = [find_scene(scene) for scene in SCENES]
+    run = run_changes(native_fmu, changes, files, jobs=1, time_limit=30.0)
+    rejected = {verdict.change.name for verdict in run.verdicts if verdict.rejected}
+    assert rejected == set(REJECTED)
+    assert [verdict.change.name for verdict in run.survivors] == [SEEN_ELSEWHERE]
+    assert run.false_alarms == ()
+    assert run.rate == 0.75
+    assert all(verdict.quantity for verdict in run.verdicts if verdict.rejected)
+
+
+def test_a_unit_includes_headers_of_headers(native_fmu: Path) -> None:
+    sources = read_native_sources(native_fmu)
+    assert "outputs.c" in sources.units_with("moment.h")
+    assert "outputs.c" in sources.units_with("stops.h"), "by way of moment.h"
+    assert sources.units_with("stick.c") == ["stick.c"]
+    assert sources.model == "SliderResonator"
+
+
+def test_explained_survivors_do_not_count_and_false_alarms_do() -> None:
+    fault = Change("a", "a.c", "x", "y", "m")
+    hidden = Change("b", "a.c", "x", "y", "m", survives="rounding")
+    harmless = Change("c", "a.c", "x", "y", "m", harmless=True)
+    verdicts = (
+        ChangeVerdict(fault, True),
+        ChangeVerdict(hidden, False),
+        ChangeVerdict(harmless, True),
+    )
+    run = NativeRun("x.fmu", verdicts, 0.0)
+    assert run.rate == 1.0
+    assert [verdict.change.name for verdict in run.survivors] == ["b"]
+    assert [verdict.change.name for verdict in run.false_alarms] == ["c"]
+    assert NativeRun("x.fmu", (), 0.0).rate is None
+
+
+def test_fmus_without_sources_and_changes_that_do_not_fit_are_refused(
+    python_fmu: Path, native_fmu: Path
+) -> None:
+    with pytest.raises(FmuError, match="has no C sources to change"):
+        read_native_sources(python_fmu)
+    with pytest.raises(FmuError, match="no such file"):
+        read_native_sources(Path("no.fmu"))
+    stale = Change("stale", "stick.c", "no such text", "", "m")
+    with pytest.raises(HarnessError, match=r"stale: 'no such text' occurs 0 times in stick\.c"):
+        run_changes(native_fmu, [stale], [], jobs=1, time_limit=1.0)

@@ -1,0 +1,81 @@
+"""The FMU of FMI 3.0 on 64-bit ARM, under qemu: the six cases of table 1, by a host in C."""
+
+from __future__ import annotations
+
+import platform
+import shutil
+import subprocess
+import zipfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmu_src.building.native_fmu import MODEL_3, build_native_3
+from fmu_src.building.platforms import AARCH64_LINUX, HOST, Platform, host_platform
+from fmu_src.python.slider_component.variables import VARIABLES
+from slider_resonator.trials.hosts.compiler import compile_program, native_compiler, zig_compiler
+from slider_resonator.trials.hosts.job import describe
+
+pytestmark = [
+    pytest.mark.interop,
+    pytest.mark.skipif(platform.system() != "Linux", reason="qemu runs binaries of Linux on Linux"),
+]
+
+SOURCE = Path(__file__).parent / "c" / "driver_3.c"
+HEADERS = ("-Wno-strict-prototypes",)
+"""The standard's own header declares two types of functions without parameters."""
+
+QEMU = ("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu")
+OUTPUTS = [v.name for v in VARIABLES if v.causality == "output"]
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("aarch64")
+    return build_native_3(folder, platforms=[AARCH64_LINUX.name, HOST])
+
+
+@pytest.fixture(scope="module")
+def drivers(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """The host for this machine, and for ARM."""
+    folder = tmp_path_factory.mktemp("drivers")
+    target = [*zig_compiler(), "-target", AARCH64_LINUX.targets[0]]
+    return (
+        compile_program(native_compiler(), SOURCE, folder / "here", HEADERS),
+        compile_program(target, SOURCE, folder / "arm", ["-g0", "-s", "-ldl", *HEADERS]),
+    )
+
+
+def library(fmu: Path, system: Platform, folder: Path) -> Path:
+    (name,) = system.binaries_3(MODEL_3)
+    with zipfile.ZipFile(fmu) as archive:
+        return Path(archive.extract(name, folder))
+
+
+def run(command: Sequence[str | Path], fmu: Path, binary: Path, case: tuple[int, int]) -> list[str]:
+    description = describe(str(fmu))
+    chosen = description.refer(["friction_law", "fidelity"])
+    arguments = [binary, description.guid, *case, *chosen, *description.refer(OUTPUTS)]
+    done = subprocess.run(
+        [*map(str, command), *map(str, arguments)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+@pytest.mark.parametrize("case", [(law, fidelity) for law in (0, 1) for fidelity in (2, 1, 0)])
+def test_arm_gives_the_numbers_of_this_machine(
+    fmu: Path, drivers: tuple[Path, Path], tmp_path: Path, case: tuple[int, int]
+) -> None:
+    assert shutil.which(QEMU[0]), f"{QEMU[0]}: not found; `make hosts` installs it"
+    here, arm = drivers
+    *ours, our_events = run([here], fmu, library(fmu, host_platform("3.0"), tmp_path), case)
+    *theirs, their_events = run([*QEMU, arm], fmu, library(fmu, AARCH64_LINUX, tmp_path), case)
+    assert our_events == their_events
+    assert int(our_events) > 0 or case[1] == 0
+    expected, found = (np.array([line.split() for line in r], float) for r in (ours, theirs))
+    peaks = np.abs(expected).max(axis=0)
+    deviation = np.abs(found - expected) / np.where(peaks > 0.0, peaks, 1.0)
+    assert deviation.max() <= 1e-11

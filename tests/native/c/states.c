@@ -1,0 +1,174 @@
+/* Restores states of any content with a valid seal, then steps and reads everything.
+ *
+ *     states LIBRARY GUID SEED CASES SECONDS
+ *
+ * Each case takes the state of some device in motion, changes a few of its numbers, seals it anew and
+ * restores it; what is refused is left, what is accepted is stepped, read and stored again. Fails (1)
+ * when an output that is read with fmi2OK is not finite, when an accepted state cannot be stored, or
+ * when a call takes more than SECONDS of processor time. Ends with a line of what was done. */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "fmu_library.h"
+#include "random_values.h"
+
+enum { HEADER = 48, NUMBER = 8, FIELDS = 27, SETTABLE = 24, VARIABLES = 38, MOST_BYTES = 8192 };
+enum { FRICTION_LAW = 14, FIDELITY = 17, FACES = 13, RATIO = 2, STEPS = 3 };
+enum { DRIVE_FREQUENCY = 10, RESONATOR_FREQUENCY = 5, SLIDER_MASS = 3, RESONATOR_MASS = 4 };
+
+static FmuLibrary fmu;
+static double longest = 0.0, seconds;
+static long restored = 0, stepped = 0, read_out = 0;
+
+static void log_message(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
+                        fmi2String category, fmi2String message, ...) {
+    (void)environment, (void)instance, (void)status, (void)category, (void)message;
+}
+
+static double number_at(const fmi2Byte *bytes, int index) {
+    double number;
+    memcpy(&number, bytes + HEADER + NUMBER * index, sizeof number);
+    return number;
+}
+
+static void put(fmi2Byte *bytes, int index, double number) {
+    memcpy(bytes + HEADER + NUMBER * index, &number, sizeof number);
+}
+
+/* FNV-1a, as the component seals its states. */
+static void seal(fmi2Byte *bytes, size_t size) {
+    uint64_t sum = UINT64_C(14695981039346656037);
+    size_t i, checked = size - NUMBER;
+    for (i = 0; i < checked; i++) sum = (sum ^ (unsigned char)bytes[i]) * UINT64_C(1099511628211);
+    memcpy(bytes + checked, &sum, sizeof sum);
+}
+
+static void fail(const char *what, long number, const fmi2Byte *bytes) {
+    int i;
+    printf("case %ld: %s\n", number, what);
+    for (i = 0; i < FIELDS + SETTABLE; i++) printf("%d %.17g\n", i, number_at(bytes, i));
+    exit(1);
+}
+
+static void timed(clock_t began, const char *what, long number, const fmi2Byte *bytes) {
+    double taken = (double)(clock() - began) / CLOCKS_PER_SEC;
+    if (taken > longest) longest = taken;
+    if (taken > seconds) fail(what, number, bytes);
+}
+
+static double odd_number(double before) {
+    static const double powers[] = {1e-300, 1e-20, 1e-6, 0.5, 1.0 + 1e-15, 2.0, 1e3, 1e12, 1e200};
+    if (one_in(3)) return before * powers[below(sizeof powers / sizeof *powers)];
+    if (one_in(4)) return -before;
+    return one_in(2) ? random_real() : (random_share() - 0.5) * 20.0;
+}
+
+/* Some turns of the fastest frequency that was asked for, so that work does not grow with it. */
+static double step_size(const fmi2Byte *bytes) {
+    const int at = FIELDS;
+    double drive = number_at(bytes, at + DRIVE_FREQUENCY), fastest = drive;
+    double free = sqrt(1.0 + number_at(bytes, at + RESONATOR_MASS)
+                                 / number_at(bytes, at + SLIDER_MASS));
+    fastest = fmax(fastest, fabs(drive * number_at(bytes, at + RATIO)));
+    fastest = fmax(fastest, free * number_at(bytes, at + RESONATOR_FREQUENCY));
+    return 20.0 * random_share() * random_share() / fastest;
+}
+
+static void start(fmi2Component c) {
+    const fmi2ValueReference choices[] = {FRICTION_LAW, FIDELITY, FACES};
+    const fmi2Integer values[] = {(fmi2Integer)below(2), (fmi2Integer)below(3),
+                                  (fmi2Integer)(1 + below(2))};
+    const fmi2ValueReference ratio = RATIO;
+    static const double ratios[] = {1.0, 2.0, -1.0, 0.0, 0.5, 1.01, 0.003, 1.37};
+    fmi2Real value = ratios[below(8)];
+    int i;
+    fmu.Reset(c);
+    fmu.SetInteger(c, choices, 3, values);
+    fmu.SetReal(c, &ratio, 1, &value);
+    fmu.SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0);
+    fmu.EnterInitializationMode(c);
+    fmu.ExitInitializationMode(c);
+    for (i = (int)below(4); i > 0; i--) {
+        fmi2Real now = 0.0;
+        fmu.GetRealStatus(c, fmi2LastSuccessfulTime, &now);
+        fmu.DoStep(c, now, 1e-3 * random_share(), fmi2True);
+    }
+}
+
+static size_t stored(fmi2Component c, fmi2Byte bytes[MOST_BYTES]) {
+    fmi2FMUstate state = NULL;
+    size_t size = 0;
+    if (fmu.GetFMUstate(c, &state) != fmi2OK) return 0;
+    fmu.SerializedFMUstateSize(c, state, &size);
+    if (size > MOST_BYTES || fmu.SerializeFMUstate(c, state, bytes, size) != fmi2OK) size = 0;
+    fmu.FreeFMUstate(c, &state);
+    return size;
+}
+
+static int restore(fmi2Component c, const fmi2Byte *bytes, size_t size) {
+    fmi2FMUstate state = NULL;
+    int done = fmu.DeSerializeFMUstate(c, bytes, size, &state) == fmi2OK
+               && fmu.SetFMUstate(c, state) == fmi2OK;
+    if (state) fmu.FreeFMUstate(c, &state);
+    return done;
+}
+
+static void read_all(fmi2Component c, long number, const fmi2Byte *bytes) {
+    fmi2ValueReference reference;
+    for (reference = 0; reference < VARIABLES; reference++) {
+        fmi2Real value = 0.0;
+        clock_t began = clock();
+        if (reference == FRICTION_LAW || reference == FIDELITY || reference == FACES) continue;
+        if (fmu.GetReal(c, &reference, 1, &value) == fmi2OK) {
+            if (!isfinite(value)) fail("an output that is not finite", number, bytes);
+            read_out++;
+        }
+        timed(began, "reading takes too long", number, bytes);
+    }
+}
+
+static void try_case(fmi2Component c, long number) {
+    fmi2Byte bytes[MOST_BYTES], after[MOST_BYTES];
+    size_t size;
+    int changes, step;
+    start(c);
+    size = stored(c, bytes);
+    if (size == 0) fail("a state could not be stored", number, bytes);
+    for (changes = 1 + (int)below(4); changes > 0; changes--) {
+        int index = (int)below(FIELDS + SETTABLE);
+        put(bytes, index, odd_number(number_at(bytes, index)));
+    }
+    seal(bytes, size);
+    if (!restore(c, bytes, size)) return;
+    restored++;
+    for (step = 0; step < STEPS; step++) {
+        fmi2Real now = 0.0;
+        clock_t began;
+        read_all(c, number, bytes);
+        fmu.GetRealStatus(c, fmi2LastSuccessfulTime, &now);
+        began = clock();
+        stepped += fmu.DoStep(c, now, step_size(bytes), fmi2True) == fmi2OK;
+        timed(began, "a step takes too long", number, bytes);
+    }
+    read_all(c, number, bytes);
+    if (stored(c, after) != size) fail("a state could not be stored again", number, bytes);
+}
+
+int main(int count, char **arguments) {
+    static const fmi2CallbackFunctions callbacks = {log_message, calloc, free, NULL, NULL};
+    fmi2Component c;
+    long number, cases;
+    if (count != 6 || !load_fmu_library(&fmu, arguments[1])) return 2;
+    random_state = 2 * strtoull(arguments[3], NULL, 10) + 1;
+    cases = strtol(arguments[4], NULL, 10);
+    seconds = strtod(arguments[5], NULL);
+    c = fmu.Instantiate("states", fmi2CoSimulation, arguments[2], "file:///nowhere", &callbacks,
+                        fmi2False, fmi2False);
+    if (!c) return 2;
+    for (number = 0; number < cases; number++) try_case(c, number);
+    fmu.FreeInstance(c);
+    printf("%ld states: %ld restored, %ld steps, %ld values read, longest call %.3f s\n", cases,
+           restored, stepped, read_out, longest);
+    return 0;
+}
