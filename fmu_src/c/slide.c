@@ -26,7 +26,7 @@ double slide_travel(const void *motion, double t) {
 }
 
 State slide_end(const Slide *slide, double t, double *travel, KnownPhasors *known) {
-    known->known = slide->splits;
-    return slide->splits ? split_slide_end(&slide->form.split, t, travel, &known->phasors)
+    known->known = false;
+    return slide->splits ? split_slide_end(&slide->form.split, t, travel, known)
                          : regular_slide_end(&slide->form.regular, t, travel);
 }

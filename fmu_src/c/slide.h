@@ -16,13 +16,6 @@ typedef struct {
     } form;
 } Slide;
 
-/* Phasors of the present angles, kept where a slide knows them at its end. They are no part of the
- * state: a step computes them anew. */
-typedef struct {
-    bool known;
-    Phasors phasors;
-} KnownPhasors;
-
 /* Motion with friction s (F0 + F1 sin(chi)), s = `sign`; its velocity is watched in `direction`,
  * unless that is 0. `held` must outlive the slide. */
 void slide_begin(Slide *slide, const Held *held, int sign, const State *state, double theta,

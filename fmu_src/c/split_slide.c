@@ -154,10 +154,10 @@ static inline double grown(double x) {
     return 1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * tail)));
 }
 
-/* Turns at the anchor, rotated by the little that is missing to `t`. */
-static inline void rotate_turns(const SplitSlide *slide, double t, Turns *turns) {
+/* Turns at the anchor, or another time, rotated by the little that is missing to `t`. */
+static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, double t,
+                                Turns *turns) {
     const Plant *plant = slide->plant;
-    const Turns *anchor = &slide->anchor;
     double ahead = t - anchor->t;
     turns->t = t;
     turns->free = anchor->free;
@@ -174,14 +174,23 @@ static inline void rotate_turns(const SplitSlide *slide, double t, Turns *turns)
                                 : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
 }
 
-/* Turns at `t`: at the start, close to the anchor in `place`, or computed in `fresh`. */
+static inline bool is_soon(const SplitSlide *slide, double t) {
+    return t * slide->split->fastest < SMALL_TURN;
+}
+
+/* Turns at `t`: close to the start or the anchor in `place`, or computed in `fresh`. Close to the start
+ * rounding must not differ from what it is there: a slider that sets out moves forward at once. */
 static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place,
                                     Turns *fresh) {
     if (t == 0.0) {
         return &slide->start;
     }
+    if (is_soon(slide, t)) {
+        rotate_turns(slide, &slide->start, t, place);
+        return place;
+    }
     if (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < SMALL_TURN) {
-        rotate_turns(slide, t, place);
+        rotate_turns(slide, &slide->anchor, t, place);
         return place;
     }
     compute_turns(slide, t, fresh);
@@ -258,10 +267,10 @@ double split_slide_travel(const SplitSlide *slide, double t) {
     return travel_by(slide, t, turns_at(slide, t, &place, &place));
 }
 
-State split_slide_end(const SplitSlide *slide, double t, double *travel, Phasors *phasors) {
+State split_slide_end(const SplitSlide *slide, double t, double *travel, KnownPhasors *known) {
     Turns place;
     const Turns *turns = turns_at(slide, t, &place, &place);
     *travel = travel_by(slide, t, turns);
-    *phasors = turns->phasors;
+    *known = (KnownPhasors){!is_soon(slide, t), turns->phasors};
     return state_by(slide, t, turns);
 }

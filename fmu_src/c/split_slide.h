@@ -32,6 +32,13 @@ typedef struct {
     Complex drive, normal;
 } Phasors;
 
+/* Phasors of the present angles, kept where a slide knows them at its end from sines and cosines that
+ * were computed in it. They are no part of the state: a step computes them anew. */
+typedef struct {
+    bool known;
+    Phasors phasors;
+} KnownPhasors;
+
 Phasors phasors_of(const Plant *plant, double theta, double chi);
 
 /* Friction force [N] of all faces when sliding steadily; 0 in flight. */
@@ -52,7 +59,7 @@ typedef struct {
  * free part at first. `noise` [m/s] is the rounding error of the velocity.
  *
  * `anchor` is the latest time for which sines and cosines were computed, where `anchored`: close to
- * it known turns are rotated by a little. `start` is never rotated, so that errors do not add up. */
+ * it, or to the `start`, known turns are rotated by a little. */
 typedef struct {
     const Split *split;
     const Plant *plant;
@@ -79,7 +86,7 @@ Watch split_slide_watch(SplitSlide *slide);
 /* Displacement of the slider after `t` [s], in m. */
 double split_slide_travel(const SplitSlide *slide, double t);
 
-/* State after `t` [s], the displacement [m] in `travel`, and the `phasors`. */
-State split_slide_end(const SplitSlide *slide, double t, double *travel, Phasors *phasors);
+/* State after `t` [s], the displacement [m] in `travel`, and the phasors. */
+State split_slide_end(const SplitSlide *slide, double t, double *travel, KnownPhasors *known);
 
 #endif
