@@ -57,6 +57,20 @@ static Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
     return inputs;
 }
 
+/* Give a law what averages of second order need; the law of the full device goes to `resolved`. */
+static bool prepare_orbits(Component *component, Law *law, Law *resolved, Refusal *refusal) {
+    if (law_follows_orbits(law)) {
+        Device full = law->device;
+        full.fidelity = 2;
+        if (!law_prepare(resolved, &full, &law->inputs, NULL, refusal)) {
+            return false;
+        }
+        law->resolved = resolved;
+        law->orbits = &component->orbits;
+    }
+    return true;
+}
+
 /* Prepare the law of `values` beside the present one, which it replaces unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
@@ -67,6 +81,9 @@ static bool prepare(Component *component, const double values[SETTABLE_COUNT], R
     }
     if (!law_is_finite(&component->laws[next])) {
         return refuse_extreme(values, refusal);
+    }
+    if (!prepare_orbits(component, &component->laws[next], &component->resolved[next], refusal)) {
+        return false;
     }
     component->present = next;
     component->prepared = true;

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from .contact import STICK
 from .motion import State
+from .orbit_state import NO_ORBIT, OrbitState
 from .period import PeriodMeans
 from .stops import NO_STOPS, Stops
 
@@ -31,8 +32,8 @@ class Moment:
     `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
     sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. `stops` decide where a
     stop is looked for first, and so the last digit of the time that is found: they are part of the
-    state for a replay to be equal to the last bit. A moment is changed only by the loop over
-    events, which begins with a copy.
+    state for a replay to be equal to the last bit. `orbit` serves averages of second order alone. A
+    moment is changed only by the loop over events, which begins with a copy.
     """
 
     state: State
@@ -45,6 +46,7 @@ class Moment:
     means: PeriodMeans
     bristle: float = 0.0
     stops: Stops = NO_STOPS
+    orbit: OrbitState = NO_ORBIT
 
     def copied(self) -> Moment:
         """The same moment, to be changed."""
@@ -59,6 +61,7 @@ class Moment:
             self.means,
             self.bristle,
             self.stops,
+            self.orbit,
         )
 
     def enter(self, mode: int) -> None:
