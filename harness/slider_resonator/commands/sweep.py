@@ -78,8 +78,8 @@ def sweep_command(
     \b
     Examples:
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
-      slider-resonator sweep grid.toml --out table.csv --html sweep.html
       slider-resonator sweep grid.toml --out table.csv --jobs 4
+      slider-resonator sweep grid.toml --out table.csv --html sweep.html
       slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
