@@ -74,7 +74,7 @@ def test_a_late_jump_of_the_phase_kicks_the_slow_velocity(instance: Instance) ->
     """Averaged motion goes on, while the full device takes the kick over: a window shows it."""
     calm = LONG.format(device="", load="constant = 0.0")
     late = calm.replace("phase = 0.4", "phase = { steps = [[0, 0.4], [13.9, 2.7]] }")
-    model = Model(0, 0)
+    model = Model(0, 0, averaging_order=1)
     without, true = (
         errors_of_the_whole(instance, scene_of(text), model)["mean_velocity"]
         for text in (calm, late)
