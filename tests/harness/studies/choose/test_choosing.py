@@ -40,7 +40,29 @@ def test_a_need_below_rounding_is_not_met(instance: Instance) -> None:
     choice = choose_with(instance, table_1("position = { rel = 1e-15 }", periods=20.0))
     assert not choice.meets
     assert choice.fidelity == 2, "the nearest is reported"
-    assert len(choice.ruled_out) == 3
+    assert len(choice.ruled_out) == 4
+
+
+def test_a_long_run_takes_second_order_where_first_does_not_do(instance: Instance) -> None:
+    orders = []
+    for need in ("1e-2", "1e-6"):
+        choice = choose_with(
+            instance, table_1(f"mean_velocity = {{ rel = {need} }}", periods=8000.0)
+        )
+        assert (choice.meets, choice.fidelity) == (True, 0)
+        orders.append(choice.averaging_order)
+    assert orders == [1, 2]
+
+
+def test_there_are_no_held_orbits_without_damping(instance: Instance) -> None:
+    scene = scene_of(
+        "[device]\ndamping_ratio = 0.0\nresonator_frequency = 3000.0\n"
+        "[run]\ndrive_periods = 50\nsteps_per_period = 1\n"
+        "[need]\nmean_velocity = { rel = 1e-3 }\n"
+    )
+    choice = choose_with(instance, scene)
+    why = {m.averaging_order: m.why for m in choice.ruled_out if m.fidelity == 0}
+    assert "no held orbits" in why[2]
 
 
 def lugre(need: str, stiffness: float = 1e5, periods: int = 200) -> Scene:
