@@ -20,6 +20,7 @@ from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import lacking
+from slider_resonator.output.console import counted
 from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -159,7 +160,8 @@ def _validation(
     number = count()
 
     def meanwhile(point: ScenePoint) -> None:
-        report(point.scene.name, next(number) / len(points))
+        done = next(number)
+        report(counted(point.scene.name, done, len(points)), done / len(points))
         expected.at(point)
 
     checks: list[Check] = []

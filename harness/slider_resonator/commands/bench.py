@@ -7,7 +7,12 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import default_fmu, json_option, time_limit_option
+from slider_resonator.commands.options import (
+    default_fmu,
+    json_option,
+    other_fmu_argument,
+    time_limit_option,
+)
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
@@ -17,8 +22,8 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
 
-@click.command("bench")
-@click.argument("fmu", type=click.Path(path_type=Path), required=False)
+@click.command("bench", short_help="Measure what a step costs in a C host.")
+@other_fmu_argument("the native one in dist")
 @click.option(
     "--repeats",
     type=click.IntRange(min=1),

@@ -13,7 +13,11 @@ from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.steady.blocking_force import find_blocking
 
 
-@click.command("blocking", cls=SettingsCommand)
+@click.command(
+    "blocking",
+    short_help="Find the load that stops an FMU, without a long run.",
+    cls=SettingsCommand,
+)
 @search_arguments
 @click.pass_context
 def blocking_command(

@@ -33,7 +33,11 @@ UNITS = {
 }
 
 
-@click.command("choose", cls=SettingsCommand)
+@click.command(
+    "choose",
+    short_help="Choose the cheapest model that meets a scene's needs.",
+    cls=SettingsCommand,
+)
 @click.argument("scene")
 @fmu_option
 @set_option

@@ -22,7 +22,7 @@ NATIVE_3 = Path("dist/SliderResonator3.fmu")
 NAMES = [host.name for host in hosts()]
 
 
-@click.command("hosts")
+@click.command("hosts", short_help="Run table 1 in other simulators; compare with fmpy.")
 @click.argument(
     "native", type=click.Path(path_type=Path, exists=True, dir_okay=False), default=NATIVE
 )

@@ -8,7 +8,9 @@ import click
 
 from slider_resonator.commands.options import (
     Target,
+    jobs_option,
     json_option,
+    other_fmu_argument,
     scenes_option,
     time_limit_option,
 )
@@ -50,8 +52,8 @@ MIN_NATIVE_RATE = 0.97
 """Share of the hand-written faults that a scene can see that must be rejected for a pass."""
 
 
-@click.command("mutants")
-@click.argument("fmu", type=click.Path(path_type=Path), required=False)
+@click.command("mutants", short_help="Make faulty FMUs and count those that validate rejects.")
+@other_fmu_argument("the one in dist for the kind of mutant")
 @click.option(
     "--native",
     is_flag=True,
@@ -88,7 +90,7 @@ MIN_NATIVE_RATE = 0.97
     show_default=True,
     help="Random scenes that show whether a survivor changes a result.",
 )
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
+@jobs_option
 @time_limit_option(
     TIME_LIMIT,
     "For a mutant and each scene, or point of a sweep; a mutant that exceeds it is rejected.",

@@ -20,7 +20,7 @@ from slider_resonator.studies.paper.listing import verdicts
 from slider_resonator.studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce
 
 
-@click.command("paper")
+@click.command("paper", short_help="Reproduce the figures and statements of the paper.")
 @out_folder_option("figures, tables and claims")
 @click.option(
     "--only",
@@ -42,10 +42,10 @@ def paper_command(
 ) -> None:
     """Reproduce the paper: its figures, three more, and a verdict on each of its statements.
 
-    Write figures as PNG and SVG with captions in FIGURES.md, tables of LuGre friction as JSON and
-    in TABLES.md, and claims.md and claims.json. Exit code: 0, 1 when a known verdict on a statement
-    is not confirmed or a table deviates, 2 when the FMU could not run, crashed or exceeded the time
-    limit; what is finished by then is kept.
+    Write index.html with all of them, figures as PNG and SVG with captions in FIGURES.md, tables of
+    LuGre friction as JSON and in TABLES.md, and claims.md and claims.json. Exit code: 0, 1 when a
+    known verdict on a statement is not confirmed or a table deviates, 2 when the FMU could not run,
+    crashed or exceeded the time limit; what is finished by then is kept.
 
     \b
     Examples:

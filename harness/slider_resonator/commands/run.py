@@ -60,9 +60,9 @@ class RunSummary:
     auto: Choice | None
 
 
-@click.command("run", cls=SettingsCommand)
+@click.command("run", short_help="Run one scene and report results and cost.", cls=SettingsCommand)
 @fmu_argument
-@click.argument("scene")
+@click.argument("scene", required=False)
 @click.option("--out", type=Target(), help="CSV file of the run.")
 @click.option(
     "--plot",
@@ -177,11 +177,20 @@ def _sentences(summary: RunSummary, scene: Scene) -> str:
         f"{summary.communication_steps} communication steps",
         f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
         f"period {readable(summary.mean_velocity, 9)} m/s",
-        f"contact  {summary.reversals} reversals, sticking {summary.stick_fraction:.1%} of the "
-        f"last drive period, last event at {summary.last_event_time:.9g} s",
+        *_contact(summary, scene),
         f"cost     {summary.wall_time:.3g} s of wall time, "
         f"{summary.wall_time_per_simulated_time:.3g} per simulated second, "
         f"{summary.microseconds_per_drive_period:.3g} us per drive period",
     ]
     lines += [f"written  {one_line(file)}" for file in (summary.out, summary.plot) if file]
     return "\n".join(lines)
+
+
+def _contact(summary: RunSummary, scene: Scene) -> list[str]:
+    """Return the line about contact; averaged motion has no events to count."""
+    if scene.device.fidelity == 0:
+        return []
+    return [
+        f"contact  {summary.reversals} reversals, sticking {summary.stick_fraction:.1%} of the "
+        f"last drive period, last event at {summary.last_event_time:.9g} s"
+    ]

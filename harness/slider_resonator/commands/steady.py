@@ -13,7 +13,11 @@ from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.steady.steady_velocity import find_steady
 
 
-@click.command("steady", cls=SettingsCommand)
+@click.command(
+    "steady",
+    short_help="Find the steady velocity of an FMU, without a long run.",
+    cls=SettingsCommand,
+)
 @search_arguments
 @click.pass_context
 def steady_command(

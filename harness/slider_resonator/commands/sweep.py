@@ -10,6 +10,7 @@ from slider_resonator.commands.options import (
     Target,
     default_fmu,
     fmu_option,
+    jobs_option,
     json_option,
     time_limit_option,
 )
@@ -25,12 +26,12 @@ from slider_resonator.studies.sweep.table import SUFFIXES
 from slider_resonator.studies.sweep.worker import TIME_LIMIT
 
 
-@click.command("sweep")
+@click.command("sweep", short_help="Compute measures over a grid of parameters and inputs.")
 @click.argument("grid", type=click.Path(path_type=Path))
 @click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
 @fmu_option
-@click.option("--workers", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
+@jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
 @click.option("--restart", is_flag=True, help="Discard the points of an earlier attempt.")
 @click.option("--overwrite", is_flag=True, help="Replace the table of another grid.")
@@ -43,7 +44,7 @@ def sweep_command(
     out: Path,
     plot: Path | None,
     fmu: Path | None,
-    workers: int | None,
+    jobs: int | None,
     dask: str | None,
     restart: bool,
     overwrite: bool,
@@ -74,7 +75,7 @@ def sweep_command(
     \b
     Examples:
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
-      slider-resonator sweep grid.toml --out table.csv --workers 4
+      slider-resonator sweep grid.toml --out table.csv --jobs 4
       slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
@@ -90,7 +91,7 @@ def sweep_command(
             sweep,
             default_fmu(fmu),
             out,
-            workers=workers or available_cores(),
+            workers=jobs or available_cores(),
             dask=dask,
             restart=restart,
             overwrite=overwrite,

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from slider_resonator.output import markdown
+from slider_resonator.output import html_page, markdown
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
@@ -18,6 +18,9 @@ HEAD = (
     "The FMU runs with masses, loads and reference frequency of 1, so that its SI values are the "
     "paper's dimensionless ones; numbers in brackets are equations of the paper."
 )
+
+
+_CLAIM_COLUMNS = texts("statement", "where", "measured", "verdict", "why")
 
 
 def write_figures(folder: Path, figures: Iterable[PaperFigure], fmu: str, guid: str) -> None:
@@ -50,12 +53,8 @@ def write_tables(
         }
         write_text(folder / f"{table.name}.json", to_json(content) + "\n")
         lines += [f"## {table.name}: {table.title}", "", table.caption, ""]
-        rows = [[_number(row[name]) for name in table.columns] for row in data["rows"]]
-        lines += [markdown.rendered(Table(numbers(*table.columns.values()), rows)), ""]
-        for name, size in table.largest(data).items():
-            verdict = "" if size <= table.bounds[name] else ", **NOT CONFIRMED**"
-            meaning = table.columns[name]
-            lines.append(f"Largest {meaning}: {size:.2g}, allowed {table.bounds[name]:g}{verdict}.")
+        lines += [markdown.rendered(_measured(table, data)), ""]
+        lines += _largest(table, data, "**NOT CONFIRMED**")
         lines.append("")
     write_text(folder / "TABLES.md", "\n".join(lines))
 
@@ -73,10 +72,60 @@ def write_claims(
     lines = ["# Statements of the paper, and what was measured", "", _origin(fmu, guid)]
     lines += [verdicts(claims), ""]
     for title, group in groups:
-        columns = texts("statement", "where", "measured", "verdict", "why")
-        table = Table(columns, [_claim_row(claim) for claim in group])
+        table = Table(_CLAIM_COLUMNS, [_claim_row(claim) for claim in group])
         lines += [f"## {title}", "", markdown.rendered(table), ""]
     write_text(folder / "claims.md", "\n".join(lines))
+
+
+def write_index(
+    folder: Path,
+    figures: Iterable[PaperFigure],
+    tables: Sequence[tuple[PaperTable, Data]],
+    groups: Sequence[tuple[str, Sequence[Claim]]],
+    fmu: str,
+    guid: str,
+) -> None:
+    """Write index.html, with all figures beside it, tables and claims.
+
+    Raises HarnessError when it cannot be written.
+    """
+    text = html_page.escaped
+    parts = [f"<p>{text(f'FMU {fmu}, GUID {guid}. {HEAD}')}</p>"]
+    claims = [claim for _, group in groups for claim in group]
+    if claims:
+        parts.append(f"<h2>Statements of the paper</h2><p>{text(verdicts(claims))}</p>")
+    for title, group in groups:
+        table = Table(_CLAIM_COLUMNS, [_claim_row(claim) for claim in group])
+        parts.append(f'<h3>{text(title)}</h3><div class="wide">{html_page.rendered(table)}</div>')
+    for figure in figures:
+        name, title = text(figure.name), text(figure.title)
+        parts.append(
+            f'<h2 id="{name}">{name}: {title}</h2><a href="{name}.svg">'
+            f'<img src="{name}.png" alt="{title}"></a><p>{text(figure.caption)}</p>'
+        )
+    for shown, data in tables:
+        rendered = html_page.rendered(_measured(shown, data))
+        parts.append(
+            f"<h2>{text(shown.name)}: {text(shown.title)}</h2><p>{text(shown.caption)}</p>"
+        )
+        parts.append(f'<div class="wide">{rendered}</div>')
+        parts += [f"<p>{text(line)}</p>" for line in _largest(shown, data)]
+    html_page.write_page(folder / "index.html", "The paper, reproduced", parts)
+
+
+def _measured(table: PaperTable, data: Data) -> Table:
+    rows = [[_number(row[name]) for name in table.columns] for row in data["rows"]]
+    return Table(numbers(*table.columns.values()), rows)
+
+
+def _largest(table: PaperTable, data: Data, wrong: str = "NOT CONFIRMED") -> list[str]:
+    """Return a sentence for each deviation that is judged."""
+    lines = []
+    for name, size in table.largest(data).items():
+        verdict = "" if size <= table.bounds[name] else f", {wrong}"
+        meaning = table.columns[name]
+        lines.append(f"Largest {meaning}: {size:.2g}, allowed {table.bounds[name]:g}{verdict}.")
+    return lines
 
 
 def verdicts(claims: Sequence[Claim]) -> str:

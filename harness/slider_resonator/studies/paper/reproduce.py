@@ -13,7 +13,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.output.atomic import replacing, write_text
-from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.console import counted, noting_on_interrupt
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.targets import make_folder
@@ -35,7 +35,12 @@ from slider_resonator.studies.paper import (
 )
 from slider_resonator.studies.paper.claim import Claim, ClaimGroup
 from slider_resonator.studies.paper.figure import Data, PaperFigure
-from slider_resonator.studies.paper.listing import write_claims, write_figures, write_tables
+from slider_resonator.studies.paper.listing import (
+    write_claims,
+    write_figures,
+    write_index,
+    write_tables,
+)
 from slider_resonator.studies.paper.table import PaperTable
 
 FIGURES: Mapping[str, PaperFigure] = {
@@ -128,7 +133,7 @@ def reproduce(
     with noting_on_interrupt(lambda: _kept(found, out)), IsolatedFmu(fmu_path, time_limit) as fmu:
         guid = fmu.guid
         for index, job in enumerate(jobs):
-            progress(job.name, index / len(jobs))
+            progress(counted(job.name, index, len(jobs)), index / len(jobs))
             found[job.name] = fmu.run(partial(_measure, job.name))
             results = to_json({"guid": guid, "data": found[job.name]})
             write_text(out / RESULTS / f"{job.name}.json", results + "\n")
@@ -142,6 +147,7 @@ def reproduce(
     claims = [(group.title, found[group.name]) for group in groups]
     if claims:
         write_claims(out, claims, fmu_path.name, guid)
+    write_index(out, figures, measured, claims, fmu_path.name, guid)
     return Outcome(
         out=str(out),
         fmu=str(fmu_path),

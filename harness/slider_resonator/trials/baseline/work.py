@@ -16,6 +16,7 @@ from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.atomic import replacing
+from slider_resonator.output.console import counted
 from slider_resonator.output.targets import make_folder
 from slider_resonator.scenes.scene import Scene, ScenePoint, built_in_scenes, read_scene
 from slider_resonator.trials.baseline.golden import Golden, measure_golden
@@ -186,7 +187,8 @@ def _measure(
     number = count()
 
     def meanwhile(point: ScenePoint) -> None:
-        progress(point.scene.name, next(number) / len(all_points))
+        done = next(number)
+        progress(counted(point.scene.name, done, len(all_points)), done / len(all_points))
 
     with open_fmu(fmu) as opened:
         origins = {scene.source: provenance(opened, scene, folder) for scene in scenes}
