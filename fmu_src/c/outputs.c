@@ -13,7 +13,7 @@
 /* Displacement [m] and velocity [m/s] of the resonator. */
 static Response resonator_swing(const Law *law, const Moment *moment) {
     const Plant *plant = &law->held.plant;
-    if (plant->resolves_resonator || law->resolved != NULL) {
+    if (plant->resolves_resonator || moment->orbit.stage != AVERAGED) {
         return (Response){moment->state.displacement, moment->state.rate};
     }
     return steady_swing(plant->resonator_amplitude, moment->theta, plant->drive_frequency);

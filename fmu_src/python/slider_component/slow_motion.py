@@ -21,6 +21,7 @@ from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
+from .orbit_state import Stage
 from .period import PeriodMeans
 from .refusal import too_much_work
 from .slow_friction import SlowFriction, slow_friction
@@ -125,7 +126,9 @@ class SlowLaw:
         return friction.at(0.0, velocity)
 
     def swing(self, moment: Moment) -> tuple[float, float]:
-        """See Law: the steady one."""
+        """See Law: the steady one, but for a moment that motion along orbits led to."""
+        if moment.orbit.stage != Stage.AVERAGED:
+            return moment.state.displacement, moment.state.rate
         return steady_swing(self.fast.resonator, moment.theta, self.held.plant.drive_frequency)
 
     def slow_motion_error(self, moment: Moment) -> float:

@@ -64,6 +64,9 @@ _AVERAGED_THEORY = (
     "tolerance",
 )
 
+# What decides on how motion is made, averages of second order serving where it becomes slow.
+_WHICH_MOTION = ("fidelity", *_AVERAGED_THEORY)
+
 VARIABLES: tuple[Variable, ...] = (
     _input(
         "phase",
@@ -298,13 +301,8 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
-        # At fidelity 0 what is left of the momentum of the pair without its vibration.
-        depends_initially_on=(
-            "fidelity",
-            *_STEADY_RESONATOR,
-            "initial_velocity",
-            "initial_resonator_velocity",
-        ),
+        # By first order what is left of the momentum of the pair without its vibration.
+        depends_initially_on=(*_WHICH_MOTION, "initial_velocity", "initial_resonator_velocity"),
     ),
     _output(
         "resonator_displacement",
@@ -312,11 +310,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m",
         display_unit="um",
         nominal=1e-3,
-        depends_initially_on=(
-            "fidelity",
-            *_STEADY_RESONATOR,
-            "initial_resonator_displacement",
-        ),
+        depends_initially_on=(*_WHICH_MOTION, "initial_resonator_displacement"),
     ),
     _output(
         "resonator_velocity",
@@ -324,7 +318,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=1.0,
-        depends_initially_on=("fidelity", *_STEADY_RESONATOR, "initial_resonator_velocity"),
+        depends_initially_on=(*_WHICH_MOTION, "initial_resonator_velocity"),
     ),
     _output(
         "normal_force",
@@ -413,7 +407,7 @@ VARIABLES: tuple[Variable, ...] = (
         display_unit="mm/s",
         minimum=0.0,
         depends_on=_INPUTS,
-        depends_initially_on=(*_AVERAGED_THEORY, "fidelity", "initial_velocity"),
+        depends_initially_on=(*_WHICH_MOTION, "load"),
     ),
 )
 
