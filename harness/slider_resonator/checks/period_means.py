@@ -23,13 +23,16 @@ class Travel(Protocol):
     """Anything with position (m) and velocity (m/s) at times (s), all (n,)."""
 
     @property
-    def time(self) -> Array: ...
+    def time(self) -> Array:
+        """Times (s)."""
 
     @property
-    def position(self) -> Array: ...
+    def position(self) -> Array:
+        """Position (m)."""
 
     @property
-    def velocity(self) -> Array: ...
+    def velocity(self) -> Array:
+        """Velocity (m/s)."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Scenes of second-order averages: motion along held orbits meets them, that of order 1 does not."""
+"""Scenes of second-order averages: held orbits meet them, motion of order 1 does not."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def _held(record: LoopRecord, duty: Duty, interval: LoadInterval) -> IntervalRes
 def judge_agreement(
     design: LoopRecord, proof: LoopRecord, duty: Duty, predicted: Sequence[float | None]
 ) -> list[Agreement]:
-    """Compare the two records of a host from each load step on with the predicted errors, or `AGREEMENT`.
+    """Compare the two records of a host from each load step on, to predicted errors or `AGREEMENT`.
 
     `predicted` has the error (m/s) of averaged motion for each of the duty's load steps. The whole
     answer of the loop counts, not only what it settles to: that is the reference in any case.

@@ -70,7 +70,7 @@ def _device(package: Path) -> dict[str, float]:
 
 
 def _error(slider: IsolatedFmu, scene: Scene) -> float | None:
-    """Return the error (m/s) of averaged motion in a scene, None where it does not meet the need."""
+    """Return the error (m/s) of averaged motion in a scene, None above the allowed one."""
     error, allowed = slider.run(partial(_probed, scene=scene))
     return error if error <= allowed else None
 

@@ -61,8 +61,8 @@ def test_what_it_does_not_cover_is_refused() -> None:
     times = np.array([0.0])
     with pytest.raises(ValueError, match="damping_ratio = 0"):
         simulate_from_start(replace(DEVICE, damping_ratio=0.0), [HeldInputs(0.0, 1.0)], times)
+    tuned = TunedInputs(0.0, 1.0, tuned=(("normal_preload", 2.0),))
     with pytest.raises(ValueError, match="tuned parameters"):
-        tuned = TunedInputs(0.0, 1.0, tuned=(("normal_preload", 2.0),))
         simulate_from_start(DEVICE, [tuned], times)
     with pytest.raises(ValueError, match=r"begin at 0\.5 s"):
         simulate_from_start(DEVICE, [HeldInputs(0.5, 1.0)], times + 0.5)
