@@ -104,7 +104,7 @@ def test_a_flat_balance_gives_the_highest_velocity(
     force = equivalent_force(device)
     lag = phase_to_force(force, phase, ratio)
     instance = instantiate().initialize(
-        normal_amplitude=amplitude, frequency_ratio=ratio, phase=phase
+        averaging_order=1, normal_amplitude=amplitude, frequency_ratio=ratio, phase=phase
     )
     velocity = instance.get("steady_velocity")[0] / force.velocity_amplitude
     assert velocity > 0.01

@@ -36,7 +36,13 @@ def test_friction_of_bristles_with_next_to_no_preload(
     instantiate: Callable[[], Instance], preload: float, ratio: float
 ) -> None:
     """The kinks of the load are then an exact half turn apart, and meet where sliding turns."""
-    values = {"fidelity": 0, "friction_law": 1, "normal_amplitude": 1.0, "frequency_ratio": ratio}
+    values = {
+        "fidelity": 0,
+        "averaging_order": 1,
+        "friction_law": 1,
+        "normal_amplitude": 1.0,
+        "frequency_ratio": ratio,
+    }
     for phase in (0.0, math.pi, -math.pi, math.pi / 2.0, 0.3):
         for velocity in (-0.144, -1.0, 0.2366097 - 0.0318182):
             instance = instantiate().initialize(

@@ -17,6 +17,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, progress_bar
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
@@ -65,17 +66,19 @@ def extremes_command(
             pass
     make_folder(out)
     cells = all_cells(long=long)
+    provenance = provenance_of(*chosen)
     matrices: list[Matrix] = []
 
     def keep(matrix: Matrix) -> None:
         matrices.append(matrix)
-        write_matrices(matrices, out)
+        write_matrices(matrices, out, provenance)
 
     with noting_on_interrupt(partial(_kept, matrices, out)), progress_bar() as progress:
         for fmu in chosen:
             keep(run_matrix(fmu, cells, progress, time_limit, keep))
     lines = [*map(_sentences, matrices), f"written {one_line(str(out))}"]
-    print_result(as_plain(matrices), "\n".join(lines), as_json=as_json)
+    text = "\n".join(lines)
+    print_result(as_plain(matrices), text, as_json=as_json, provenance=provenance)
     context.exit(0 if all(matrix.passed for matrix in matrices) else 1)
 
 

@@ -17,6 +17,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_json
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import output, progress_bar
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene import files_of_scenes
@@ -156,6 +157,7 @@ def mutants_command(
         )
     path = fmu or finished_path(FMUS["python"], COMMANDS_LOOK_IN)
     distinct({"--html": html}, {f"the FMU {path}": path})
+    provenance = provenance_of(path)
     original = read_python_fmu(path)
     made = [m for m in fmu_mutants(original, files) if not kinds or m.kind in kinds]
     chosen = made if count is None else sample(made, count, seed)
@@ -182,9 +184,9 @@ def mutants_command(
             progress=progress,
         )
     if html is not None:
-        write_mutants(html, run)
+        write_mutants(html, run, provenance)
     if as_json:
-        print_json(run_as_plain(run))
+        print_json(run_as_plain(run), provenance)
     else:
         print_run(output(), run)
     context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)
@@ -218,6 +220,7 @@ def _native(
         else:
             print_changes(output(), changes)
         return 0
+    provenance = provenance_of(path)
     with progress_bar() as progress:
         run = run_changes(
             path,
@@ -228,7 +231,7 @@ def _native(
             progress=progress,
         )
     if as_json:
-        print_json(native_run_as_plain(run))
+        print_json(native_run_as_plain(run), provenance)
     else:
         print_native_run(output(), run)
     enough = run.rate is None or run.rate >= MIN_NATIVE_RATE

@@ -14,6 +14,7 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.paper.listing import verdicts
@@ -52,9 +53,11 @@ def paper_command(
       slider-resonator paper --out paper
       slider-resonator paper --out paper --only figure_8 --only claims --json
     """
+    path = default_fmu(fmu)
+    provenance = provenance_of(path)
     with progress_bar() as progress:
-        outcome = reproduce(default_fmu(fmu), out, only, progress, time_limit)
-    print_result(outcome, _sentences(outcome), as_json=as_json)
+        outcome = reproduce(path, out, only, progress, time_limit)
+    print_result(outcome, _sentences(outcome), as_json=as_json, provenance=provenance)
     context.exit(0 if outcome.confirmed else 1)
 
 

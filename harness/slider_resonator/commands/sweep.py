@@ -15,6 +15,7 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result, print_text
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
@@ -30,6 +31,7 @@ from slider_resonator.studies.sweep.worker import TIME_LIMIT
 @click.argument("grid", type=click.Path(path_type=Path))
 @click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
+@click.option("--html", type=Target([".html"]), help="One page with plots to point at.")
 @fmu_option
 @jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
@@ -43,6 +45,7 @@ def sweep_command(
     grid: Path,
     out: Path,
     plot: Path | None,
+    html: Path | None,
     fmu: Path | None,
     jobs: int | None,
     dask: str | None,
@@ -76,20 +79,27 @@ def sweep_command(
     Examples:
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
       slider-resonator sweep grid.toml --out table.csv --jobs 4
+      slider-resonator sweep grid.toml --out table.csv --html sweep.html
       slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
-    distinct({"--out": out, "--plot": plot}, sources)
+    distinct({"--out": out, "--plot": plot, "--html": html}, sources)
     sweep = read_grid(grid)
     if plot is not None:
         # Imported here: drawing takes longer to load than many sweeps to run.
         from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
 
-        check_picture(sweep)
+        check_picture(sweep, "--plot")
+    if html is not None:
+        from slider_resonator.studies.sweep.page import check_page, write_sweep_page
+
+        check_page(sweep, "--html")
+    path = default_fmu(fmu)
+    provenance = provenance_of(path)
     with progress_bar() as progress:
         result = run_sweep(
             sweep,
-            default_fmu(fmu),
+            path,
             out,
             workers=jobs or available_cores(),
             dask=dask,
@@ -100,6 +110,8 @@ def sweep_command(
         )
     if plot is not None:
         draw_sweep(sweep, result.columns, plot)
+    if html is not None:
+        write_sweep_page(html, sweep, result.columns, provenance)
     for line in result.damaged:
         print_text(
             f"{journal_path(out)} line {line}: damaged; its point was computed again", err=True
@@ -107,7 +119,7 @@ def sweep_command(
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
     facts["unanswered"] = result.unanswered
     document = {"out": str(out), **facts, "first_error": result.first_error}
-    print_result(document, _sentences(result, out), as_json=as_json)
+    print_result(document, _sentences(result, out), as_json=as_json, provenance=provenance)
     context.exit(1 if result.failed else 0)
 
 

@@ -15,6 +15,7 @@ from slider_resonator.checks.validate import Curves, RunFailure, Validation
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.provenance import identity_of
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.console import counted
 from slider_resonator.output.targets import make_folder
@@ -99,6 +100,7 @@ def check(
     no FMU.
     """
     began = perf_counter()
+    identity = identity_of(fmu)
     scenes = [read_scene(file) for file in dict.fromkeys(files or recorded_files(folder))]
     golden = [_recorded(folder, scene) for scene in scenes]
     measured, run_failures = _measure(fmu, scenes, folder, progress, time_limit)
@@ -126,6 +128,7 @@ def check(
         perf_counter() - began,
         tuple(run_failures),
         tuple(curves for _, curves in compared if curves is not None),
+        identity=identity,
     )
 
 

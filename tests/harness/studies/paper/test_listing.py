@@ -18,13 +18,14 @@ from slider_resonator.studies.paper.listing import (
 )
 from slider_resonator.studies.paper.reproduce import FIGURES
 from slider_resonator.studies.paper.table import PaperTable
+from tests.harness.known_provenance import PROVENANCE
 
 CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, "agrees", "it | does", True)
 
 
 def test_claims_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     wrong = replace(CLAIM, name="other", verdict="disagrees", confirmed=False)
-    write_claims(tmp_path, [("All", [CLAIM, wrong])], "a.fmu", "guid")
+    write_claims(tmp_path, [("All", [CLAIM, wrong])], PROVENANCE)
     claims = json.loads((tmp_path / "claims.json").read_text(encoding="utf-8"))["claims"]
     assert [claim["confirmed"] for claim in claims] == [True, False]
     table = (tmp_path / "claims.md").read_text(encoding="utf-8")
@@ -44,7 +45,7 @@ def test_verdicts_are_counted() -> None:
 
 
 def test_figures_are_listed_with_their_captions(tmp_path: Path) -> None:
-    write_figures(tmp_path, [figure_2.FIGURE], "a.fmu", "guid")
+    write_figures(tmp_path, [figure_2.FIGURE], PROVENANCE)
     text = (tmp_path / "FIGURES.md").read_text(encoding="utf-8")
     assert "(figure_2.png)" in text
     assert figure_2.FIGURE.caption in text
@@ -59,7 +60,7 @@ def test_tables_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     columns = {"kappa": "kappa", "error": "theory / FMU - 1"}
     table = PaperTable("forces", "Forces", "In N.", columns, {"error": 0.1}, lambda i: {})
     right = {"rows": [{"kappa": 1.0, "error": -0.05}, {"kappa": 10.0, "error": 0.02}]}
-    write_tables(tmp_path, [(table, right)], "a.fmu", "guid")
+    write_tables(tmp_path, [(table, right)], PROVENANCE)
     text = (tmp_path / "TABLES.md").read_text(encoding="utf-8")
     assert "## forces: Forces" in text
     assert "| kappa | theory / FMU - 1 |\n| ---: | ---: |\n| 1 | -0.05 |\n| 10 | 0.02 |" in text
@@ -68,7 +69,7 @@ def test_tables_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     assert content["rows"] == right["rows"]
     assert (content["largest"], content["allowed"]) == ({"error": 0.05}, {"error": 0.1})
     wrong = {"rows": [{"kappa": 1.0, "error": -0.5}]}
-    write_tables(tmp_path, [(table, wrong)], "a.fmu", "guid")
+    write_tables(tmp_path, [(table, wrong)], PROVENANCE)
     assert "**NOT CONFIRMED**" in (tmp_path / "TABLES.md").read_text(encoding="utf-8")
 
 
@@ -86,9 +87,9 @@ def test_the_index_has_all_figures_tables_and_claims_escaped(tmp_path: Path) -> 
     wrong = replace(CLAIM, statement="It <b>flies</b>", verdict="disagrees", confirmed=False)
     table = PaperTable("speeds", "Speeds", "By <load>.", {"v": "speed"}, {"v": 0.1}, lambda _: {})
     data = {"rows": [{"v": 0.2}]}
-    write_index(
-        tmp_path, FIGURES.values(), [(table, data)], [("All", [CLAIM, wrong])], "<a>.fmu", "guid"
-    )
+    fmu = replace(PROVENANCE.fmus[0], fmu="<a>.fmu")
+    known = replace(PROVENANCE, fmus=(fmu,))
+    write_index(tmp_path, FIGURES.values(), [(table, data)], [("All", [CLAIM, wrong])], known)
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     for figure in FIGURES.values():
         assert f'<img src="{figure.name}.png" alt="{escape(figure.title)}">' in page
@@ -98,6 +99,8 @@ def test_the_index_has_all_figures_tables_and_claims_escaped(tmp_path: Path) -> 
     assert "NOT CONFIRMED" in page
     assert "By &lt;load&gt;." in page
     assert "&lt;a&gt;.fmu" in page
+    assert "0123abcd" in page
+    assert "img-src data: 'self' file:" in page
 
 
 SCALED = re.compile(r"\[[^]]+\]|before the end")
