@@ -24,6 +24,8 @@ from slider_resonator.scenes.scene import built_in_scenes, read_scene
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11
+ORBITS = 1e-9
+"""Differences of the Newton iterations that find held orbits, over the peak."""
 """Difference of Coulomb signals, as a share of their peak."""
 
 LEAST_FAST_VELOCITY = 1e-4
@@ -90,8 +92,11 @@ def test_scenes(twins: Twins, name: str) -> None:
     course = scene.schedule()
     shortened = replace(course, times=course.times[:2000])
     native, python = both(twins, scene.parameters, shortened)
-    lugre = scene.device.friction_law == 1
-    assert_equal(native, python, scene.device.tolerance if lugre else ROUNDING)
+    device = scene.device
+    allowed = device.tolerance if device.friction_law == 1 else ROUNDING
+    if device.fidelity == 0 and device.averaging_order == 2:
+        allowed = max(allowed, ORBITS)
+    assert_equal(native, python, max(allowed, ROUNDING))
 
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5, 1.01]), st.floats(-3.0, 3.0))

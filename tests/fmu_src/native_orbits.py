@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import re
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -77,11 +78,15 @@ class NativeOrbits:
         return None if failed else states.T
 
 
+SHELL = re.compile(r"fmi2_(?!version)")
+"""Files of the FMI functions; the numbers need the names of their version only."""
+
+
 def compiled_orbits(folder: Path) -> NativeOrbits:
     """Compile the library into a folder."""
     write_sources(slider_sources() | {PROBE.name: PROBE.read_text()}, folder)
     library = folder / "orbits.so"
-    sources = sorted(str(path) for path in folder.glob("*.c") if "fmi2_" not in path.name)
+    sources = sorted(str(path) for path in folder.glob("*.c") if not SHELL.match(path.name))
     command = [*native_compiler(), *FLAGS, *sources, "-o", str(library), "-lm"]
     subprocess.run(command, check=True)
     return NativeOrbits(ctypes.CDLL(str(library)))

@@ -34,9 +34,11 @@ def test_json_holds_the_answer(native_fmu: Path, tmp_path: Path) -> None:
     assert result.exit_code == 0
     assert_public_keys("choose", result.stdout)
     answer = json.loads(result.stdout)
-    assert (answer["fidelity"], answer["meets"]) == (0, True)
+    chosen = (answer["fidelity"], answer["averaging_order"], answer["meets"])
+    assert chosen == (0, 1, True)
     assert 0.0 < answer["error"]["mean_velocity"] < answer["allowed"]["mean_velocity"]
-    assert [other["fidelity"] for other in answer["ruled_out"]] == [1, 2]
+    others = [(other["fidelity"], other["averaging_order"]) for other in answer["ruled_out"]]
+    assert sorted(others) == sorted([(1, None), (2, None), (0, 2)]), answer["ruled_out"]
     assert all(other["why"] for other in answer["ruled_out"])
 
 
@@ -44,7 +46,7 @@ def test_the_choice_and_the_reasons_against_the_others_are_printed(
     native_fmu: Path, tmp_path: Path
 ) -> None:
     result = call("choose", written(tmp_path, LOOSE), "--fmu", native_fmu)
-    assert "chosen   fidelity 0, Coulomb friction" in result.stdout
+    assert "chosen   fidelity 0, order 1, Coulomb friction" in result.stdout
     assert "fidelity 2, Coulomb friction" in result.stdout
     assert "m/s" in result.stdout
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -73,7 +74,8 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     text = page.read_text(encoding="utf-8")
     assert text.startswith("before\n<!-- trade -->\n")
     assert text.endswith("<!-- end of trade -->\nafter\n")
-    assert "| position | 1e-09 | fidelity 2, steps of" in text
+    # In eight periods averages of second order are still in their resolved start.
+    assert re.search(r"\| position \| 1e-09 \| fidelity (2|0, order 2), steps of", text)
 
 
 @pytest.mark.parametrize(

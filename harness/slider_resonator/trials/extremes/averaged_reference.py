@@ -32,7 +32,7 @@ def covers(cell: MatrixCell) -> bool:
         return False
     try:
         fast = equivalent_force(device).velocity_amplitude
-    except ValueError:  # undamped resonance: no steady vibration
+    except (ValueError, OverflowError):  # undamped resonance, or values beyond all numbers
         return False
     duration = sum(hold.size * hold.count for hold in cell.holds)
     lasting = MAX_RELAXATIONS * device.total_mass * fast / friction
