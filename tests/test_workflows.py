@@ -16,7 +16,10 @@ import yaml
 from slider_resonator.cli import main
 from tests.processes import ROOT
 
-WORKFLOWS = (ROOT / ".github" / "workflows" / "ci.yml", ROOT / "examples" / "validate-fmu.yml")
+WORKFLOWS = (
+    *(ROOT / ".github" / "workflows" / name for name in ("ci.yml", "nightly.yml")),
+    ROOT / "examples" / "validate-fmu.yml",
+)
 HARNESS = (["python", "-m", "harness"], ["slider-resonator"])
 """How the harness is called; a user's folder may have a harness of its own, but not its command."""
 
