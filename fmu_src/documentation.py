@@ -6,6 +6,7 @@ committed, so that equal sources give equal bytes.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
@@ -18,6 +19,8 @@ from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
 
 ASSETS = Path(__file__).parent / "assets"
+
+_CONTENTS = "<!-- contents -->"
 
 _HEADINGS: tuple[tuple[str, str], ...] = (
     ("input", "Inputs: may be set at any time, held over a step"),
@@ -48,9 +51,22 @@ def documentation_page(
         model=escape(model),
         description=escape(about),
         generation_tool=escape(generation_tool),
+        contents=_CONTENTS,
+        browser="" if host == "python" else _asset("browser.html"),
         **_version_texts("3.0" if host == "native_3" else "2.0", variables),
     )
-    return page.encode()
+    return _with_contents(page).encode()
+
+
+def _with_contents(page: str) -> str:
+    """Give each section an anchor and list them where the page asks for it."""
+    titles: list[str] = re.findall(r"<h2>(.*?)</h2>", page)
+    for number, title in enumerate(titles, start=1):
+        page = page.replace(f"<h2>{title}</h2>", f'<h2 id="section-{number}">{title}</h2>', 1)
+    links = "\n".join(
+        f'<a href="#section-{number}">{title}</a><br>' for number, title in enumerate(titles, 1)
+    )
+    return page.replace(_CONTENTS, f"<nav>\n{links}\n</nav>")
 
 
 def _version_texts(version: str, variables: Sequence[Variable]) -> dict[str, str]:

@@ -1,8 +1,9 @@
 """SSP 1.0 documents of the closed loop: connections and parameters of slider and controller.
 
-Hosts read a package in different ways: fmpy takes the connectors of the system as its inputs,
-libcosim refuses them. So the package has two structures: `SystemStructure.ssd`, and without the
-connectors of the system `ComponentsOnly.ssd`.
+Hosts read a package in different ways. libcosim and ecos refuse connections to the system, and take
+parameters from the components only; fmpy takes inputs that vary from connectors of the system only;
+OMSimulator needs another name for each structure. So `SystemStructure.ssd`, which every host reads,
+has components alone, with their parameters, and a second structure has the connectors too.
 """
 
 from __future__ import annotations
@@ -66,24 +67,45 @@ class System:
         return found
 
 
-def structure(system: System, *, parameters: str | None = None, connectors: bool = True) -> bytes:
+@dataclass(frozen=True)
+class ParameterValues:
+    """A named set of start values, by "component.variable"."""
+
+    name: str
+    values: Mapping[str, float]
+
+
+def structure(
+    system: System,
+    *,
+    source: str,
+    parameters: ParameterValues,
+    connectors: bool = False,
+) -> bytes:
     """Return the system as an .ssd document, UTF-8; equal arguments give equal bytes.
 
-    `parameters` is the path of the parameter set in the package; `connectors` includes the system
-    connectors. Raises KeyError for a connection to an unknown component or variable.
+    `parameters` are bound twice, to the same values: to the system as the parameter set at the path
+    `source` in the package, and to each component. `connectors` includes the system connectors, and
+    names the document after them. Raises KeyError for an unknown component or variable.
     """
-    root = _root("ssd:SystemStructureDescription", system.name, system.description)
+    name = f"{system.name}WithConnectors" if connectors else system.name
+    root = _root("ssd:SystemStructureDescription", name, system.description)
     top = ET.SubElement(root, "ssd:System", {"name": system.name})
     if connectors:
         _add_connectors(top, [(n, kind, v) for n, (kind, v) in system.connectors.items()])
-    if parameters is not None:
-        bindings = ET.SubElement(top, "ssd:ParameterBindings")
-        ET.SubElement(bindings, "ssd:ParameterBinding", {"source": parameters})
+    bindings = ET.SubElement(top, "ssd:ParameterBindings")
+    ET.SubElement(bindings, "ssd:ParameterBinding", {"source": source})
     elements = ET.SubElement(top, "ssd:Elements")
-    for name, source in system.sources.items():
-        attributes = {"name": name, "type": "application/x-fmu-sharedlibrary", "source": source}
+    for component_name, fmu in system.sources.items():
+        attributes = {
+            "name": component_name,
+            "type": "application/x-fmu-sharedlibrary",
+            "source": fmu,
+        }
         component = ET.SubElement(elements, "ssd:Component", attributes)
-        _add_connectors(component, [(v.name, v.causality, v) for v in _used(system, name)])
+        used = _used(system, component_name, connectors=connectors)
+        _add_connectors(component, [(v.name, v.causality, v) for v in used])
+        _bind(component, system, component_name, parameters)
     _add_connections(top, [c for c in system.connections if connectors or _inside(c)])
     _add_units(root, (v for table in system.variables.values() for v in table))
     ET.SubElement(
@@ -92,28 +114,47 @@ def structure(system: System, *, parameters: str | None = None, connectors: bool
     return _document(root)
 
 
-def parameter_set(system: System, name: str, values: Mapping[str, float]) -> bytes:
-    """Return parameter values, by "component.variable", as an .ssv document, UTF-8.
+def parameter_set(system: System, parameters: ParameterValues) -> bytes:
+    """Return a parameter set as an .ssv document, UTF-8.
 
     Raises KeyError for an unknown component or variable.
     """
-    root = _root("ssv:ParameterSet", name, f"Parameters of {system.name}")
+    root = _root("ssv:ParameterSet", parameters.name, f"Parameters of {system.name}")
+    _add_parameters(root, {end: (system.variable(end), v) for end, v in parameters.values.items()})
+    return _document(root)
+
+
+def _bind(
+    component: ET.Element, system: System, component_name: str, parameters: ParameterValues
+) -> None:
+    """Bind those of the parameters that are the component's, named as in its FMU."""
+    own = {
+        end.partition(".")[2]: (system.variable(end), value)
+        for end, value in parameters.values.items()
+        if end.partition(".")[0] == component_name
+    }
+    bindings = ET.SubElement(component, "ssd:ParameterBindings")
+    binding = ET.SubElement(bindings, "ssd:ParameterBinding")
+    values = ET.SubElement(binding, "ssd:ParameterValues")
+    about = {"version": "1.0", "name": parameters.name}
+    _add_parameters(ET.SubElement(values, "ssv:ParameterSet", about), own)
+
+
+def _add_parameters(root: ET.Element, values: Mapping[str, tuple[Variable, float]]) -> None:
     parameters = ET.SubElement(root, "ssv:Parameters")
-    for end, value in values.items():
-        variable = system.variable(end)
-        parameter = ET.SubElement(parameters, "ssv:Parameter", {"name": end})
+    for name, (variable, value) in values.items():
+        parameter = ET.SubElement(parameters, "ssv:Parameter", {"name": name})
         if variable.type == "Integer":
             ET.SubElement(parameter, "ssv:Integer", {"value": str(int(value))})
         else:
             real = {"value": repr(float(value)), "unit": variable.unit or "1"}
             ET.SubElement(parameter, "ssv:Real", real)
-    _add_units(root, [system.variable(end) for end in values], "ssv")
-    return _document(root)
+    _add_units(root, [variable for variable, _ in values.values()], "ssv")
 
 
-def _used(system: System, component: str) -> list[Variable]:
+def _used(system: System, component: str, *, connectors: bool) -> list[Variable]:
     """Return outputs and connected inputs only: some hosts set every input connector to 0."""
-    ends = {connection.end for connection in system.connections}
+    ends = {c.end for c in system.connections if connectors or _inside(c)}
     return [
         v
         for v in system.variables[component]

@@ -16,6 +16,7 @@ from fmpy.validation import validate_fmu
 from build_fmu import main
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import MODEL as PYTHON_MODEL
+from fmu_src.building.web_page import NAME as PAGE
 from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmus import every_fmu, every_slider
 from tests.processes import ROOT, run_command
@@ -124,8 +125,9 @@ def test_page_is_self_contained_and_balanced(page: str) -> None:
         opened: list[str] = []  # noqa: RUF012 - one parser only
 
         def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-            assert not {"src", "href"} & {name for name, _ in attrs}, f"{tag} points elsewhere"
-            if tag != "meta":
+            targets = [value or "" for name, value in attrs if name in ("src", "href")]
+            assert all(t.startswith("#") or t == PAGE for t in targets), f"{tag} points elsewhere"
+            if tag not in ("meta", "br"):
                 self.opened.append(tag)
 
         def handle_endtag(self, tag: str) -> None:
@@ -214,3 +216,10 @@ def test_a_compiler_that_is_not_there_is_named(
     assert main(arguments) == 2
     assert "compiler 'no-such-cc' refused: it is not found" in capsys.readouterr().err
     assert not (tmp_path / "dist").exists()
+
+
+@every_slider
+def test_page_has_a_table_of_contents(page: str) -> None:
+    sections = re.findall(r'<h2 id="(.*?)">', page)
+    assert len(sections) >= 6
+    assert re.findall(r'<a href="#(.*?)">', page) == sections

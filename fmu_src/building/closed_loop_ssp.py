@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 from fmu_src.building import controller_fmu, native_fmu
@@ -9,7 +10,13 @@ from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
 from fmu_src.controller.variables import VARIABLES as CONTROLLER_VARIABLES
 from fmu_src.python.slider_component.variables import VARIABLES as SLIDER_VARIABLES
-from fmu_src.system_structure import Connection, System, parameter_set, structure
+from fmu_src.system_structure import (
+    Connection,
+    ParameterValues,
+    System,
+    parameter_set,
+    structure,
+)
 
 MODEL = "ClosedLoop"
 
@@ -33,8 +40,14 @@ SYSTEM = System(
     stop_time=8.0,
 )
 
-PARAMETER_SETS = {"design": 0, "proof": 2}
+FIDELITIES = {"design": 0, "proof": 2}
 """Parameter set -> fidelity of the slider: averaged motion to design, full device to prove."""
+
+BOUND = "proof"
+"""The parameter set of a host that is given no other."""
+
+VELOCITY_REFERENCE = 0.06
+"""Velocity (m/s) that is held where a host sets no other."""
 
 
 def build_closed_loop(dest: Path, slider: Path, controller: Path) -> Path:
@@ -48,17 +61,22 @@ def build_closed_loop(dest: Path, slider: Path, controller: Path) -> Path:
         if not fmu.is_file():
             raise BuildError(f"{fmu}: no such file; {MODEL}.ssp needs it")
     files = {SYSTEM.sources[name]: fmu.read_bytes() for name, fmu in fmus.items()}
-    for name, fidelity in PARAMETER_SETS.items():
-        values = {
-            f"controller.{v.name}": v.start
-            for v in CONTROLLER_VARIABLES
-            if v.causality == "parameter" and v.start is not None
-        }
-        values["slider.fidelity"] = fidelity
-        files[_resource(name)] = parameter_set(SYSTEM, name, values)
-    files["SystemStructure.ssd"] = structure(SYSTEM, parameters=_resource("proof"))
-    files["ComponentsOnly.ssd"] = structure(SYSTEM, connectors=False)
+    sets = {name: _parameters(name) for name in FIDELITIES}
+    files |= {_resource(name): parameter_set(SYSTEM, values) for name, values in sets.items()}
+    bound = partial(structure, SYSTEM, source=_resource(BOUND), parameters=sets[BOUND])
+    files["SystemStructure.ssd"] = bound()
+    files["WithConnectors.ssd"] = bound(connectors=True)
     return write_archive(dest, MODEL, files, ".ssp")
+
+
+def _parameters(name: str) -> ParameterValues:
+    tuning = {
+        f"controller.{v.name}": v.start
+        for v in CONTROLLER_VARIABLES
+        if v.causality == "parameter" and v.start is not None
+    }
+    inputs = {"controller.velocity_reference": VELOCITY_REFERENCE}
+    return ParameterValues(name, {**inputs, **tuning, "slider.fidelity": FIDELITIES[name]})
 
 
 def _resource(name: str) -> str:

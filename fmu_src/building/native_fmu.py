@@ -21,6 +21,8 @@ from fmu_src.building.compiling import (
 from fmu_src.building.content import digest_of, guid_of, icon_and_licences
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.building.platforms import HOST, host_platform, platforms_named
+from fmu_src.building.web_page import NAME as PAGE
+from fmu_src.building.web_page import UPLOT_LICENCE, page_files, web_page
 from fmu_src.documentation import documentation_page
 from fmu_src.fmi3_documents import build_description, terminals_and_icons
 from fmu_src.model_description import DESCRIPTION, model_description
@@ -37,7 +39,7 @@ class NativeModel:
 
     `code` is its C sources: name in the folder `sources` -> text. `details` are arguments of both
     the model description and the documentation page, `page` of the page alone. `version` is that of
-    FMI.
+    FMI. `runs_in_browser` adds the page that runs the component.
     """
 
     name: str
@@ -45,6 +47,7 @@ class NativeModel:
     details: Mapping[str, Any]
     page: str
     version: FmiVersion = "2.0"
+    runs_in_browser: bool = False
 
 
 def build_native(
@@ -57,7 +60,7 @@ def build_native(
 ) -> Path:
     """Build the native slider, from other C sources if `code` is given; see `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
-    model = NativeModel(MODEL, code or slider_sources(), about, "page.html")
+    model = NativeModel(MODEL, code or slider_sources(), about, "page.html", runs_in_browser=True)
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
 
@@ -70,7 +73,7 @@ def build_native_3(
 ) -> Path:
     """Build the native slider for FMI 3.0; see `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
-    model = NativeModel(MODEL_3, slider_sources("3.0"), about, "page.html", "3.0")
+    model = NativeModel(MODEL_3, slider_sources("3.0"), about, "page.html", "3.0", True)
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
 
@@ -84,7 +87,8 @@ def build_model(
 ) -> Path:
     """Build a native FMU in the folder `dest` (created if missing) and return its path.
 
-    `platforms` are names of `platforms_of` or `host`; none means all, or `host` with a `compiler`.
+    `platforms` are names of `platforms_of` or `host`; none means all and the page for browsers, or
+    `host` with a `compiler`.
     The default compiler is ziglang, which compiles for all; `compiler` is one for this machine.
 
     The file is replaced atomically. Its bytes depend on the sources, the compiler, the FMI headers
@@ -115,6 +119,12 @@ def build_model(
     )
     undated = _description(model, generation_tool, "", EPOCH)
     hashed = files | _encoded(model.code) | {"modelDescription.xml": undated}
+    if model.runs_in_browser:
+        hashed |= {f"page/{name}": text.encode() for name, text in page_files().items()}
+        if not platforms and compiler is None:
+            progress("compiling for WebAssembly")
+            files[f"documentation/{PAGE}"] = web_page(slider_sources(), tool)
+            files["documentation/licenses/uplot.txt"] = UPLOT_LICENCE.read_bytes()
     guid = guid_of(digest_of(hashed))
     code = {**model.code, GUID_HEADER: guid_header(guid)}
     files |= _encoded(code)

@@ -23,6 +23,9 @@ from fmu_src.units import UNITS
 NAME = "slider-resonator.html"
 
 FOLDER = Path(__file__).parents[1] / "page"
+UPLOT = Path(__file__).parents[2] / "harness" / "slider_resonator" / "output" / "vendor"
+"""The library that draws curves, shared as files with the reports of the harness."""
+UPLOT_LICENCE = UPLOT / "LICENSE"
 SCRIPTS = ("component.js", "settings.js", "run.js", "plots.js", "sketch.js", "main.js")
 """In this order they are one JavaScript module."""
 
@@ -38,7 +41,7 @@ _FLAGS = (
 
 def page_files() -> dict[str, str]:
     """Return name -> text of everything that makes the page but the kernel."""
-    paths = [*FOLDER.glob("*.*"), *(FOLDER / "vendor").glob("uPlot*")]
+    paths = [*FOLDER.glob("*.*"), *UPLOT.glob("uPlot*")]
     return {path.name: path.read_text(encoding="utf-8") for path in sorted(paths)}
 
 

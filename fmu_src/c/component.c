@@ -51,6 +51,20 @@ static bool refuse_extreme(const double values[SETTABLE_COUNT], Refusal *refusal
                                 value_text(variable, variable->start, start));
 }
 
+/* Give a law what averages of second order need; the law of the full device goes to `resolved`. */
+static bool prepare_orbits(Component *component, Law *law, Law *resolved, Refusal *refusal) {
+    if (law_follows_orbits(law)) {
+        Device full = law->device;
+        full.fidelity = 2;
+        if (!law_prepare(resolved, &full, &law->inputs, NULL, refusal)) {
+            return false;
+        }
+        law->resolved = resolved;
+        law->orbits = &component->orbits;
+    }
+    return true;
+}
+
 /* Prepare the law of `values` beside the present one, which it replaces unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
@@ -62,6 +76,9 @@ static bool prepare(Component *component, const double values[SETTABLE_COUNT], R
     }
     if (!law_is_finite(&component->laws[next])) {
         return refuse_extreme(values, refusal);
+    }
+    if (!prepare_orbits(component, &component->laws[next], &component->resolved[next], refusal)) {
+        return false;
     }
     component->present = next;
     component->prepared = true;

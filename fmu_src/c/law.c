@@ -5,10 +5,17 @@
 
 #include "events.h"
 #include "friction_law.h"
+#include "orbit_motion.h"
 #include "slow_motion.h"
+#include "slow_motion_error.h"
 
 static bool is_averaged(const Device *device) {
     return device->fidelity == 0;
+}
+
+/* The law under which a moment is what it is: that of the full device along orbits. */
+static const Law *law_of_moment(const Law *law) {
+    return law->resolved != NULL ? law->resolved : law;
 }
 
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionTable *table,
@@ -17,6 +24,8 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
     law->inputs = *inputs;
     law->bristle = bristle_of(device);
     law->table = table;
+    law->resolved = NULL;
+    law->orbits = NULL;
     law->friction = friction_law_of(device->friction_law);
     if (law->friction == NULL) {
         return refuse(refusal, "friction_law = %d refused: no law has this number",
@@ -25,6 +34,11 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
     return law->friction->check(device, refusal) &&
            held_prepare(&law->held, device, inputs, refusal) &&
            (!is_averaged(device) || fast_vibration_prepare(&law->fast, device, refusal));
+}
+
+bool law_follows_orbits(const Law *law) {
+    const Device *device = &law->device;
+    return is_averaged(device) && device->averaging_order == 2 && has_slow_motion(law);
 }
 
 /* Velocity [m/s] at the start. A resonator that is not followed vibrates at once, without extra
@@ -42,6 +56,11 @@ static double start_velocity(const Law *law) {
 
 Moment law_start(const Law *law) {
     const Device *device = &law->device;
+    if (law->resolved != NULL) {
+        Moment first = law_start(law->resolved);
+        first.orbit = orbit_motion_start(law, &first);
+        return first;
+    }
     Moment first = {.position = device->initial_position, .event_age = INFINITY};
     first.state.velocity = start_velocity(law);
     first.state.displacement = device->initial_resonator_displacement;
@@ -59,16 +78,28 @@ Moment law_start(const Law *law) {
 
 bool law_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                  Moment *after, Refusal *refusal) {
+    if (law->resolved != NULL) {
+        return orbit_motion_advance(law, moment, duration, search, after, refusal);
+    }
     return is_averaged(&law->device)
                ? slow_advance(law, moment, duration, after, refusal)
                : events_advance(law, moment, duration, search, after, refusal);
 }
 
-int law_mode(const Law *law, const Moment *moment) {
+int law_mode(const Law *any, const Moment *moment) {
+    const Law *law = law_of_moment(any);
     return is_averaged(&law->device) ? slow_mode(law, moment) : law->friction->mode(law, moment);
 }
 
-double law_friction_force(const Law *law, const Moment *moment, int mode) {
+double law_friction_force(const Law *any, const Moment *moment, int mode) {
+    const Law *law = law_of_moment(any);
     return is_averaged(&law->device) ? slow_friction_force(law, moment)
                                      : law->friction->force(law, moment, mode);
+}
+
+double law_slow_motion_error(const Law *law, const Moment *moment) {
+    if (!is_averaged(&law->device)) {
+        return 0.0;
+    }
+    return law->resolved != NULL ? orbit_motion_error(law, moment) : first_order_error(law);
 }

@@ -16,8 +16,11 @@
 
 /* `friction` is the row of its friction law, see friction_law.h. `table` is a cache that outlives
  * the law and may be shared by those of one instance; it is filled when averaged motion first needs
- * it. */
-typedef struct {
+ * it.
+ *
+ * Averages of second order have the law of the full device (`resolved`) and a cache of its orbits, both
+ * kept by the component; elsewhere these are NULL. */
+typedef struct Law {
     Device device;
     Inputs inputs;
     Held held;
@@ -25,12 +28,18 @@ typedef struct {
     FastVibration fast;
     FrictionTable *table;
     const struct FrictionLaw *friction;
+    const struct Law *resolved;
+    struct OrbitTables *orbits;
 } Law;
 
 /* Prepares the law of `device` under `inputs`. Refuses where device and law do not fit; `law` is
  * then undefined. */
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionTable *table,
                  Refusal *refusal);
+
+/* Whether the law needs `resolved` and `orbits`: fidelity 0 by averages of second order, where motion
+ * becomes slow. */
+bool law_follows_orbits(const Law *law);
 
 /* The first moment, at drive and normal phase 0, from the initial values of the device. */
 Moment law_start(const Law *law);
@@ -47,5 +56,8 @@ int law_mode(const Law *law, const Moment *moment);
 
 /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
 double law_friction_force(const Law *law, const Moment *moment, int mode);
+
+/* The estimate of the error of the slow velocity at fidelity 0 [m/s]; 0 for resolved motion. */
+double law_slow_motion_error(const Law *law, const Moment *moment);
 
 #endif

@@ -3,6 +3,7 @@
 #define SLIDER_MOMENT_H
 
 #include "contact.h"
+#include "orbit_state.h"
 #include "period.h"
 #include "state.h"
 #include "stops.h"
@@ -27,6 +28,7 @@ typedef struct {
     PeriodMeans means;
     double bristle;
     Stops stops;
+    OrbitState orbit;
 } Moment;
 
 /* The counts once the slider has moved on in `direction`. */

@@ -31,10 +31,18 @@ Unknowns unknowns_of(const OrbitEquations *equations, const Moment *section, dou
     return unknowns;
 }
 
+/* Largest unknown, in its scale, that is mapped: beyond, no orbit is near, and numbers overflow. */
+#define MAX_UNKNOWN 1e4
+
 bool try_unknowns(OrbitEquations *equations, const Unknowns *unknowns, Trial *trial) {
     const PeriodMap *map = equations->map;
     int states = equations->map->states;
     double load = map->force * unknowns->at[states];
+    for (int i = 0; i <= states; i++) {
+        if (!(fabs(unknowns->at[i]) <= MAX_UNKNOWN)) {
+            return false;
+        }
+    }
     trial->section = section_of(equations, unknowns);
     equations->maps++;
     if (!orbit_advance(map, equations->lead, load, &trial->section, map->period,

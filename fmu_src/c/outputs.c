@@ -1,19 +1,19 @@
 #include "outputs.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "fast_vibration.h"
+#include "prediction.h"
+#include "slow_phase.h"
 #include "state.h"
 #include "variables.h"
 #include "vibrating_load.h"
 
-/* Parts of a radian to which psi - n theta is rounded for the averaged outputs: the rounding errors
- * of the phases then do not make them flicker. */
-#define LEAD_PARTS 1e9
-
 /* Displacement [m] and velocity [m/s] of the resonator. */
-static Response resonator_swing(const Plant *plant, const Moment *moment) {
-    if (plant->resolves_resonator) {
+static Response resonator_swing(const Law *law, const Moment *moment) {
+    const Plant *plant = &law->held.plant;
+    if (plant->resolves_resonator || moment->orbit.stage != AVERAGED) {
         return (Response){moment->state.displacement, moment->state.rate};
     }
     return steady_swing(plant->resonator_amplitude, moment->theta, plant->drive_frequency);
@@ -35,13 +35,13 @@ static double normal_lead(const Law *law, const Moment *moment) {
     if (turns_to_repeat(&law->device, ratio, EXACT) == 0) {
         return 0.0;
     }
-    return nearbyint(remainder(moment->psi - ratio * moment->theta, TAU) * LEAD_PARTS) / LEAD_PARTS;
+    return rounded_lead(remainder(moment->psi - ratio * moment->theta, TAU));
 }
 
 static const Averaged *theory_of(const Law *law, const Moment *moment, Theory *theory) {
     double lead = normal_lead(law, moment);
     if (!theory->known || theory->normal_lead != lead) {
-        theory->averaged = averaged(law, lead);
+        theory->averaged = prediction_of(law, lead);
         theory->normal_lead = lead;
         theory->known = true;
     }
@@ -58,9 +58,9 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
     case VR_MEAN_VELOCITY:
         return period_mean_velocity(&moment->means, moment->state.velocity);
     case VR_RESONATOR_DISPLACEMENT:
-        return resonator_swing(&law->held.plant, moment).displacement;
+        return resonator_swing(law, moment).displacement;
     case VR_RESONATOR_VELOCITY:
-        return resonator_swing(&law->held.plant, moment).rate;
+        return resonator_swing(law, moment).rate;
     case VR_NORMAL_FORCE:
         return normal_force(law, moment);
     case VR_FRICTION_FORCE:
@@ -79,6 +79,8 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
         return theory_of(law, moment, theory)->blocking_force;
     case VR_PREDICTION_VALID:
         return theory_of(law, moment, theory)->valid ? 1.0 : 0.0;
+    case VR_SLOW_MOTION_ERROR:
+        return law_slow_motion_error(law, moment);
     }
     return NAN; /* no output has this reference */
 }

@@ -8,7 +8,7 @@
 #include "law.h"
 #include "moment.h"
 
-/* Averaged theory of a law, kept while `normal_lead` [rad] stays. To be forgotten with the law. */
+/* The prediction of a law, kept while `normal_lead` [rad] stays. To be forgotten with the law. */
 typedef struct {
     bool known;
     double normal_lead;

@@ -18,6 +18,11 @@ static double travel_until(const Segment *segment, double t, double frequency) {
     return segment->travel_at(segment->motion, t);
 }
 
+double period_last_end(double theta, double frequency, double duration) {
+    double ended = floor((theta + frequency * duration + MARK_TOLERANCE) / TAU);
+    return (TAU * ended - theta) / frequency;
+}
+
 double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency) {
     double duration = segment->duration, end = theta + frequency * duration;
     double ended = floor((end + MARK_TOLERANCE) / TAU);

@@ -26,6 +26,10 @@ typedef struct {
     const void *motion;
 } Segment;
 
+/* Time [s] at which the last period ends in a motion of `duration` [s] from drive phase `theta` [rad] on;
+ * not above 0 where none does. */
+double period_last_end(double theta, double frequency, double duration);
+
 /* Add a segment that began at drive phase `theta` [rad]. Return the drive phase at its end, modulo
  * 2 pi. */
 double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency);

@@ -3,11 +3,8 @@
 #include <math.h>
 
 #include "friction_law.h"
+#include "slow_phase.h"
 #include "state.h"
-
-/* Distance of the frequency ratio from an integer up to which the phase counts as slow; under a
- * lifting contact that of q times the ratio, times q, for q of a few turns. */
-#define NEAR 0.1
 
 /* Angle tau at which sliding turns forward [rad]; 0 or pi once it no longer turns. */
 static double turning_at(double velocity, double fast_velocity) {
@@ -30,21 +27,18 @@ static SlowForm form_of(const Law *law, const AveragedFriction *friction, int tu
 
 SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     const Device *device = &law->device;
-    double ratio = law->inputs.frequency_ratio, n = ratio;
-    int turns = turns_to_repeat(device, ratio, NEAR);
-    if (turns > 0) {
-        n = nearbyint(turns * ratio) / turns;
-    }
+    SlowPhase phase = slow_phase_of(device, law->inputs.frequency_ratio);
+    double n = phase.waves;
     SlowFriction slow = {.law = law, .friction = law->friction->averaged};
     if (law->fast.velocity == 0.0) {
         /* Without vibration a bristle is always fully bent, and friction Coulomb's. */
         slow.friction = &AVERAGED_COULOMB;
     }
-    slow.form = form_of(law, slow.friction, turns, n);
+    slow.form = form_of(law, slow.friction, phase.turns, n);
     slow.fast = (FastMotion){law->fast.velocity, device->drive_frequency};
     slow.waves = n;
-    slow.drift = (ratio - n) * device->drive_frequency;
-    slow.beat = slow.drift != 0.0 ? TAU / ((turns > 0 ? turns : 1) * fabs(slow.drift)) : INFINITY;
+    slow.drift = phase.drift;
+    slow.beat = slow_phase_beat(&phase);
     slow.stands = n == 0.0;
     slow.phase = law->inputs.phase + psi - n * theta + n * law->fast.lag;
     if (slow.form == UNDER_SINE) {

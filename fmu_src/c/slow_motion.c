@@ -5,34 +5,22 @@
 #include "angle.h"
 #include "constants.h"
 #include "dormand_prince.h"
-#include "settling.h"
 #include "slow_friction.h"
+#include "slow_pass.h"
 
 /* Error per step of the slow motion, relative to the fast velocity. */
 #define TOLERANCE 1e-9
-
-/* Step tried first, as a share of the time in which friction changes the fast velocity. */
-#define FIRST_STEP 0.1
-
-/* What must be left, in first steps, for the motion to settle. */
-#define SETTLING 100.0
 
 /* Waves of the normal load over a turn that double the cost of a quadrature, and those beyond which
  * the load counts with its mean. */
 #define WAVES 10.0
 #define MAX_WAVES 1000.0
 
-/* Before each BLOCK of steps it may turn out that the motion has settled. */
-enum { BLOCK = 16 };
-
-/* Part of a beat that a step may have: its stages then see all phases of the normal load. */
-#define BEAT_SHARE 0.125
+/* Fewest steps up to which work is accepted. */
+enum { LEAST_STEPS = 16 };
 
 /* Pieces of a beat with constant friction each, where there is no vibration. */
 #define PIECES 256.0
-
-/* Part of a beat up to which a kink ahead counts as the one just passed. */
-#define MIN_SHARE 1e-9
 
 /* A block without vibration, under constant forces, from `velocity` on. */
 static Reached block_after(double velocity, double friction, double load, double mass,
@@ -64,6 +52,10 @@ static double slow_acceleration(const void *motion, double t, double velocity) {
     return -(slow_friction_at(friction, t, velocity) + plant->load) / plant->total_mass;
 }
 
+static double time_to_kink(const void *motion, double t) {
+    return slow_friction_to_kink(motion, t);
+}
+
 /* Motion without vibration: under constant forces in each piece of time. */
 static bool pass_unshaken(const SlowFriction *friction, double duration, Reached *reached,
                           Refusal *refusal) {
@@ -90,7 +82,7 @@ static int max_steps(const SlowFriction *friction) {
         return MAX_SLOW_STEPS;
     }
     double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
-    return (int)fmax(BLOCK, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
+    return (int)fmax(LEAST_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
 }
 
 /* Largest friction [N] of Coulomb's law under the normal load at any phase. */
@@ -109,21 +101,21 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
         return pass_unshaken(friction, duration, reached, refusal);
     }
     double strongest = strongest_friction(&friction->law->device) + fabs(plant->load);
-    double step = strongest > 0.0 ? FIRST_STEP * fast * plant->total_mass / strongest : duration;
-    double longest = BEAT_SHARE * friction->beat;
-    int most = max_steps(friction);
-    Reached now = {.velocity = reached->velocity, .step = step};
-    for (int count = 0; now.t < duration && isfinite(now.velocity); count += BLOCK) {
-        if (count >= most) {
-            return refuse_work(refusal, duration, now.t, most, "steps of averaged motion");
-        }
-        bool may_settle = friction->drift == 0.0 && duration - now.t > SETTLING * step;
-        if (may_settle && settle(slow_acceleration, friction, fast, duration, &now)) {
-            break;
-        }
-        double kink = fmax(slow_friction_to_kink(friction, now.t), MIN_SHARE * friction->beat);
-        double end = fmin(duration, now.t + kink);
-        now = integrate(slow_acceleration, friction, now, end, TOLERANCE * fast, longest, BLOCK);
+    SlowPass plan = {
+        .acceleration = slow_acceleration,
+        .to_kink = time_to_kink,
+        .motion = friction,
+        .fast = fast,
+        .tolerance = TOLERANCE * fast,
+        .step = slow_pass_step(fast, plant->total_mass, strongest, duration),
+        .duration = duration,
+        .beat = friction->beat,
+        .may_settle = friction->drift == 0.0,
+        .most = max_steps(friction),
+    };
+    Reached now = {.velocity = reached->velocity, .step = plan.step};
+    if (!slow_pass(&plan, duration, &now, refusal)) {
+        return false;
     }
     *reached = now;
     return true;

@@ -90,4 +90,16 @@ VARIABLES: tuple[Variable, ...] = (
         maximum=1.0,
         nominal=1.0,
     ),
+    # The samples hold phase and effort between steps, so this output alone depends on the inputs
+    # directly. FMI Library, where no output names a dependency, takes all to depend on all.
+    _output(
+        "velocity_error",
+        "velocity_reference - measured_velocity, of the present inputs",
+        variability="continuous",
+        unit="m/s",
+        display_unit="mm/s",
+        nominal=0.1,
+        depends_on=("velocity_reference", "measured_velocity"),
+        depends_initially_on=("velocity_reference", "measured_velocity"),
+    ),
 )

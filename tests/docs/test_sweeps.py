@@ -13,7 +13,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 
 def test_the_map_has_40_000_points_that_all_repeat() -> None:
     sweep = read_grid(DOCS / "steady_velocity.toml")
-    check_picture(sweep)
+    check_picture(sweep, "--plot")
     assert len(sweep.points) == 40_000
     ratios = {ratio for ratio, _ in sweep.points}
     assert all(abs(20.0 * ratio - round(20.0 * ratio)) < 1e-9 for ratio in ratios)

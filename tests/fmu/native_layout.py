@@ -6,6 +6,7 @@ import json
 import struct
 from typing import Any
 
+from fmu_src.python.slider_component.orbit_state import OrbitValues
 from fmu_src.python.slider_component.variables import VARIABLES
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]
@@ -15,6 +16,10 @@ FIELDS = (
     *("sliding", "reversals", "sticks", "event_age"),
     *("travel", "elapsed", "sticking", "complete", "mean_velocity", "stick_fraction", "bristle"),
     *("backward_stop", "backward_drift", "forward_stop", "forward_drift"),
+    *("stage", "to_go", "slow_velocity", "centre", "lead", "own_displacement", "own_rate"),
+    *(f"under_{name}" for name in OrbitValues._fields),
+    *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
+    *("tunings", "grazed"),
 )
 HEAD = 8 + 40
 LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")

@@ -1,4 +1,4 @@
-"""The averages of LuGre friction in the built FMU against resolved motion, soft to hard bristles.
+"""First-order averages of LuGre friction in the FMU against resolved motion, soft to hard bristles.
 
 The device is model 2 of the paper with q = 1, mu = 0.4, sigma_1 = 1 in its own units, so that fast
 velocity and preload are 1; kappa = sigma_0 q / (mu Omega).
@@ -33,6 +33,7 @@ def parameters(kappa: float, frequency: float, amplitude_ratio: float = 0.8) -> 
         "friction_coefficient": FRICTION,
         "friction_faces": 1,
         "friction_law": 1,
+        "averaging_order": 1,
         "bristle_stiffness": kappa * FRICTION * frequency,
         "bristle_damping": 1.0,
     }

@@ -1,4 +1,4 @@
-"""Averaged against resolved motion of the built FMU at and near odd frequency ratios."""
+"""First-order averages against resolved motion of the FMU at and near odd frequency ratios."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ START = 0.1 * 1e-4 * 3500.0 / 1.1
 @pytest.mark.parametrize(("ratio", "phase"), STEADY_VELOCITIES)
 def test_steady_velocities(instantiate: Instantiate, ratio: int, phase: float) -> None:
     """Started where averages settle, the resolved motion forgets the rest of their error."""
-    inputs = {"frequency_ratio": ratio, "phase": phase}
+    inputs = {"frequency_ratio": ratio, "phase": phase, "averaging_order": 1}
     theory = instantiate().initialize(**inputs).get("steady_velocity")[0]
     ends = []
     for fidelity in (0, 2):
@@ -55,7 +55,10 @@ class Beat:
 def beat(instantiate: Instantiate, fidelity: int, nearest: int, detuning: float) -> Beat:
     """The swing of the mean velocity over eight beats, once four have passed."""
     instance = instantiate().initialize(
-        fidelity=fidelity, frequency_ratio=nearest + detuning, initial_velocity=-START
+        fidelity=fidelity,
+        averaging_order=1,
+        frequency_ratio=nearest + detuning,
+        initial_velocity=-START,
     )
     expected = 1.0 / (abs(detuning) * DRIVE)
     instance.step(max(4.0 * expected, 3.0))
@@ -101,7 +104,7 @@ def test_a_flat_balance_gives_the_highest_velocity(
     force = equivalent_force(device)
     lag = phase_to_force(force, phase, ratio)
     instance = instantiate().initialize(
-        normal_amplitude=amplitude, frequency_ratio=ratio, phase=phase
+        averaging_order=1, normal_amplitude=amplitude, frequency_ratio=ratio, phase=phase
     )
     velocity = instance.get("steady_velocity")[0] / force.velocity_amplitude
     assert velocity > 0.01

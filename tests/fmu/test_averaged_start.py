@@ -1,4 +1,4 @@
-"""Averaged motion before the first step: its outputs are those of the motion at its start."""
+"""Motion averaged to first order before a step: its outputs are those at its start."""
 
 from __future__ import annotations
 
@@ -18,7 +18,9 @@ pytestmark = both_fmus
 def test_outputs_before_the_first_step(
     instantiate: Callable[[], Instance], law: int, initial: dict[str, float]
 ) -> None:
-    instance = instantiate().initialize(fidelity=0, friction_law=law, phase=0.4, **initial)
+    instance = instantiate().initialize(
+        fidelity=0, averaging_order=1, friction_law=law, phase=0.4, **initial
+    )
     names = ("mean_velocity", "friction_force", "stick_fraction")
     before = instance.get(*names)
     instance.step(1e-9)
@@ -34,7 +36,13 @@ def test_friction_of_bristles_with_next_to_no_preload(
     instantiate: Callable[[], Instance], preload: float, ratio: float
 ) -> None:
     """The kinks of the load are then an exact half turn apart, and meet where sliding turns."""
-    values = {"fidelity": 0, "friction_law": 1, "normal_amplitude": 1.0, "frequency_ratio": ratio}
+    values = {
+        "fidelity": 0,
+        "averaging_order": 1,
+        "friction_law": 1,
+        "normal_amplitude": 1.0,
+        "frequency_ratio": ratio,
+    }
     for phase in (0.0, math.pi, -math.pi, math.pi / 2.0, 0.3):
         for velocity in (-0.144, -1.0, 0.2366097 - 0.0318182):
             instance = instantiate().initialize(

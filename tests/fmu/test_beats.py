@@ -34,7 +34,7 @@ def velocities(
     """Slow velocity in m/s after each of some steps of this size in s."""
     instance.slave.reset()
     instance.time = 0.0
-    instance.initialize(fidelity=0, **device, **inputs)
+    instance.initialize(fidelity=0, averaging_order=1, **device, **inputs)
     found = []
     for _ in range(steps):
         instance.step(step)
@@ -49,6 +49,7 @@ def reference(
     """The same by the reference, for 4 steps; `inputs` are frequency ratio and phase."""
     device = Device(
         fidelity=0,
+        averaging_order=1,
         normal_preload=preload,
         normal_amplitude=amplitude,
         initial_velocity=start,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import asin, nan, pi
+from sys import float_info
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -52,6 +53,16 @@ def test_effort_and_phase_follow_the_law(instantiate: Instantiate, errors: list[
         effort, phase = instance.get("effort", "phase")
         assert effort == pytest.approx(expected, abs=1e-12)
         assert phase == pytest.approx(asin(expected) - THETA, abs=1e-6)
+
+
+def test_velocity_error_is_that_of_the_present_inputs(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(velocity_reference=0.06)
+    assert instance.get("velocity_error") == (0.06,)
+    instance.step(SAMPLE)
+    sampled = instance.get("effort", "phase")
+    instance.set(measured_velocity=0.02)
+    assert instance.get("velocity_error") == (0.06 - 0.02,)
+    assert instance.get("effort", "phase") == sampled, "they wait for a sample"
 
 
 def test_the_integral_does_not_wind_up(instantiate: Instantiate) -> None:
@@ -147,4 +158,4 @@ def test_huge_values_make_no_nan(instantiate: Instantiate) -> None:
     instance.step(SAMPLE)
     instance.set(proportional_gain=1e12)
     instance.step(SAMPLE)
-    assert instance.get("effort") == (1.0,)
+    assert instance.get("effort", "velocity_error") == (1.0, float_info.max)

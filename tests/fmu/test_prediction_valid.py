@@ -49,7 +49,38 @@ def valid(instance: Instance) -> float:
 @pytest.mark.parametrize("fidelity", [0, 1, 2])
 @pytest.mark.parametrize("situation", WITHIN)
 def test_averages_apply(instantiate: Instantiate, situation: str, fidelity: int) -> None:
-    assert valid(instantiate().initialize(fidelity=fidelity, **WITHIN[situation])) == 1.0
+    first_order = instantiate().initialize(
+        fidelity=fidelity, averaging_order=1, **WITHIN[situation]
+    )
+    assert valid(first_order) == 1.0
+
+
+@pytest.mark.parametrize("situation", WITHIN)
+def test_held_orbits_are_found(instantiate: Instantiate, situation: str) -> None:
+    """An undamped resonator never forgets its start: its device has no orbit of its own."""
+    undamped = WITHIN[situation].get("damping_ratio") == 0.0
+    assert valid(instantiate().initialize(**WITHIN[situation])) == (0.0 if undamped else 1.0)
+
+
+@pytest.mark.parametrize(
+    "situation",
+    [
+        {"damping_ratio": 0.0, "resonator_frequency": 3000.0},
+        {"damping_ratio": 1e-6},
+        {"friction_coefficient": 20.0, "damping_ratio": 0.005},
+        {"frequency_ratio": 1.37},
+    ],
+)
+def test_motion_that_is_not_slow_is_averaged_to_first_order(
+    instantiate: Instantiate, situation: dict[str, float]
+) -> None:
+    ends = []
+    for order in (1, 2):
+        instance = instantiate().initialize(fidelity=0, averaging_order=order, **situation)
+        instance.run(10, PERIOD)
+        ends.append(instance.get("position", "mean_velocity", "slow_motion_error"))
+        assert order == 1 or valid(instance) == 0.0
+    assert ends[0] == ends[1]
 
 
 @pytest.mark.parametrize("situation", BEYOND_AVERAGES)

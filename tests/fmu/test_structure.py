@@ -45,6 +45,7 @@ OTHER_VALUES: dict[str, float] = {
     "tangential_force": 5.0,
     "friction_coefficient": 0.17,
     "friction_faces": 1,
+    "averaging_order": 1,
     "bristle_stiffness": 3e5,
     "bristle_damping": 3.0,
     "tolerance": 1e-6,

@@ -63,6 +63,7 @@ def scale(name: str, record: Record) -> float:
         "velocity": "resonator_velocity",
         "mean_velocity": "resonator_velocity",
         "steady_velocity": "velocity",
+        "slow_motion_error": "velocity",
         "position": "resonator_displacement",
         "friction_force": "normal_force",
         "blocking_force": "normal_force",
@@ -108,6 +109,7 @@ parameters = st.fixed_dictionaries(
         "friction_coefficient": st.floats(0.01, 0.8),
         "friction_faces": st.sampled_from([1, 2]),
         "fidelity": st.sampled_from([0, 1, 2]),
+        "averaging_order": st.just(1),
         # Not from rest: there a free slider comes back to rest in each period, a tie for counts.
         "initial_velocity": st.one_of(st.floats(-0.1, -0.003), st.floats(0.003, 0.1)),
         "initial_resonator_displacement": st.one_of(st.just(0.0), st.floats(-1e-3, 1e-3)),
@@ -168,12 +170,43 @@ def test_lugre_devices(
     assert_equal(native, python, tolerance)
 
 
+@pytest.mark.parametrize(
+    ("values", "inputs", "allowed"),
+    [
+        ({}, {}, ROUNDING),
+        ({"frequency_ratio": 1.5, "normal_amplitude": 2.0, "phase": 0.4}, {}, ROUNDING),
+        ({"frequency_ratio": 1.002, "friction_coefficient": 1.0}, {}, 1e-9),
+        ({"frequency_ratio": 1.002, "normal_amplitude": 1.5}, {}, 1e-9),
+        ({}, {"phase": [0.0, 1.0, 0.3, 2.0, -1.0, 0.5, 1.7], "load": [0.0, 0.05]}, ROUNDING),
+        ({"friction_law": 1}, {"phase": [0.4, 1.0]}, 1e-8),
+        ({"resonator_mass": 0.0, "tangential_force": 900.0}, {}, ROUNDING),
+        ({"frequency_ratio": 1.37}, {}, ROUNDING),
+        ({"damping_ratio": 0.0}, {}, ROUNDING),
+    ],
+)
+def test_motion_along_held_orbits(
+    twins: Twins, values: dict[str, float], inputs: dict[str, list[float]], allowed: float
+) -> None:
+    held = {
+        name: steps([(0.05 * i, numbers[i % len(numbers)]) for i in range(14)])
+        for name, numbers in inputs.items()
+    }
+    # The ratio is an input, too.
+    ratio = values.get("frequency_ratio", 1.0)
+    held |= {"frequency_ratio": steps([(0.0, ratio)])}
+    held |= {"phase": steps([(0.0, values["phase"])])} if "phase" in values else {}
+    given = {k: v for k, v in values.items() if k not in ("frequency_ratio", "phase")}
+    native, python = both(twins, {"fidelity": 0, **given}, schedule(0.7, 0.01, **held))
+    assert_equal(native, python, allowed)
+
+
 def test_bristles_far_harder_than_rounding_of_the_path(twins: Twins) -> None:
     """Averaged friction needs the path to mu / sigma_0 = 1e-19 m, of an amplitude of 7e-5 m."""
-    values = {"fidelity": 0, "friction_law": 1, "bristle_stiffness": 1e18, "phase": 0.4}
+    first = {"fidelity": 0, "averaging_order": 1, "phase": 0.4}
+    values = {**first, "friction_law": 1, "bristle_stiffness": 1e18}
     native, python = both(twins, values, schedule(1.0, 0.1))
     assert_equal(native, python, 1e-9)
-    coulomb, _ = both(twins, {"fidelity": 0, "phase": 0.4}, schedule(1.0, 0.1))
+    coulomb, _ = both(twins, first, schedule(1.0, 0.1))
     for name in ("steady_velocity", "mean_velocity"):
         gap = np.abs(native[name] - coulomb[name]).max()
         assert gap <= 1e-7 * np.abs(coulomb[name]).max(), f"{name}: hard bristles are Coulomb's"

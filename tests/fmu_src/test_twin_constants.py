@@ -23,7 +23,7 @@ OTHER_NAMES = {
 ONLY_IN_C = {
     # Sizes of arrays and buffers, formats of bytes and texts.
     *("CHECKS", "EDGES", "FORCINGS", "SINE_TERMS", "TABLES", "TABLE_NODES", "TAYLOR_TERMS"),
-    "UNKNOWNS",
+    *("CURVE_PANELS", "UNKNOWNS"),
     *("NUMBER_SIZE", "REFUSAL_SIZE", "MAX_DIGITS", "MIN_PLAIN_EXPONENT", "MAX_PLAIN_EXPONENT"),
     *("STATE_HEADER_SIZE", "STATE_NUMBER_SIZE", "STATE_CHECKSUM_SIZE"),
     # Of FMI 3.0, for which there is only the native build.

@@ -1,4 +1,4 @@
-"""The closed loop in another master, which hands values on without fmpy's delay of the inputs."""
+"""The closed loop in other masters, which hand values on without fmpy's delay of the inputs."""
 
 from __future__ import annotations
 
@@ -11,22 +11,52 @@ from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.studies.closed_loop.judge import judge_agreement, judge_intervals
 from slider_resonator.studies.closed_loop.loop import HOSTS, run_loop
 from slider_resonator.studies.closed_loop.prediction import predicted_errors
+from slider_resonator.trials.hosts.ecos_host import preload_tbb
+from slider_resonator.trials.hosts.hosts import Host
 
 pytestmark = pytest.mark.interop
 
 
-def test_libcosim_matches_fmpy_in_closed_loop(closed_loop_package: Path) -> None:
+FMPY, *OTHERS = HOSTS
+
+
+@pytest.mark.parametrize("host", OTHERS, ids=lambda host: host.name)
+def test_another_master_matches_fmpy_in_closed_loop(closed_loop_package: Path, host: Host) -> None:
     duty = Duty()
-    fmpy, libcosim = (run_loop(closed_loop_package, host, duty) for host in HOSTS)
-    for record in libcosim:
+    fmpy, other = (run_loop(closed_loop_package, chosen, duty) for chosen in (FMPY, host))
+    for record in other:
         failed = [held for held in judge_intervals(record, duty) if not held.passed]
         assert failed == [], "the velocity has to come back after each step of the load"
-    predicted = predicted_errors(closed_loop_package, libcosim[0], duty)
-    for agreement in judge_agreement(*libcosim, duty, predicted):
+    predicted = predicted_errors(closed_loop_package, other[0], duty)
+    for agreement in judge_agreement(*other, duty, predicted):
         assert agreement.passed, agreement
-    for theirs, ours in zip(libcosim, fmpy, strict=True):
+    for theirs, ours in zip(other, fmpy, strict=True):
         ends = np.searchsorted(
             ours.times, [interval.end - 0.5 * duty.step for interval in duty.intervals]
         )
         assert theirs.velocity[ends] == pytest.approx(ours.velocity[ends], rel=1e-3)
         assert theirs.phase[ends] == pytest.approx(ours.phase[ends], abs=1e-3)
+
+
+def test_libcosim_runs_the_package_as_it_is(closed_loop_package: Path) -> None:
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimObserver import CosimObserver
+
+    loop = CosimExecution.from_ssp_file(str(closed_loop_package), step_size=10_000_000)
+    observer = CosimObserver.create_last_value()
+    loop.add_observer(observer)
+    loop.step(150)
+    slider = loop.slave_index_from_instance_name("slider")
+    references = {v.name: v.reference for v in loop.slave_variables(slider)}
+    (velocity,) = observer.last_real_values(slider, [references[b"mean_velocity"]])
+    assert velocity == pytest.approx(0.06, rel=0.02)
+
+
+def test_ecos_runs_the_package_as_it_is(closed_loop_package: Path) -> None:
+    preload_tbb()
+    from ecospy import EcosSimulation
+
+    with EcosSimulation(step_size=0.01, ssp_path=str(closed_loop_package)) as simulation:
+        assert simulation.init(parameter_set="proof")
+        simulation.step(150)
+        assert simulation.get_real("slider::mean_velocity") == pytest.approx(0.06, rel=0.02)

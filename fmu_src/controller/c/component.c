@@ -55,9 +55,21 @@ bool component_set(Component *component, const unsigned *references, const doubl
     return true;
 }
 
+/* Finite: a gain of 0 times it is 0, not NaN. */
+static double velocity_error(const double *values) {
+    double error = values[VR_VELOCITY_REFERENCE] - values[VR_MEASURED_VELOCITY];
+    return fmax(-DBL_MAX, fmin(DBL_MAX, error));
+}
+
 static double output(const Snapshot *now, unsigned reference) {
-    double effort = now->control.effort;
-    return reference == VR_EFFORT ? effort : control_phase(effort, now->values[VR_FORCE_PHASE]);
+    switch (reference) {
+    case VR_PHASE:
+        return control_phase(now->control.effort, now->values[VR_FORCE_PHASE]);
+    case VR_EFFORT:
+        return now->control.effort;
+    default:
+        return velocity_error(now->values);
+    }
 }
 
 bool component_get(Component *component, const unsigned *references, double *values, size_t count,
@@ -92,8 +104,7 @@ bool component_step(Component *component, double time, double step_size, Refusal
                       "samples, sample_time = %s", number_text(step_size, text), MAX_SAMPLES,
                       number_text(tuning.sample_time, sample_time));
     }
-    double error = values[VR_VELOCITY_REFERENCE] - values[VR_MEASURED_VELOCITY];
-    error = fmax(-DBL_MAX, fmin(DBL_MAX, error)); /* finite: a gain of 0 times it is 0, not NaN */
+    double error = velocity_error(values);
     for (; now->samples < due; now->samples++) {
         now->control = control_sampled(&tuning, now->control, error);
     }

@@ -15,6 +15,7 @@ from .friction_laws import friction_law_of
 from .held import Held, hold
 from .moment import Counts, Moment
 from .motion import State
+from .orbit_motion import OrbitLaw, has_slow_motion
 from .period import PeriodMeans
 from .slow_motion import slow_law
 
@@ -41,6 +42,14 @@ class Law(Protocol):
 
     def friction_force(self, moment: Moment, mode: int) -> float:
         """Friction force [N] on the slider, positive against +X."""
+        ...
+
+    def swing(self, moment: Moment) -> tuple[float, float]:
+        """Displacement [m] and velocity [m/s] of the resonator."""
+        ...
+
+    def slow_motion_error(self, moment: Moment) -> float:
+        """The estimate of the error of the slow velocity [m/s]; 0 for resolved motion."""
         ...
 
 
@@ -76,6 +85,17 @@ class ResolvedLaw:
         """See Law."""
         return self.friction.force(self.held, moment, mode)
 
+    def swing(self, moment: Moment) -> tuple[float, float]:
+        """See Law."""
+        plant = self.held.plant
+        if plant.resonator_amplitude is None:
+            return moment.state.displacement, moment.state.rate
+        return steady_swing(plant.resonator_amplitude, moment.theta, plant.drive_frequency)
+
+    def slow_motion_error(self, moment: Moment) -> float:
+        """See Law."""
+        return 0.0
+
 
 def law_of(device: Device, inputs: Inputs) -> Law:
     """The law of a device. Raises Refusal where device and friction law do not fit."""
@@ -83,5 +103,9 @@ def law_of(device: Device, inputs: Inputs) -> Law:
     friction.check(device)
     held = hold(device, inputs)
     if device.fidelity == 0:
-        return slow_law(held, friction)
+        law = slow_law(held, friction)
+        if device.averaging_order == 1 or not has_slow_motion(device, inputs, law.fast):
+            return law
+        full = hold(replace(device, fidelity=2), inputs)
+        return OrbitLaw(held, full, friction, law.fast)
     return ResolvedLaw(held, friction)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from .contact import STICK
 from .motion import State
+from .orbit_state import NO_ORBIT, OrbitState
 from .period import PeriodMeans
 
 
@@ -27,8 +28,9 @@ class Moment:
     """Position [m], phases [rad], contact mode, and what outputs count.
 
     `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
-    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. A moment is changed only
-    by the loop over events, which begins with a copy.
+    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction; `orbit` serves averages
+    of second order alone. A moment is changed only by the loop over events, which begins with a
+    copy.
     """
 
     state: State
@@ -40,6 +42,7 @@ class Moment:
     event_age: float
     means: PeriodMeans
     bristle: float = 0.0
+    orbit: OrbitState = NO_ORBIT
 
     def copied(self) -> Moment:
         """The same moment, to be changed."""
@@ -53,6 +56,7 @@ class Moment:
             self.event_age,
             self.means,
             self.bristle,
+            self.orbit,
         )
 
     def enter(self, mode: int) -> None:

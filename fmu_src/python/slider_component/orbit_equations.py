@@ -20,6 +20,10 @@ DIFFERENCE = 1e-6
 """Step of a Jacobian in the scales of the unknowns."""
 
 
+MAX_UNKNOWN = 1e4
+"""Largest unknown, in its scale, that is mapped: beyond, no orbit is near, and numbers overflow."""
+
+
 class Trial(NamedTuple):
     """What unknowns lead to.
 
@@ -75,6 +79,8 @@ class OrbitEquations:
     def attempt(self, unknowns: Vector) -> Trial | None:
         """Map the period. None where that fails."""
         scales, states = self.map, self.map.states
+        if not all(abs(unknown) <= MAX_UNKNOWN for unknown in unknowns):
+            return None
         load = scales.force * unknowns[states]
         section = self.section(unknowns)
         self.maps += 1

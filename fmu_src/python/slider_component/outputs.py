@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
 from math import remainder, sin, tau
 from typing import NamedTuple
 
-from .averaged import Averaged, averaged
+from .averaged import Averaged
 from .contact import STICK
 from .device import Device, Inputs
-from .fast_vibration import steady_swing
 from .law import Law
 from .moment import Moment
+from .prediction import prediction_of
+from .slow_phase import rounded_lead
 from .vibrating_load import EXACT, turns_to_repeat
-
-LEAD_DIGITS = 9
-"""Decimals to which psi - n theta [rad] is rounded for the averaged outputs: the rounding errors of
-the phases then do not make them flicker."""
 
 
 class View(NamedTuple):
@@ -31,14 +27,6 @@ class View(NamedTuple):
     last_event_time: float
 
 
-def _swing(view: View) -> tuple[float, float]:
-    """Displacement [m] and velocity [m/s] of the resonator."""
-    plant, state = view.law.held.plant, view.moment.state
-    if plant.resonator_amplitude is None:
-        return state.displacement, state.rate
-    return steady_swing(plant.resonator_amplitude, view.moment.theta, plant.drive_frequency)
-
-
 def _normal_force(view: View) -> float:
     chi = view.moment.psi + view.inputs.phase
     device = view.device
@@ -49,10 +37,8 @@ def _theory(view: View) -> Averaged:
     ratio = view.inputs.frequency_ratio
     repeats = turns_to_repeat(view.device, ratio, EXACT) is not None
     lead = remainder(view.moment.psi - ratio * view.moment.theta, tau) if repeats else 0.0
-    return _averaged(view.device, view.inputs, round(lead, LEAD_DIGITS))
+    return prediction_of(view.device, view.inputs, rounded_lead(lead))
 
-
-_averaged = lru_cache(maxsize=8)(averaged)
 
 OUTPUTS: dict[str, Callable[[View], float]] = {
     "position": lambda view: view.moment.position,
@@ -60,8 +46,8 @@ OUTPUTS: dict[str, Callable[[View], float]] = {
     "mean_velocity": lambda view: view.moment.means.present_mean_velocity(
         view.moment.state.velocity
     ),
-    "resonator_displacement": lambda view: _swing(view)[0],
-    "resonator_velocity": lambda view: _swing(view)[1],
+    "resonator_displacement": lambda view: view.law.swing(view.moment)[0],
+    "resonator_velocity": lambda view: view.law.swing(view.moment)[1],
     "normal_force": _normal_force,
     "friction_force": lambda view: view.law.friction_force(view.moment, view.mode),
     "contact_mode": lambda view: float(view.mode),
@@ -71,4 +57,5 @@ OUTPUTS: dict[str, Callable[[View], float]] = {
     "steady_velocity": lambda view: _theory(view).steady_velocity,
     "blocking_force": lambda view: _theory(view).blocking_force,
     "prediction_valid": lambda view: float(_theory(view).valid),
+    "slow_motion_error": lambda view: view.law.slow_motion_error(view.moment),
 }

@@ -28,6 +28,7 @@ class Parameters:
     bristle_stiffness: float = 100000.0
     bristle_damping: float = 10.0
     fidelity: int = 2
+    averaging_order: int = 2
     tolerance: float = 1e-08
     initial_position: float = 0.0
     initial_velocity: float = 0.0

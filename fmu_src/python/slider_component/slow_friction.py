@@ -19,11 +19,8 @@ from .contact import is_lifted, time_to_switch
 from .fast_vibration import FastVibration
 from .friction_table import MAX_WAVES_TABULATED, friction_table
 from .held import Held
-from .vibrating_load import VibratingLoad, turns_to_repeat
-
-NEAR = 0.1
-"""Distance of the frequency ratio from an integer up to which the phase counts as slow; under a
-lifting contact that of q times the ratio, times q, for q of a few turns."""
+from .slow_phase import slow_phase_of
+from .vibrating_load import VibratingLoad
 
 Friction = Callable[[float, float], float]
 """Time t [s] from now and slow velocity [m/s] -> mean friction [N] of all faces."""
@@ -48,10 +45,8 @@ def slow_friction(
     held: Held, friction: AveragedFriction, fast: FastVibration, theta: float, psi: float
 ) -> SlowFriction:
     """The mean friction from drive phase `theta` and normal phase `psi` [rad] on."""
-    device, ratio = held.device, held.inputs.frequency_ratio
-    turns = turns_to_repeat(device, ratio, NEAR)
-    waves = round(turns * ratio) / turns if turns else ratio
-    drift = (ratio - waves) * device.drive_frequency
+    device = held.device
+    turns, waves, drift = slow_phase_of(device, held.inputs.frequency_ratio)
     phase = held.inputs.phase + psi - waves * theta + waves * fast.lag
     motion = FastMotion(fast.velocity, device.drive_frequency)
     # Without vibration a bristle is always fully bent, and friction Coulomb's.

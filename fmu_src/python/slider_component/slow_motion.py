@@ -11,46 +11,36 @@ A bristle is taken as slaved to the motion, so it has no state here.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, copysign, cos, inf, isfinite, sin, tau
+from math import ceil, copysign, cos, inf, sin, tau
 
 from .averaged_lugre import MAX_WAVES
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
-from .dormand_prince import Reached, integrate
+from .dormand_prince import Reached
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
 from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
+from .orbit_state import Stage
 from .period import PeriodMeans
 from .refusal import too_much_work
-from .settling import settled
 from .slow_friction import SlowFriction, slow_friction
+from .slow_motion_error import first_order_error
+from .slow_pass import SlowPass, first_step
 
 TOLERANCE = 1e-9
 """Error per step of the slow motion, relative to the fast velocity."""
 
-FIRST_STEP = 0.1
-"""Step tried first, as a share of the time in which friction changes the fast velocity."""
-
 WAVES = 10.0
 """Waves of the normal load over a turn that double the cost of a quadrature."""
 
-SETTLING = 100.0
-"""What must be left, in first steps, for the motion to settle."""
-
 WORK = "steps of averaged motion"
 
-BLOCK = 16
-"""Steps before each of which it may turn out that the motion has settled."""
-
-BEAT_SHARE = 0.125
-"""Part of a beat that a step may have: its stages then see all phases of the normal load."""
+LEAST_STEPS = 16
+"""Fewest steps up to which work is accepted."""
 
 PIECES = 256
 """Pieces of a beat with constant friction each, where there is no vibration."""
-
-MIN_SHARE = 1e-9
-"""Part of a beat up to which a kink ahead counts as the one just passed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,21 +91,20 @@ class SlowLaw:
         def acceleration(t: float, v: float) -> float:
             return -(friction.at(t, v) + load) / total
 
-        strongest = self._strongest_friction() + abs(load)
-        step = FIRST_STEP * fast * total / strongest if strongest > 0.0 else duration
-        longest = BEAT_SHARE * friction.beat
-        most = _max_steps(friction.is_expensive, self.held.inputs.frequency_ratio)
-        now = Reached(0.0, velocity, 0.0, step)
-        for _ in range(0, most, BLOCK):
-            if friction.drift == 0.0 and duration - now.t > SETTLING * step:
-                now = settled(acceleration, fast, duration, now) or now
-            if not now.t < duration or not isfinite(now.velocity):
-                return now.velocity, now.moved
-            end = _end_of_smoothness(friction, now.t, duration)
-            now = integrate(acceleration, now, end, TOLERANCE * fast, BLOCK, longest)
-        if now.t < duration and isfinite(now.velocity):
-            raise too_much_work(duration, now.t, most, WORK)
-        return now.velocity, now.moved
+        step = first_step(fast, total, self._strongest_friction() + abs(load), duration)
+        slow_pass = SlowPass(
+            acceleration,
+            fast,
+            TOLERANCE * fast,
+            step,
+            duration,
+            may_settle=friction.drift == 0.0,
+            most=_max_steps(friction.is_expensive, self.held.inputs.frequency_ratio),
+            beat=friction.beat,
+            to_kink=friction.to_kink,
+        )
+        reached = slow_pass.reach(duration, Reached(0.0, velocity, 0.0, step))
+        return reached.velocity, reached.moved
 
     def _strongest_friction(self) -> float:
         """Largest friction [N] of Coulomb's law under the normal load at any phase."""
@@ -136,6 +125,16 @@ class SlowLaw:
             return max(-full, min(full, -self.held.inputs.load))
         return friction.at(0.0, velocity)
 
+    def swing(self, moment: Moment) -> tuple[float, float]:
+        """See Law: the steady one, but for a moment that motion along orbits led to."""
+        if moment.orbit.stage != Stage.AVERAGED:
+            return moment.state.displacement, moment.state.rate
+        return steady_swing(self.fast.resonator, moment.theta, self.held.plant.drive_frequency)
+
+    def slow_motion_error(self, moment: Moment) -> float:
+        """See Law."""
+        return first_order_error(self.held.device, self.fast)
+
     def _friction(self, theta: float, psi: float) -> SlowFriction:
         return slow_friction(self.held, self.friction.averaged, self.fast, theta, psi)
 
@@ -150,14 +149,7 @@ def _max_steps(is_expensive: bool, ratio: float) -> int:
     if not is_expensive:
         return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
     waves = min(abs(ratio), MAX_WAVES)
-    return max(BLOCK, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
-
-
-def _end_of_smoothness(friction: SlowFriction, t: float, end: float) -> float:
-    """The next kink of the friction after `t`, or `end` [s]."""
-    if friction.to_kink is None:
-        return end
-    return min(end, t + max(friction.to_kink(t), MIN_SHARE * friction.beat))
+    return max(LEAST_STEPS, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
 
 
 def _unshaken(

@@ -12,6 +12,15 @@ from typing import Any
 from .contact import BACKWARD, FORWARD, LIFTED
 from .moment import Counts, Moment
 from .motion import State
+from .orbit_state import (
+    MAX_LEADS,
+    MAX_TUNINGS,
+    OrbitState,
+    OrbitValues,
+    Stage,
+    Swing,
+    VisitedLeads,
+)
 from .period import PeriodMeans
 from .refusal import Refusal
 from .values import flag, integer, integer_within, number, phase
@@ -20,12 +29,17 @@ FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
 build does not fit another."""
 
+_PARTS_OF_ORBIT = ("swing", "under", "leads")
+
 
 def moment_to_plain(moment: Moment) -> dict[str, Any]:
     """Return the moment as nested dictionaries; before any event its age is None."""
     plain: dict[str, Any] = {f.name: getattr(moment, f.name) for f in fields(moment)}
     for name in ("state", "counts", "means"):
         plain[name] = plain[name]._asdict()
+    plain["orbit"] = moment.orbit._asdict()
+    for name in _PARTS_OF_ORBIT:
+        plain["orbit"][name] = plain["orbit"][name]._asdict()
     if moment.event_age == inf:
         plain["event_age"] = None
     return plain
@@ -59,6 +73,31 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
             },
         ),
         number("bristle", plain["bristle"]),
+        _orbit_from_plain(plain["orbit"]),
+    )
+
+
+def _orbit_from_plain(plain: object) -> OrbitState:
+    orbit = entries("orbit", plain, OrbitState._fields)
+    visited = entries("leads", orbit["leads"], VisitedLeads._fields)
+    visits = integer_within("orbit.leads.visits", visited["visits"], 0, MAX_LEADS + 1)
+
+    def numbers(name: str, names: Iterable[str]) -> list[float]:
+        part = entries(name, orbit[name], names)
+        return [number(f"orbit.{name}.{key}", part[key]) for key in names]
+
+    leads = [number(f"orbit.leads.{key}", visited[key]) for key in VisitedLeads._fields[1:]]
+    return OrbitState(
+        stage=integer_within("orbit.stage", orbit["stage"], Stage.AVERAGED, Stage.ON_ORBIT),
+        **{
+            key: number(f"orbit.{key}", orbit[key])
+            for key in ("to_go", "velocity", "centre", "lead")
+        },
+        swing=Swing(*numbers("swing", Swing._fields)),
+        under=OrbitValues(*numbers("under", OrbitValues._fields)),
+        leads=VisitedLeads(visits, *leads),
+        tunings=integer_within("orbit.tunings", orbit["tunings"], 0, MAX_TUNINGS),
+        grazed=flag("orbit.grazed", orbit["grazed"]),
     )
 
 

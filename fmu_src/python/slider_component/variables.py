@@ -24,7 +24,7 @@ _output = partial(Variable, type="Real", causality="output", variability="contin
 _count = partial(Variable, type="Real", causality="output", variability="discrete")
 
 _INPUTS = ("phase", "load", "frequency_ratio")
-_CHOICES = ("friction_law", "fidelity")
+_CHOICES = ("friction_law", "fidelity", "averaging_order")
 _NORMAL_FORCE = ("phase", "normal_preload", "normal_amplitude")
 
 _MASSES_AND_SPRING = ("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio")
@@ -58,9 +58,14 @@ _AVERAGED_THEORY = (
     "friction_coefficient",
     "friction_faces",
     "friction_law",
+    "averaging_order",
     "bristle_stiffness",
     "bristle_damping",
+    "tolerance",
 )
+
+# What decides on how motion is made, averages of second order serving where it becomes slow.
+_WHICH_MOTION = ("fidelity", *_AVERAGED_THEORY)
 
 VARIABLES: tuple[Variable, ...] = (
     _input(
@@ -209,6 +214,14 @@ VARIABLES: tuple[Variable, ...] = (
         minimum=0,
         maximum=2,
     ),
+    _choice(
+        "averaging_order",
+        "Order of averages: 1 over the vibration without friction, 2 over held orbits; for motion "
+        "at fidelity 0 and for the predictions at all fidelities",
+        start=2,
+        minimum=1,
+        maximum=2,
+    ),
     _fixed(
         "tolerance",
         "Relative tolerance of the LuGre integration; Coulomb friction needs none",
@@ -284,17 +297,12 @@ VARIABLES: tuple[Variable, ...] = (
     _output(
         "mean_velocity",
         "Exact mean velocity over the last whole drive period (since the start before the first "
-        "period is complete); at fidelity 0 the slow velocity",
+        "period is complete); by averages of first order the slow velocity",
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
-        # At fidelity 0 what is left of the momentum of the pair without its vibration.
-        depends_initially_on=(
-            "fidelity",
-            *_STEADY_RESONATOR,
-            "initial_velocity",
-            "initial_resonator_velocity",
-        ),
+        # By first order what is left of the momentum of the pair without its vibration.
+        depends_initially_on=(*_WHICH_MOTION, "initial_velocity", "initial_resonator_velocity"),
     ),
     _output(
         "resonator_displacement",
@@ -302,11 +310,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m",
         display_unit="um",
         nominal=1e-3,
-        depends_initially_on=(
-            "fidelity",
-            *_STEADY_RESONATOR,
-            "initial_resonator_displacement",
-        ),
+        depends_initially_on=(*_WHICH_MOTION, "initial_resonator_displacement"),
     ),
     _output(
         "resonator_velocity",
@@ -314,7 +318,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=1.0,
-        depends_initially_on=("fidelity", *_STEADY_RESONATOR, "initial_resonator_velocity"),
+        depends_initially_on=(*_WHICH_MOTION, "initial_resonator_velocity"),
     ),
     _output(
         "normal_force",
@@ -367,8 +371,9 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _output(
         "steady_velocity",
-        "Steady velocity that averaged theory predicts for the present inputs (eq. 20); the "
-        "highest where friction and load balance over a range of velocities",
+        "Steady velocity for the present inputs: that of the periodic motion of the full device, "
+        "or by averages of first order (eq. 20); the highest where friction and load balance over "
+        "a range of velocities",
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
@@ -377,7 +382,8 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _output(
         "blocking_force",
-        "Load that stops the slider by averaged theory, for the present inputs (eq. 22)",
+        "Load that stops the slider, for the present inputs: that of the periodic motion of the "
+        "full device, or by averages of first order (eq. 22)",
         unit="N",
         display_unit="mN",
         nominal=0.1,
@@ -393,6 +399,15 @@ VARIABLES: tuple[Variable, ...] = (
         maximum=1.0,
         depends_on=_INPUTS,
         depends_initially_on=(*_AVERAGED_THEORY, "load"),
+    ),
+    _output(
+        "slow_motion_error",
+        "Estimate of the error of the slow velocity at fidelity 0; 0 at fidelity 1 and 2",
+        unit="m/s",
+        display_unit="mm/s",
+        minimum=0.0,
+        depends_on=_INPUTS,
+        depends_initially_on=(*_WHICH_MOTION, "load"),
     ),
 )
 

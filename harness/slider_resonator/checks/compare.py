@@ -14,8 +14,8 @@ from slider_resonator.checks.measures.deviation import mismatch_share, peak, sha
 from slider_resonator.checks.measures.tube import Tube, no_tube
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.tolerance import Tolerance
+from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.scene import ScenePoint
-from slider_resonator.scenes.schema import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 Value = float | str | None

@@ -20,7 +20,7 @@ from slider_resonator.checks.period_means import (
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES, RESOLVED
 
 Expected = Callable[[ReferenceSide], Any]

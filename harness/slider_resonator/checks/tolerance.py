@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.device.device import Device
-from slider_resonator.scenes.schema import ExpectTable
+from slider_resonator.scenes.expect_table import ExpectTable
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,13 @@ from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measures.tube import Tube
 from slider_resonator.checks.measuring import Measurement, measure_all
+from slider_resonator.checks.overview import Overview, overview_of
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import lacking
+from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
+from slider_resonator.output.console import counted
 from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -65,6 +68,9 @@ class Curves:
 class Validation:
     """All checks of an FMU, in the order of the scenes, and the wall time in s.
 
+    `identity` is that of the FMU's file when the run began, `overviews` show the first point of
+    each scene that has a signal.
+
     `run_failures` are scenes that could not be run, `curves` the signals that differ. `lacks` are
     the later variables of the interface that the FMU does not have, `not_applied` the checks that
     say nothing about it.
@@ -77,6 +83,8 @@ class Validation:
     curves: tuple[Curves, ...] = ()
     lacks: tuple[str, ...] = ()
     not_applied: tuple[NotApplied, ...] = ()
+    identity: FmuIdentity | None = None
+    overviews: tuple[Overview, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -156,16 +164,19 @@ def _validation(
 ) -> Validation:
     """Run the points on one FMU and judge; expected values are computed while it runs."""
     began = perf_counter()
+    identity = identity_of(path)
     number = count()
 
     def meanwhile(point: ScenePoint) -> None:
-        report(point.scene.name, next(number) / len(points))
+        done = next(number)
+        report(counted(point.scene.name, done, len(points)), done / len(points))
         expected.at(point)
 
     checks: list[Check] = []
     run_failures: list[RunFailure] = []
     curves: list[Curves | None] = []
     not_applied: list[NotApplied] = []
+    overviews: dict[str, Overview | None] = {}
     with closing(measure_points(path, points, measure_all, time_limit, meanwhile)) as finished:
         for one in finished:
             point = one.item
@@ -173,6 +184,7 @@ def _validation(
                 run_failures.append(RunFailure.of(path, point, one.error))
                 continue
             values = expected.at(point)
+            judged: list[tuple[Check, Measurement, object]] = []
             for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
                 if not measured.applicable:
                     place = (point.scene.name, expect.quantity, measured.note, point.at)
@@ -182,6 +194,9 @@ def _validation(
                 else:
                     checks.append(compare(Comparison.of(expect), measured, value, point))
                     curves.append(curves_of(checks[-1], measured, value))
+                    judged.append((checks[-1], measured, value))
+            if point.scene.name not in overviews:
+                overviews[point.scene.name] = overview_of(judged)
     return Validation(
         str(path),
         tuple(checks),
@@ -190,7 +205,14 @@ def _validation(
         tuple(curve for curve in curves if curve is not None),
         lacking(path),
         tuple(not_applied),
+        identity,
+        tuple(overview for overview in overviews.values() if overview is not None),
     )
+
+
+def provenance_of_all(validations: Sequence[Validation]) -> Provenance:
+    """Return the provenance of the verdicts on some FMUs."""
+    return provenance_of(*(v.identity or identity_of(v.fmu) for v in validations))
 
 
 def curves_of(check: Check, measured: Measurement, expected: Any) -> Curves | None:

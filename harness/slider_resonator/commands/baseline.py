@@ -32,7 +32,7 @@ dir_option = click.option(
 limited = time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep.")
 
 
-@click.group("baseline")
+@click.group("baseline", short_help="Compare an FMU with its own earlier results.")
 def baseline_command() -> None:
     """Keep an FMU's results under version control and compare with them.
 
@@ -83,7 +83,7 @@ def record_command(
     context.exit(2 if run_failures else 0)
 
 
-@baseline_command.command("check")
+@baseline_command.command("check", short_help="Compare an FMU with the recorded results.")
 @fmu_argument
 @dir_option
 @scenes_option("all recorded")

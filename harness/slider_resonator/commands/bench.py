@@ -7,18 +7,24 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import default_fmu, json_option, time_limit_option
+from slider_resonator.commands.options import (
+    default_fmu,
+    json_option,
+    other_fmu_argument,
+    time_limit_option,
+)
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
 
-@click.command("bench")
-@click.argument("fmu", type=click.Path(path_type=Path), required=False)
+@click.command("bench", short_help="Measure what a step costs in a C host.")
+@other_fmu_argument("the native one in dist")
 @click.option(
     "--repeats",
     type=click.IntRange(min=1),
@@ -39,13 +45,15 @@ def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bo
       slider-resonator bench
       slider-resonator bench my.fmu --repeats 11 --json
     """
-    with progress_bar() as progress, open_fmu(default_fmu(fmu)) as opened:
+    path = default_fmu(fmu)
+    provenance = provenance_of(path)
+    with progress_bar() as progress, open_fmu(path) as opened:
         if not opened.runs_without_python:
             raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host lacks")
         costs = measure_steps(opened.path, repeats, progress, time_limit)
     ratio = short_step_ratio(costs)
     if as_json:
-        print_json({"c_host": costs, "short_step_ratio": ratio})
+        print_json({"c_host": costs, "short_step_ratio": ratio}, provenance)
         return
     print_table(_table(costs))
     print_text(f"A period costs {ratio:.2f} times as much in steps of one as in long steps.")

@@ -10,10 +10,15 @@ import click
 from slider_resonator.commands.options import SettingsCommand
 from slider_resonator.commands.searching import print_search_result, search_arguments
 from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.steady.blocking_force import find_blocking
 
 
-@click.command("blocking", cls=SettingsCommand)
+@click.command(
+    "blocking",
+    short_help="Find the load that stops an FMU, without a long run.",
+    cls=SettingsCommand,
+)
 @search_arguments
 @click.pass_context
 def blocking_command(
@@ -36,8 +41,10 @@ def blocking_command(
       slider-resonator blocking my.fmu --set phase=0.4 friction_faces=1 --json
       slider-resonator blocking my.fmu --set friction_law=1 bristle_stiffness=1e4
     """
+    provenance = provenance_of(fmu)
     search = partial(find_blocking, values=settings, max_denominator=max_denominator)
     with IsolatedFmu(fmu, time_limit) as isolated:
         blocking = isolated.run(search)
-    code = print_search_result(blocking, "blocking force", blocking.blocking_force, "N", as_json)
+    found = blocking.blocking_force
+    code = print_search_result(blocking, "blocking force", found, "N", as_json, provenance)
     context.exit(code)

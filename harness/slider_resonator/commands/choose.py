@@ -17,6 +17,7 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene import find_scene, read_scene
 from slider_resonator.studies.choose import Choice, choose
@@ -33,7 +34,11 @@ UNITS = {
 }
 
 
-@click.command("choose", cls=SettingsCommand)
+@click.command(
+    "choose",
+    short_help="Choose the cheapest model that meets a scene's needs.",
+    cls=SettingsCommand,
+)
 @click.argument("scene")
 @fmu_option
 @set_option
@@ -66,9 +71,11 @@ def choose_command(
     """
     check_left_to_choose(settings)
     read = read_scene(find_scene(scene), settings)
-    choice = choose(read, default_fmu(fmu), time_limit)
+    path = default_fmu(fmu)
+    provenance = provenance_of(path)
+    choice = choose(read, path, time_limit)
     if as_json:
-        print_json(choice)
+        print_json(choice, provenance)
     else:
         _print(choice)
     context.exit(0 if choice.meets else 1)

@@ -15,6 +15,7 @@ from slider_resonator.commands.results import print_json, print_table, print_tex
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
@@ -46,7 +47,7 @@ AGREEMENT_COLUMNS = (
 )
 
 
-@click.command("closed-loop")
+@click.command("closed-loop", short_help="Hold the slider's velocity with a controller.")
 @click.argument("package", type=click.Path(path_type=Path), required=False)
 @out_folder_option("closed_loop.png and closed_loop.csv")
 @click.option(
@@ -85,6 +86,7 @@ def closed_loop_command(
         raise HarnessError(f"{package}: no such file")
     check_unpacked_size(package)
     make_folder(out)
+    provenance = provenance_of(package)
     held: list[IntervalResult] = []
     agreements: list[Agreement] = []
     records: list[LoopRecord] = []
@@ -105,7 +107,7 @@ def closed_loop_command(
     passed = all(h.passed for h in held) and all(a.passed for a in agreements)
     if as_json:
         facts = {"passed": passed, "package": str(package), "duty": duty}
-        print_json({**facts, "held": held, "agreements": agreements})
+        print_json({**facts, "held": held, "agreements": agreements}, provenance)
     else:
         _print(held, agreements)
         print_text(f"written  {one_line(f'{out}/closed_loop.png, {out}/closed_loop.csv')}")

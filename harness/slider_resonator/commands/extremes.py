@@ -13,9 +13,11 @@ from slider_resonator.commands.options import (
     fmus_argument,
     json_option,
     out_folder_option,
+    time_limit_option,
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, progress_bar
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
@@ -25,22 +27,16 @@ from slider_resonator.trials.extremes.run import TIME_LIMIT, Matrix, run_matrix
 from slider_resonator.trials.extremes.verdict import PASSED
 
 
-@click.command("extremes")
+@click.command("extremes", short_help="Run FMUs at the extremes of every parameter and input.")
 @fmus_argument
 @out_folder_option("extremes.json, extremes.md and a picture for each FMU")
-@click.option(
-    "--limit",
-    type=click.FloatRange(min=0.0, min_open=True),
-    default=TIME_LIMIT,
-    show_default=True,
-    help="Time limit in s for a cell; one that hangs fails.",
-)
+@time_limit_option(TIME_LIMIT, "For each cell; one that hangs fails.", "--limit")
 @click.option(
     "--long",
     is_flag=True,
     help="Lengthen resolved runs from 1e5 to 1e8 drive periods, with LuGre friction from 1e3 to "
-    "1e6: minutes each in the native FMU, so give slower ones a --limit. Averaged motion always "
-    "has 1e8.",
+    "1e6: minutes each in the native FMU, so give slower ones a --time-limit. Averaged motion "
+    "always has 1e8.",
 )
 @json_option
 @click.pass_context
@@ -48,7 +44,7 @@ def extremes_command(
     context: click.Context,
     fmus: tuple[Path, ...],
     out: Path,
-    limit: float,
+    time_limit: float,
     long: bool,
     as_json: bool,
 ) -> None:
@@ -70,17 +66,19 @@ def extremes_command(
             pass
     make_folder(out)
     cells = all_cells(long=long)
+    provenance = provenance_of(*chosen)
     matrices: list[Matrix] = []
 
     def keep(matrix: Matrix) -> None:
         matrices.append(matrix)
-        write_matrices(matrices, out)
+        write_matrices(matrices, out, provenance)
 
     with noting_on_interrupt(partial(_kept, matrices, out)), progress_bar() as progress:
         for fmu in chosen:
-            keep(run_matrix(fmu, cells, progress, limit, keep))
+            keep(run_matrix(fmu, cells, progress, time_limit, keep))
     lines = [*map(_sentences, matrices), f"written {one_line(str(out))}"]
-    print_result(as_plain(matrices), "\n".join(lines), as_json=as_json)
+    text = "\n".join(lines)
+    print_result(as_plain(matrices), text, as_json=as_json, provenance=provenance)
     context.exit(0 if all(matrix.passed for matrix in matrices) else 1)
 
 

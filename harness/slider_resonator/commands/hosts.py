@@ -11,6 +11,7 @@ from slider_resonator.commands.options import Target, json_option, time_limit_op
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import check_unpacked_size
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.table import Table, texts, verdict
 from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
@@ -22,7 +23,7 @@ NATIVE_3 = Path("dist/SliderResonator3.fmu")
 NAMES = [host.name for host in hosts()]
 
 
-@click.command("hosts")
+@click.command("hosts", short_help="Run table 1 in other simulators; compare with fmpy.")
 @click.argument(
     "native", type=click.Path(path_type=Path, exists=True, dir_okay=False), default=NATIVE
 )
@@ -96,6 +97,7 @@ def hosts_command(
     for fmu in (native, python_fmu):
         check_unpacked_size(fmu)
     selected = [host for host in selected if host not in missing]
+    provenance = provenance_of(native, python_fmu)
     results: list[HostResult] = []
     with progress_bar() as progress:
         for index, host in enumerate(selected):
@@ -106,7 +108,7 @@ def hosts_command(
     if out is not None:
         write_table(out, host_table(results))
     if as_json:
-        print_json([_entry(result) for result in results])
+        print_json([_entry(result) for result in results], provenance)
     else:
         _print(results)
     context.exit(0 if all(result.passed for result in results) else 1)

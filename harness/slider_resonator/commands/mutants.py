@@ -8,13 +8,16 @@ import click
 
 from slider_resonator.commands.options import (
     Target,
+    jobs_option,
     json_option,
+    other_fmu_argument,
     scenes_option,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import output, progress_bar
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene import files_of_scenes
@@ -50,8 +53,8 @@ MIN_NATIVE_RATE = 0.97
 """Share of the hand-written faults that a scene can see that must be rejected for a pass."""
 
 
-@click.command("mutants")
-@click.argument("fmu", type=click.Path(path_type=Path), required=False)
+@click.command("mutants", short_help="Make faulty FMUs and count those that validate rejects.")
+@other_fmu_argument("the one in dist for the kind of mutant")
 @click.option(
     "--native",
     is_flag=True,
@@ -88,7 +91,7 @@ MIN_NATIVE_RATE = 0.97
     show_default=True,
     help="Random scenes that show whether a survivor changes a result.",
 )
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
+@jobs_option
 @time_limit_option(
     TIME_LIMIT,
     "For a mutant and each scene, or point of a sweep; a mutant that exceeds it is rejected.",
@@ -154,6 +157,7 @@ def mutants_command(
         )
     path = fmu or finished_path(FMUS["python"], COMMANDS_LOOK_IN)
     distinct({"--html": html}, {f"the FMU {path}": path})
+    provenance = provenance_of(path)
     original = read_python_fmu(path)
     made = [m for m in fmu_mutants(original, files) if not kinds or m.kind in kinds]
     chosen = made if count is None else sample(made, count, seed)
@@ -180,9 +184,9 @@ def mutants_command(
             progress=progress,
         )
     if html is not None:
-        write_mutants(html, run)
+        write_mutants(html, run, provenance)
     if as_json:
-        print_json(run_as_plain(run))
+        print_json(run_as_plain(run), provenance)
     else:
         print_run(output(), run)
     context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)
@@ -216,6 +220,7 @@ def _native(
         else:
             print_changes(output(), changes)
         return 0
+    provenance = provenance_of(path)
     with progress_bar() as progress:
         run = run_changes(
             path,
@@ -226,7 +231,7 @@ def _native(
             progress=progress,
         )
     if as_json:
-        print_json(native_run_as_plain(run))
+        print_json(native_run_as_plain(run), provenance)
     else:
         print_native_run(output(), run)
     enough = run.rate is None or run.rate >= MIN_NATIVE_RATE

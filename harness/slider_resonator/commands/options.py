@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from functools import partial, wraps
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -114,9 +116,88 @@ def check_left_to_choose(settings: Mapping[str, float]) -> None:
         )
 
 
-fmu_argument = click.argument("fmu", type=click.Path(path_type=Path))
+class Renamed(click.Option):
+    """An option whose help shows its first name only; the others are those that it once had."""
 
-fmus_argument = click.argument("fmus", type=click.Path(path_type=Path), nargs=-1)
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        """Return the help with the first name."""
+        shown = copy(self)
+        shown.opts = self.opts[:1]
+        return super(Renamed, shown).get_help_record(ctx)
+
+
+def fmu_argument(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add an FMU as an argument or as the option --fmu; the command gets it as `fmu`."""
+    return _fmu_argument(command, _must_be_given, "")
+
+
+def other_fmu_argument(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return what adds an FMU as `fmu_argument`, or None; `default` is the text about that."""
+    return partial(_fmu_argument, chosen=lambda given: given, default=default)
+
+
+def _must_be_given(fmu: Path | None) -> Path:
+    if fmu is None:
+        raise click.UsageError("Missing argument 'FMU'.")
+    return fmu
+
+
+def _fmu_argument(
+    command: Callable[..., Any], chosen: Callable[[Path | None], Path | None], default: str
+) -> Callable[..., Any]:
+    @wraps(command)
+    def with_fmu(fmu: Path | None, fmu_given: Path | None, **others: Any) -> Any:
+        scene = others.get("scene", "")
+        if scene is None:  # one argument is the scene
+            fmu, others["scene"] = None, _scene_alone(fmu)
+        if fmu is not None and fmu_given is not None:
+            raise click.UsageError(f"{fmu} and --fmu {fmu_given}: must be one FMU")
+        return command(fmu=chosen(fmu or fmu_given), **others)
+
+    file = click.Path(path_type=Path)
+    argument = click.argument("fmu", type=file, required=False)
+    option = click.option(
+        "--fmu",
+        "fmu_given",
+        type=file,
+        help="The FMU, instead of as an argument." + (f"  [default: {default}]" if default else ""),
+    )
+    return argument(option(with_fmu))
+
+
+def _scene_alone(argument: Path | None) -> str:
+    if argument is None or argument.suffix == ".fmu":
+        raise click.UsageError("Missing argument 'SCENE'.")
+    return str(argument)
+
+
+def fmus_argument(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add any number of FMUs as arguments or as options --fmu; the command gets them as `fmus`."""
+
+    @wraps(command)
+    def with_fmus(fmus: tuple[Path, ...], fmus_given: tuple[Path, ...], **others: Any) -> Any:
+        return command(fmus=fmus + fmus_given, **others)
+
+    file = click.Path(path_type=Path)
+    argument = click.argument("fmus", type=file, nargs=-1)
+    option = click.option(
+        "--fmu",
+        "fmus_given",
+        type=file,
+        multiple=True,
+        help="An FMU, instead of as an argument. Repeatable.",
+    )
+    return argument(option(with_fmus))
+
+
+jobs_option = click.option(
+    "--jobs",
+    "--workers",
+    "jobs",
+    cls=Renamed,
+    type=click.IntRange(min=1),
+    help="Processes.  [default: one per core]",
+)
 
 fmu_option = click.option(
     "--fmu",
@@ -167,10 +248,13 @@ def scenes_option(default: str) -> Callable[[FC], FC]:
     )
 
 
-def time_limit_option(default: float, help_text: str) -> Callable[[FC], FC]:
-    """Return the option --time-limit (s)."""
+def time_limit_option(default: float, help_text: str, *aliases: str) -> Callable[[FC], FC]:
+    """Return the option --time-limit (s); `aliases` are names that it once had."""
     return click.option(
         "--time-limit",
+        *aliases,
+        "time_limit",
+        cls=Renamed,
         type=click.FloatRange(min=0.0, min_open=True),
         default=default,
         show_default=True,

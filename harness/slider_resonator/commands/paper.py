@@ -14,13 +14,14 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.paper.listing import verdicts
 from slider_resonator.studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce
 
 
-@click.command("paper")
+@click.command("paper", short_help="Reproduce the figures and statements of the paper.")
 @out_folder_option("figures, tables and claims")
 @click.option(
     "--only",
@@ -42,19 +43,21 @@ def paper_command(
 ) -> None:
     """Reproduce the paper: its figures, three more, and a verdict on each of its statements.
 
-    Write figures as PNG and SVG with captions in FIGURES.md, tables of LuGre friction as JSON and
-    in TABLES.md, and claims.md and claims.json. Exit code: 0, 1 when a known verdict on a statement
-    is not confirmed or a table deviates, 2 when the FMU could not run, crashed or exceeded the time
-    limit; what is finished by then is kept.
+    Write index.html with all of them, figures as PNG and SVG with captions in FIGURES.md, tables of
+    LuGre friction as JSON and in TABLES.md, and claims.md and claims.json. Exit code: 0, 1 when a
+    known verdict on a statement is not confirmed or a table deviates, 2 when the FMU could not run,
+    crashed or exceeded the time limit; what is finished by then is kept.
 
     \b
     Examples:
       slider-resonator paper --out paper
       slider-resonator paper --out paper --only figure_8 --only claims --json
     """
+    path = default_fmu(fmu)
+    provenance = provenance_of(path)
     with progress_bar() as progress:
-        outcome = reproduce(default_fmu(fmu), out, only, progress, time_limit)
-    print_result(outcome, _sentences(outcome), as_json=as_json)
+        outcome = reproduce(path, out, only, progress, time_limit)
+    print_result(outcome, _sentences(outcome), as_json=as_json, provenance=provenance)
     context.exit(0 if outcome.confirmed else 1)
 
 

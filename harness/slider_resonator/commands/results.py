@@ -6,23 +6,26 @@ from typing import Any
 
 import click
 
+from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.output.console import output
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Table
 from slider_resonator.output.terminal import escaped, rendered
 
 
-def print_result(result: Any, text: str, *, as_json: bool) -> None:
-    """Print the result as JSON or as text."""
+def print_result(
+    result: Any, text: str, *, as_json: bool, provenance: Provenance | None = None
+) -> None:
+    """Print the result as JSON, with its provenance, or as text."""
     if as_json:
-        print_json(result)
+        print_json(result, provenance)
     else:
         print_text(text)
 
 
-def print_json(result: Any) -> None:
-    """Print the result as one JSON document."""
-    click.echo(to_json(result))
+def print_json(result: Any, provenance: Provenance | None = None) -> None:
+    """Print the result, and its provenance if it has one, as one JSON document."""
+    click.echo(to_json(result, provenance))
 
 
 def print_text(text: str, *, err: bool = False) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from slider_resonator.commands.drawing import Overlay, Window, check_drawing, draw_signals
 from slider_resonator.commands.options import (
     SettingsCommand,
     Target,
@@ -22,6 +23,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
 from slider_resonator.fmu.run import run
@@ -60,14 +62,32 @@ class RunSummary:
     auto: Choice | None
 
 
-@click.command("run", cls=SettingsCommand)
+@click.command("run", short_help="Run one scene and report results and cost.", cls=SettingsCommand)
 @fmu_argument
-@click.argument("scene")
+@click.argument("scene", required=False)
 @click.option("--out", type=Target(), help="CSV file of the run.")
 @click.option(
     "--plot",
     type=Target(PICTURE_SUFFIXES),
     help="PNG, SVG or PDF of the run, drawn from a second run with finer steps at the end.",
+)
+@click.option(
+    "--signals",
+    metavar="NAME,...",
+    help="With --plot: the outputs and inputs to draw, a panel each, in place of the usual panels.",
+)
+@click.option(
+    "--window",
+    type=Window(),
+    help="With --plot: the time to draw, in s, in steps fine enough to be smooth.",
+)
+@click.option(
+    "--overlay",
+    "overlays",
+    type=Overlay(),
+    multiple=True,
+    help="With --plot: draw a further run, with a setting such as fidelity=1 or of another FMU. "
+    "Repeatable.",
 )
 @click.option(
     "--auto",
@@ -85,6 +105,9 @@ def run_command(
     scene: str,
     out: Path | None,
     plot: Path | None,
+    signals: str | None,
+    window: tuple[float, float] | None,
+    overlays: tuple[tuple[str, float] | Path, ...],
     auto: bool,
     settings: dict[str, float],
     time_limit: float,
@@ -100,14 +123,22 @@ def run_command(
     Examples:
       slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
       slider-resonator run my.fmu feed_forward --auto
+      slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
     read = read_scene(find_scene(scene), settings)
     files = {f"the scene's file {file}": file for file in read.files}
-    distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **files})
+    others = {f"the FMU {one}": one for one in overlays if isinstance(one, Path)}
+    distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **others, **files})
+    names = tuple(name.strip() for name in signals.split(",")) if signals is not None else ()
+    chosen = bool(signals is not None or window or overlays)
+    if chosen and plot is None:
+        raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto:
         check_left_to_choose(settings)
-    choice = None
+    choice, provenance = None, provenance_of(fmu, *others.values())
+    if chosen:
+        check_drawing(read, names, window)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
             from slider_resonator.studies.choose.choosing import (
@@ -117,7 +148,8 @@ def run_command(
             read.schedule()
             choice = isolated.run(partial(choose_with, scene=read))
             if not choice.meets:
-                print_result(choice, "\n".join(choice.sentences()), as_json=as_json)
+                text = "\n".join(choice.sentences())
+                print_result(choice, text, as_json=as_json, provenance=provenance)
                 context.exit(1)
             read = choice.applied_to(read)
 
@@ -129,13 +161,15 @@ def run_command(
         record = run_in(read.schedule())
         if out is not None:
             write_csv(record, out)
-        if plot is not None:
+        if plot is not None and chosen:
+            draw_signals(isolated, fmu, read, names, window, overlays, plot, time_limit)
+        elif plot is not None:
             # Imported here: drawing takes longer to load than the rest to run.
             from slider_resonator.scenes.run_plot import plot_run, schedule_to_plot
 
             plot_run(run_in(schedule_to_plot(read)), read, plot)
     summary = _summary(fmu, read, record, out, plot, choice)
-    print_result(summary, _sentences(summary, read), as_json=as_json)
+    print_result(summary, _sentences(summary, read), as_json=as_json, provenance=provenance)
 
 
 def _summary(
@@ -177,11 +211,20 @@ def _sentences(summary: RunSummary, scene: Scene) -> str:
         f"{summary.communication_steps} communication steps",
         f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
         f"period {readable(summary.mean_velocity, 9)} m/s",
-        f"contact  {summary.reversals} reversals, sticking {summary.stick_fraction:.1%} of the "
-        f"last drive period, last event at {summary.last_event_time:.9g} s",
+        *_contact(summary, scene),
         f"cost     {summary.wall_time:.3g} s of wall time, "
         f"{summary.wall_time_per_simulated_time:.3g} per simulated second, "
         f"{summary.microseconds_per_drive_period:.3g} us per drive period",
     ]
     lines += [f"written  {one_line(file)}" for file in (summary.out, summary.plot) if file]
     return "\n".join(lines)
+
+
+def _contact(summary: RunSummary, scene: Scene) -> list[str]:
+    """Return the line about contact; averaged motion has no events to count."""
+    if scene.device.fidelity == 0:
+        return []
+    return [
+        f"contact  {summary.reversals} reversals, sticking {summary.stick_fraction:.1%} of the "
+        f"last drive period, last event at {summary.last_event_time:.9g} s"
+    ]

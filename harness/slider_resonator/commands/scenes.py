@@ -1,47 +1,99 @@
-"""`scenes`: list the built-in scenes and the vocabulary of scene files."""
+"""`scenes`: list the built-in scenes; template, check, schema and page of scene files."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
+from typing import Any
+
 import click
 
-from slider_resonator.commands.options import json_option
+from slider_resonator.commands.options import Target, json_option
 from slider_resonator.commands.results import print_json, print_table
+from slider_resonator.output.atomic import write_text
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.scenes.scene import built_in_scenes, read_scene
+from slider_resonator.output.terminal import escaped
+from slider_resonator.scenes.json_schema import scene_schema
+from slider_resonator.scenes.page import example_text, scene_page
+from slider_resonator.scenes.scene import (
+    Scene,
+    built_in_scenes,
+    find_scene,
+    read_scene,
+    scene_files,
+)
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
-@click.command("scenes")
+@click.command("scenes", short_help="List the built-in scenes; help to write your own.")
 @click.option("--quantities", is_flag=True, help="List the quantities that a scene can check.")
+@click.option("--show", metavar="NAME|FILE", help="Print the text of a scene.")
+@click.option("--template", is_flag=True, help="Print a commented scene to start from.")
+@click.option(
+    "--check", metavar="NAME|FILE|DIR", help="Check whether scenes are valid; nothing is run."
+)
+@click.option("--schema", is_flag=True, help="Print the JSON schema of scenes, for editors.")
+@click.option(
+    "--page",
+    type=Target((".md",)),
+    help="Write the page about scene files, docs/scenes.md, from the schema.",
+)
 @json_option
-def scenes_command(quantities: bool, as_json: bool) -> None:
-    """List the built-in scenes, or the quantities and references for your own scenes.
+def scenes_command(as_json: bool, **chosen: Any) -> None:
+    """List the built-in scenes, or help to write your own.
 
-    The command run takes scenes with a length, in simulated seconds; validate takes all.
+    The command run takes scenes with a length, in simulated seconds; validate takes all. Every
+    key of a scene file is in docs/scenes.md.
 
     \b
     The tables of a scene file, of which only name and title are needed:
       name, title, description
       [device]    parameters that differ from table 1
-      [inputs]    phase, load, frequency_ratio: a number, { steps }, { ramp } or { csv }
-      [tuning]    tunable parameters that change in the run, given as inputs are
+      [inputs]    phase, load, frequency_ratio: a number, steps, ramp or csv
+      [tuning]    tunable parameters that change in the run, as inputs do
       [beside]    device and inputs of a second instance
-      [run]       stop_time or drive_periods; step_size, steps_per_period or step_sizes;
-                  start_time; read_twice: also after values change, before the step
-      [[expect]]  quantity; reference, value, at_most or at_least; relative, absolute, tube; why
+      [run]       stop_time or drive_periods; step_size,
+                  steps_per_period or step_sizes; start_time, read_twice
+      [[expect]]  quantity; reference, value, at_most or at_least;
+                  relative, absolute, tube; why
       [sweep]     variable, values
       [need]      accuracy that the command choose meets
 
     \b
     Examples:
       slider-resonator scenes
-      slider-resonator scenes --json
-      slider-resonator scenes --quantities
+      slider-resonator scenes --template > my_step.toml
+      slider-resonator scenes --check my_step.toml
+      slider-resonator scenes --show table_1
+      slider-resonator scenes --schema > scene.schema.json
+      slider-resonator scenes --quantities --json
     """
-    if quantities:
+    given = [name for name, value in chosen.items() if value]
+    if len(given) > 1:
+        raise click.UsageError(f"{' and '.join(f'--{name}' for name in given)}: must be only one")
+    if as_json and given not in ([], ["quantities"]):
+        raise click.UsageError(f"--json does not go with --{given[0]}")
+    if chosen["show"]:
+        text = find_scene(chosen["show"]).read_text(encoding="utf-8", errors="replace")
+        click.echo(escaped(text), nl=False)
+    elif chosen["template"]:
+        click.echo(example_text("template.toml"), nl=False)
+    elif chosen["check"]:
+        _check(chosen["check"])
+    elif chosen["schema"]:
+        click.echo(json.dumps(scene_schema(), indent=2))
+    elif chosen["page"]:
+        write_text(chosen["page"], scene_page())
+    elif chosen["quantities"]:
         _list_quantities(as_json)
     else:
         _list_scenes(as_json)
+
+
+def _check(scene: str) -> None:
+    for path in scene_files(scene):
+        checks = sum(len(point.scene.expect) for point in read_scene(path).points())
+        click.echo(escaped(f"{path}: valid, {checks} checks"))
 
 
 def _list_quantities(as_json: bool) -> None:
@@ -59,11 +111,16 @@ def _list_quantities(as_json: bool) -> None:
         ]
         print_json(rows)
         return
+    print_table(quantities_table())
+
+
+def quantities_table() -> Table:
+    """Return a line for each quantity that scenes can expect."""
     cells = [
         (name, q.kind, q.unit, q.meaning, ", ".join(q.references) or "-")
         for name, q in QUANTITIES.items()
     ]
-    print_table(Table(texts("quantity", "kind", "unit", "meaning", "references"), cells))
+    return Table(texts("quantity", "kind", "unit", "meaning", "references"), cells)
 
 
 def _list_scenes(as_json: bool) -> None:
@@ -82,10 +139,15 @@ def _list_scenes(as_json: bool) -> None:
         ]
         print_json(rows)
         return
+    print_table(scenes_table(scenes))
+
+
+def scenes_table(scenes: Sequence[Scene]) -> Table:
+    """Return a line for each scene: its title, length, points and checks."""
     cells = []
     for scene in scenes:
         points = len(scene.sweep.values) if scene.sweep else 1
         length = "-" if scene.stop_time is None else f"{scene.stop_time:.3g} s"
         checks = str(points * len(scene.expect))
         cells.append((scene.name, scene.title, length, str(points), checks))
-    print_table(Table([*texts("scene", "title"), *numbers("run", "points", "checks")], cells))
+    return Table([*texts("scene", "title"), *numbers("run", "points", "checks")], cells)

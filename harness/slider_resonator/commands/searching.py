@@ -14,6 +14,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.output.readable import readable
 from slider_resonator.output.terminal import one_line
 from slider_resonator.steady.search_result import SearchResult
@@ -28,10 +29,16 @@ def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def print_search_result(
-    result: SearchResult, what: str, value: float | None, unit: str, as_json: bool
+    result: SearchResult,
+    what: str,
+    value: float | None,
+    unit: str,
+    as_json: bool,
+    provenance: Provenance,
 ) -> int:
     """Print the result of a search and return the exit code, 1 when there is no value."""
-    print_result(result, _sentences(result, what, value, unit), as_json=as_json)
+    text = _sentences(result, what, value, unit)
+    print_result(result, text, as_json=as_json, provenance=provenance)
     return 1 if value is None else 0
 
 

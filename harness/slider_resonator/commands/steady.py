@@ -10,10 +10,15 @@ import click
 from slider_resonator.commands.options import SettingsCommand
 from slider_resonator.commands.searching import print_search_result, search_arguments
 from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.steady.steady_velocity import find_steady
 
 
-@click.command("steady", cls=SettingsCommand)
+@click.command(
+    "steady",
+    short_help="Find the steady velocity of an FMU, without a long run.",
+    cls=SettingsCommand,
+)
 @search_arguments
 @click.pass_context
 def steady_command(
@@ -39,8 +44,10 @@ def steady_command(
       slider-resonator steady my.fmu --set friction_law=1 bristle_stiffness=1e6 tolerance=1e-12
       slider-resonator steady my.fmu --set frequency_ratio=1.37 --max-denominator 100
     """
+    provenance = provenance_of(fmu)
     search = partial(find_steady, values=settings, max_denominator=max_denominator)
     with IsolatedFmu(fmu, time_limit) as isolated:
         motion = isolated.run(search)
-    code = print_search_result(motion, "steady velocity", motion.steady_velocity, "m/s", as_json)
+    found = motion.steady_velocity
+    code = print_search_result(motion, "steady velocity", found, "m/s", as_json, provenance)
     context.exit(code)

@@ -10,10 +10,12 @@ from slider_resonator.commands.options import (
     Target,
     default_fmu,
     fmu_option,
+    jobs_option,
     json_option,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result, print_text
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
@@ -25,12 +27,13 @@ from slider_resonator.studies.sweep.table import SUFFIXES
 from slider_resonator.studies.sweep.worker import TIME_LIMIT
 
 
-@click.command("sweep")
+@click.command("sweep", short_help="Compute measures over a grid of parameters and inputs.")
 @click.argument("grid", type=click.Path(path_type=Path))
 @click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
+@click.option("--html", type=Target([".html"]), help="One page with plots to point at.")
 @fmu_option
-@click.option("--workers", type=click.IntRange(min=1), help="Processes.  [default: one per core]")
+@jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
 @click.option("--restart", is_flag=True, help="Discard the points of an earlier attempt.")
 @click.option("--overwrite", is_flag=True, help="Replace the table of another grid.")
@@ -42,8 +45,9 @@ def sweep_command(
     grid: Path,
     out: Path,
     plot: Path | None,
+    html: Path | None,
     fmu: Path | None,
-    workers: int | None,
+    jobs: int | None,
     dask: str | None,
     restart: bool,
     overwrite: bool,
@@ -74,23 +78,30 @@ def sweep_command(
     \b
     Examples:
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
-      slider-resonator sweep grid.toml --out table.csv --workers 4
+      slider-resonator sweep grid.toml --out table.csv --jobs 4
+      slider-resonator sweep grid.toml --out table.csv --html sweep.html
       slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
-    distinct({"--out": out, "--plot": plot}, sources)
+    distinct({"--out": out, "--plot": plot, "--html": html}, sources)
     sweep = read_grid(grid)
     if plot is not None:
         # Imported here: drawing takes longer to load than many sweeps to run.
         from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
 
-        check_picture(sweep)
+        check_picture(sweep, "--plot")
+    if html is not None:
+        from slider_resonator.studies.sweep.page import check_page, write_sweep_page
+
+        check_page(sweep, "--html")
+    path = default_fmu(fmu)
+    provenance = provenance_of(path)
     with progress_bar() as progress:
         result = run_sweep(
             sweep,
-            default_fmu(fmu),
+            path,
             out,
-            workers=workers or available_cores(),
+            workers=jobs or available_cores(),
             dask=dask,
             restart=restart,
             overwrite=overwrite,
@@ -99,6 +110,8 @@ def sweep_command(
         )
     if plot is not None:
         draw_sweep(sweep, result.columns, plot)
+    if html is not None:
+        write_sweep_page(html, sweep, result.columns, provenance)
     for line in result.damaged:
         print_text(
             f"{journal_path(out)} line {line}: damaged; its point was computed again", err=True
@@ -106,7 +119,7 @@ def sweep_command(
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
     facts["unanswered"] = result.unanswered
     document = {"out": str(out), **facts, "first_error": result.first_error}
-    print_result(document, _sentences(result, out), as_json=as_json)
+    print_result(document, _sentences(result, out), as_json=as_json, provenance=provenance)
     context.exit(1 if result.failed else 0)
 
 

@@ -18,6 +18,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
 from slider_resonator.output.terminal import one_line
@@ -35,7 +36,7 @@ TIME_LIMIT = 600.0
 """Default time limit of a run or a search of an FMU, s."""
 
 
-@click.command("trade")
+@click.command("trade", short_help="Measure error and cost of every model and peer method.")
 @click.argument("scenes", nargs=-1)
 @out_folder_option("trade.csv, omissions.csv and index.html")
 @click.option(
@@ -107,11 +108,13 @@ def trade_command(
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
     problems = _problems(scenes or ("table_1",), periods)
+    paths = fmus or default_fmus()
+    provenance = provenance_of(*paths)
     trades: list[Trade] = []
     with ExitStack() as stack:
         progress = stack.enter_context(progress_bar())
         instances = {}
-        for path in fmus or default_fmus():
+        for path in paths:
             fmu = stack.enter_context(IsolatedFmu(path, time_limit))
             build = "native" if fmu.runs_without_python else "Python"
             instances[build if build not in instances else f"{build} {path.name}"] = fmu
@@ -124,13 +127,13 @@ def trade_command(
             # After each scene, so that a later failure does not lose minutes of measurement.
             write_rows(out / "trade.csv", trades)
             write_omissions(out / "omissions.csv", trades)
-            write_trades(out / "index.html", trades)
+            write_trades(out / "index.html", trades, provenance)
     if picture is not None:
         draw_picture(trades[0], picture)
     for page in pages:
         write_choices(page, trades)
     if as_json:
-        print_json([_entry(trade) for trade in trades])
+        print_json([_entry(trade) for trade in trades], provenance)
     else:
         for trade in trades:
             _print(trade)

@@ -21,7 +21,7 @@ from slider_resonator.output.console import progress_bar
 from slider_resonator.scenes.scene import files_of_scenes
 
 
-@click.command("validate")
+@click.command("validate", short_help="Compare FMUs with the references, scene by scene.")
 @fmus_argument
 @scenes_option("all built-in")
 @click.option(

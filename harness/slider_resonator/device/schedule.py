@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,11 +27,13 @@ class Signal:
     """An input over time, given by points: held from each point to the next, or a polyline.
 
     `times` (s) increase strictly. Before the first and after the last point the value is theirs.
+    `file` is the one that the points were read from: a run that goes beyond them is refused.
     """
 
     times: tuple[float, ...]
     values: tuple[float, ...]
     hold: bool = True
+    file: Path | None = None
 
     def __post_init__(self) -> None:
         if not self.times:
@@ -69,6 +72,16 @@ class Signal:
         share = (inside - points[left]) / (points[left + 1] - points[left])
         between = values[left] + share * (values[left + 1] - values[left])
         return np.where((index < 0) | (index == len(points) - 1), before, between)
+
+    def check_covers(self, stop: float) -> None:
+        """Raise ValueError where a file has no values from 0 to `stop` (s), but for rounding."""
+        slack = GRID_TOLERANCE * stop
+        first, last = self.times[0], self.times[-1]
+        if self.file is not None and (first > slack or last < stop - slack):
+            raise ValueError(
+                f"csv {self.file}: has values from {first:.9g} s to {last:.9g} s, "
+                f"must have them from 0 s to {stop:.9g} s, the end of the run"
+            )
 
     @property
     def jumps(self) -> tuple[float, ...]:

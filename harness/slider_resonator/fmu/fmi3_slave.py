@@ -10,14 +10,16 @@ from collections.abc import Sequence
 from ctypes import byref, c_bool, c_double
 from typing import Any
 
-from fmpy.fmi2 import fmi2Error, fmi2OK
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2Error, fmi2OK, fmi2Warning
 from fmpy.fmi3 import FMU3Slave
 
 
 class Fmi3Slave:
     """Like fmpy's FMU2Slave, as far as the harness uses that; `messages` collects the log.
 
-    Raises Exception, as fmpy does, where the FMU cannot be instantiated.
+    Functions that fail raise FMICallException with the name that FMI 3.0 gives them. Raises
+    Exception, as fmpy does, where the FMU cannot be instantiated.
     """
 
     def __init__(self, slave: FMU3Slave, messages: list[str]) -> None:
@@ -26,7 +28,7 @@ class Fmi3Slave:
         self._experiment: tuple[Any, ...] = (False, 0.0, 0.0, False, 0.0)
         # What a step answers: an event that needs handling, an end, an early return, and the time.
         self._answers = c_bool(), c_bool(), c_bool(), c_double()
-        self._answered = tuple(byref(answer) for answer in self._answers)
+        self._answered: tuple[Any, ...] = tuple(byref(answer) for answer in self._answers)
         slave.instantiate(loggingOn=True, logMessage=self._receive)
 
     def _receive(self, _: object, status: int, category: bytes, message: bytes) -> None:
@@ -43,7 +45,11 @@ class Fmi3Slave:
         return self._slave.component
 
     def _call(self, name: str, *arguments: Any) -> int:
-        return int(getattr(self._slave.dll, name)(self.component, *arguments))
+        """Call a function of FMI 3.0; raises FMICallException with its name."""
+        status = int(getattr(self._slave.dll, name)(self.component, *arguments))
+        if status > fmi2Warning:
+            raise FMICallException(function=name, status=status)
+        return status
 
     def fmi2GetReal(self, _: Any, references: Any, size: int, values: Any) -> int:
         """See FMI 2.0."""
@@ -72,7 +78,7 @@ class Fmi3Slave:
         _event, ended, early, reached = self._answers
         if ended.value or early.value:
             self._messages.append(f"the step to {time + size!r} s ended at {reached.value!r} s")
-            return int(fmi2Error)
+            raise FMICallException(function="fmi3DoStep", status=fmi2Error)
         return status
 
     def fmi2Reset(self, _: Any) -> int:

@@ -9,7 +9,15 @@ from contextlib import contextmanager
 from typing import NoReturn
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TextColumn,
+    TimeElapsedColumn,
+)
+from rich.text import Text
 
 from slider_resonator.output.terminal import one_line
 
@@ -63,13 +71,45 @@ def noting_on_interrupt(note: Callable[[], str]) -> Iterator[None]:
         raise
 
 
+MIN_SHARE = 0.02
+"""Share of the work from which on the time left is estimated."""
+
+
+def counted(label: str, done: int, total: int) -> str:
+    """Return the label of a task with its number, where `done` of them are finished before."""
+    return f"{min(done + 1, total)} of {total}: {label}"
+
+
+def time_left(elapsed: float, share: float) -> str:
+    """Return the time that is left after `elapsed` (s), as if all work were as fast."""
+    if not share >= MIN_SHARE:
+        return ""
+    seconds = round(elapsed * (1.0 / min(share, 1.0) - 1.0))
+    minutes, seconds = divmod(seconds, 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{seconds:02} left" if hours else f"{minutes}:{seconds:02} left"
+
+
+class _TimeLeftColumn(ProgressColumn):
+    """The time left, by the share that is done: tasks are few and long."""
+
+    def render(self, task: Task) -> Text:
+        """Return the estimate, empty at the beginning."""
+        return Text(time_left(task.elapsed or 0.0, task.completed))
+
+
 @contextmanager
 def progress_bar() -> Iterator[Callable[[str, float], None]]:
     """Yield a function that takes the current task and the share of the work done, 0 to 1."""
     if not sys.stderr.isatty():
         yield lambda label, share: None
         return
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
+    columns = (
+        TextColumn("{task.description}", markup=False),
+        BarColumn(bar_width=10),
+        TimeElapsedColumn(),
+        _TimeLeftColumn(),
+    )
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task("", total=1.0)
         yield lambda label, share: progress.update(

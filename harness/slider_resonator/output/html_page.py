@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Sequence
+from hashlib import sha256
 from html import escape
 from pathlib import Path
 
@@ -41,18 +43,33 @@ def folded(summary: str, html: str) -> str:
     return f'<details><summary>{escaped(summary)}</summary><div class="wide">{html}</div></details>'
 
 
-def write_page(path: Path, title: str, parts: Sequence[str]) -> None:
-    """Write a page with a title and parts of HTML; HarnessError when it cannot be written."""
+def write_page(
+    path: Path, title: str, parts: Sequence[str], scripts: Sequence[str] = (), style: str = ""
+) -> None:
+    """Write a page with a title and parts of HTML; HarnessError when it cannot be written.
+
+    It loads nothing, and runs no other scripts than those given.
+    """
+    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'{_allowed(scripts)}"
     page = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width">',
-        f"<title>{escaped(title)}</title><style>{_STYLE}</style></head><body>",
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        '<link rel="icon" href="data:,">',
+        f"<title>{escaped(title)}</title><style>{_STYLE}{style}</style></head><body>",
         f"<h1>{escaped(title)}</h1>",
         *parts,
+        *(f"<script>{script}</script>" for script in scripts),
         "</body></html>",
     ]
     with replacing(path) as temporary:
         temporary.write_text("\n".join(page) + "\n", encoding="utf-8", errors="replace")
+
+
+def _allowed(scripts: Sequence[str]) -> str:
+    """Return the part of a content security policy that allows these scripts."""
+    digests = [base64.b64encode(sha256(script.encode()).digest()).decode() for script in scripts]
+    return "; script-src " + " ".join(f"'sha256-{one}'" for one in digests) if digests else ""
 
 
 def _row(row: Sequence[Cell], columns: Sequence[Column]) -> str:
@@ -68,4 +85,6 @@ def _element(tag: str, cell: Cell, column: Column) -> str:
 
 def _text(cell: Cell) -> str:
     text = escaped(cell.text).replace("\n", "<br>")
+    if cell.target:
+        text = f'<a href="#{escaped(cell.target)}">{text}</a>'
     return text if cell.style is Style.PLAIN else f'<span class="{cell.style.value}">{text}</span>'

@@ -15,32 +15,38 @@ from typing import Any
 SCHEMA_VERSION = 1
 
 
-def to_json(result: Any) -> str:
+def to_json(result: Any, provenance: Any = None) -> str:
     """Return a dataclass, a mapping or a list of them as indented JSON.
 
-    Each object at the top begins with `schema_version`. A complex number becomes [real, imaginary];
-    what is not finite becomes null.
+    Each object at the top begins with `schema_version`, and `provenance` where it is given. A
+    complex number becomes [real, imaginary]; what is not finite becomes null.
     """
-    text = json.dumps(_versioned(_plain(result)), indent=2, allow_nan=False)
+    text = json.dumps(_headed(plain(result), _head(provenance)), indent=2, allow_nan=False)
     # In strings only: GitHub Actions finds commands of this form anywhere in a line of a log.
     return text.replace("##[", "\\u0023#[")
 
 
-def _versioned(document: Any) -> Any:
+def _head(provenance: Any) -> dict[str, Any]:
+    known = {} if provenance is None else {"provenance": plain(provenance)}
+    return {"schema_version": SCHEMA_VERSION, **known}
+
+
+def _headed(document: Any, head: Mapping[str, Any]) -> Any:
     if isinstance(document, list):
-        return [_versioned(entry) for entry in document]
-    return {"schema_version": SCHEMA_VERSION, **document}
+        return [_headed(entry, head) for entry in document]
+    return {**head, **document}
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
+    """Return dataclasses, mappings and lists as JSON has them; what is not finite as None."""
     if is_dataclass(value) and not isinstance(value, type):
-        return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}
+        return {f.name: plain(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, tuple | list):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if isinstance(value, complex):
-        return [_plain(value.real), _plain(value.imag)]
+        return [plain(value.real), plain(value.imag)]
     if isinstance(value, float):
         return float(value) if isfinite(value) else None
     return value

@@ -27,10 +27,14 @@ class Column:
 
 @dataclass(frozen=True)
 class Cell:
-    """A text, which may have several lines, with a style."""
+    """A text, which may have several lines, with a style.
+
+    In a page it is a link to the element whose id is `target`, if any.
+    """
 
     text: str
     style: Style = Style.PLAIN
+    target: str = ""
 
 
 Row = Sequence[str | Cell]

@@ -3,22 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 
-import rich.table
-from rich import box
-from rich.text import Text
-
+from slider_resonator.output.fitting_table import FittingTable
 from slider_resonator.output.printable import printable
-from slider_resonator.output.table import Cell, Style, Table
+from slider_resonator.output.table import Cell, Table
 
-STYLES: Mapping[Style, str] = {
-    Style.PLAIN: "",
-    Style.PASS: "green",
-    Style.FAIL: "bold red",
-    Style.HEADING: "bold",
-    Style.NOTE: "dim",
-}
 _WORKFLOW_COMMAND = re.compile(r"(?<!\S):(?=:)|##(?=\[)")
 """Where GitHub Actions may find a command in a log: `::name::` at the start of a line, which may be
 a wrapped one, and `##[name]` anywhere."""
@@ -39,20 +28,7 @@ def indented(text: str) -> str:
     return "\n  ".join(escaped(text).splitlines())
 
 
-def rendered(table: Table) -> rich.table.Table:
-    """Return the table for rich to print; each row with a heading begins a section."""
-    shown = rich.table.Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    for column in table.columns:
-        if column.numeric:
-            shown.add_column(Text(column.heading), justify="right", no_wrap=True)
-        else:
-            shown.add_column(Text(column.heading), overflow="fold")
-    for row in table.cells:
-        if row[0].style is Style.HEADING:
-            shown.add_section()
-        shown.add_row(*map(_text, row))
-    return shown
-
-
-def _text(cell: Cell) -> Text:
-    return Text(escaped(cell.text), STYLES[cell.style])
+def rendered(table: Table) -> FittingTable:
+    """Return the table for rich to print, escaped; each row with a heading begins a section."""
+    rows = [[Cell(escaped(cell.text), cell.style) for cell in row] for row in table.cells]
+    return FittingTable(Table(table.columns, rows))

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
@@ -41,7 +42,7 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
     gaps = np.diff(record.times[_last_periods(record, period)])
     resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= period)
     with style():
-        heights = [2.0, 2.0, *([2.0] if resolved else []), *([1.3] if varying else [])]
+        heights = [2.0, 2.0, *([2.0, 1.6, 1.6] if resolved else []), *[1.3 for _ in varying]]
         figure = Figure(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
         axes = figure.subplots(len(heights), 1, height_ratios=heights)
         figure.suptitle(f"{scene.title}  ({scene.name}){_constant_inputs(record, varying)}")
@@ -50,8 +51,10 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
         _velocity(axes[1], record, times, unit)
         if resolved:
             _zoom(axes[2], record, period)
-        if varying:
-            _inputs(axes[-1], record, times, unit, varying)
+            _resonator(axes[3], record, period)
+            _forces(axes[4], record, period)
+        for panel, index in zip(axes[len(heights) - len(varying) :], varying, strict=True):
+            _input(panel, record, times, unit, index)
         with replacing(path) as temporary:
             save(figure, temporary)
 
@@ -80,14 +83,46 @@ def _velocity(axes: Axes, record: Record, times: Array, unit: str) -> None:
 def _zoom(axes: Axes, record: Record, period: float) -> None:
     """Plot the last drive periods over the directions of slip."""
     window = _last_periods(record, period)
-    periods = (record.times[window] - record.times[-1]) / period
-    entries = shade_directions(axes, periods, record["contact_mode"][window])
-    axes.plot(periods, 1e3 * record["velocity"][window], color=COLOURS["velocity"])
+    entries = _over_last_periods(axes, record, period)
+    axes.plot(_periods(record, period), 1e3 * record["velocity"][window], color=COLOURS["velocity"])
     axes.axhline(0.0, color="0.4", linewidth=0.6)
-    axes.set(
-        xlabel="drive periods before the end", ylabel="velocity [mm/s]", xlim=(-ZOOM_PERIODS, 0.0)
-    )
+    axes.set(ylabel="velocity [mm/s]")
+    axes.tick_params(labelbottom=False)
     axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(entries))
+
+
+def _resonator(axes: Axes, record: Record, period: float) -> None:
+    """Plot the resonator relative to the slider."""
+    _over_last_periods(axes, record, period)
+    displacement = record["resonator_displacement"][_last_periods(record, period)]
+    axes.plot(_periods(record, period), 1e6 * displacement, color=COLOURS["position"])
+    axes.set(ylabel="resonator [um]")
+    axes.tick_params(labelbottom=False)
+
+
+def _forces(axes: Axes, record: Record, period: float) -> None:
+    """Plot normal force and friction."""
+    window = _last_periods(record, period)
+    _over_last_periods(axes, record, period)
+    for name, look in (("normal_force", "-"), ("friction_force", "--")):
+        colour = COLOURS["theory" if name == "friction_force" else "velocity"]
+        label = name.replace("_", " ")
+        axes.plot(_periods(record, period), record[name][window], look, color=colour, label=label)
+    axes.set(xlabel="drive periods before the end", ylabel="force [N]")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
+
+
+def _over_last_periods(axes: Axes, record: Record, period: float) -> list[Patch]:
+    """Shade the directions of slip in the last drive periods and return their legend entries."""
+    modes = record["contact_mode"][_last_periods(record, period)]
+    axes.set(xlim=(-ZOOM_PERIODS, 0.0))
+    return shade_directions(axes, _periods(record, period), modes)
+
+
+def _periods(record: Record, period: float) -> Array:
+    """Return the last times in drive periods before the end."""
+    times: Array = (record.times[_last_periods(record, period)] - record.times[-1]) / period
+    return times
 
 
 def _last_periods(record: Record, period: float) -> NDArray[np.bool_]:
@@ -107,10 +142,8 @@ def _constant_inputs(record: Record, varying: list[int]) -> str:
     return "\n" + ", ".join(shown) if shown else ""
 
 
-def _inputs(axes: Axes, record: Record, times: Array, unit: str, varying: list[int]) -> None:
-    names = list(INPUTS)
-    for index in varying:
-        label = f"{names[index]} [{INPUTS[names[index]]}]"
-        axes.step(times, record.inputs[:, index], where="post", label=label)
-    axes.set(xlabel=f"time [{unit}]", ylabel="inputs", xlim=(times[0], times[-1]))
-    axes.legend()
+def _input(axes: Axes, record: Record, times: Array, unit: str, index: int) -> None:
+    name = list(INPUTS)[index]
+    axes.step(times, record.inputs[:, index], where="post", color=COLOURS["slow"])
+    label = f"{name.replace('_', ' ')}\n[{INPUTS[name]}]"
+    axes.set(xlabel=f"time [{unit}]", ylabel=label, xlim=(times[0], times[-1]))

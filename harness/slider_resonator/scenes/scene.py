@@ -25,16 +25,12 @@ from slider_resonator.device.schedule import (
 )
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.csv_signal import csv_points
+from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
-from slider_resonator.scenes.schema import (
-    ExpectTable,
-    InputsTable,
-    InputTable,
-    NeedTable,
-    RunTable,
-    SceneTable,
-    SweepTable,
-)
+from slider_resonator.scenes.input_tables import InputsTable, InputTable
+from slider_resonator.scenes.need_table import NeedTable
+from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
+from slider_resonator.scenes.toml_mistakes import toml_mistake
 
 
 @dataclass(frozen=True)
@@ -47,7 +43,9 @@ class Beside:
 
 @dataclass(frozen=True)
 class Scene:
-    """A valid scene; it can be pickled. Raises SceneError for a run of too many steps.
+    """A valid scene; it can be pickled.
+
+    Raises SceneError for a run of too many steps, or one that goes beyond the values of a CSV file.
 
     `parameters` are the device parameters that differ from their start, `signals` the inputs by
     name, `tuning` the parameters that change in the run. `beside` is what a second instance runs.
@@ -69,12 +67,23 @@ class Scene:
     beside: Beside | None = None
 
     def __post_init__(self) -> None:
-        if self.stop_time is None or self.step_size is None:
-            return
-        try:
-            step_count(self.stop_time, self._steps)
-        except ValueError as error:
-            raise SceneError(f"{self.source}: run: {error}") from error
+        if self.stop_time is not None:
+            try:
+                step_count(self.stop_time, self._steps)
+            except ValueError as error:
+                raise SceneError(f"{self.source}: run: {error}") from error
+        for key, signal in self._all_signals.items():
+            try:
+                signal.check_covers(self.stop_time or 0.0)
+            except ValueError as error:
+                raise SceneError(f"{self.source}: {key}: {error}") from error
+
+    @property
+    def _all_signals(self) -> dict[str, Signal]:
+        """All values over time, by the key of the scene file."""
+        beside = self.beside.signals if self.beside else {}
+        tables = (("inputs", self.signals), ("tuning", self.tuning), ("beside.inputs", beside))
+        return {f"{t}.{name}": signal for t, signals in tables for name, signal in signals.items()}
 
     @property
     def device(self) -> Device:
@@ -186,12 +195,14 @@ def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
     """
     source = str(path)
     try:
-        with path.open("rb") as file:
-            content = tomllib.load(file)
+        text = path.read_bytes().decode()
+        content = tomllib.loads(text)
     except OSError as error:
         raise SceneError(f"{source}: cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise SceneError(f"{source}: not TOML: {error}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"{source}: {toml_mistake(text, str(error))}") from error
+    except UnicodeDecodeError as error:
+        raise SceneError(f"{source}: not TOML: {error}; must be UTF-8 text") from error
     scene = scene_from(content, source, path.parent)
     return replace(scene, files=(path, *scene.files)).with_values(values or {})
 
@@ -246,7 +257,8 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
             return ramp(table.ramp)
         if table.csv is not None:
             points = csv_points(folder / table.csv, table.column or name)
-            return steps(points) if table.between == "hold" else ramp(points)
+            signal = steps(points) if table.between == "hold" else ramp(points)
+            return replace(signal, file=folder / table.csv)
         return constant(table.constant or 0.0)
     except ValueError as error:
         raise SceneError(f"{where}: {error}") from error

@@ -18,6 +18,19 @@ MAX_TUBE = 0.25
 RESOLVED = ("located_events", "taylor", "bristle_state")
 """References with the fast motion, known at any time; `bristle_state` is for LuGre friction."""
 
+REFERENCES: Mapping[str, str] = {
+    "located_events": "The device of `fidelity` 1 or 2 with Coulomb friction, integrated between "
+    "located events. Steady velocity and blocking force: by shooting, with either friction law.",
+    "taylor": "The same motion by Taylor series, an independent program: `fidelity` 1 or 2, "
+    "Coulomb friction.",
+    "bristle_state": "The full device with LuGre friction, the bristle as an integrated state.",
+    "averaged": "Averaged theory of first order, with an error of the order of 1 / Omega: any "
+    "frequency ratio, either friction law, with lift-off.",
+    "closed_form": "Closed forms of the paper. Steady motion: constant inputs, `frequency_ratio` "
+    "1, a closed contact, Coulomb friction. Ripple and beat: any ratio.",
+}
+"""Every reference, with what it is and when it applies."""
+
 
 @dataclass(frozen=True)
 class Quantity:

@@ -2,30 +2,77 @@ from __future__ import annotations
 
 import zipfile
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import pytest
+from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.closed_loop_ssp import PARAMETER_SETS, build_closed_loop
+from fmu_src.building.closed_loop_ssp import FIDELITIES, build_closed_loop
+from slider_resonator.trials.hosts.ssp_package import write_with_connectors
 
 
-def test_the_package_is_valid_ssp_1_0(closed_loop_package: Path, tmp_path: Path) -> None:
-    system = read_ssd(closed_loop_package).system  # checks the schema
-    (binding,) = system.parameterBindings
-    assert binding.source == "resources/proof.ssv", "without a choice the full device is run"
+@pytest.fixture
+def with_connectors(closed_loop_package: Path, tmp_path: Path) -> Path:
+    """The package with its other structure as the first."""
+    target = tmp_path / "with_connectors.ssp"
+    write_with_connectors(str(closed_loop_package), target)
+    return target
+
+
+def test_the_package_is_valid_ssp_1_0(closed_loop_package: Path, with_connectors: Path) -> None:
+    for package in (closed_loop_package, with_connectors):
+        system = read_ssd(package).system  # checks the schema
+        (binding,) = system.parameterBindings
+        assert binding.source == "resources/proof.ssv", "without a choice the full device is run"
+        with zipfile.ZipFile(package) as archive:
+            for component in system.elements:
+                assert component.source in archive.namelist(), component.name
+
+
+def test_each_structure_has_a_name_of_its_own(closed_loop_package: Path) -> None:
+    """OMSimulator lists them by name, and refuses the second of a name."""
     with zipfile.ZipFile(closed_loop_package) as archive:
-        for component in system.elements:
-            assert component.source in archive.namelist(), component.name
-        alone = tmp_path / "alone.ssp"
-        with zipfile.ZipFile(alone, "w") as other:
-            other.writestr("SystemStructure.ssd", archive.read("ComponentsOnly.ssd"))
-    without = read_ssd(alone).system
-    assert without.connectors == []
-    assert len(without.connections) == 2, "the loop itself"
+        structures = [name for name in archive.namelist() if name.endswith(".ssd")]
+        names = [ET.fromstring(archive.read(name)).attrib["name"] for name in structures]
+    assert sorted(structures) == ["SystemStructure.ssd", "WithConnectors.ssd"]
+    assert sorted(names) == ["ClosedLoop", "ClosedLoopWithConnectors"]
 
 
-@pytest.mark.parametrize(("name", "fidelity"), PARAMETER_SETS.items())
+def test_the_first_structure_has_components_only(closed_loop_package: Path) -> None:
+    """libcosim and ecos refuse a connection without an element."""
+    system = read_ssd(closed_loop_package).system
+    assert system.connectors == []
+    assert [(c.startElement, c.endElement) for c in system.connections] == [
+        ("controller", "slider"),
+        ("slider", "controller"),
+    ]
+
+
+def test_components_have_the_parameters_of_the_bound_set(closed_loop_package: Path) -> None:
+    """libcosim and ecos read these, and not the set of the system."""
+    bound = read_ssv(closed_loop_package, resource="resources/proof.ssv").parameters
+    found = {}
+    for component in read_ssd(closed_loop_package).system.elements:
+        (binding,) = component.parameterBindings
+        (values,) = binding.parameterValues
+        for parameter in values.parameters:
+            found[f"{component.name}.{parameter.name}"] = (parameter.type, parameter.value)
+    assert found == {p.name: (p.type, p.value) for p in bound}
+
+
+def test_fmpy_holds_the_velocity_of_the_set(closed_loop_package: Path) -> None:
+    result = simulate_ssp(
+        str(closed_loop_package),
+        stop_time=1.5,
+        step_size=0.01,
+        parameter_set=read_ssv(closed_loop_package, resource="resources/design.ssv"),
+    )
+    assert result["slider.mean_velocity"][-1] == pytest.approx(0.06, rel=0.01)
+
+
+@pytest.mark.parametrize(("name", "fidelity"), FIDELITIES.items())
 def test_parameter_sets_differ_in_fidelity_only(
     closed_loop_package: Path, name: str, fidelity: int
 ) -> None:
@@ -36,8 +83,9 @@ def test_parameter_sets_differ_in_fidelity_only(
     assert {name.partition(".")[0] for name in values} == {"controller"}
 
 
-def test_every_component_input_is_connected(closed_loop_package: Path) -> None:
-    system = read_ssd(closed_loop_package).system
+@pytest.mark.parametrize("structure", ["closed_loop_package", "with_connectors"])
+def test_every_component_input_is_connected(structure: str, request: pytest.FixtureRequest) -> None:
+    system = read_ssd(request.getfixturevalue(structure)).system
     ends = {(c.endElement, c.endConnector) for c in system.connections}
     for component in system.elements:
         for connector in component.connectors:

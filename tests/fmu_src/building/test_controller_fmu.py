@@ -25,6 +25,16 @@ def test_the_description_is_that_of_the_table(controller_fmu: Path) -> None:
         assert page.count(f"<td><code>{variable.name}</code></td>") == 1, variable.name
 
 
+def test_only_the_velocity_error_depends_on_the_inputs(controller_fmu: Path) -> None:
+    description = read_model_description(str(controller_fmu))
+    found = {u.variable.name: [d.name for d in u.dependencies] for u in description.outputs}
+    assert found == {
+        "phase": [],
+        "effort": [],
+        "velocity_error": ["velocity_reference", "measured_velocity"],
+    }, "with none at all, FMI Library takes each output to depend on each input"
+
+
 def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> None:
     with zipfile.ZipFile(controller_fmu) as archive:
         inside = {

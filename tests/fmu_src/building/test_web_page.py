@@ -4,17 +4,30 @@ from __future__ import annotations
 
 import json
 import re
+import zipfile
 from pathlib import Path
 
 import pytest
 
-from fmu_src.building.web_page import build_page
+from fmu_src.building import platforms
+from fmu_src.building.native_fmu import build_native
+from fmu_src.building.web_page import NAME, build_page
 from fmu_src.python.slider_component.variables import VARIABLES
 
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_page(tmp_path_factory.mktemp("page"))
+
+
+def test_the_fmu_for_all_platforms_has_the_page(
+    page: Path, native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(platforms, "PLATFORMS", {"linux64": platforms.PLATFORMS["linux64"]})
+    with zipfile.ZipFile(build_native(tmp_path)) as archive:
+        assert archive.read(f"documentation/{NAME}") == page.read_bytes()
+    with zipfile.ZipFile(native_fmu) as archive:
+        assert f"documentation/{NAME}" not in archive.namelist()
 
 
 def test_equal_sources_give_equal_bytes(page: Path, tmp_path: Path) -> None:

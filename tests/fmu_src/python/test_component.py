@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from fmu_src.python.slider_component.component import Component
+from fmu_src.python.slider_component.orbit_state import OrbitValues
 from fmu_src.python.slider_component.outputs import OUTPUTS
 from fmu_src.python.slider_component.refusal import Refusal
 from fmu_src.python.slider_component.snapshot import from_bytes
@@ -95,12 +96,14 @@ ODD = ["x", [], {}, True, 1.5, -7, 10**400, -(10**400), math.nan, math.inf, nest
 NUMBERS = {"time", "stop_time", "last_event_time", "position", "theta", "psi", "event_age"} | {
     *("bristle", "velocity", "displacement", "rate", "travel", "elapsed", "sticking"),
     *("mean_velocity", "stick_fraction"),
+    *("to_go", "centre", "lead", "first", "second", "third", "fourth"),
+    *OrbitValues._fields,
 }
 
 
 def fits(path: Path, value: object) -> bool:
     """Whether an odd value is one that the entry at `path` may have."""
-    if path[-1] == "complete":
+    if path[-1] in ("complete", "grazed"):
         return value is True
     if path[0] == "values":
         variable = BY_NAME[path[-1]] if len(path) > 1 else None

@@ -15,8 +15,8 @@ from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
 from tests.fmu_src.python.motions import after
 
-TABLE_1 = Device(fidelity=0)
-BRISTLES = Device(fidelity=0, friction_law=1, bristle_stiffness=3e3, tolerance=1e-6)
+TABLE_1 = Device(fidelity=0, averaging_order=1)
+BRISTLES = replace(TABLE_1, friction_law=1, bristle_stiffness=3e3, tolerance=1e-6)
 FAST_VELOCITY = 0.2366097
 
 

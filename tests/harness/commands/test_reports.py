@@ -1,14 +1,19 @@
 from __future__ import annotations
 
+import hashlib
 import json
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
 
+import slider_resonator
 from slider_resonator.checks.validate import RunFailure
 from slider_resonator.commands.reports import Reports, print_run_failures
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.provenance import identity_of
+from tests.harness.verdicts import GOOD
 
 
 def test_run_failures_are_reported_with_their_place(capsys: pytest.CaptureFixture[str]) -> None:
@@ -40,7 +45,9 @@ def test_an_error_before_any_fmu_is_in_every_report(tmp_path: Path) -> None:
     for page in (html, summary):
         assert "Could not run: my.fmu: corrupt" in page.read_text(encoding="utf-8")
     expected = {"schema_version": 1, "passed": False, "error": "my.fmu: corrupt"}
-    assert json.loads(written.read_text()) == expected
+    document = json.loads(written.read_text())
+    assert document.pop("provenance")["fmus"] == []
+    assert document == expected
 
 
 def test_reports_are_written_even_where_the_summary_cannot_be(tmp_path: Path) -> None:
@@ -50,3 +57,19 @@ def test_reports_are_written_even_where_the_summary_cannot_be(tmp_path: Path) ->
     with pytest.raises(HarnessError, match=r"GITHUB_STEP_SUMMARY .*cannot be written"):
         reports.write([], "my.fmu: corrupt")
     assert all(path.is_file() for path in paths)
+
+
+def test_every_report_says_what_it_judged(tmp_path: Path) -> None:
+    fmu = tmp_path / "a.fmu"
+    fmu.write_bytes(b"no archive, but a file")
+    digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
+    judged = replace(GOOD, fmu=str(fmu), identity=identity_of(fmu))
+    fmu.write_bytes(b"another file since")
+    files = [tmp_path / name for name in ("report.xml", "report.html", "report.json", "summary.md")]
+    Reports("A title", *files).write([judged])
+    for file in files:
+        text = file.read_text(encoding="utf-8")
+        assert text.count(digest) == 1, file.name
+        for name in ("fmpy", "harness", "platform"):
+            assert name in text, file.name
+        assert slider_resonator.__version__ in text, file.name

@@ -23,7 +23,7 @@ def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path
 
 def test_a_csv_that_the_scene_reads_is_not_overwritten(python_fmu: Path, tmp_path: Path) -> None:
     points = tmp_path / "load.csv"
-    points.write_text("time,load\n0,0\n")
+    points.write_text("time,load\n0,0\n0.01,0\n")
     scene = tmp_path / "mine.toml"
     scene.write_text(
         'name = "mine"\ntitle = "Mine"\n[inputs]\nload = { csv = "load.csv" }\n'
@@ -79,3 +79,10 @@ def test_a_picture_changes_no_digit_of_the_csv(python_fmu: Path, tmp_path: Path)
     assert alone.read_bytes() == beside.read_bytes()
     with alone.open() as file:
         assert len(list(csv.reader(file))) == 1602
+
+
+def test_averaged_motion_has_no_reversals_to_report(python_fmu: Path) -> None:
+    averaged = call("run", python_fmu, "table_1", "--set", "fidelity=0").stdout
+    assert "reversals" not in averaged
+    assert "mean velocity" in averaged
+    assert "reversals" in call("run", python_fmu, "pushed_at_rest").stdout

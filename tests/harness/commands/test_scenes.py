@@ -1,9 +1,13 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
+from slider_resonator.scenes.json_schema import scene_schema
+from slider_resonator.scenes.page import scene_page
+from slider_resonator.scenes.scene import find_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
-from tests.harness.calling import call
+from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
 
@@ -30,4 +34,30 @@ def test_what_scenes_can_expect_is_listed() -> None:
     assert events["references"] == ["located_events", "taylor", "bristle_state", "averaged"]
     assert events["unit"] == "drive periods"
     text = call("scenes", "--quantities").stdout
-    assert "mean velocity of the steady" in text
+    assert "shooting" in text
+
+
+def test_a_scene_is_shown_as_its_file_says() -> None:
+    shown = call("scenes", "--show", "table_1").stdout
+    assert shown == find_scene("table_1").read_text(encoding="utf-8")
+    assert "did you mean 'table_1'" in refused("scenes", "--show", "tabel_1")
+
+
+def test_the_template_is_a_scene(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(call("scenes", "--template").stdout)
+    assert call("scenes", "--check", path).stdout == f"{path}: valid, 2 checks\n"
+    assert call("scenes", "--check", tmp_path).stdout == f"{path}: valid, 2 checks\n"
+
+
+def test_the_schema_and_the_page_are_written(tmp_path: Path) -> None:
+    assert json.loads(call("scenes", "--schema").stdout) == scene_schema()
+    assert call("scenes", "--page", tmp_path / "scenes.md").exit_code == 0
+    assert (tmp_path / "scenes.md").read_text(encoding="utf-8") == scene_page()
+
+
+def test_what_does_not_go_together_is_refused() -> None:
+    assert "--template and --schema: must be only one" in refused(
+        "scenes", "--template", "--schema"
+    )
+    assert "--json does not go with --check" in refused("scenes", "--check", "table_1", "--json")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from importlib import resources
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -113,3 +114,10 @@ def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) 
         before = target.read_bytes()
         assert reason in refused("validate", fmu, "--scene", mine, "--junit", target)
         assert target.read_bytes() == before
+
+
+def test_the_examples_of_scene_files_pass(native_fmu: Path) -> None:
+    examples = Path(str(resources.files("slider_resonator.scenes") / "examples"))
+    result = call("validate", "--fmu", native_fmu, "--scene", examples)
+    assert result.exit_code == 0, result.output
+    assert "12 of 12 checks passed" in result.stdout

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fmpy.fmi1 import FMICallException
 
 from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.device.schedule import Schedule, constant
@@ -56,6 +57,14 @@ def test_a_refusal_of_fmi_3_is_explained_and_leaves_the_instance_usable(
         saved.free()
         instance.step_by(0.5)
         assert instance.value("position") == reached
+
+
+def test_a_call_that_fails_has_its_name_in_fmi_3(native_3_fmu: Path) -> None:
+    with open_fmu(native_3_fmu) as fmu, instantiate(fmu) as instance:
+        with pytest.raises(FMICallException, match="fmi3DoStep failed"):
+            instance.step_by(0.01)
+        with pytest.raises(FMICallException, match="fmi3GetFloat64 failed"):
+            instance.value("position")
 
 
 def test_an_instance_of_fmi_3_that_cannot_be_made_is_an_error_of_the_fmu(

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.output.console import output, progress_bar
+from slider_resonator.output.console import counted, output, progress_bar, time_left
 from slider_resonator.output.readable import readable
 
 
@@ -26,3 +26,24 @@ def test_other_numbers_keep_their_digits_and_sign() -> None:
     assert readable(0.12666699702, 10) == "0.126666997"
     assert readable(-2e-12, 9) == "-2e-12"
     assert readable(199, 8) == "199"
+
+
+def test_a_task_has_its_number() -> None:
+    assert counted("table_1", 0, 33) == "1 of 33: table_1"
+    assert counted("table_1", 33, 33) == "33 of 33: table_1"
+
+
+@pytest.mark.parametrize(
+    ("elapsed", "share", "text"),
+    [
+        (10.0, 0.0, ""),
+        (10.0, 0.01, ""),
+        (10.0, 0.5, "0:10 left"),
+        (30.0, 0.25, "1:30 left"),
+        (900.0, 0.1, "2:15:00 left"),
+        (10.0, 1.0, "0:00 left"),
+        (10.0, float("nan"), ""),
+    ],
+)
+def test_the_time_left_follows_from_the_share_done(elapsed: float, share: float, text: str) -> None:
+    assert time_left(elapsed, share) == text

@@ -8,8 +8,8 @@ import pytest
 
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.errors import SceneError
+from slider_resonator.scenes.input_tables import TuningTable
 from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, scene_from
-from slider_resonator.scenes.schema import TuningTable
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 STEPS = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
@@ -121,6 +121,38 @@ def test_a_csv_can_be_held_and_its_value_column_can_be_called_value(tmp_path: Pa
     text = '[inputs]\nload = { csv = "l.csv", between = "hold" }\n'
     load = read_scene(write(tmp_path, HEAD + text + RUN)).signals["load"]
     assert (load.at(0.049), load.jumps) == (1.0, (0.05,))
+
+
+CSV = '{ csv = "x.csv" }\n'
+RECORDED = {
+    f"[inputs]\nload = {CSV}": "inputs.load",
+    f"[tuning]\nnormal_preload = {CSV}": "tuning.normal_preload",
+    f"[beside.inputs]\nphase = {CSV}": "beside.inputs.phase",
+}
+"""Tables that take the values of a CSV file, and the key that does."""
+
+
+@pytest.mark.parametrize("text", RECORDED)
+def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> None:
+    (tmp_path / "x.csv").write_text("time,value\n0.01,1\n0.05,2\n")
+    run = "[run]\nstop_time = {}\nstep_size = 0.01\n"
+    span = "from 0.01 s to 0.05 s, must have them from 0 s to 0.05 s"
+    assert_refused(tmp_path, HEAD + run.format(0.05) + text, [RECORDED[text], "x.csv", span])
+    (tmp_path / "x.csv").write_text("time,value\n-1,1\n0.05,2\n")
+    path = write(tmp_path, HEAD + run.format(0.05) + text)
+    assert read_scene(path).schedule().times[-1] == 0.05
+    message = assert_refused(tmp_path, HEAD + run.format(0.06) + text, [RECORDED[text]])
+    assert "must have them from 0 s to 0.06 s, the end of the run" in message
+
+
+def test_a_slower_drive_may_make_a_run_longer_than_its_csv(tmp_path: Path) -> None:
+    (tmp_path / "x.csv").write_text("time,load\n0,0\n0.018,1\n")
+    scene = read_scene(write(tmp_path, HEAD + RUN + f"[inputs]\nload = {CSV}"))
+    with pytest.raises(SceneError, match=r"inputs\.load: csv .*x\.csv"):
+        scene.with_values({"drive_frequency": 3000.0})
+    assert scene.with_values({"drive_frequency": 3000.0, "load": 0.0}).stop_time == pytest.approx(
+        20 * 3.141592653589793 / 3000.0
+    )
 
 
 @pytest.mark.parametrize(

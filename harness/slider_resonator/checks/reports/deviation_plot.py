@@ -31,8 +31,9 @@ def deviation_png(curves: Curves) -> str:
         for column, (title, part) in enumerate(parts.items()):
             _draw(axes[0][column], axes[1][column], curves, part, joined=not sparse)
             axes[0][column].set(title=title)
-        axes[0][0].set(ylabel=f"{curves.check.quantity} [{curves.check.unit}]")
-        axes[1][0].set(ylabel="FMU - reference")
+        unit = curves.check.unit or 1
+        axes[0][0].set(ylabel=f"{curves.check.quantity} [{unit}]")
+        axes[1][0].set(ylabel=f"FMU - reference [{unit}]")
         axes[0][0].legend()
         return png_data_uri(figure)
 

@@ -7,7 +7,13 @@ from pathlib import Path
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.deviation_plot import deviation_png
-from slider_resonator.checks.validate import Curves, Validation, worst_of_sweeps
+from slider_resonator.checks.reports.scene_sections import scene_sections
+from slider_resonator.checks.validate import (
+    Curves,
+    Validation,
+    provenance_of_all,
+    worst_of_sweeps,
+)
 from slider_resonator.checks.verdict import (
     TITLE,
     judged_without,
@@ -15,20 +21,14 @@ from slider_resonator.checks.verdict import (
     place,
     sentence,
     title,
-    value_text,
 )
+from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.output.hover_plot import hover_scripts, hover_style
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
-from slider_resonator.output.table import Row, Table, numbers, texts, verdict
-from slider_resonator.scenes.vocabulary import QUANTITIES
+from slider_resonator.output.table import Table, texts
 
 MAX_PICTURES = 40
 """Maximum pictures for each FMU, one per sweep: a very faulty FMU fails everywhere."""
-DIGITS = 8
-COLUMNS = (
-    *texts("scene", "quantity"),
-    *numbers("FMU", "reference", "off by", "allowed"),
-    *texts("", "why"),
-)
 
 
 def write_html(
@@ -39,11 +39,13 @@ def write_html(
     Raises HarnessError when the file cannot be written.
     """
     parts = [f'<p class="fail">Could not run: {escaped(error)}</p>'] if error else []
-    parts += [part for validation in validations for part in _section(validation)]
-    write_page(path, title, parts)
+    for number, validation in enumerate(validations):
+        parts += _section(number, validation)
+    parts.append(provenance_html(provenance_of_all(validations)))
+    write_page(path, title, parts, hover_scripts(), hover_style())
 
 
-def _section(validation: Validation) -> list[str]:
+def _section(number: int, validation: Validation) -> list[str]:
     failed = [check for check in validation.checks if not check.passed]
     passed = len(validation.checks) - len(failed)
     outcome = ("pass", "fail", "could not be run")[validation.exit_code]
@@ -63,8 +65,7 @@ def _section(validation: Validation) -> list[str]:
     for index, (check, _) in enumerate(worst_of_sweeps(failed)):
         parts += _failure(check, pictures.get(id(check)) if index < MAX_PICTURES else None)
     if validation.checks:
-        table = Table(COLUMNS, [_row(check) for check in validation.checks])
-        parts.append(folded(f"All {len(validation.checks)} checks", rendered(table)))
+        parts += scene_sections(validation, f"scene-{number}")
     if validation.not_applied:
         columns = texts("scene", "quantity", "not applicable because")
         table = Table(columns, not_applied(validation))
@@ -81,12 +82,3 @@ def _failure(check: Check, curves: Curves | None) -> list[str]:
     if curves is not None:
         parts.append(f'<img alt="{escaped(title(check))}" src="{deviation_png(curves)}">')
     return parts
-
-
-def _row(check: Check) -> Row:
-    of_peak = " of peak" if QUANTITIES[check.quantity].relative_to_peak else ""
-    sizes = ["-" if s is None else f"{s:.2g}{of_peak}" for s in (check.deviation, check.allowed)]
-    unit = f" [{check.unit}]" if check.unit not in ("", "1") else ""
-    values = [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
-    where = (check.scene, title(check) + unit)
-    return (*where, *values, *sizes, verdict(check.passed), check.why)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from slider_resonator.checks.validate import Validation
+from slider_resonator.checks.validate import Validation, provenance_of_all
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.json_output import to_json
@@ -16,12 +16,14 @@ def validations_as_json(validations: Sequence[Validation], error: str = "") -> s
 
     An `error` that stopped the command before it reached an FMU is returned alone.
     """
+    provenance = provenance_of_all(validations)
     plain = [_plain(validation) for validation in validations]
     if error:
-        return to_json({"passed": False, "error": error})
+        return to_json({"passed": False, "error": error}, provenance)
     if len(plain) == 1:
-        return to_json(plain[0])
-    return to_json({"passed": all(v.passed for v in validations), "fmus": plain})
+        return to_json(plain[0], provenance)
+    passed = all(validation.passed for validation in validations)
+    return to_json({"passed": passed, "fmus": plain}, provenance)
 
 
 def write_json(path: Path, validations: Sequence[Validation], error: str = "") -> None:

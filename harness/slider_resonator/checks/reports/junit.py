@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from slider_resonator.checks.validate import RunFailure, Validation
+from slider_resonator.checks.validate import RunFailure, Validation, provenance_of_all
 from slider_resonator.checks.verdict import (
     TITLE,
     judged_without,
@@ -16,6 +16,8 @@ from slider_resonator.checks.verdict import (
     sentence,
     title,
 )
+from slider_resonator.fmu.provenance import Provenance
+from slider_resonator.fmu.provenance_text import provenance_properties
 from slider_resonator.output.atomic import replacing
 
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -31,10 +33,11 @@ def write_junit(
     cannot be written.
     """
     root = ET.Element("testsuites", name=title)
+    provenance = provenance_of_all(validations)
     for validation in validations:
-        _suite(root, validation)
+        _suite(root, validation, provenance)
     if error:
-        _suite(root, Validation(title, (), 0.0, (RunFailure("", error, {}),)))
+        _suite(root, Validation(title, (), 0.0, (RunFailure("", error, {}),)), provenance)
     counts = {"tests": 0, "failures": 0, "errors": 0, "skipped": 0}
     for suite in root:
         for name in counts:
@@ -46,7 +49,7 @@ def write_junit(
         ET.ElementTree(root).write(temporary, encoding="utf-8", xml_declaration=True)
 
 
-def _suite(root: ET.Element, validation: Validation) -> None:
+def _suite(root: ET.Element, validation: Validation, provenance: Provenance) -> None:
     suite = ET.SubElement(
         root,
         "testsuite",
@@ -60,9 +63,11 @@ def _suite(root: ET.Element, validation: Validation) -> None:
         time=f"{validation.wall_time:.3f}",
     )
     without = judged_without(validation)
-    if without:
-        properties = ET.SubElement(suite, "properties")
-        ET.SubElement(properties, "property", name="judged", value=_text(without))
+    facts = {"judged": without} if without else {}
+    facts |= provenance_properties(provenance, validation.identity)
+    properties = ET.SubElement(suite, "properties")
+    for name, value in facts.items():
+        ET.SubElement(properties, "property", name=name, value=_text(value))
     for scene, quantity, reason in not_applied(validation):
         case = ET.SubElement(suite, "testcase", classname=scene, name=quantity)
         ET.SubElement(case, "skipped", message=_text(f"not applicable: {reason}"))

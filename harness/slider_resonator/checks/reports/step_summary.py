@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from slider_resonator.checks.validate import Validation
+from slider_resonator.checks.validate import Validation, provenance_of_all
 from slider_resonator.checks.verdict import (
     TITLE,
     judged_without,
@@ -15,6 +15,7 @@ from slider_resonator.checks.verdict import (
     title,
 )
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.provenance_text import provenance_markdown
 from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 
@@ -66,6 +67,7 @@ def _parts(validations: Sequence[Validation], error: str) -> list[str]:
     failures = [row for validation in validations for row in _failures(validation)]
     if failures:
         parts.append(rendered(Table(texts("FMU", "scene", "quantity", "verdict"), failures)))
+    parts.append(provenance_markdown(provenance_of_all(validations)))
     return parts
 
 

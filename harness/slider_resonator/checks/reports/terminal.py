@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.text import Text
 
 from slider_resonator.checks.compare import Check
+from slider_resonator.checks.reports.headline import headline
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import (
     judged_without,
@@ -16,8 +17,9 @@ from slider_resonator.checks.verdict import (
     sentence,
     value_text,
 )
+from slider_resonator.output.fitting_table import STYLES, aligned, words
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
-from slider_resonator.output.terminal import STYLES, escaped, rendered
+from slider_resonator.output.terminal import escaped, rendered
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_DETAILED = 3
@@ -36,6 +38,8 @@ def print_validation(
     Give each of many scenes one line, with the check nearest to its bound. With `only_failed` leave
     out what has passed.
     """
+    if not only_failed:
+        _print_headline(console, validation.checks)
     scenes: dict[str, list[Check]] = {}
     for check in validation.checks:
         scenes.setdefault(check.scene, []).append(check)
@@ -47,15 +51,29 @@ def print_validation(
     if rows:
         console.print(rendered(_table(rows, details)))
     if any(_of_peak(check) for check, _ in rows):
-        console.print(f"{SIGNAL} the peak of a signal; off by and allowed are shares of it")
+        mark = f"{SIGNAL} the peak of a signal; off by and allowed are shares of it"
+        console.print(words(mark, console.width))
     for check, _ in rows:
         if not check.passed:
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
-            shown = escaped(f"{text}\n     {sentence(check)}")
-            console.print(Text.assemble(("FAIL ", STYLES[Style.FAIL]), shown))
+            shown = words(escaped(f"FAIL {text}\n     {sentence(check)}"), console.width, "     ")
+            console.print(Text.assemble(("FAIL", STYLES[Style.FAIL]), shown.removeprefix("FAIL")))
     for scene, quantity, reason in not_applied(validation):
-        console.print(escaped(f"not applicable: {scene}: {quantity}: {reason}"), soft_wrap=True)
-    console.print(_summary(validation), soft_wrap=True)
+        _print_line(console, Text(escaped(f"not applicable: {scene}: {quantity}: {reason}")))
+    _print_line(console, _summary(validation))
+
+
+def _print_headline(console: Console, checks: Sequence[Check]) -> None:
+    for heading, rows in headline(checks):
+        console.print(Text(escaped(heading.text), STYLES[heading.style]))
+        table = Table([*texts(""), *numbers("", ""), *texts("")], rows)
+        for line in aligned(rendered(table).table):
+            console.print(line)
+
+
+def _print_line(console: Console, line: Text) -> None:
+    """Print a line: in one piece for a log, between words on a terminal."""
+    console.print(line, soft_wrap=not console.is_terminal)
 
 
 def _summary(validation: Validation) -> Text:

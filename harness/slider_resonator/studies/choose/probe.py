@@ -11,8 +11,8 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.schema import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.studies.choose.beat import lacking_beat, unseen_beat
 from slider_resonator.studies.choose.candidate import START_TOLERANCE, Candidate, Model
 from slider_resonator.studies.choose.carrying import Drift, carried, defect, over_the_scene

@@ -25,9 +25,10 @@ OUTPUTS = ("slider.mean_velocity", "controller.phase")
 HOSTS = (
     Host("fmpy", "fmpy_ssp_host", lambda: package_version("fmpy")),
     Host("libcosimpy", "libcosim_ssp_host", lambda: package_version("libcosimpy")),
+    Host("ecos", "ecos_ssp_host", lambda: package_version("ecospy")),
 )
 
-INPUT_DELAY = {"fmpy": 1, "libcosimpy": 0}
+INPUT_DELAY = {"fmpy": 1, "libcosimpy": 0, "ecos": 0}
 """Communication steps after which inputs of the system reach the components."""
 
 

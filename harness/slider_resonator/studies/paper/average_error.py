@@ -9,6 +9,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.studies.paper import labels
 from slider_resonator.studies.paper.figure import SHADES, Array, Data, PaperFigure, curve, panels
 from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
 from slider_resonator.studies.paper.measure import steady_velocity
@@ -76,7 +77,7 @@ def _draw(data: Data) -> Drawing:
         )
     ends = np.array([10.0, 10000.0])
     axis.loglog(ends, 1.0 / ends, ":", color="0.4", label="$1 / \\Omega$")
-    axis.set(xlabel="drive frequency $\\Omega$", ylabel="error of the averaged velocity")
+    axis.set(xlabel=labels.FREQUENCY, ylabel="error of the averaged velocity [$x_0 \\omega_0$]")
     axis.legend(fontsize=8)
     return drawing
 

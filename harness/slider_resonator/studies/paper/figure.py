@@ -13,6 +13,7 @@ from matplotlib.figure import Figure as Drawing
 from numpy.typing import NDArray
 
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.studies.paper import labels
 
 Array = NDArray[np.float64]
 LINE_POINTS = 121
@@ -109,7 +110,7 @@ class SweptPanel:
             velocities = [line.velocity(self.case(x)) for x in fine]
             axes.plot(fine, velocities, line.dash, color=line.shade, label=line.label)
         markers(axes, data["x"], data["v"], SHADES[1], "FMU")
-        axes.set(xlabel=self.label, ylabel="steady velocity $V$")
+        axes.set(xlabel=self.label, ylabel=labels.STEADY_VELOCITY)
         axes.legend(fontsize=8)
 
 

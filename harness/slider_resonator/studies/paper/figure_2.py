@@ -12,6 +12,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase, fast_displacement
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
+from slider_resonator.studies.paper import labels
 from slider_resonator.studies.paper.figure import (
     SHADES,
     Array,
@@ -86,7 +87,7 @@ def _panel(axis: Axes, law: str, data: Data) -> None:
         average = averaged_position(law, frequency, drawn)
         axis.plot(drawn, average, dash, color=shade, label=f"{name}, {label}")
         markers(axis, run["time"][::every], run["position"][::every], shade, f"{name}, FMU")
-    axis.set(xlabel="time $\\tau$", ylabel="displacement $X$", xlim=(0.0, STOP))
+    axis.set(xlabel=labels.TIME, ylabel=labels.DISPLACEMENT, xlim=(0.0, STOP))
     axis.legend(fontsize=8)
 
 

@@ -28,13 +28,13 @@ PANELS = (
     ),
     SweptPanel(
         "amplitude_ratio",
-        "amplitude ratio $\\alpha$",
+        "amplitude ratio $\\alpha$ [1]",
         tuple(np.linspace(0.0, 1.0, 11).tolist()),
         {"strength": 1.0, "phase": 0.5},
     ),
     SweptPanel(
         "strength",
-        "strength $q$",
+        "strength $q$ [1]",
         tuple(np.linspace(0.2, 3.0, 11).tolist()),
         {"amplitude_ratio": 1.0, "phase": 1.57},
     ),

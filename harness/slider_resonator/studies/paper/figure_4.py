@@ -11,6 +11,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.studies.paper import labels
 from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, curve, markers, panels
 from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
 from slider_resonator.studies.paper.measure import steady_velocity
@@ -66,7 +67,7 @@ def _draw(data: Data) -> Drawing:
             points = data[f"{law} {strength:g}"]
             markers(axis, points["x"], points["v"], shade, f"FMU, q = {strength:g}")
     for axis, law in zip(axes, ("Coulomb", "LuGre"), strict=True):
-        axis.set(title=f"{law} friction", xlabel="load $L$", ylabel="steady velocity $V$")
+        axis.set(title=f"{law} friction", xlabel=labels.LOAD, ylabel=labels.STEADY_VELOCITY)
         axis.set(xlim=(0.0, None), ylim=(0.0, None))
         axis.legend(fontsize=8)
     axes[1].axvline(0.4, color="0.6", linewidth=0.8)

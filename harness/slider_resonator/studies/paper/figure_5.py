@@ -22,9 +22,9 @@ PANELS = tuple(
     SweptPanel(swept, label, tuple(points), FIXED)
     for swept, label, points in (
         ("phase", "phase $\\phi$ [rad]", np.linspace(0.0, pi, 11).tolist()),
-        ("strength", "strength $q$", np.linspace(0.25, 2.5, 10).tolist()),
-        ("amplitude_ratio", "amplitude ratio $\\alpha$", np.linspace(0.0, 1.0, 9).tolist()),
-        ("friction_coefficient", "friction coefficient $\\mu$", MU),
+        ("strength", "strength $q$ [1]", np.linspace(0.25, 2.5, 10).tolist()),
+        ("amplitude_ratio", "amplitude ratio $\\alpha$ [1]", np.linspace(0.0, 1.0, 9).tolist()),
+        ("friction_coefficient", "friction coefficient $\\mu$ [1]", MU),
     )
 )
 

@@ -12,6 +12,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.studies.paper import labels
 from slider_resonator.studies.paper.figure import (
     SHADES,
     Array,
@@ -80,9 +81,9 @@ def _draw(data: Data) -> Drawing:
         dash = "-" if fidelity == 2 else "--"
         turns = (run["time"][last] - run["time"][-1]) / PERIOD
         axes[2].plot(turns, run["velocity"][last], dash, color=shade, label=name)
-    axes[0].set(xlabel="time $\\tau$", ylabel="displacement $x$")
-    axes[1].set(xlabel="time $\\tau$", ylabel="slow velocity")
-    axes[2].set(xlabel="drive periods before the end", ylabel="velocity $\\dot x$")
+    axes[0].set(xlabel=labels.TIME, ylabel=labels.DISPLACEMENT)
+    axes[1].set(xlabel=labels.TIME, ylabel="slow velocity [$x_0 \\omega_0$]")
+    axes[2].set(xlabel="drive periods before the end", ylabel="velocity [$x_0 \\omega_0$]")
     axes[2].set_ylim(-0.3, 1.6)
     for axis in axes:
         axis.legend(fontsize=7.5)

@@ -18,6 +18,7 @@ from slider_resonator.references.averaged.averaged_coulomb import (
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.studies.paper import labels
 from slider_resonator.studies.paper.figure import (
     SHADES,
     Data,
@@ -86,7 +87,7 @@ def _over_ratio(axis: Axes, data: Data) -> None:
         label="average at integer ratios",
     )
     markers(axis, RATIOS, data["ratio"], SHADES[1], "FMU")
-    axis.set(xlabel="frequency ratio $\\lambda$", ylabel="steady velocity")
+    axis.set(xlabel=labels.RATIO, ylabel=labels.STEADY_VELOCITY)
 
 
 def _over_phase(axis: Axes, data: Data) -> None:
@@ -95,7 +96,7 @@ def _over_phase(axis: Axes, data: Data) -> None:
         axis.plot(fine, [_scaled(p, ratio) for p in fine], color=shade)
         values = data["phase"][f"{ratio:g}"]
         markers(axis, PHASES, values, shade, f"$\\lambda$ = {ratio:g}")
-    axis.set(xlabel="phase $\\phi_1$ [rad]", ylabel="steady velocity")
+    axis.set(xlabel="phase $\\phi_1$ [rad]", ylabel=labels.STEADY_VELOCITY)
 
 
 def _detuned(axis: Axes, data: Data) -> None:
@@ -113,7 +114,7 @@ def _detuned(axis: Axes, data: Data) -> None:
         position = np.array(run["position"]) / force.length_scale
         label = f"$\\Delta\\Omega$ = {detuning:g}"
         markers(axis, run["time"][::8], position[::8], shade, label)
-    axis.set(xlabel="time $\\tau$", ylabel="displacement", ylim=(0.0, 2.3))
+    axis.set(xlabel=labels.TIME, ylabel=labels.DISPLACEMENT, ylim=(0.0, 2.3))
 
 
 def _histories(axis: Axes, data: Data) -> None:
@@ -122,7 +123,7 @@ def _histories(axis: Axes, data: Data) -> None:
         run = data["history"][f"{ratio:g}"]
         position = np.array(run["position"]) / length
         axis.plot(run["time"], position, color=shade, label=f"$\\lambda$ = {ratio:g}")
-    axis.set(xlabel="time $\\tau$", ylabel="displacement")
+    axis.set(xlabel=labels.TIME, ylabel=labels.DISPLACEMENT)
 
 
 FIGURE = PaperFigure(

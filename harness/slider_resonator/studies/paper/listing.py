@@ -6,7 +6,9 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from slider_resonator.output import markdown
+from slider_resonator.fmu.provenance import Provenance
+from slider_resonator.fmu.provenance_text import provenance_html, provenance_markdown
+from slider_resonator.output import html_page, markdown
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
@@ -20,9 +22,12 @@ HEAD = (
 )
 
 
-def write_figures(folder: Path, figures: Iterable[PaperFigure], fmu: str, guid: str) -> None:
+_CLAIM_COLUMNS = texts("statement", "where", "measured", "verdict", "why")
+
+
+def write_figures(folder: Path, figures: Iterable[PaperFigure], provenance: Provenance) -> None:
     """Write FIGURES.md with the caption of each figure; HarnessError when it cannot be written."""
-    lines = ["# Figures", "", f"{_origin(fmu, guid)} {HEAD}", ""]
+    lines = ["# Figures", "", _origin(provenance), HEAD, ""]
     for figure in figures:
         lines += [f"## {figure.name}: {figure.title}", "", f"![{figure.title}]({figure.name}.png)"]
         lines += ["", f"{figure.caption} ([SVG]({figure.name}.svg))", ""]
@@ -30,17 +35,16 @@ def write_figures(folder: Path, figures: Iterable[PaperFigure], fmu: str, guid: 
 
 
 def write_tables(
-    folder: Path, tables: Sequence[tuple[PaperTable, Data]], fmu: str, guid: str
+    folder: Path, tables: Sequence[tuple[PaperTable, Data]], provenance: Provenance
 ) -> None:
     """Write TABLES.md with all tables and a JSON file for each.
 
     Raises HarnessError when they cannot be written.
     """
-    lines = ["# Tables", "", _origin(fmu, guid), ""]
+    lines = ["# Tables", "", _origin(provenance), ""]
     for table, data in tables:
         content = {
-            "fmu": fmu,
-            "guid": guid,
+            **_fmu(provenance),
             "title": table.title,
             "caption": table.caption,
             "columns": table.columns,
@@ -48,35 +52,80 @@ def write_tables(
             "allowed": table.bounds,
             "rows": data["rows"],
         }
-        write_text(folder / f"{table.name}.json", to_json(content) + "\n")
+        write_text(folder / f"{table.name}.json", to_json(content, provenance) + "\n")
         lines += [f"## {table.name}: {table.title}", "", table.caption, ""]
-        rows = [[_number(row[name]) for name in table.columns] for row in data["rows"]]
-        lines += [markdown.rendered(Table(numbers(*table.columns.values()), rows)), ""]
-        for name, size in table.largest(data).items():
-            verdict = "" if size <= table.bounds[name] else ", **NOT CONFIRMED**"
-            meaning = table.columns[name]
-            lines.append(f"Largest {meaning}: {size:.2g}, allowed {table.bounds[name]:g}{verdict}.")
+        lines += [markdown.rendered(_measured(table, data)), ""]
+        lines += _largest(table, data, "**NOT CONFIRMED**")
         lines.append("")
     write_text(folder / "TABLES.md", "\n".join(lines))
 
 
 def write_claims(
-    folder: Path, groups: Sequence[tuple[str, Sequence[Claim]]], fmu: str, guid: str
+    folder: Path, groups: Sequence[tuple[str, Sequence[Claim]]], provenance: Provenance
 ) -> None:
     """Write claims.json and claims.md from (title, claims) of every group.
 
     Raises HarnessError when they cannot be written.
     """
     claims = [claim for _, group in groups for claim in group]
-    content = {"fmu": fmu, "guid": guid, "claims": claims}
-    write_text(folder / "claims.json", to_json(content) + "\n")
-    lines = ["# Statements of the paper, and what was measured", "", _origin(fmu, guid)]
+    content = {**_fmu(provenance), "claims": claims}
+    write_text(folder / "claims.json", to_json(content, provenance) + "\n")
+    lines = ["# Statements of the paper, and what was measured", "", _origin(provenance)]
     lines += [verdicts(claims), ""]
     for title, group in groups:
-        columns = texts("statement", "where", "measured", "verdict", "why")
-        table = Table(columns, [_claim_row(claim) for claim in group])
+        table = Table(_CLAIM_COLUMNS, [_claim_row(claim) for claim in group])
         lines += [f"## {title}", "", markdown.rendered(table), ""]
     write_text(folder / "claims.md", "\n".join(lines))
+
+
+def write_index(
+    folder: Path,
+    figures: Iterable[PaperFigure],
+    tables: Sequence[tuple[PaperTable, Data]],
+    groups: Sequence[tuple[str, Sequence[Claim]]],
+    provenance: Provenance,
+) -> None:
+    """Write index.html, with all figures beside it, tables and claims.
+
+    Raises HarnessError when it cannot be written.
+    """
+    text = html_page.escaped
+    parts = [f"<p>{text(HEAD)}</p>", provenance_html(provenance)]
+    claims = [claim for _, group in groups for claim in group]
+    if claims:
+        parts.append(f"<h2>Statements of the paper</h2><p>{text(verdicts(claims))}</p>")
+    for title, group in groups:
+        table = Table(_CLAIM_COLUMNS, [_claim_row(claim) for claim in group])
+        parts.append(f'<h3>{text(title)}</h3><div class="wide">{html_page.rendered(table)}</div>')
+    for figure in figures:
+        name, title = text(figure.name), text(figure.title)
+        parts.append(
+            f'<h2 id="{name}">{name}: {title}</h2><a href="{name}.svg">'
+            f'<img src="{name}.png" alt="{title}"></a><p>{text(figure.caption)}</p>'
+        )
+    for shown, data in tables:
+        rendered = html_page.rendered(_measured(shown, data))
+        parts.append(
+            f"<h2>{text(shown.name)}: {text(shown.title)}</h2><p>{text(shown.caption)}</p>"
+        )
+        parts.append(f'<div class="wide">{rendered}</div>')
+        parts += [f"<p>{text(line)}</p>" for line in _largest(shown, data)]
+    html_page.write_page(folder / "index.html", "The paper, reproduced", parts)
+
+
+def _measured(table: PaperTable, data: Data) -> Table:
+    rows = [[_number(row[name]) for name in table.columns] for row in data["rows"]]
+    return Table(numbers(*table.columns.values()), rows)
+
+
+def _largest(table: PaperTable, data: Data, wrong: str = "NOT CONFIRMED") -> list[str]:
+    """Return a sentence for each deviation that is judged."""
+    lines = []
+    for name, size in table.largest(data).items():
+        verdict = "" if size <= table.bounds[name] else f", {wrong}"
+        meaning = table.columns[name]
+        lines.append(f"Largest {meaning}: {size:.2g}, allowed {table.bounds[name]:g}{verdict}.")
+    return lines
 
 
 def verdicts(claims: Sequence[Claim]) -> str:
@@ -98,5 +147,9 @@ def _number(value: float | None) -> str:
     return "none" if value is None else f"{value:.6g}"
 
 
-def _origin(fmu: str, guid: str) -> str:
-    return f"FMU {markdown.escaped(fmu)}, GUID {markdown.escaped(guid)}."
+def _fmu(provenance: Provenance) -> dict[str, str | None]:
+    return {"fmu": Path(provenance.fmus[0].fmu).name, "guid": provenance.fmus[0].guid}
+
+
+def _origin(provenance: Provenance) -> str:
+    return provenance_markdown(provenance) + "\n"

@@ -12,8 +12,9 @@ from typing import Any
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import replacing, write_text
-from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.console import counted, noting_on_interrupt
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.targets import make_folder
@@ -35,7 +36,12 @@ from slider_resonator.studies.paper import (
 )
 from slider_resonator.studies.paper.claim import Claim, ClaimGroup
 from slider_resonator.studies.paper.figure import Data, PaperFigure
-from slider_resonator.studies.paper.listing import write_claims, write_figures, write_tables
+from slider_resonator.studies.paper.listing import (
+    write_claims,
+    write_figures,
+    write_index,
+    write_tables,
+)
 from slider_resonator.studies.paper.table import PaperTable
 
 FIGURES: Mapping[str, PaperFigure] = {
@@ -118,6 +124,7 @@ def reproduce(
         if name not in NAMES:
             raise HarnessError(unknown_name("figure", name, NAMES))
     make_folder(out / RESULTS)
+    provenance = provenance_of(fmu_path)
     began = perf_counter()
     chosen = only or NAMES
     figures = [figure for name, figure in FIGURES.items() if name in chosen]
@@ -128,20 +135,21 @@ def reproduce(
     with noting_on_interrupt(lambda: _kept(found, out)), IsolatedFmu(fmu_path, time_limit) as fmu:
         guid = fmu.guid
         for index, job in enumerate(jobs):
-            progress(job.name, index / len(jobs))
+            progress(counted(job.name, index, len(jobs)), index / len(jobs))
             found[job.name] = fmu.run(partial(_measure, job.name))
-            results = to_json({"guid": guid, "data": found[job.name]})
+            results = to_json({"guid": guid, "data": found[job.name]}, provenance)
             write_text(out / RESULTS / f"{job.name}.json", results + "\n")
             if isinstance(job, PaperFigure):
                 _draw(job, found[job.name], out)
     measured = [(table, found[table.name]) for table in tables]
     if figures:
-        write_figures(out, figures, fmu_path.name, guid)
+        write_figures(out, figures, provenance)
     if tables:
-        write_tables(out, measured, fmu_path.name, guid)
+        write_tables(out, measured, provenance)
     claims = [(group.title, found[group.name]) for group in groups]
     if claims:
-        write_claims(out, claims, fmu_path.name, guid)
+        write_claims(out, claims, provenance)
+    write_index(out, figures, measured, claims, provenance)
     return Outcome(
         out=str(out),
         fmu=str(fmu_path),

@@ -12,6 +12,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.studies.paper import labels
 from slider_resonator.studies.paper.figure import (
     SHADES,
     Array,
@@ -52,13 +53,13 @@ def _draw(data: Data) -> Drawing:
     velocity.axhline(paper, color=SHADES[0], linestyle="--", label="(17)")
     velocity.axhline(hard, color="0.4", linestyle=":", label="(5), Coulomb")
     markers(velocity, data["velocity"]["x"], data["velocity"]["v"], SHADES[1], "FMU")
-    velocity.set(ylabel="steady velocity $V$")
+    velocity.set(ylabel=labels.STEADY_VELOCITY)
 
     found = np.array(data["velocity"]["v"])
     uniform = np.abs(_uniform_velocity(KAPPAS) - found)
     error.plot(KAPPAS, np.abs(paper - found), "--", color=SHADES[0], label="(17) against FMU")
     error.plot(KAPPAS, uniform, color=SHADES[2], label="uniform against FMU")
-    error.set(yscale="log", ylabel="error of $V$")
+    error.set(yscale="log", ylabel="error of $V$ [$x_0 \\omega_0$]")
 
     blocked = [uniform_average.blocking_load(CASE, stiffness_of(k), FREQUENCY) for k in fine]
     paper = averaged_lugre.blocking_load(CASE)
@@ -67,9 +68,9 @@ def _draw(data: Data) -> Drawing:
     blocking.axhline(paper, color=SHADES[0], linestyle="--", label="(24)")
     blocking.axhline(hard, color="0.4", linestyle=":", label="(21), Coulomb")
     markers(blocking, data["blocking"]["x"], data["blocking"]["v"], SHADES[1], "FMU")
-    blocking.set(ylabel="blocking load $L_b$")
+    blocking.set(ylabel="blocking load $L_b$ [$m x_0 \\omega_0^2$]")
     for axis in (velocity, error, blocking):
-        axis.set(xscale="log", xlabel="$\\kappa = \\sigma_0 q / (\\mu \\Omega)$")
+        axis.set(xscale="log", xlabel="$\\kappa = \\sigma_0 q / (\\mu \\Omega)$ [1]")
         axis.legend(fontsize=8)
     return drawing
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure as Drawing
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
 from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.studies.paper import labels
 from slider_resonator.studies.paper.figure import Data, PaperFigure, panels
 from slider_resonator.studies.paper.figure_8 import DEVICE, velocity_at
 
@@ -35,8 +36,8 @@ def _draw(data: Data) -> Drawing:
         axis.grid(False)
         axis.set_facecolor("0.75")
         image = axis.pcolormesh(RATIOS, PHASES, values.T, cmap="RdBu_r", vmin=-0.9, vmax=0.9)
-        axis.set(title=title, xlabel="frequency ratio $\\lambda$", ylabel="phase $\\phi_1$ [rad]")
-    drawing.colorbar(image, ax=axes, label="steady velocity $/\\,(x_0 \\omega_0)$")
+        axis.set(title=title, xlabel=labels.RATIO, ylabel="phase $\\phi_1$ [rad]")
+    drawing.colorbar(image, ax=axes, label=labels.STEADY_VELOCITY)
     return drawing
 
 

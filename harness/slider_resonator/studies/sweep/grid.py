@@ -35,13 +35,15 @@ class Sweep:
     """A valid sweep.
 
     `points` are the values of `task.names`, one tuple each, in the order of the rows of the table.
-    `is_grid` says that they are a full product of axes and nothing else.
+    `is_grid` says that they are a full product of axes and nothing else,
+    `logarithmic` are the variables with that spacing.
     """
 
     title: str
     task: Task
     points: tuple[tuple[float, ...], ...]
     is_grid: bool
+    logarithmic: frozenset[str] = frozenset()
 
 
 def read_grid(path: Path) -> Sweep:
@@ -100,7 +102,14 @@ def _sweep(content: Mapping[str, Any]) -> Sweep:
     title = content.get("title", "")
     if not isinstance(title, str):
         raise AxisError(f"title = {title!r}: must be a text in quotes")
-    return Sweep(title, task, points, is_grid)
+    return Sweep(title, task, points, is_grid, _logarithmic(content))
+
+
+def _logarithmic(content: Mapping[str, Any]) -> frozenset[str]:
+    axes = [*_table(content, "grid").items(), *_table(content, "random").items()]
+    return frozenset(
+        name for name, axis in axes if isinstance(axis, dict) and axis.get("spacing") == "log"
+    )
 
 
 def _measures(content: Mapping[str, Any]) -> tuple[str, ...]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError
@@ -22,11 +24,11 @@ MAX_LINES = 6
 """Values of a variable that are drawn as a line each; more of them make a map."""
 
 
-def check_picture(sweep: Sweep) -> None:
-    """Raise HarnessError for a sweep that has no picture."""
+def check_picture(sweep: Sweep, option: str) -> None:
+    """Raise HarnessError, which begins with the option, for a sweep that has no picture."""
     if len(sweep.task.names) > 2:
         raise HarnessError(
-            f"--plot: {len(sweep.task.names)} variables ({', '.join(sweep.task.names)}); "
+            f"{option}: {len(sweep.task.names)} variables ({', '.join(sweep.task.names)}); "
             "must be one, drawn as lines, or two, drawn as lines or a map"
         )
 
@@ -43,38 +45,31 @@ def draw_sweep(sweep: Sweep, columns: Columns, path: Path) -> None:
         for index, measure in enumerate(sweep.task.measures):
             axes = figure.add_subplot(count, 1, index + 1)
             result = np.array(columns[measure], dtype=np.float64)  # None becomes NaN: a gap
-            label = f"{measure.replace('_', ' ')} [{unit(measure)}]"
-            if len(names) == 1:
-                _line(axes, values[names[0]], result, None)
-                axes.set_ylabel(label)
+            label = measure_label(measure)
+            lines = split_into_lines(sweep, values)
+            if lines is not None:
+                abscissa, groups = lines
+                for name, chosen in groups:
+                    _line(axes, values[abscissa][chosen], result[chosen], name or None)
+                axes.set(xlabel=variable_label(abscissa), ylabel=label)
+                if len(groups) > 1:
+                    axes.legend()
             elif sweep.is_grid:
-                _over_grid(axes, sweep, values, result, label)
+                _map(axes, sweep, values, result, label)
             else:
                 points = axes.scatter(values[names[0]], values[names[1]], c=result, s=12)
                 _unanswered(axes, values[names[0]], values[names[1]], result)
-                axes.set_ylabel(_variable(names[1]))
+                axes.set_ylabel(variable_label(names[1]))
                 figure.colorbar(points, ax=axes, label=label)
             if not axes.get_xlabel():
-                axes.set_xlabel(_variable(names[0]))
+                axes.set_xlabel(variable_label(names[0]))
+            _scale(axes, sweep, lines[0] if lines else names[0], None if lines else names[1])
         with replacing(path) as temporary:
             save(figure, temporary)
 
 
-def _over_grid(
-    axes: Axes, sweep: Sweep, values: dict[str, Array], result: Array, label: str
-) -> None:
-    """Draw lines where one of the two axes has few values, a map where both have many."""
+def _map(axes: Axes, sweep: Sweep, values: Mapping[str, Array], result: Array, label: str) -> None:
     one, other = sweep.task.names
-    few = min((one, other), key=lambda name: len(np.unique(values[name])))
-    if len(np.unique(values[few])) <= MAX_LINES:
-        abscissa = other if few == one else one
-        for value in np.unique(values[few]):
-            chosen = values[few] == value
-            _line(axes, values[abscissa][chosen], result[chosen], f"{_name(few)} {value:.4g}")
-        axes.set_xlabel(_variable(abscissa))
-        axes.set_ylabel(label)
-        axes.legend()
-        return
     x, column = np.unique(values[one], return_inverse=True)
     y, row = np.unique(values[other], return_inverse=True)
     image = np.full((len(y), len(x)), np.nan)
@@ -86,8 +81,16 @@ def _over_grid(
     mesh = axes.pcolormesh(x, y, image, shading="nearest", rasterized=True, **limit)
     _unanswered(axes, values[one], values[other], result)
     axes.grid(False)
-    axes.set_ylabel(_variable(other))
+    axes.set_ylabel(variable_label(other))
     axes.figure.colorbar(mesh, ax=axes, label=label)
+
+
+def _scale(axes: Axes, sweep: Sweep, x: str, y: str | None) -> None:
+    """Make the axes of variables with logarithmic spacing logarithmic."""
+    if x in sweep.logarithmic:
+        axes.set_xscale("log")
+    if y in sweep.logarithmic:
+        axes.set_yscale("log")
 
 
 def _line(axes: Axes, x: Array, y: Array, label: str | None) -> None:
@@ -116,8 +119,34 @@ def _unanswered(axes: Axes, x: Array, y: Array, result: Array) -> None:
         axes.legend()
 
 
-def _variable(name: str) -> str:
+def variable_label(name: str) -> str:
+    """Return the label of an axis over a parameter or input, with its unit."""
     return f"{_name(name)} [{INPUTS.get(name) or PARAMETERS[name]}]"
+
+
+def measure_label(measure: str) -> str:
+    """Return the label of an axis over a measure, with its unit."""
+    return f"{_name(measure)} [{unit(measure)}]"
+
+
+def split_into_lines(
+    sweep: Sweep, values: Mapping[str, Array]
+) -> tuple[str, list[tuple[str, NDArray[np.intp]]]] | None:
+    """Return the variable along lines, and the label and the points of each line; None for a map.
+
+    A grid over two variables has lines where one of them has few values.
+    """
+    names = sweep.task.names
+    if len(names) == 1:
+        return names[0], [("", np.arange(len(sweep.points)))]
+    few = min(names, key=lambda name: len(np.unique(values[name])))
+    if not sweep.is_grid or len(np.unique(values[few])) > MAX_LINES:
+        return None
+    (abscissa,) = (name for name in names if name != few)
+    return abscissa, [
+        (f"{_name(few)} {value:.4g}", np.flatnonzero(values[few] == value))
+        for value in np.unique(values[few])
+    ]
 
 
 def _name(name: str) -> str:

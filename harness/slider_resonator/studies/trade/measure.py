@@ -10,6 +10,7 @@ from typing import Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.output.console import counted
 from slider_resonator.studies.trade.fmu_methods import FmuMethods, TaskRunner
 from slider_resonator.studies.trade.in_turn import Progress, Timed, in_turn
 from slider_resonator.studies.trade.method import Label, Method, SteadyMethod, cpu_seconds
@@ -80,10 +81,12 @@ def _measured(
     notes = _Notes(problem.name)
     candidates: list[_Candidate] = []
     for index, method in enumerate(methods):
-        progress(f"{problem.name}: {method.label.name}", 0.4 * index / len(methods))
+        label = counted(method.label.name, index, len(methods))
+        progress(f"{problem.name}: {label}", 0.4 * index / len(methods))
         candidates += _follow(problem, reference, method, budget, notes)
     for index, answer in enumerate(answers):
-        progress(f"{problem.name}: {answer.label.name}", 0.4 + 0.2 * index / len(answers))
+        label = counted(answer.label.name, index, len(answers))
+        progress(f"{problem.name}: {label}", 0.4 + 0.2 * index / len(answers))
         candidates += _answer(problem, reference, answer, budget, notes)
     notes.answers_of(methods)
     timed = [

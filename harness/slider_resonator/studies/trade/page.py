@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from slider_resonator.fmu.provenance import Provenance
+from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.output.hover_plot import hover_scripts, hover_style, plot_html
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.studies.trade.hover import work_precision_plot
 from slider_resonator.studies.trade.needs import title
-from slider_resonator.studies.trade.plots import work_precision_png
 from slider_resonator.studies.trade.result import Omission, Row, Trade
 from slider_resonator.studies.trade.solution import QUANTITIES
 from slider_resonator.studies.trade.summary import comparisons, duration
@@ -20,12 +23,13 @@ _COLUMNS = (
 )
 
 
-def write_trades(path: Path, trades: Sequence[Trade]) -> None:
+def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) -> None:
     """Write the page; HarnessError when that is impossible."""
     parts = [part for trade in trades for part in _ratios(trade)]
     parts.append(_explanation())
     parts += [part for trade in trades for part in _scene(trade)]
-    write_page(path, "What accuracy costs", parts)
+    parts.append(provenance_html(provenance))
+    write_page(path, "What accuracy costs", parts, hover_scripts(), hover_style())
 
 
 def _ratios(trade: Trade) -> list[str]:
@@ -61,11 +65,9 @@ def _scene(trade: Trade) -> list[str]:
             f"{trade.uncertainty:.0e} of the position: errors below it mean nothing."
         )
     parts.append(f"<p>{escaped(run)}</p>")
-    for quantity, meaning in QUANTITIES.items():
+    for quantity in QUANTITIES:
         if trade.having(quantity):
-            source = work_precision_png(trade, quantity)
-            parts.append(f"<h3>{escaped(quantity)}</h3>")
-            parts.append(f'<img alt="{escaped(meaning)} over CPU time" src="{source}">')
+            parts.append(plot_html(work_precision_plot(trade, quantity)))
     table = Table(_COLUMNS, [_cells(row) for row in trade.rows])
     parts.append(folded(f"All {len(trade.rows)} rows", rendered(table)))
     parts.append(_omissions(trade.omissions))

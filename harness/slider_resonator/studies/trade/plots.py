@@ -1,4 +1,4 @@
-"""Work-precision plots: error over CPU time, family by family, with the Pareto front of all."""
+"""The picture of the README: error over CPU time by family, with the Pareto front of all."""
 
 from __future__ import annotations
 
@@ -10,12 +10,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from slider_resonator.output.atomic import replacing
-from slider_resonator.output.plot_style import png_data_uri, save, style
-from slider_resonator.studies.trade.result import AVERAGED, PEER, Row, Trade, families, front
-from slider_resonator.studies.trade.solution import QUANTITIES
+from slider_resonator.output.plot_style import save, style
+from slider_resonator.studies.trade.result import (
+    AVERAGED,
+    FLOOR,
+    PEER,
+    Row,
+    Trade,
+    curve,
+    families,
+    front,
+)
 
-FLOOR = 1e-16
-"""Errors below this, the resolution of double precision, are drawn at it."""
 PANELS = ("position", "mean_velocity")
 """The quantities in the picture."""
 OURS = {"native": "#1f5f8b", "Python": "#6fa8d0"}
@@ -32,17 +38,6 @@ class _Look:
     colour: object
     marker: str
     weight: float
-
-
-def work_precision_png(trade: Trade, quantity: str) -> str:
-    """Return the plot of a quantity as a PNG for a page of HTML."""
-    with style():
-        figure = Figure(figsize=(10.0, 5.2), layout="constrained")
-        axes = figure.subplots()
-        _draw(axes, trade.having(quantity), quantity, _looks(trade))
-        axes.set_ylabel(f"error: {QUANTITIES[quantity]}")
-        figure.legend(loc="outside right upper", fontsize=8)
-        return png_data_uri(figure)
 
 
 def draw_picture(trade: Trade, path: Path) -> None:
@@ -80,10 +75,7 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
     for family in families(drawn):
         own = [row for row in drawn if row.family == family]
         look = looks[family]
-        # Where only the communication step of ours varies, that is one line, however exact.
-        precise = own[0].kind == PEER or len({row.tolerance for row in own}) > 1
-        curve = front(own, quantity) if precise else sorted(own, key=lambda row: row.cost)
-        points = _points(curve, quantity)
+        points = _points(curve(own, quantity), quantity)
         axes.plot(*points, color=look.colour, linewidth=look.weight, zorder=2)
         spread = [(row.cost - min(row.cpu), max(row.cpu) - row.cost) for row in own]
         axes.errorbar(

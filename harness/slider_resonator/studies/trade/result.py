@@ -78,6 +78,8 @@ class Trade:
         return [row for row in self.having(quantity) if row.friction_law == self.friction_law]
 
 
+FLOOR = 1e-16
+"""Errors below this, the resolution of double precision, are drawn at it."""
 ROUNDING = 1e-12
 """Errors below this are rounding over a thousand drive periods and compare as equal."""
 
@@ -96,6 +98,15 @@ def front(rows: Iterable[Row], quantity: str) -> list[Row]:
         if not best or error(row) < error(best[-1]):
             best.append(row)
     return best
+
+
+def curve(own: Sequence[Row], quantity: str) -> list[Row]:
+    """Return the rows of a family that a line joins, by cost: its Pareto front, or all of them.
+
+    Where only the communication step of ours varies, that is one line, however exact.
+    """
+    precise = own[0].kind == PEER or len({row.tolerance for row in own}) > 1
+    return front(own, quantity) if precise else sorted(own, key=lambda row: row.cost)
 
 
 def cheapest(rows: Iterable[Row], quantity: str, error: float) -> Row | None:

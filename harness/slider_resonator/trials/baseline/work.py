@@ -15,7 +15,9 @@ from slider_resonator.checks.validate import Curves, RunFailure, Validation
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.provenance import identity_of
 from slider_resonator.output.atomic import replacing
+from slider_resonator.output.console import counted
 from slider_resonator.output.targets import make_folder
 from slider_resonator.scenes.scene import Scene, ScenePoint, built_in_scenes, read_scene
 from slider_resonator.trials.baseline.golden import Golden, measure_golden
@@ -98,6 +100,7 @@ def check(
     no FMU.
     """
     began = perf_counter()
+    identity = identity_of(fmu)
     scenes = [read_scene(file) for file in dict.fromkeys(files or recorded_files(folder))]
     golden = [_recorded(folder, scene) for scene in scenes]
     measured, run_failures = _measure(fmu, scenes, folder, progress, time_limit)
@@ -125,6 +128,7 @@ def check(
         perf_counter() - began,
         tuple(run_failures),
         tuple(curves for _, curves in compared if curves is not None),
+        identity=identity,
     )
 
 
@@ -186,7 +190,8 @@ def _measure(
     number = count()
 
     def meanwhile(point: ScenePoint) -> None:
-        progress(point.scene.name, next(number) / len(all_points))
+        done = next(number)
+        progress(counted(point.scene.name, done, len(all_points)), done / len(all_points))
 
     with open_fmu(fmu) as opened:
         origins = {scene.source: provenance(opened, scene, folder) for scene in scenes}

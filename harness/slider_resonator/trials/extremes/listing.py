@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
+from slider_resonator.fmu.provenance import Provenance
+from slider_resonator.fmu.provenance_text import HEADING, provenance_markdown
 from slider_resonator.output import markdown
 from slider_resonator.output.atomic import replacing, write_text
 from slider_resonator.output.json_output import to_json
@@ -21,18 +23,19 @@ AXIS_COLUMNS = (
 )
 
 
-def write_matrices(matrices: Sequence[Matrix], out: Path) -> None:
+def write_matrices(matrices: Sequence[Matrix], out: Path, provenance: Provenance) -> None:
     """Write extremes.json, extremes.md and a picture for each FMU into a folder.
 
     Raises HarnessError when that is impossible.
     """
     make_folder(out)
-    write_text(out / "extremes.json", to_json(as_plain(matrices)))
+    write_text(out / "extremes.json", to_json(as_plain(matrices), provenance))
     for matrix in matrices:
         with replacing(out / _picture(matrix)) as temporary:
             draw_matrix(matrix, temporary)
-    page = "\n\n".join(["# Stability at the extremes", *(_page(matrix) for matrix in matrices)])
-    write_text(out / "extremes.md", page + "\n")
+    parts = ["# Stability at the extremes", *(_page(matrix) for matrix in matrices)]
+    parts += [f"## {HEADING}", provenance_markdown(provenance)]
+    write_text(out / "extremes.md", "\n\n".join(parts) + "\n")
 
 
 def as_plain(matrices: Sequence[Matrix]) -> dict[str, object]:

@@ -12,6 +12,7 @@ from pathlib import Path
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_tasks
+from slider_resonator.output.console import counted
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, broken, judge
 from slider_resonator.trials.extremes.observe import observe
@@ -104,7 +105,8 @@ def run_matrix(
     verdicts: list[CellVerdict] = []
 
     def report(cell: MatrixCell) -> None:
-        progress(f"{fmu.name}: {cell.axis}", len(verdicts) / len(cells))
+        label = counted(f"{fmu.name}: {cell.axis}", len(verdicts), len(cells))
+        progress(label, len(verdicts) / len(cells))
 
     def matrix() -> Matrix:
         seconds = time.perf_counter() - began

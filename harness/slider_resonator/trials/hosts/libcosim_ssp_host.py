@@ -1,7 +1,6 @@
 """libcosimpy with an SSP package.
 
-libcosim knows no connectors of a system. So it gets the structure without them, and what comes from
-outside is set in the components by an override manipulator.
+What comes from outside is set in the components, by an override manipulator.
 """
 
 from __future__ import annotations
@@ -22,8 +21,7 @@ from slider_resonator.trials.hosts.libcosim_host import (
     set_initial,
     stepped,
 )
-
-STRUCTURE = "ComponentsOnly.ssd"
+from slider_resonator.trials.hosts.ssp_package import system_inputs
 
 
 class _Components:
@@ -50,21 +48,15 @@ def run(job: Job) -> Rows:
         folder = Path(unpacked)
         with zipfile.ZipFile(job.fmu) as archive:
             archive.extractall(folder)
-        system = read_ssd(job.fmu).system
-        entries = {
-            connection.startConnector: f"{connection.endElement}.{connection.endConnector}"
-            for connection in system.connections
-            if connection.startElement is None
-        }
-        execution = CosimExecution.from_ssp_file(
-            str(folder / STRUCTURE), step_size=round(job.step * NANOSECONDS)
-        )
-        sources = {component.name: component.source for component in system.elements}
+        execution = CosimExecution.from_ssp_file(job.fmu, step_size=round(job.step * NANOSECONDS))
+        elements = read_ssd(job.fmu).system.elements
+        sources = {component.name: component.source for component in elements}
         components = _Components(execution, folder, sources)
         for variable, (name, value) in zip(
             components.find(job.start), job.start.items(), strict=True
         ):
             set_initial(execution, variable, name, value)
+        entries = system_inputs(job.fmu)
         inputs = components.find(entries[name] for name in job.inputs)
         return stepped(execution, job, inputs, components.find(job.outputs))
 

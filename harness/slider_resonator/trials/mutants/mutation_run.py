@@ -10,6 +10,7 @@ from pathlib import Path
 
 from slider_resonator.checks.verdict import place
 from slider_resonator.errors import FmuError
+from slider_resonator.output.console import counted
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.mutant import Mutant
@@ -114,7 +115,10 @@ def _all(
         try:
             for done, future in enumerate(as_completed(futures), start=1):
                 verdict = future.result()
-                progress(f"{verdict.status}: {verdict.mutant.name}", done / len(mutants))
+                progress(
+                    counted(f"{verdict.status}: {verdict.mutant.name}", done - 1, len(mutants)),
+                    done / len(mutants),
+                )
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
     return tuple(future.result() for future in futures)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from slider_resonator.fmu.provenance import Provenance
+from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.html_page import escaped, rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trials.mutants.listing import rejections, summary, tally
@@ -18,7 +20,7 @@ from slider_resonator.trials.mutants.verdict import (
 )
 
 
-def write_mutants(path: Path, run: MutationRun) -> None:
+def write_mutants(path: Path, run: MutationRun, provenance: Provenance) -> None:
     """Write tables, and every mutant that was not rejected with its diff and the reason.
 
     Raises HarnessError when the file cannot be written.
@@ -33,6 +35,7 @@ def write_mutants(path: Path, run: MutationRun) -> None:
         *(_mutant(verdict, opened=True) for verdict in run.having(SURVIVED)),
         *_group("Equivalent within the allowed deviation", run.having(EQUIVALENT)),
         *_group("Not reached", run.having(NOT_REACHED)),
+        provenance_html(provenance),
     ]
     write_page(path, "Mutants", parts)
 

@@ -10,6 +10,7 @@ from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
+from slider_resonator.output.console import counted
 from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
 from slider_resonator.trials.mutants.trial import ExpectedPoint, Observed, observe
@@ -25,7 +26,8 @@ def scene_points(
     points = []
     for index, file in enumerate(files):
         scene = read_scene(file)
-        progress(f"references of {scene.name}", index / len(files))
+        label = counted(f"references of {scene.name}", index, len(files))
+        progress(label, index / len(files))
         for point in points_to_check(scene):
             references = ReferenceSide(point.scene)
             expected = tuple(expected_value(expect, references) for expect in scene.expect)

@@ -1,39 +1,38 @@
 from __future__ import annotations
 
 import base64
-from html.parser import HTMLParser
+import json
+import re
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+
+from slider_resonator.checks.overview import Overview
 from slider_resonator.checks.reports.html_report import write_html
 from slider_resonator.checks.validate import Validation
-from tests.harness.verdicts import BAD, BROKEN, GOOD, TIMES
+from tests.harness.verdicts import BAD, BROKEN, GOOD, PASSED, SIGNAL, SLOWER, TIMES
+from tests.html_pages import Page
 
 
-class Tags(HTMLParser):
-    """Collects the tags of a page and the attributes that load something."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.tags: list[str] = []
-        self.loaded: list[str] = []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append(tag)
-        self.loaded += [value or "" for name, value in attrs if name in ("src", "href")]
-
-
-def page(folder: Path, *validations: Validation) -> tuple[str, Tags]:
+def page(folder: Path, *validations: Validation) -> tuple[str, Page]:
     path = folder / "report.html"
     write_html(path, validations)
     text = path.read_text(encoding="utf-8")
-    tags = Tags()
-    tags.feed(text)
-    return text, tags
+    return text, Page(text)
+
+
+def plots_of(text: str) -> list[dict[str, Any]]:
+    found = re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
+    return [json.loads(data) for data in found]
 
 
 def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None:
     text, tags = page(tmp_path, GOOD, BAD)
-    (source,) = tags.loaded
+    (source,) = (one for one in tags.loaded if one.startswith("data:image"))
+    rest = [one for one in tags.loaded if one != source]
+    assert all(one == "data:," or one[1:] in tags.ids for one in rest), "links within the page"
     head, _, data = source.partition(",")
     assert head == "data:image/png;base64"
     assert base64.b64decode(data).startswith(b"\x89PNG")
@@ -42,7 +41,10 @@ def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None
     assert "off by 0.0067 m/s" in text
     assert "good.fmu" in text
     assert "bad.fmu" in text
-    assert tags.tags.count("tr") == 2 + 4, "a head and all checks of both FMUs"
+    sections = [name for name in tags.ids if name.startswith("scene-")]
+    assert sections == ["scene-0-0", "scene-1-0", "scene-1-1"]
+    rows = tags.tags.count("tr")
+    assert rows == 2 + 3 + 3 + 4 + 5, "indices, heads and checks of the scenes, provenance"
 
 
 def test_output_of_an_fmu_is_escaped_in_markup(tmp_path: Path) -> None:
@@ -50,3 +52,36 @@ def test_output_of_an_fmu_is_escaped_in_markup(tmp_path: Path) -> None:
     assert "b" not in tags.tags
     assert "could not be run" in text
     assert "lift_off at phase 0.4: the FMU crashed" in text
+
+
+def test_a_passing_scene_shows_the_fmu_on_the_reference(tmp_path: Path) -> None:
+    times = np.array([0.0, 0.1, 0.2])
+    overview = Overview("table_1", "position", "m", times, 1.0 + times, 1.0 + 2.0 * times)
+    passed = replace(SIGNAL, passed=True, first_time=None, worst_time=None)
+    good = Validation("good.fmu", (passed,), 1.0, overviews=(overview,))
+    (plot,) = plots_of(page(tmp_path, good)[0])
+    assert (plot["x"]["label"], plot["y"]["label"]) == ("time [s]", "position [m]")
+    reference, fmu = plot["series"]
+    assert (reference["label"], reference["y"]) == ("reference", [1.0, 1.2, 1.4])
+    assert (fmu["label"], fmu["y"]) == ("FMU", [1.0, 1.1, 1.2])
+
+
+def test_numbers_are_shown_over_the_sweep(tmp_path: Path) -> None:
+    other = replace(PASSED, against="closed_form", reference=0.2)
+    validation = Validation("bad.fmu", (SLOWER, other, PASSED), 1.0)
+    (plot,) = plots_of(page(tmp_path, validation)[0])
+    assert plot["x"]["label"] == "phase [rad]"
+    assert plot["y"]["label"] == "steady velocity [m/s]"
+    reference, fmu = plot["series"]
+    assert reference["x"] == fmu["x"] == [0.0, 0.4]
+    assert fmu["y"] == [0.126667, 0.12]
+    assert reference["y"] == [0.126667, 0.126667]
+
+
+def test_the_index_leads_to_each_scene_of_each_fmu(tmp_path: Path) -> None:
+    hostile = replace(PASSED, scene="<script>")
+    text, parsed = page(tmp_path, GOOD, replace(GOOD, checks=(hostile, SLOWER)))
+    targets = [one[1:] for one in parsed.loaded if one.startswith("#")]
+    assert targets == ["scene-0-0", "scene-1-0", "scene-1-1"]
+    assert set(targets) <= set(parsed.ids)
+    assert "&lt;script&gt;" in text

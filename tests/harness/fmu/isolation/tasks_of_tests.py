@@ -8,8 +8,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from ctypes import POINTER, c_bool, c_double, cast
 from pathlib import Path
 
+from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
 
 
@@ -39,6 +41,15 @@ def in_thirds(instance: Instance, progress: Callable[[float], None]) -> str:
 
 def abort(instance: Instance) -> None:
     os.abort()
+
+
+def crash_in_step_of_fmi_3(instance: Instance) -> None:
+    """Have the FMU answer into memory that is nobody's."""
+    assert isinstance(instance.slave, Fmi3Slave)
+    instance.start({})
+    nowhere = [cast(8, POINTER(kind)) for kind in (c_bool, c_bool, c_bool, c_double)]
+    instance.slave._answered = tuple(nowhere)
+    instance.step_to(0.01)
 
 
 def leave(instance: Instance) -> None:

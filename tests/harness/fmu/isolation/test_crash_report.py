@@ -20,6 +20,13 @@ def test_a_crash_names_the_call_and_the_signal() -> None:
     )
 
 
+def test_functions_of_fmi_3_are_named_as_there() -> None:
+    through = '  File "/a/fmu/fmi3_slave.py", line 48 in _call\n'
+    trace = TRACE.replace('  File "/a/fmu/instance.py"', f'{through}  File "/a/fmu/instance.py"')
+    report = "the FMU crashed in fmi3DoStep: its process ended with SIGABRT"
+    assert crash_report("", trace, Ending(-6), 60.0) == report
+
+
 def test_a_missed_time_limit_is_reported_however_the_process_ended() -> None:
     trace = TRACE.replace("Fatal Python error: Aborted", "Timeout (0:01:00)!")
     expected = "no answer within the time limit of 60 s in fmi2DoStep: the FMU was ended"

@@ -78,6 +78,14 @@ def test_a_process_that_ends_is_reported_and_cleaned_up(
         isolated.run(task)
 
 
+def test_a_crash_of_fmi_3_names_its_function(native_3_fmu: Path) -> None:
+    with (
+        IsolatedFmu(native_3_fmu, 60.0) as isolated,
+        pytest.raises(FmuDied, match=r"the FMU crashed in fmi3DoStep: .* SIGSEGV"),
+    ):
+        isolated.run(tasks.crash_in_step_of_fmi_3)
+
+
 def test_a_task_has_a_time_limit(native_fmu: Path) -> None:
     with (
         pytest.raises(FmuDied, match="within the time limit of 1 s"),

@@ -17,8 +17,8 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
+from slider_resonator.scenes.need_table import STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.schema import STEADY_NEEDS
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady

@@ -1,25 +1,31 @@
 from __future__ import annotations
 
+import inspect
 import json
+import re
 from dataclasses import replace
+from html import escape
 from pathlib import Path
 
-from slider_resonator.studies.paper import figure_2
+from slider_resonator.studies.paper import figure_2, figure_3, figure_5, figure_7, figure_8, labels
 from slider_resonator.studies.paper.claim import Claim, near, statements
 from slider_resonator.studies.paper.listing import (
     verdicts,
     write_claims,
     write_figures,
+    write_index,
     write_tables,
 )
+from slider_resonator.studies.paper.reproduce import FIGURES
 from slider_resonator.studies.paper.table import PaperTable
+from tests.harness.known_provenance import PROVENANCE
 
 CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, "agrees", "it | does", True)
 
 
 def test_claims_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     wrong = replace(CLAIM, name="other", verdict="disagrees", confirmed=False)
-    write_claims(tmp_path, [("All", [CLAIM, wrong])], "a.fmu", "guid")
+    write_claims(tmp_path, [("All", [CLAIM, wrong])], PROVENANCE)
     claims = json.loads((tmp_path / "claims.json").read_text(encoding="utf-8"))["claims"]
     assert [claim["confirmed"] for claim in claims] == [True, False]
     table = (tmp_path / "claims.md").read_text(encoding="utf-8")
@@ -39,7 +45,7 @@ def test_verdicts_are_counted() -> None:
 
 
 def test_figures_are_listed_with_their_captions(tmp_path: Path) -> None:
-    write_figures(tmp_path, [figure_2.FIGURE], "a.fmu", "guid")
+    write_figures(tmp_path, [figure_2.FIGURE], PROVENANCE)
     text = (tmp_path / "FIGURES.md").read_text(encoding="utf-8")
     assert "(figure_2.png)" in text
     assert figure_2.FIGURE.caption in text
@@ -54,7 +60,7 @@ def test_tables_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     columns = {"kappa": "kappa", "error": "theory / FMU - 1"}
     table = PaperTable("forces", "Forces", "In N.", columns, {"error": 0.1}, lambda i: {})
     right = {"rows": [{"kappa": 1.0, "error": -0.05}, {"kappa": 10.0, "error": 0.02}]}
-    write_tables(tmp_path, [(table, right)], "a.fmu", "guid")
+    write_tables(tmp_path, [(table, right)], PROVENANCE)
     text = (tmp_path / "TABLES.md").read_text(encoding="utf-8")
     assert "## forces: Forces" in text
     assert "| kappa | theory / FMU - 1 |\n| ---: | ---: |\n| 1 | -0.05 |\n| 10 | 0.02 |" in text
@@ -63,7 +69,7 @@ def test_tables_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     assert content["rows"] == right["rows"]
     assert (content["largest"], content["allowed"]) == ({"error": 0.05}, {"error": 0.1})
     wrong = {"rows": [{"kappa": 1.0, "error": -0.5}]}
-    write_tables(tmp_path, [(table, wrong)], "a.fmu", "guid")
+    write_tables(tmp_path, [(table, wrong)], PROVENANCE)
     assert "**NOT CONFIRMED**" in (tmp_path / "TABLES.md").read_text(encoding="utf-8")
 
 
@@ -75,3 +81,37 @@ def test_one_deviation_too_large_of_either_sign_is_enough() -> None:
     assert table.confirmed(data)
     assert not table.confirmed({"rows": [{"error": -0.11, "other": 0.0}]})
     assert not table.confirmed({"rows": [{"error": 0.0, "other": 0.0}, {"error": 0, "other": 2}]})
+
+
+def test_the_index_has_all_figures_tables_and_claims_escaped(tmp_path: Path) -> None:
+    wrong = replace(CLAIM, statement="It <b>flies</b>", verdict="disagrees", confirmed=False)
+    table = PaperTable("speeds", "Speeds", "By <load>.", {"v": "speed"}, {"v": 0.1}, lambda _: {})
+    data = {"rows": [{"v": 0.2}]}
+    write_index(
+        tmp_path, FIGURES.values(), [(table, data)], [("All", [CLAIM, wrong])], "<a>.fmu", "guid"
+    )
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    for figure in FIGURES.values():
+        assert f'<img src="{figure.name}.png" alt="{escape(figure.title)}">' in page
+        assert escape(figure.caption) in page
+    assert "It moves" in page
+    assert "It &lt;b&gt;flies&lt;/b&gt;" in page
+    assert "NOT CONFIRMED" in page
+    assert "By &lt;load&gt;." in page
+    assert "&lt;a&gt;.fmu" in page
+
+
+SCALED = re.compile(r"\[[^]]+\]|before the end")
+"""A unit, a scale or a count in a label."""
+
+
+def test_every_label_of_an_axis_has_its_scale() -> None:
+    for module in (figure_2, figure_3, figure_5, figure_7, figure_8):
+        source = inspect.getsource(module)
+        for found in re.findall(r'[xy]label="([^"]+)"', source):
+            assert SCALED.search(found), f"{module.__name__}: {found}"
+    for name, value in vars(labels).items():
+        if name.isupper():
+            assert SCALED.search(value), name
+    for panel in (*figure_3.PANELS, *figure_5.PANELS):
+        assert SCALED.search(panel.label), panel.label

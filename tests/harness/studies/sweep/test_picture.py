@@ -4,9 +4,11 @@ from pathlib import Path
 
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.studies.sweep.grid import read_grid
+from slider_resonator.studies.sweep import picture
+from slider_resonator.studies.sweep.grid import grid_from, read_grid
 from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
 from slider_resonator.studies.sweep.table import table_columns
 from slider_resonator.studies.sweep.worker import Row
@@ -53,4 +55,23 @@ def test_three_variables_have_no_picture(tmp_path: Path) -> None:
     path = tmp_path / "grid.toml"
     path.write_text("[grid]\nphase = [0]\nload = [0]\nfriction_law = [0]", encoding="utf-8")
     with pytest.raises(HarnessError, match=r"3 variables.*must be one"):
-        check_picture(read_grid(path))
+        check_picture(read_grid(path), "--plot")
+
+
+def test_axes_are_logarithmic_where_the_grid_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scales: list[tuple[str, str]] = []
+
+    def noted(figure: Figure, path: Path) -> None:
+        scales.extend((axes.get_xscale(), axes.get_yscale()) for axes in figure.axes[:1])
+        path.write_text("drawn", encoding="utf-8")
+
+    monkeypatch.setattr(picture, "save", noted)
+    log = {"from": 0.1, "to": 10.0, "count": 8, "spacing": "log"}
+    for names in (["friction_coefficient"], ["friction_coefficient", "load"]):
+        grid = {name: log for name in names}
+        sweep = grid_from({"grid": grid}, "grid.toml")
+        rows: dict[int, Row] = {n: (n, [1.0, ""], None) for n in range(len(sweep.points))}
+        draw_sweep(sweep, table_columns(sweep.task, sweep.points, rows), tmp_path / "a.png")
+    assert scales == [("log", "linear"), ("log", "log")]

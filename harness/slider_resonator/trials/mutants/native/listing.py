@@ -8,8 +8,9 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
+from slider_resonator.output.fitting_table import STYLES
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
-from slider_resonator.output.terminal import STYLES, escaped, rendered
+from slider_resonator.output.terminal import escaped, rendered
 from slider_resonator.trials.mutants.native.changes import Change
 from slider_resonator.trials.mutants.native.native_run import ChangeVerdict, NativeRun
 

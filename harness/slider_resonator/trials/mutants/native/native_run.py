@@ -11,6 +11,7 @@ from pathlib import Path
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measuring import measure_all
 from slider_resonator.errors import FmuError
+from slider_resonator.output.console import counted
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.native.changes import Change
 from slider_resonator.trials.mutants.native.workshop import Workshop, read_native_sources
@@ -109,7 +110,8 @@ def run_changes(
                 for done, future in enumerate(as_completed(futures), start=1):
                     one = future.result()
                     word = "rejected" if one.rejected else "passes"
-                    progress(f"{one.change.name} {word}", done / len(changes))
+                    label = counted(f"{one.change.name} {word}", done - 1, len(changes))
+                    progress(label, done / len(changes))
             finally:
                 pool.shutdown(wait=True, cancel_futures=True)
     verdicts = tuple(future.result() for future in futures)

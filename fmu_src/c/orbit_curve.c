@@ -1,0 +1,246 @@
+#include "orbit_curve.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "contact.h"
+#include "orbit_drift.h"
+#include "state.h"
+
+/* Size of the last coefficients up to which a panel holds, in the scale of their quantity. */
+#define MAX_REST 1e-9
+
+/* Sum of the last coefficients up to which they are rounding, over the largest. */
+#define ROUNDING 1e-13
+
+/* Added mass up to which it is left out under Coulomb friction. */
+#define NO_ADDED_MASS 1e-6
+
+/* Velocity beyond grazing at which the orbit there is found, in fast velocities. */
+#define BEYOND 4.0
+
+/* Parts of a turn over which the mean of the way is taken, and where the peak of a vibration is looked
+ * for. */
+enum { WAY_PARTS = 8, PEAK_PARTS = 16, PEAK_REFINEMENTS = 4 };
+
+/* Waves of the normal load in a turn up to which the samples follow them. */
+#define MAX_PEAK_WAVES 8.0
+
+/* Displacement [m] of the pair's centre from the slider at a state, but for the drive's. */
+static double centre_of(const PeriodMap *map, const Moment *moment) {
+    const Plant *plant = &map->law.held.plant;
+    return moment->position + plant->mass_fraction * moment->state.displacement +
+           map->fast.pair_velocity / plant->drive_frequency * sin(moment->theta);
+}
+
+/* The mean over a period of what w1 adds to the way since the section [m]; false where a map fails. */
+static bool mean_way(const PeriodMap *map, const HeldOrbit *orbit, double *mean) {
+    int parts = WAY_PARTS * map->turns;
+    double part = map->period / parts, first = centre_of(map, &orbit->section), sum = 0.0;
+    Moment now = orbit->section;
+    for (int i = 1; i < parts; i++) {
+        Moment next;
+        if (!orbit_advance(map, orbit->lead, -orbit->friction, &now, part, &next)) {
+            return false;
+        }
+        sum += centre_of(map, &next) - first - orbit->velocity * i * part;
+        now = next;
+    }
+    *mean = sum / parts;
+    return true;
+}
+
+bool orbit_point_of(const PeriodMap *map, const HeldOrbit *orbit, OrbitPoint *point) {
+    double way;
+    if (!mean_way(map, orbit, &way)) {
+        return false;
+    }
+    const State *state = &orbit->section.state;
+    point->of[ORBIT_FRICTION] = orbit->friction;
+    point->of[ORBIT_FACTOR] = orbit->factor;
+    point->of[ORBIT_OFFSET] = held_orbit_offset(map, orbit, &orbit->section);
+    point->of[ORBIT_WAY] = -way;
+    point->of[ORBIT_DISPLACEMENT] = state->displacement;
+    point->of[ORBIT_RATE] = state->rate;
+    point->of[ORBIT_BRISTLE] = orbit->section.bristle;
+    point->direction = orbit->direction;
+    point->found = true;
+    point->beyond = orbit->reversals == 0.0 && !orbit->sticks;
+    return true;
+}
+
+/* Velocity [m/s] of the slider against `direction` less the mean one, `angle` [rad] after a moment of the
+ * orbit; `there` is the moment then. */
+static double vibration_after(const PeriodMap *map, const HeldOrbit *orbit, const Moment *moment,
+                              double angle, Moment *there) {
+    double duration = angle / map->law.held.plant.drive_frequency;
+    *there = *moment;
+    if (duration > 0.0 &&
+        !orbit_advance(map, orbit->lead, -orbit->friction, moment, duration, there)) {
+        return NAN;
+    }
+    return orbit->direction * (orbit->velocity - there->state.velocity);
+}
+
+/* Peak [m/s] of the vibration against the direction of sliding, which it takes off from V: the largest of
+ * samples, by parabolas through three points around it. */
+static double grazing_peak(const PeriodMap *map, const HeldOrbit *orbit) {
+    double waves = fmin(fabs(map->law.inputs.frequency_ratio), MAX_PEAK_WAVES);
+    int parts = PEAK_PARTS * map->turns * (1 + (int)waves);
+    double part = TAU * map->turns / parts, best = -INFINITY;
+    Moment now = orbit->section, base = now, next;
+    for (int i = 0; i < parts; i++) {
+        double size = vibration_after(map, orbit, &now, part, &next);
+        if (size > best) {
+            best = size;
+            base = now;
+        }
+        now = next;
+    }
+    double place = part;
+    for (int i = 0; i < PEAK_REFINEMENTS; i++, part *= 0.1) {
+        double behind = vibration_after(map, orbit, &base, place - part, &next);
+        double ahead = vibration_after(map, orbit, &base, place + part, &next);
+        double bend = behind - 2.0 * best + ahead;
+        double shift = bend < 0.0 ? 0.5 * part * (behind - ahead) / bend : 0.0;
+        double moved = fmax(place + fmin(fmax(shift, -0.5 * part), 0.5 * part), 0.0);
+        double there = vibration_after(map, orbit, &base, moved, &next);
+        if (there > best) {
+            best = there;
+            place = moved;
+        }
+    }
+    return best;
+}
+
+static bool begin_beyond(OrbitCurve *curve, const PeriodMap *map, int direction, double *grazing) {
+    HeldOrbit orbit;
+    double velocity = BEYOND * direction * map->speed;
+    if (held_orbit_at(map, curve->lead, velocity, NULL, &orbit) != ORBIT_FOUND ||
+        !orbit_point_of(map, &orbit, &curve->beyond[direction > 0])) {
+        return false;
+    }
+    *grazing = direction * grazing_peak(map, &orbit);
+    return isfinite(*grazing);
+}
+
+void orbit_curve_begin(OrbitCurve *curve, const PeriodMap *map, double lead) {
+    double low = 0.0, high = 0.0;
+    curve->lead = lead;
+    curve->next = 0;
+    for (int i = 0; i < CURVE_PANELS; i++) {
+        curve->panel[i].known = false;
+    }
+    curve->found = begin_beyond(curve, map, FORWARD, &high) &&
+                   begin_beyond(curve, map, BACKWARD, &low) && low < high;
+    curve->middle = 0.5 * (low + high);
+    curve->reach = 0.5 * (high - low);
+}
+
+double orbit_panel_at(const OrbitPanel *panel, OrbitQuantity quantity, double place) {
+    const double *c = panel->coefficient[quantity];
+    double x = 2.0 * (place * panel->parts - panel->index) - 1.0;
+    double ahead = 0.0, behind = 0.0;
+    for (int k = panel->terms[quantity] - 1; k > 0; k--) {
+        double next = 2.0 * x * ahead - behind + c[k];
+        behind = ahead;
+        ahead = next;
+    }
+    return x * ahead - behind + c[0];
+}
+
+/* Scale in which a quantity has to hold. */
+static double scale_of(const PeriodMap *map, const OrbitCurve *curve, OrbitQuantity quantity) {
+    double w = map->law.held.plant.drive_frequency;
+    switch (quantity) {
+    case ORBIT_FRICTION:
+        return fabs(curve->beyond[1].of[ORBIT_FRICTION]) + fabs(curve->beyond[0].of[ORBIT_FRICTION]);
+    case ORBIT_FACTOR:
+        return 10.0;
+    case ORBIT_OFFSET:
+        return map->speed;
+    case ORBIT_WAY:
+        return map->speed / w;
+    case ORBIT_DISPLACEMENT:
+        return 10.0 * map->swing;
+    case ORBIT_RATE:
+        return 10.0 * map->swing * w;
+    case ORBIT_BRISTLE:
+        return 100.0 * map->law.bristle.coefficient;
+    case ORBIT_QUANTITIES:
+        break;
+    }
+    return INFINITY;
+}
+
+/* The orbits at the nodes, each from the one before. The first is the one halfway to grazing, where a
+ * search without neighbour is at its best. Under Coulomb friction the added mass is left out where it is
+ * negligible there. */
+static bool find_nodes(const OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap *map,
+                       OrbitPoint points[ORBIT_NODES]) {
+    double width = PI / (BASE_PANELS << panel->depth);
+    bool descending = (panel->index >> panel->depth) % 2 == 1, lags = true;
+    bool coulomb = map->law.device.friction_law == 0;
+    HeldOrbit orbit;
+    for (int i = 0; i < ORBIT_NODES; i++) {
+        int node = descending ? ORBIT_NODES - 1 - i : i;
+        double chi = (panel->index + 0.5 + 0.5 * cos(PI * (node + 0.5) / ORBIT_NODES)) * width;
+        double velocity = curve->middle + curve->reach * cos(chi);
+        OrbitStatus status =
+            held_orbit_at(map, curve->lead, velocity, i > 0 ? &orbit : NULL, &orbit);
+        if (status == ORBIT_FOUND && lags) {
+            status = held_orbit_linearise(map, &orbit);
+            lags = coulomb ? fabs(orbit.factor - 1.0) > NO_ADDED_MASS : true;
+            orbit.factor = lags ? orbit.factor : 1.0;
+        }
+        if (status != ORBIT_FOUND || orbit.direction != panel->direction ||
+            !orbit_point_of(map, &orbit, &points[node])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void orbit_panel_begin(OrbitPanel *panel, int depth, int index) {
+    *panel = (OrbitPanel){.known = true, .depth = depth, .index = index, .parts = 1 << depth};
+    panel->direction = index >> depth < BASE_PANELS / 2 ? FORWARD : BACKWARD;
+}
+
+void orbit_panel_end(OrbitPanel *panel) {
+    for (int q = 0; q < ORBIT_QUANTITIES; q++) {
+        const double *c = panel->coefficient[q];
+        double largest = 0.0, rest = 0.0;
+        for (int k = 0; k < ORBIT_NODES; k++) {
+            largest = fmax(largest, fabs(c[k]));
+        }
+        panel->terms[q] = ORBIT_NODES;
+        while (panel->terms[q] > 1 && rest <= ROUNDING * largest) {
+            rest += fabs(c[--panel->terms[q]]);
+        }
+        panel->terms[q] += rest > ROUNDING * largest;
+    }
+}
+
+void orbit_panel_make(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap *map) {
+    OrbitPoint points[ORBIT_NODES];
+    panel->found = find_nodes(panel, curve, map, points);
+    panel->holds = panel->found || panel->depth >= MAX_DEPTH_MISSING;
+    if (!panel->found) {
+        return;
+    }
+    for (int q = 0; q < ORBIT_QUANTITIES; q++) {
+        for (int k = 0; k < ORBIT_NODES; k++) {
+            double sum = 0.0;
+            for (int j = 0; j < ORBIT_NODES; j++) {
+                sum += points[j].of[q] * cos(PI * k * (j + 0.5) / ORBIT_NODES);
+            }
+            panel->coefficient[q][k] = sum * (k > 0 ? 2.0 : 1.0) / ORBIT_NODES;
+        }
+        double rest = fmax(fabs(panel->coefficient[q][ORBIT_NODES - 1]),
+                           fabs(panel->coefficient[q][ORBIT_NODES - 2]));
+        if (rest > MAX_REST * scale_of(map, curve, (OrbitQuantity)q) && panel->depth < MAX_DEPTH) {
+            panel->holds = false;
+        }
+    }
+    orbit_panel_end(panel);
+}

@@ -1,0 +1,337 @@
+#include "orbit_motion.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "angle.h"
+#include "constants.h"
+#include "contact.h"
+#include "events.h"
+#include "orbit_ride.h"
+#include "refusal_texts.h"
+#include "resolved_start.h"
+#include "slow_motion_error.h"
+#include "slow_pass.h"
+
+/* Error per step of the slow motion, relative to the fast velocity. */
+#define TOLERANCE 3e-10
+
+/* Change of the slow velocity at which it belongs to W, over the fast velocity; iterations. */
+#define TAKEN 1e-14
+enum { MAX_TAKING = 40 };
+
+/* Drive angle [rad] that is not worth a step of its own. */
+#define NOTHING 1e-9
+
+/* Largest decay of the slow motion in a turn over that of the resonator. */
+#define SEPARATION 1.0
+
+bool has_slow_motion(const Law *law) {
+    const Device *device = &law->device;
+    if (!(law->fast.velocity > 0.0) ||
+        orbit_phase_of(device, law->inputs.frequency_ratio).turns == 0) {
+        return false;
+    }
+    double slow = 4.0 * friction_share(law);
+    return slow > 0.0 && slow < SEPARATION * decay_in_turn(law) && slow < 1.0 && resolved_is_bounded(law);
+}
+
+static OrbitValues values_of(const Law *law) {
+    const Device *device = &law->device;
+    return (OrbitValues){
+        .phase = law->inputs.phase,
+        .load = law->inputs.load,
+        .waves = orbit_phase_of(device, law->inputs.frequency_ratio).waves,
+        .preload = device->normal_preload,
+        .amplitude = device->normal_amplitude,
+        .coefficient = device->friction_coefficient,
+        .base = device->base_amplitude,
+        .frequency = device->drive_frequency,
+        .force = device->tangential_force,
+    };
+}
+
+OrbitState orbit_motion_start(const Law *law, const Moment *first) {
+    return (OrbitState){
+        .stage = RESOLVED, .to_go = resolved_angle(law, first), .under = values_of(law)};
+}
+
+/* The lead [rad] at drive phase 0 of the turn in which it is least, rounded. */
+static double lead_of(const Law *law, const Moment *moment) {
+    const SlowPhase slow = orbit_phase_of(&law->device, law->inputs.frequency_ratio);
+    double least = INFINITY, chi = law->inputs.phase + moment->psi;
+    if (law->device.normal_amplitude == 0.0) {
+        return 0.0;
+    }
+    for (int turn = 0; turn < slow.turns; turn++) {
+        double past = slow.waves * (moment->theta + TAU * turn);
+        double lead = rounded_lead(remainder(chi - past, TAU));
+        least = fmin(least, lead < 0.0 ? lead + TAU : lead);
+    }
+    return least;
+}
+
+static void visit(VisitedLeads *leads, double lead) {
+    for (int i = 0; i < leads->count && i < MAX_LEADS; i++) {
+        if (leads->lead[i] == lead) {
+            return;
+        }
+    }
+    if (leads->count < MAX_LEADS) {
+        leads->lead[leads->count] = lead;
+    }
+    leads->count += leads->count <= MAX_LEADS;
+}
+
+/* Drive phase [rad] over all turns of the orbit in which the normal phase `chi` [rad] fits the lead. */
+static double orbit_theta(const OrbitRide *ride, double t, double theta, double chi) {
+    double best = INFINITY, phase = theta, lead = ride_lead(ride, t);
+    for (int turn = 0; turn < ride->slow.turns; turn++) {
+        double there = theta + TAU * turn;
+        double miss = fabs(remainder(chi - lead - ride->slow.waves * there, TAU));
+        if (miss < best) {
+            best = miss;
+            phase = there;
+        }
+    }
+    return phase;
+}
+
+/* Go over to the orbit whose W and centre are those of a moment; tells the orbit. */
+static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
+    OrbitState *orbit = &now->orbit;
+    OrbitRide ride;
+    Moment there;
+    orbit->lead = lead_of(law, now);
+    visit(&orbit->leads, orbit->lead);
+    ride_begin(&ride, law, now, orbit->lead);
+    const PeriodMap *map = ride.map;
+    double share = map->law.held.plant.mass_fraction;
+    double theta = orbit_theta(&ride, 0.0, now->theta, law->inputs.phase + now->psi);
+    double momentum = momentum_velocity(map, &now->state, now->theta), velocity = momentum;
+    bool settled = false;
+    for (int i = 0; i < MAX_TAKING && !settled; i++) {
+        if (!ride_moment(&ride, 0.0, theta, velocity, 0.0, &there, point)) {
+            return false;
+        }
+        double next = velocity + momentum - momentum_velocity(map, &there.state, theta);
+        settled = fabs(next - velocity) <= TAKEN * map->speed;
+        velocity = next;
+    }
+    double apart = now->state.displacement - there.state.displacement;
+    double centre = now->position + share * apart;
+    if (orbit->stage == ON_ORBIT) {
+        orbit->swing = (Response){apart, now->state.rate - there.state.rate};
+    } else {
+        /* What is apart after resolved motion is how far it lags behind the orbit: it stays. */
+        orbit->swing = (Response){0.0, 0.0};
+        orbit->grazed = 0;
+        now->position = centre;
+    }
+    orbit->stage = ON_ORBIT;
+    orbit->to_go = 0.0;
+    orbit->grazed = orbit->grazed || point->beyond;
+    orbit->velocity = velocity;
+    orbit->centre = centre - there.position;
+    return true;
+}
+
+/* Take note of values that changed since the last step. */
+static bool adapt(const Law *law, Moment *now) {
+    OrbitState *orbit = &now->orbit;
+    OrbitValues before = orbit->under, present = values_of(law);
+    OrbitPoint point;
+    bool shaken = present.base != before.base || present.frequency != before.frequency ||
+                  present.force != before.force || orbit->stage == AVERAGED;
+    bool tuned = present.preload != before.preload || present.amplitude != before.amplitude ||
+                 present.coefficient != before.coefficient;
+    bool led = present.phase != before.phase || present.waves != before.waves;
+    orbit->under = present;
+    if ((shaken || tuned) && orbit->tunings < MAX_TUNINGS) {
+        orbit->tunings++;
+    }
+    if (shaken) {
+        orbit->to_go = fmax(orbit->stage == RESOLVED ? orbit->to_go : 0.0, resolved_angle(law, now));
+        orbit->stage = RESOLVED;
+        return true;
+    }
+    if (orbit->stage == RESOLVED || !(tuned || led || present.load != before.load)) {
+        return true;
+    }
+    if (tuned || led) {
+        if (!take_over(law, now, &point)) {
+            return false;
+        }
+    } else if (law->device.friction_law != 0) {
+        OrbitRide ride;
+        ride_begin(&ride, law, now, orbit->lead);
+        point = ride_point(&ride, 0.0, orbit->velocity);
+    } else {
+        return true;
+    }
+    double lag = lag_angle(law, point.of[ORBIT_FACTOR] - 1.0);
+    if (lag > 0.0) {
+        orbit->stage = RESOLVED;
+        orbit->to_go = lag;
+    }
+    return true;
+}
+
+/* Resolve the motion for as long as it has to be and up to `duration` [s]; gives the time that took. */
+static bool resolve(const Law *law, double duration, EventSearch *search, Moment *now,
+                    double *time, Refusal *refusal) {
+    double w = law->device.drive_frequency;
+    bool ends = now->orbit.to_go <= w * duration + NOTHING;
+    OrbitPoint point;
+    *time = ends ? fmin(now->orbit.to_go / w, duration) : duration;
+    if (*time * w > NOTHING || !ends) {
+        Moment after;
+        if (!events_advance(law->resolved, now, *time, search, &after, refusal)) {
+            return false;
+        }
+        *now = after;
+        if (search != NULL && search->found) {
+            now->orbit.to_go = fmax(0.0, now->orbit.to_go - w * search->elapsed);
+            return true;
+        }
+        now->orbit.to_go -= w * *time;
+    } else {
+        *time = 0.0;
+    }
+    return !ends || take_over(law, now, &point) || refuse_infinite_motion(refusal, duration);
+}
+
+/* The resonator's own swing `t` [s] later: it moves the pair, but not its momentum. */
+static Response swing_after(const Law *law, const Response *swing, double t) {
+    const Oscillator *slip = &law->resolved->held.plant.slip;
+    Response free = free_response(slip, t);
+    double y = swing->displacement, u = swing->rate;
+    return (Response){y * (free.displacement + slip->decay * free.rate) + u * free.rate,
+                      u * (free.displacement - slip->decay * free.rate) -
+                          slip->stiffness * y * free.rate};
+}
+
+/* Add the swing to a moment on an orbit. A slider that sticks stays at rest. */
+static void add_swing(Moment *moment, const Response *swing, double share) {
+    moment->state.displacement += swing->displacement;
+    moment->state.rate += swing->rate;
+    moment->position -= share * swing->displacement;
+    if (moment->mode != STICK) {
+        moment->state.velocity -= share * swing->rate;
+    }
+}
+
+/* Positions [m] at the ends of periods within a ride. */
+typedef struct {
+    double time[2], travel[2];
+} Marks;
+
+static double travel_at_mark(const void *motion, double t) {
+    const Marks *marks = motion;
+    return fabs(t - marks->time[0]) < fabs(t - marks->time[1]) ? marks->travel[0] : marks->travel[1];
+}
+
+/* Go along orbits for `duration` [s]. */
+static bool follow(const Law *law, double duration, Moment *now, Refusal *refusal) {
+    OrbitRide ride, *rider = &ride;
+    OrbitState *orbit = &now->orbit;
+    ride_begin(&ride, law, now, orbit->lead);
+    const Plant *plant = &law->held.plant;
+    double w = plant->drive_frequency, q = plant->normal_frequency, length = TAU / w;
+    double share = device_mass_fraction(&law->device);
+    double chi = law->inputs.phase + now->psi, start = now->position, centre = orbit->centre;
+    double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
+    SlowPass plan = {
+        .acceleration = ride_acceleration,
+        .to_kink = ride_to_kink,
+        .motion = &rider,
+        .fast = law->fast.velocity,
+        .tolerance = TOLERANCE * law->fast.velocity,
+        .step = slow_pass_step(law->fast.velocity, plant->total_mass, full + fabs(plant->load), duration),
+        .duration = duration,
+        .beat = slow_phase_beat(&ride.slow),
+        .may_settle = ride.slow.drift == 0.0 && ride.source != FROM_SEARCH,
+        .most = ride.source == FROM_SEARCH ? MAX_QUADRATURE_STEPS : MAX_SLOW_STEPS,
+    };
+    Reached reached = {.velocity = orbit->velocity, .step = plan.step};
+    double last = period_last_end(now->theta, w, duration);
+    Marks marks = {{last - length, last}, {0.0, 0.0}};
+    OrbitPoint point;
+    Moment there;
+    for (int i = 0; i < 2; i++) {
+        if (!(marks.time[i] > 0.0 && marks.time[i] < duration)) {
+            continue;
+        }
+        double step = reached.step;
+        if (!slow_pass(&plan, marks.time[i], &reached, refusal)) {
+            return false;
+        }
+        reached.step = fmax(reached.step, step);
+        double theta = orbit_theta(&ride, reached.t, 0.0, chi + q * reached.t);
+        if (!ride_moment(&ride, reached.t, theta, reached.velocity, centre + reached.moved, &there,
+                         &point)) {
+            return refuse_infinite_motion(refusal, duration);
+        }
+        Response swing = swing_after(law, &orbit->swing, reached.t);
+        add_swing(&there, &swing, share);
+        marks.travel[i] = there.position - start;
+    }
+    if (!slow_pass(&plan, duration, &reached, refusal)) {
+        return false;
+    }
+    double theta = within_turn(now->theta + w * duration);
+    double there_theta = orbit_theta(&ride, duration, theta, chi + q * duration);
+    if (!ride_moment(&ride, duration, there_theta, reached.velocity, centre + reached.moved, &there,
+                     &point)) {
+        return refuse_infinite_motion(refusal, duration);
+    }
+    Response swing = swing_after(law, &orbit->swing, duration);
+    add_swing(&there, &swing, share);
+    Segment segment = {duration, there.position - start, there.state.velocity, false,
+                       travel_at_mark, &marks};
+    now->theta = period_advance(&now->means, &segment, now->theta, w);
+    now->psi = within_turn(now->psi + q * duration);
+    now->position = there.position;
+    now->state = there.state;
+    now->bristle = there.bristle;
+    now->stops = there.stops;
+    now->mode = there.mode;
+    now->event_age = INFINITY;
+    orbit->velocity = reached.velocity;
+    orbit->centre = centre + reached.moved;
+    orbit->swing = swing;
+    orbit->grazed = orbit->grazed || point.beyond;
+    orbit->lead = ride_lead(&ride, duration);
+    if (ride.slow.drift != 0.0) {
+        orbit->lead = within_turn(orbit->lead);
+    }
+    return true;
+}
+
+bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
+                          EventSearch *search, Moment *after, Refusal *refusal) {
+    double resolved = 0.0, w = law->device.drive_frequency;
+    *after = *moment;
+    if (!adapt(law, after)) {
+        return refuse_infinite_motion(refusal, duration);
+    }
+    if (after->orbit.stage == RESOLVED && !resolve(law, duration, search, after, &resolved, refusal)) {
+        return false;
+    }
+    double left = resolved < duration ? duration - resolved : 0.0;
+    return after->orbit.stage == RESOLVED || !(left * w > 0.0) || follow(law, left, after, refusal);
+}
+
+double orbit_motion_error(const Law *law, const Moment *moment) {
+    if (moment->orbit.stage != ON_ORBIT) {
+        return second_order_error(law, 0.0, false, INFINITY);
+    }
+    OrbitRide ride;
+    ride_begin(&ride, law, moment, moment->orbit.lead);
+    OrbitPoint point = ride_point(&ride, 0.0, moment->orbit.velocity);
+    if (!point.found) {
+        return first_order_error(law);
+    }
+    double force = point.of[ORBIT_FRICTION] + law->inputs.load;
+    return second_order_error(law, point.of[ORBIT_FACTOR] - 1.0, moment->orbit.grazed, force);
+}

@@ -1,0 +1,163 @@
+#include "orbit_ride.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "contact.h"
+#include "state.h"
+
+/* Rates of the motion over the drive frequency up to which a turn of the drive is resolved often enough to
+ * find orbits. */
+#define MAX_RATE 300.0
+
+static bool is_affordable(const Device *device, double waves) {
+    double limit = MAX_RATE * device->drive_frequency, wn = device->resonator_frequency;
+    double free_share = device->slider_mass / device_total_mass(device);
+    double damping = 2.0 * device->damping_ratio * wn / free_share;
+    bool resonator = wn <= limit * sqrt(free_share) && damping <= limit;
+    if (device->friction_law == 0) {
+        return fabs(waves) <= MAX_RATE && resonator;
+    }
+    double normal = device->normal_preload + device->normal_amplitude;
+    double grip = device->friction_faces * normal / device->slider_mass;
+    return fabs(waves) <= MAX_RATE && resonator && grip * device->bristle_damping <= limit &&
+           grip * device->bristle_stiffness <= limit * limit;
+}
+
+SlowPhase orbit_phase_of(const Device *device, double ratio) {
+    SlowPhase slow = {.turns = 1, .waves = 1.0};
+    if (device->normal_amplitude > 0.0) {
+        slow = slow_phase_of(device, ratio);
+    }
+    if (!is_affordable(device, slow.waves)) {
+        slow.turns = 0;
+    }
+    return slow;
+}
+
+static OrbitSource source_of(const OrbitState *orbit, const Device *device, double drift) {
+    bool lifts = device->normal_amplitude > device->normal_preload;
+    bool many = drift != 0.0 || orbit->leads.count > MAX_LEADS;
+    if (orbit->tunings >= MAX_TUNINGS || (many && lifts)) {
+        return FROM_SEARCH;
+    }
+    return drift != 0.0 ? FROM_SERIES : FROM_CURVE;
+}
+
+void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead) {
+    const Device *device = &law->resolved->device;
+    const OrbitState *orbit = &moment->orbit;
+    ride->law = law;
+    ride->slow = orbit_phase_of(device, law->inputs.frequency_ratio);
+    ride->map = orbit_map_of(law->orbits, device, &ride->slow);
+    ride->lead = lead;
+    ride->source = source_of(orbit, device, ride->slow.drift);
+    ride->first = slow_friction_of(law, moment->theta, moment->psi);
+    ride->searched = false;
+    if (ride->source == FROM_CURVE) {
+        bool combined = orbit->leads.count > MAX_LEADS;
+        ride->curve = orbit_curve_of(law->orbits, device, &ride->slow, lead, combined);
+    } else if (ride->source == FROM_SERIES) {
+        ride->series = orbit_series_of(law->orbits, device, &ride->slow);
+    }
+}
+
+double ride_lead(const OrbitRide *ride, double t) {
+    return ride->lead + ride->slow.drift * t;
+}
+
+/* Searches from the orbit found last, then without. */
+static bool search(OrbitRide *ride, double t, double velocity) {
+    double lead = ride_lead(ride, t);
+    bool found = ride->searched && held_orbit_at(ride->map, lead, velocity, &ride->last,
+                                                 &ride->last) == ORBIT_FOUND;
+    found = found || held_orbit_at(ride->map, lead, velocity, NULL, &ride->last) == ORBIT_FOUND;
+    if (found && ride->map->law.device.friction_law != 0) {
+        found = held_orbit_linearise(ride->map, &ride->last) == ORBIT_FOUND;
+    }
+    ride->searched = found;
+    return found;
+}
+
+static bool known_point(OrbitRide *ride, double t, double velocity, OrbitPoint *point) {
+    switch (ride->source) {
+    case FROM_CURVE:
+        return orbit_point_at(ride->law->orbits, ride->curve, velocity, point);
+    case FROM_SERIES:
+        return orbit_series_at(ride->law->orbits, &ride->series, ride_lead(ride, t), velocity, point);
+    case FROM_SEARCH:
+        break;
+    }
+    return search(ride, t, velocity) && orbit_point_of(ride->map, &ride->last, point);
+}
+
+double ride_acceleration(const void *rider, double t, double velocity) {
+    OrbitRide *ride = *(OrbitRide *const *)rider;
+    const Plant *plant = &ride->law->held.plant;
+    double friction = 0.0, factor = 1.0;
+    bool found = false;
+    if (ride->source == FROM_CURVE) {
+        found = orbit_friction_at(ride->law->orbits, ride->curve, velocity, &friction, &factor);
+    } else if (ride->source == FROM_SERIES) {
+        found = orbit_series_friction_at(ride->law->orbits, &ride->series, ride_lead(ride, t),
+                                         velocity, &friction, &factor);
+    } else if (search(ride, t, velocity)) {
+        found = true;
+        friction = ride->last.friction;
+        factor = ride->last.factor;
+    }
+    if (!found) {
+        friction = slow_friction_at(&ride->first, t, velocity);
+        factor = 1.0;
+    }
+    return -factor * (friction + plant->load) / plant->total_mass;
+}
+
+double ride_to_kink(const void *rider, double t) {
+    const OrbitRide *ride = *(OrbitRide *const *)rider;
+    return slow_friction_to_kink(&ride->first, t);
+}
+
+OrbitPoint ride_point(OrbitRide *ride, double t, double velocity) {
+    OrbitPoint point;
+    if (known_point(ride, t, velocity, &point)) {
+        return point;
+    }
+    const PeriodMap *map = ride->map;
+    int direction = velocity >= 0.0 ? FORWARD : BACKWARD;
+    Response swing = steady_swing(map->fast.resonator, section_phase(map, direction),
+                                  map->law.held.plant.drive_frequency);
+    point = (OrbitPoint){.direction = direction};
+    point.of[ORBIT_FRICTION] = slow_friction_at(&ride->first, t, velocity);
+    point.of[ORBIT_FACTOR] = 1.0;
+    point.of[ORBIT_DISPLACEMENT] = swing.displacement;
+    point.of[ORBIT_RATE] = swing.rate;
+    point.of[ORBIT_BRISTLE] = map->states > 3 ? direction * map->law.bristle.coefficient : 0.0;
+    return point;
+}
+
+bool ride_moment(OrbitRide *ride, double t, double theta, double velocity, double centre,
+                 Moment *moment, OrbitPoint *point) {
+    const PeriodMap *map = ride->map;
+    double w = map->law.held.plant.drive_frequency, share = map->law.held.plant.mass_fraction;
+    double lead = ride_lead(ride, t);
+    *point = ride_point(ride, t, velocity);
+    double start = section_phase(map, point->direction), carried = share * point->of[ORBIT_RATE];
+    Moment section = {.bristle = point->of[ORBIT_BRISTLE]};
+    section.state.displacement = point->of[ORBIT_DISPLACEMENT];
+    section.state.rate = point->of[ORBIT_RATE];
+    section.state.velocity = velocity + point->of[ORBIT_OFFSET] - carried -
+                             map->fast.pair_velocity * cos(start);
+    orbit_enter(map, lead, start, &section);
+    double ahead = theta - start, period = TAU * map->turns;
+    ahead -= period * floor(ahead / period);
+    double duration = ahead / w;
+    *moment = section;
+    if (duration > 0.0 &&
+        !orbit_advance(map, lead, -point->of[ORBIT_FRICTION], &section, duration, moment)) {
+        return false;
+    }
+    moment->position += centre + point->of[ORBIT_WAY] - share * section.state.displacement -
+                        map->fast.pair_velocity / w * sin(start) - velocity * duration;
+    return true;
+}

@@ -1,0 +1,56 @@
+/* The orbit on which slow motion rides: from tables, or found directly. */
+#ifndef SLIDER_ORBIT_RIDE_H
+#define SLIDER_ORBIT_RIDE_H
+
+#include <stdbool.h>
+
+#include "law.h"
+#include "orbit_tables.h"
+#include "slow_friction.h"
+
+/* Where orbits come from: from the curve at one lead, from a series over leads that drift, or from
+ * Newton's method each time. */
+typedef enum { FROM_CURVE, FROM_SERIES, FROM_SEARCH } OrbitSource;
+
+/* The ride from drive phase `theta` [rad] on, where the lead is `lead` [rad]. `last` is the orbit found
+ * last, `searched` whether there is one. Where there is no orbit, averages of `first` order serve. */
+typedef struct {
+    const Law *law;
+    const PeriodMap *map;
+    SlowPhase slow;
+    double lead;
+    OrbitSource source;
+    OrbitCurve *curve;
+    OrbitSeries series;
+    SlowFriction first;
+    bool searched;
+    HeldOrbit last;
+} OrbitRide;
+
+/* The slow phase that counts for orbits: that of a load that does not vibrate stands still. `turns` is 0,
+ * too, where a turn of the drive holds far faster motion. */
+SlowPhase orbit_phase_of(const Device *device, double ratio);
+
+/* Begin a ride at `lead` [rad] with the phases of a moment. */
+void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead);
+
+/* The lead [rad] at time `t` [s] from the beginning. */
+double ride_lead(const OrbitRide *ride, double t);
+
+/* Slow acceleration [m/s^2] at time `t` [s] from the beginning, at a slow velocity [m/s]. `rider`
+ * points to a pointer to the ride. */
+double ride_acceleration(const void *rider, double t, double velocity);
+
+/* Time [s] from `t` [s] on for which the acceleration is smooth. */
+double ride_to_kink(const void *rider, double t);
+
+/* The orbit at that time and velocity. Without an orbit it is the vibration under averaged friction, and
+ * its error that of first order. */
+OrbitPoint ride_point(OrbitRide *ride, double t, double velocity);
+
+/* The moment on the orbit at time `t` [s] and drive phase `theta` [rad], with this slow velocity [m/s]
+ * and slow centre [m]; `theta` goes over all turns of the orbit, whose phases those of the moment are. */
+bool ride_moment(OrbitRide *ride, double t, double theta, double velocity, double centre,
+                 Moment *moment, OrbitPoint *point);
+
+#endif

@@ -1,0 +1,39 @@
+/* What averaged motion of second order carries on from one step to the next. */
+#ifndef SLIDER_ORBIT_STATE_H
+#define SLIDER_ORBIT_STATE_H
+
+#include "oscillator.h"
+
+/* How a step was made last: by averages of first order, resolved, or along held orbits. */
+typedef enum { AVERAGED, RESOLVED, ON_ORBIT } Stage;
+
+/* Leads and tunings up to which each new one gets a table of its own. */
+enum { MAX_LEADS = 4, MAX_TUNINGS = 4 };
+
+/* What a held orbit depends on and what may change from one step to the next: input phase [rad], load
+ * [N], `waves` of the normal load in a turn of the drive, and the tunable parameters. */
+typedef struct {
+    double phase, load, waves, preload, amplitude, coefficient, base, frequency, force;
+} OrbitValues;
+
+/* Leads [rad] that were visited; `count` is MAX_LEADS + 1 once there were more. */
+typedef struct {
+    int count;
+    double lead[MAX_LEADS];
+} VisitedLeads;
+
+/* `to_go` is the drive angle [rad] that is still to be resolved. On an orbit: slow velocity V [m/s],
+ * slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by
+ * which it differs from the orbit. The step was made `under` these values; `tunings`
+ * counts, up to MAX_TUNINGS, how often a parameter changed the orbits. `grazed` is 1 once the slider went
+ * so fast that it did not turn back, else 0. */
+typedef struct {
+    int stage;
+    double to_go, velocity, centre, lead;
+    Response swing;
+    OrbitValues under;
+    VisitedLeads leads;
+    int tunings, grazed;
+} OrbitState;
+
+#endif

@@ -1,0 +1,53 @@
+/* The tables of held orbits of an instance: a cache of pure functions of device and lead. */
+#ifndef SLIDER_ORBIT_TABLES_H
+#define SLIDER_ORBIT_TABLES_H
+
+#include <stdbool.h>
+
+#include "orbit_curve.h"
+#include "slow_phase.h"
+
+/* Leads between which orbits are interpolated by a Fourier series, and curves that are kept: at least
+ * those, their combination and one for comparison. */
+enum { SERIES_LEADS = 9, CURVES = 12 };
+
+/* Zeroed memory holds no table. `map` is the one that was used last, of these `waves`. */
+typedef struct OrbitTables {
+    bool mapped;
+    PeriodMap map;
+    Device device;
+    long clock;
+    OrbitCurve curve[CURVES];
+} OrbitTables;
+
+/* The period map of the full device; NULL where there is none. It stays until another is asked for. */
+const PeriodMap *orbit_map_of(OrbitTables *tables, const Device *device, const SlowPhase *slow);
+
+/* The curve at a lead [rad], whose panels come from orbits, or, if `combined`, from the curves at
+ * SERIES_LEADS leads: that serves a contact that does not lift. It stays until CURVES others were asked
+ * for. */
+OrbitCurve *orbit_curve_of(OrbitTables *tables, const Device *device, const SlowPhase *slow,
+                           double lead, bool combined);
+
+/* All quantities at a velocity [m/s]; false where there is no orbit. */
+bool orbit_point_at(OrbitTables *tables, OrbitCurve *curve, double velocity, OrbitPoint *point);
+
+/* The `friction` [N] and `factor` alone. */
+bool orbit_friction_at(OrbitTables *tables, OrbitCurve *curve, double velocity, double *friction,
+                       double *factor);
+
+/* The curves of the series over the lead. */
+typedef struct {
+    OrbitCurve *part[SERIES_LEADS];
+} OrbitSeries;
+
+OrbitSeries orbit_series_of(OrbitTables *tables, const Device *device, const SlowPhase *slow);
+
+/* All quantities at a lead [rad] and a velocity [m/s] by the series; false where there is no orbit. */
+bool orbit_series_at(OrbitTables *tables, const OrbitSeries *series, double lead, double velocity,
+                     OrbitPoint *point);
+
+bool orbit_series_friction_at(OrbitTables *tables, const OrbitSeries *series, double lead,
+                              double velocity, double *friction, double *factor);
+
+#endif

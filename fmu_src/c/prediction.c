@@ -1,0 +1,64 @@
+#include "prediction.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "friction_law.h"
+#include "orbit_ride.h"
+#include "steady_orbit.h"
+#include "vibrating_load.h"
+
+/* Distance from the steady velocity of first order, in fast velocities, up to which that of second order
+ * is taken for the same. */
+#define SAME 0.05
+
+/* Whether friction falls everywhere with the slow velocity, so that there is one balance. */
+static bool is_monotonic(const Law *law, const PeriodMap *map) {
+    const Device *device = &law->device;
+    double drag = law->friction->averaged->drag(&law->bristle, map->speed);
+    return device->normal_amplitude <= device->normal_preload && drag <= law->bristle.coefficient;
+}
+
+/* The steady motion by that of first order, or by search. */
+static OrbitStatus find_steady(const Law *law, const PeriodMap *map, double lead, double velocity,
+                               HeldOrbit *orbit) {
+    double load = law->inputs.load;
+    if (is_monotonic(law, map) &&
+        held_orbit_at(map, lead, velocity, NULL, orbit) == ORBIT_FOUND &&
+        steady_orbit_at(map, lead, load, orbit, orbit) == ORBIT_FOUND &&
+        fabs(orbit->velocity - velocity) <= SAME * map->speed) {
+        return ORBIT_FOUND;
+    }
+    return steady_orbit(map, lead, load, orbit);
+}
+
+Averaged prediction_of(const Law *law, double normal_lead) {
+    const Device *device = &law->device;
+    Averaged prediction = averaged(law, normal_lead);
+    SlowPhase slow = orbit_phase_of(device, law->inputs.frequency_ratio);
+    bool repeats = turns_to_repeat(device, law->inputs.frequency_ratio, EXACT) > 0;
+    if (device->averaging_order == 2 && device->fidelity == 0 && law->resolved == NULL) {
+        prediction.valid = false;
+    }
+    if (device->averaging_order < 2 || !prediction.valid ||
+        !(repeats || device->normal_amplitude == 0.0)) {
+        return prediction;
+    }
+    if (slow.turns == 0) {
+        prediction.valid = false;
+        return prediction;
+    }
+    PeriodMap map;
+    HeldOrbit steady, blocked;
+    Refusal refusal;
+    double lead = law->inputs.phase + normal_lead, force;
+    prediction.valid =
+        period_map_prepare(&map, device, slow.waves, slow.turns, &refusal) &&
+        find_steady(law, &map, lead, prediction.steady_velocity, &steady) == ORBIT_FOUND &&
+        blocking_orbit(&map, lead, &blocked, &force) == ORBIT_FOUND;
+    if (prediction.valid) {
+        prediction.steady_velocity = steady.velocity;
+        prediction.blocking_force = force;
+    }
+    return prediction;
+}

@@ -1,0 +1,77 @@
+#include "slow_motion_error.h"
+
+#include <math.h>
+
+#include "state.h"
+
+/* Error of first order in friction shares and v_q: that of the average, and that of the resonator's first
+ * swing, which the average leaves out. */
+#define FIRST_ORDER 2.0
+
+/* Error of second order in squares of the friction share and v_q, with a resonator that is stiff against
+ * the drive and with a soft one; more of it by the square of the damping ratio, and as a factor under a
+ * contact that lifts; and in squares of the added mass. */
+#define STIFF 0.8
+#define SOFT 5.0
+#define BY_DAMPING 6.0
+#define BY_FLIGHT 2.0
+#define ADDED_MASS 0.5
+
+/* Error after grazing, where friction changes within a period, in the friction share to the power of 3/2
+ * and v_q. */
+#define GRAZING 5.0
+
+/* Drive frequency over resonator frequency up to which the resonator counts as stiff, and from which on as
+ * soft. */
+#define STIFF_UP_TO 1.5
+#define SOFT_FROM 3.0
+
+/* Error of the integration and of the tables, in v_q. */
+#define RESOLUTION 1e-8
+
+double friction_share(const Law *law) {
+    const Device *device = &law->device;
+    double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
+    double friction = device->friction_faces * device->friction_coefficient * normal;
+    return friction / (device_total_mass(device) * device->drive_frequency * law->fast.velocity);
+}
+
+double decay_in_turn(const Law *law) {
+    const Device *device = &law->device;
+    if (device->resonator_mass == 0.0) {
+        return INFINITY;
+    }
+    double free_share = device->slider_mass / device_total_mass(device);
+    double wn = device->resonator_frequency, decay = device->damping_ratio * wn / free_share;
+    double excess = decay * decay - wn * wn / free_share;
+    double slower = excess > 0.0 ? wn * wn / free_share / (decay + sqrt(excess)) : decay;
+    return slower * TAU / device->drive_frequency;
+}
+
+double first_order_error(const Law *law) {
+    if (!(law->fast.velocity > 0.0)) {
+        return 0.0;
+    }
+    double decay = decay_in_turn(law), swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
+    return fmin(FIRST_ORDER * friction_share(law) * swing, 1.0) * law->fast.velocity;
+}
+
+double second_order_error(const Law *law, double added_mass, bool grazed, double force) {
+    const Device *device = &law->device;
+    double share = friction_share(law);
+    double inertia = device_total_mass(device) * device->drive_frequency * law->fast.velocity;
+    double away = share > 0.0 ? fmin(fabs(force) / (share * inertia), 1.0) : 0.0;
+    double tuning = device->drive_frequency / device->resonator_frequency;
+    double soft = fmin(fmax((tuning - STIFF_UP_TO) / (SOFT_FROM - STIFF_UP_TO), 0.0), 1.0);
+    double damping = fmin(device->damping_ratio, 1.0);
+    double sensitivity = (STIFF + soft * (SOFT - STIFF)) * (1.0 + BY_DAMPING * damping * damping);
+    if (device->normal_amplitude > device->normal_preload) {
+        sensitivity *= BY_FLIGHT;
+    }
+    double squares = sensitivity * share * share +
+                     ADDED_MASS * added_mass * added_mass;
+    if (grazed) {
+        squares += GRAZING * share * sqrt(share);
+    }
+    return fmin(away * squares + RESOLUTION, 1.0) * law->fast.velocity;
+}

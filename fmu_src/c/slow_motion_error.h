@@ -1,0 +1,25 @@
+/* Estimates of the error that averages make in the slow velocity. */
+#ifndef SLIDER_SLOW_MOTION_ERROR_H
+#define SLIDER_SLOW_MOTION_ERROR_H
+
+#include <stdbool.h>
+
+#include "law.h"
+
+/* Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q): the small number by
+ * which averages expand. */
+double friction_share(const Law *law);
+
+/* Decay of the resonator's own vibration in a turn of the drive, the slower of two; infinite without
+ * resonator. */
+double decay_in_turn(const Law *law);
+
+/* Error [m/s] of averages of first order. */
+double first_order_error(const Law *law);
+
+/* Error [m/s] of those of second order where friction adds `added_mass`, a share of the total mass, and
+ * friction and load leave a mean `force` [N]: without it motion is steady, and its orbit exact. It is larger
+ * once the motion has `grazed` the velocity from which on the slider turns back. */
+double second_order_error(const Law *law, double added_mass, bool grazed, double force);
+
+#endif

@@ -1,0 +1,343 @@
+"""Averaged motion of second order, fidelity 0: the slow motion along held orbits.
+
+With W = X' + r Y' + D cos(theta) / (w Mt), exactly Mt W' = -friction - load. On a held orbit
+W = V + w1, and the slow velocity V obeys
+
+    Mt V' = -(1 + kappa_m) (F2(V, lead) + load)
+
+with the mean friction F2 of the orbit and the added mass kappa_m of friction. The resonator's own
+swing is no slow motion: after a start and where the drive is tuned the motion is resolved until it
+has decayed. A load leaves V as it is; another phase, preload or amplitude leaves W.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import floor, inf, remainder, tau
+
+from . import events
+from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
+from .contact import LIFTED, STICK
+from .device import Device, Inputs
+from .dormand_prince import Reached
+from .fast_vibration import FastVibration
+from .friction_law import FrictionLaw
+from .held import Held
+from .moment import Counts, Moment
+from .motion import State
+from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
+from .orbit_state import MAX_TUNINGS, OrbitState, OrbitValues, Stage, Swing
+from .oscillator import free_response
+from .period import MARK_TOLERANCE, PeriodMeans
+from .resolved_start import lag_angle, resolved_angle, resolved_is_bounded
+from .slow_friction import SlowFriction, slow_friction
+from .slow_motion_error import (
+    decay_in_turn,
+    first_order_error,
+    friction_share,
+    second_order_error,
+)
+from .slow_pass import SlowPass, first_step
+from .slow_phase import rounded_lead
+
+TOLERANCE = 3e-10
+"""Error per step of the slow motion, relative to the fast velocity."""
+
+TAKEN = 1e-14
+"""Change of the slow velocity at which it belongs to W, over the fast velocity."""
+
+MAX_TAKING = 40
+"""Iterations to there."""
+
+NOTHING = 1e-9
+"""Drive angle [rad] that is not worth a step of its own."""
+
+SEPARATION = 1.0
+"""Largest decay of the slow motion in a turn over that of the resonator."""
+
+
+def has_slow_motion(device: Device, inputs: Inputs, fast: FastVibration) -> bool:
+    """Whether the motion becomes slow.
+
+    The vibration decays to one that breaks the contact loose, faster than the slow motion, and the
+    phase of the normal load is slow.
+    """
+    if not fast.velocity > 0.0 or not orbit_phase_of(device, inputs.frequency_ratio).turns:
+        return False
+    slow = 4.0 * friction_share(device, fast)
+    separate = 0.0 < slow < SEPARATION * decay_in_turn(device) and slow < 1.0
+    return separate and resolved_is_bounded(device, fast)
+
+
+class LostOrbitError(ArithmeticError):
+    """The motion on an orbit left the range of floating point."""
+
+
+@dataclass(frozen=True, slots=True)
+class OrbitLaw:
+    """The device along orbits under held inputs (see `law.Law`).
+
+    `held` is that of averaged motion, `full` that of the full device.
+    """
+
+    held: Held
+    full: Held
+    friction: FrictionLaw
+    fast: FastVibration
+
+    def start(self, state: State, position: float) -> Moment:
+        """See Law."""
+        bristle = self.friction.first_bristle(self.full)
+        moment = Moment(state, position, 0.0, 0.0, 0, Counts(), inf, PeriodMeans(), bristle)
+        moment.mode = self.mode(moment)
+        moment.counts = Counts(sliding=0 if moment.mode == LIFTED else moment.mode)
+        to_go = resolved_angle(self.full.device, self.fast, state, 0.0)
+        moment.orbit = OrbitState(Stage.RESOLVED, to_go, under=self._values())
+        return moment
+
+    def advance(self, moment: Moment, duration: float) -> Moment:
+        """See Law."""
+        now = self._adapted(moment.copied())
+        left = duration
+        if now.orbit.stage == Stage.RESOLVED:
+            now, time = self._resolved(now, duration)
+            left = duration - time if time < duration else 0.0
+        if now.orbit.stage == Stage.RESOLVED or not left * self.full.plant.drive_frequency > 0.0:
+            return now
+        return self._followed(now, left)
+
+    def mode(self, moment: Moment) -> int:
+        """See Law."""
+        return self.friction.mode(self.full, moment)
+
+    def friction_force(self, moment: Moment, mode: int) -> float:
+        """See Law."""
+        return self.friction.force(self.full, moment, mode)
+
+    def swing(self, moment: Moment) -> tuple[float, float]:
+        """See Law."""
+        return moment.state.displacement, moment.state.rate
+
+    def slow_motion_error(self, moment: Moment) -> float:
+        """See Law."""
+        device, orbit = self.full.device, moment.orbit
+        if orbit.stage != Stage.ON_ORBIT:
+            return second_order_error(device, self.fast, 0.0, False, inf)
+        point = self._ride(moment, orbit.lead).point(0.0, orbit.velocity)
+        if not point.found:
+            return first_order_error(device, self.fast)
+        force = point.of.friction + self.full.inputs.load
+        added_mass = point.of.factor - 1.0
+        return second_order_error(device, self.fast, added_mass, orbit.grazed, force)
+
+    def _values(self) -> OrbitValues:
+        device, inputs = self.full.device, self.full.inputs
+        return OrbitValues(
+            phase=inputs.phase,
+            load=inputs.load,
+            waves=orbit_phase_of(device, inputs.frequency_ratio).waves,
+            preload=device.normal_preload,
+            amplitude=device.normal_amplitude,
+            coefficient=device.friction_coefficient,
+            base=device.base_amplitude,
+            frequency=device.drive_frequency,
+            force=device.tangential_force,
+        )
+
+    def _lead(self, moment: Moment) -> float:
+        """The lead [rad] at drive phase 0 of the turn in which it is least, rounded."""
+        device, inputs = self.full.device, self.full.inputs
+        turns, waves, _ = orbit_phase_of(device, inputs.frequency_ratio)
+        if device.normal_amplitude == 0.0:
+            return 0.0
+        chi, least = inputs.phase + moment.psi, inf
+        for turn in range(turns or 1):
+            lead = rounded_lead(remainder(chi - waves * (moment.theta + tau * turn), tau))
+            least = min(least, lead + tau if lead < 0.0 else lead)
+        return least
+
+    def _ride(self, moment: Moment, lead: float) -> OrbitRide:
+        inputs = self.full.inputs
+        first = self._first_order(moment)
+        return begin_ride(
+            self.full.device, inputs.frequency_ratio, moment.orbit, lead, first, inputs.load
+        )
+
+    def _first_order(self, moment: Moment) -> SlowFriction:
+        averaged = self.friction.averaged
+        return slow_friction(self.held, averaged, self.fast, moment.theta, moment.psi)
+
+    def _adapted(self, now: Moment) -> Moment:
+        """Take note of values that changed since the last step."""
+        device, orbit = self.full.device, now.orbit
+        before, present = orbit.under, self._values()
+        drive_before = before.base, before.frequency, before.force
+        shaken = drive_before != (present.base, present.frequency, present.force)
+        shaken = shaken or orbit.stage == Stage.AVERAGED
+        contact_before = before.preload, before.amplitude, before.coefficient
+        tuned = contact_before != (present.preload, present.amplitude, present.coefficient)
+        led = (before.phase, before.waves) != (present.phase, present.waves)
+        tunings = min(orbit.tunings + 1, MAX_TUNINGS) if shaken or tuned else orbit.tunings
+        now.orbit = orbit = orbit._replace(under=present, tunings=tunings)
+        if shaken:
+            to_go = resolved_angle(device, self.fast, now.state, now.theta)
+            if orbit.stage == Stage.RESOLVED:
+                to_go = max(orbit.to_go, to_go)
+            now.orbit = orbit._replace(stage=Stage.RESOLVED, to_go=to_go)
+            return now
+        if orbit.stage == Stage.RESOLVED:
+            return now
+        if tuned or led:
+            now, factor = self._taken_over(now)
+        elif present.load != before.load and device.friction_law != 0:
+            factor = self._ride(now, orbit.lead).point(0.0, orbit.velocity).of.factor
+        else:
+            return now
+        lag = lag_angle(device, self.fast, factor - 1.0)
+        if lag > 0.0:
+            now.orbit = now.orbit._replace(stage=Stage.RESOLVED, to_go=lag)
+        return now
+
+    def _taken_over(self, now: Moment) -> tuple[Moment, float]:
+        """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m."""
+        orbit, lead = now.orbit, self._lead(now)
+        now.orbit = orbit = orbit._replace(lead=lead, leads=orbit.leads.visited(lead))
+        ride = self._ride(now, lead)
+        share = ride.map.held.plant.mass_fraction
+        theta = ride.theta(0.0, now.theta, self.full.inputs.phase + now.psi)
+        momentum = ride.map.momentum_velocity(now.state, now.theta)
+        velocity, settled = momentum, False
+        for _ in range(MAX_TAKING):
+            found = ride.moment(0.0, theta, velocity, 0.0)
+            if found is None:
+                raise LostOrbitError
+            there, point = found
+            following = velocity + momentum - ride.map.momentum_velocity(there.state, theta)
+            settled = abs(following - velocity) <= TAKEN * ride.map.speed
+            velocity = following
+            if settled:
+                break
+        apart = now.state.displacement - there.state.displacement
+        centre = now.position + share * apart
+        grazed = point.beyond
+        if orbit.stage == Stage.ON_ORBIT:
+            swing = Swing(apart, now.state.rate - there.state.rate)
+            grazed = grazed or orbit.grazed
+        else:
+            # What is apart after resolved motion is how far it lags behind the orbit: it stays.
+            swing = Swing()
+            now.position = centre
+        now.orbit = orbit._replace(
+            stage=Stage.ON_ORBIT,
+            to_go=0.0,
+            velocity=velocity,
+            centre=centre - there.position,
+            swing=swing,
+            grazed=grazed,
+        )
+        return now, point.of.factor
+
+    def _resolved(self, now: Moment, duration: float) -> tuple[Moment, float]:
+        """Resolve the motion for as long as it has to be; gives the time [s] that took."""
+        w = self.full.plant.drive_frequency
+        to_go = now.orbit.to_go
+        ends = to_go <= w * duration + NOTHING
+        time = min(to_go / w, duration) if ends else duration
+        if time * w > NOTHING or not ends:
+            now = events.advance(self.friction, self.full, now, time)
+            now.orbit = now.orbit._replace(to_go=to_go - w * time)
+        else:
+            time = 0.0
+        return (self._taken_over(now)[0] if ends else now), time
+
+    def _swing_after(self, swing: Swing, t: float) -> Swing:
+        """The resonator's own swing `t` [s] later: it moves the pair, but not its momentum."""
+        slip = self.full.plant.slip
+        cosine, sine = free_response(slip, t)
+        y, u = swing
+        return Swing(
+            y * (cosine + slip.decay * sine) + u * sine,
+            u * (cosine - slip.decay * sine) - slip.stiffness * y * sine,
+        )
+
+    def _followed(self, now: Moment, duration: float) -> Moment:
+        """Go along orbits for `duration` [s]."""
+        plant, orbit, fast = self.full.plant, now.orbit, self.fast
+        w, q = plant.drive_frequency, plant.normal_frequency
+        chi, start = self.full.inputs.phase + now.psi, now.position
+        ride = self._ride(now, orbit.lead)
+        drift = ride.slow.drift
+        full = friction_share(self.full.device, fast) * plant.total_mass * w * fast.velocity
+        step = first_step(fast.velocity, plant.total_mass, full + abs(plant.load), duration)
+        most = MAX_QUADRATURE_STEPS if ride.searches else MAX_SLOW_STEPS
+        slow_pass = SlowPass(
+            ride.acceleration,
+            fast.velocity,
+            TOLERANCE * fast.velocity,
+            step,
+            duration,
+            may_settle=drift == 0.0 and not ride.searches,
+            most=most // PYTHON_SLOWDOWN,
+            beat=ride.slow.beat,
+            to_kink=ride.first.to_kink,
+        )
+        reached = Reached(0.0, orbit.velocity, 0.0, step)
+
+        def moment_at(theta: float) -> tuple[Moment, Swing, bool]:
+            t = reached.t
+            phase = ride.theta(t, theta, chi + q * t)
+            found = ride.moment(t, phase, reached.velocity, orbit.centre + reached.moved)
+            if found is None:
+                raise LostOrbitError
+            swing = self._swing_after(orbit.swing, t)
+            return _with_swing(found[0], swing, plant.mass_fraction), swing, found[1].beyond
+
+        last = (tau * floor((now.theta + w * duration + MARK_TOLERANCE) / tau) - now.theta) / w
+        marks: list[tuple[float, float]] = []
+        for mark in (last - tau / w, last):
+            if 0.0 < mark < duration:
+                before = reached.step
+                reached = slow_pass.reach(mark, reached)
+                reached = reached._replace(step=max(reached.step, before))
+                marks.append((mark, moment_at(0.0)[0].position - start))
+        reached = slow_pass.reach(duration, reached)
+        reached = reached._replace(t=duration)
+        there, swing, beyond = moment_at((now.theta + w * duration) % tau)
+        travelled = there.position - start
+
+        def travel_at(t: float) -> float:
+            rest = duration - t
+            if abs(rest) * w <= MARK_TOLERANCE:
+                return travelled - there.state.velocity * rest
+            return min(marks, key=lambda mark: abs(mark[0] - t))[1]
+
+        means, theta = now.means.advanced(duration, now.theta, w, False, travel_at, travelled)
+        lead = ride.lead_at(duration)
+        return replace(
+            now,
+            state=there.state,
+            position=there.position,
+            theta=theta,
+            psi=(now.psi + q * duration) % tau,
+            mode=there.mode,
+            event_age=inf,
+            means=means,
+            bristle=there.bristle,
+            orbit=orbit._replace(
+                velocity=reached.velocity,
+                centre=orbit.centre + reached.moved,
+                lead=lead % tau if drift != 0.0 else lead,
+                swing=swing,
+                grazed=orbit.grazed or beyond,
+            ),
+        )
+
+
+def _with_swing(moment: Moment, swing: Swing, share: float) -> Moment:
+    """A moment on an orbit with the swing. A slider that sticks stays at rest."""
+    velocity, displacement, rate = moment.state
+    if moment.mode != STICK:
+        velocity -= share * swing.rate
+    moment.state = State(velocity, displacement + swing.displacement, rate + swing.rate)
+    moment.position -= share * swing.displacement
+    return moment

@@ -1,0 +1,202 @@
+"""The orbit on which slow motion rides: from tables, or found directly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, floor, inf, remainder, sin, sqrt, tau
+
+from .contact import BACKWARD, FORWARD
+from .device import Device
+from .fast_vibration import steady_swing
+from .held_orbit import HeldOrbit, NoOrbitError, held_orbit_at, held_orbit_linearised
+from .moment import Moment
+from .motion import State
+from .orbit_curve import OrbitPoint, Quantities, point_of
+from .orbit_state import MAX_LEADS, MAX_TUNINGS, OrbitState
+from .orbit_tables import OrbitTable, combined_table, curve_table, orbit_map, series_table
+from .period_map import PeriodMap
+from .slow_friction import SlowFriction
+from .slow_phase import SlowPhase, slow_phase_of
+
+MAX_RATE = 300.0
+"""Rates of the motion over the drive frequency up to which a turn of the drive is resolved often
+enough to find orbits."""
+
+
+def orbit_phase_of(device: Device, ratio: float) -> SlowPhase:
+    """The slow phase that counts for orbits: that of a load that does not vibrate stands still.
+
+    `turns` is None, too, where a turn of the drive holds far faster motion.
+    """
+    slow = SlowPhase(1, 1.0, 0.0)
+    if device.normal_amplitude > 0.0:
+        slow = slow_phase_of(device, ratio)
+    return slow if _is_affordable(device, slow.waves) else slow._replace(turns=None)
+
+
+def _is_affordable(device: Device, waves: float) -> bool:
+    limit, wn = MAX_RATE * device.drive_frequency, device.resonator_frequency
+    free_share = device.slider_mass / device.total_mass
+    damping = 2.0 * device.damping_ratio * wn / free_share
+    resonator = wn <= limit * sqrt(free_share) and damping <= limit
+    if device.friction_law == 0:
+        return abs(waves) <= MAX_RATE and resonator
+    normal = device.normal_preload + device.normal_amplitude
+    grip = device.friction_faces * normal / device.slider_mass
+    bristle = grip * device.bristle_damping <= limit
+    bristle = bristle and grip * device.bristle_stiffness <= limit * limit
+    return abs(waves) <= MAX_RATE and resonator and bristle
+
+
+class _Search:
+    """Orbits by Newton's method, each from the one found last, or else from none."""
+
+    def __init__(self, period_map: PeriodMap) -> None:
+        self._map = period_map
+        self._last: HeldOrbit | None = None
+
+    def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
+        """See OrbitTable."""
+        orbit = self._found(lead, velocity)
+        return None if orbit is None else (orbit.friction, orbit.factor)
+
+    def point(self, lead: float, velocity: float) -> OrbitPoint | None:
+        """See OrbitTable."""
+        orbit = self._found(lead, velocity)
+        if orbit is None:
+            return None
+        try:
+            return point_of(self._map, orbit)
+        except NoOrbitError:
+            return None
+
+    def _found(self, lead: float, velocity: float) -> HeldOrbit | None:
+        starts = [self._last, None] if self._last is not None else [None]
+        self._last = None
+        for start in starts:
+            try:
+                orbit = held_orbit_at(self._map, lead, velocity, start)
+            except NoOrbitError:
+                continue
+            self._last = self._lagging(orbit)
+            break
+        return self._last
+
+    def _lagging(self, orbit: HeldOrbit) -> HeldOrbit | None:
+        """The orbit with its added mass under LuGre friction."""
+        if self._map.held.device.friction_law == 0:
+            return orbit
+        try:
+            return held_orbit_linearised(self._map, orbit)
+        except NoOrbitError:
+            return None
+
+
+@dataclass(frozen=True, slots=True)
+class OrbitRide:
+    """The ride from `lead` [rad] on.
+
+    `searches` says that each orbit costs a search. Where there is no orbit, averages of `first`
+    order serve, under a `load` [N].
+    """
+
+    map: PeriodMap
+    slow: SlowPhase
+    turns: int
+    lead: float
+    table: OrbitTable
+    searches: bool
+    first: SlowFriction
+    load: float
+
+    def lead_at(self, t: float) -> float:
+        """The lead [rad] at time `t` [s] from the beginning."""
+        return self.lead + self.slow.drift * t
+
+    def acceleration(self, t: float, velocity: float) -> float:
+        """Slow acceleration [m/s^2] at time `t` [s] and a slow velocity [m/s]."""
+        found = self.table.friction(self.lead_at(t), velocity)
+        friction, factor = (self.first.at(t, velocity), 1.0) if found is None else found
+        return -factor * (friction + self.load) / self.map.held.plant.total_mass
+
+    def point(self, t: float, velocity: float) -> OrbitPoint:
+        """The orbit at that time and velocity.
+
+        Without an orbit it is the vibration under averaged friction.
+        """
+        found = self.table.point(self.lead_at(t), velocity)
+        if found is not None:
+            return found
+        scales = self.map
+        direction = FORWARD if velocity >= 0.0 else BACKWARD
+        frequency = scales.held.plant.drive_frequency
+        phase = scales.section_phase(direction)
+        displacement, rate = steady_swing(scales.fast.resonator, phase, frequency)
+        bristle = direction * scales.held.bristle.coefficient if scales.states > 3 else 0.0
+        friction = self.first.at(t, velocity)
+        of = Quantities(friction, 1.0, 0.0, 0.0, displacement, rate, bristle)
+        return OrbitPoint(of, direction, found=False)
+
+    def theta(self, t: float, theta: float, chi: float) -> float:
+        """Drive phase [rad] over all turns of the orbit, for one within a turn.
+
+        It is that at which the normal phase `chi` [rad] fits the lead.
+        """
+        best, phase, lead = inf, theta, self.lead_at(t)
+        for turn in range(self.turns):
+            there = theta + tau * turn
+            miss = abs(remainder(chi - lead - self.slow.waves * there, tau))
+            if miss < best:
+                best, phase = miss, there
+        return phase
+
+    def moment(
+        self, t: float, theta: float, velocity: float, centre: float
+    ) -> tuple[Moment, OrbitPoint] | None:
+        """The moment on the orbit with this slow velocity [m/s] and slow centre [m].
+
+        `theta` [rad] goes over all turns of the orbit, whose phases those of the moment are. None
+        where the motion fails.
+        """
+        scales, plant = self.map, self.map.held.plant
+        w, share, drive = plant.drive_frequency, plant.mass_fraction, scales.fast.pair_velocity
+        lead, point = self.lead_at(t), self.point(t, velocity)
+        of, start = point.of, scales.section_phase(point.direction)
+        slider = velocity + of.offset - share * of.rate - drive * cos(start)
+        state = State(slider, of.displacement, of.rate)
+        section = scales.enter(lead, start, state, of.bristle)
+        period = tau * scales.turns
+        ahead = theta - start
+        ahead -= period * floor(ahead / period)
+        duration = ahead / w
+        moment: Moment | None = section
+        if duration > 0.0:
+            moment = scales.advance(lead, -of.friction, section, duration)
+        if moment is None:
+            return None
+        moment.position += (
+            centre + of.way - share * of.displacement - drive / w * sin(start) - velocity * duration
+        )
+        return moment, point
+
+
+def begin_ride(
+    device: Device, ratio: float, orbit: OrbitState, lead: float, first: SlowFriction, load: float
+) -> OrbitRide:
+    """The ride of a device from a state beside the moment and a `lead` [rad] on."""
+    slow = orbit_phase_of(device, ratio)
+    turns, waves, drift = slow.turns or 1, slow.waves, slow.drift
+    lifts = device.normal_amplitude > device.normal_preload
+    many = drift != 0.0 or orbit.leads.visits > MAX_LEADS
+    period_map = orbit_map(device, waves, turns)
+    searches = orbit.tunings >= MAX_TUNINGS or (many and lifts)
+    table: OrbitTable
+    if searches:
+        table = _Search(period_map)
+    elif drift != 0.0:
+        table = series_table(device, waves, turns)
+    elif many:
+        table = combined_table(device, waves, turns, lead)
+    else:
+        table = curve_table(device, waves, turns, lead)
+    return OrbitRide(period_map, slow, turns, lead, table, searches, first, load)

@@ -1,0 +1,275 @@
+"""The tables of held orbits: a cache of pure functions of device and lead."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from math import cos, tau
+from typing import Protocol
+
+from .device import Device
+from .held_orbit import NoOrbitError
+from .orbit_curve import (
+    OrbitCurve,
+    OrbitPanel,
+    OrbitPoint,
+    Quantities,
+    index_at,
+    place_between,
+    trimmed,
+)
+from .period_map import PeriodMap, period_map
+
+SERIES_LEADS = 9
+"""Leads between which orbits are interpolated by a Fourier series."""
+
+CURVES = 12
+"""Curves that are kept: at least those, and a few more."""
+
+
+class OrbitTable(Protocol):
+    """Orbits over lead and slow velocity."""
+
+    def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
+        """Mean friction F2 [N] and 1 + kappa_m; None where there is no orbit."""
+        ...
+
+    def point(self, lead: float, velocity: float) -> OrbitPoint | None:
+        """All quantities; None where there is no orbit."""
+        ...
+
+
+def orbit_map(device: Device, waves: float, turns: int) -> PeriodMap:
+    """The period map of the full device. Raises Refusal as `period_map` does."""
+    return _map(_what_orbits_depend_on(device), waves, turns)
+
+
+def curve_table(device: Device, waves: float, turns: int, lead: float) -> OrbitTable:
+    """The table at one lead, whatever lead is asked for."""
+    curve = _curve(_what_orbits_depend_on(device), waves, turns, lead)
+    return _NoTable() if curve is None else _CurveTable(curve)
+
+
+def combined_table(device: Device, waves: float, turns: int, lead: float) -> OrbitTable:
+    """The same from the curves at SERIES_LEADS leads, for a contact that does not lift."""
+    combined = _combined(_what_orbits_depend_on(device), waves, turns, lead)
+    return _NoTable() if combined is None else _CurveTable(combined)
+
+
+def series_table(device: Device, waves: float, turns: int) -> OrbitTable:
+    """The table over all leads, for a contact that does not lift."""
+    series = _series(_what_orbits_depend_on(device), waves, turns)
+    return _NoTable() if series is None else _SeriesTable(series)
+
+
+class _Curve(Protocol):
+    """What OrbitCurve and a combination of them have in common."""
+
+    middle: float
+    reach: float
+    beyond: tuple[OrbitPoint, OrbitPoint]
+
+    def panel(self, depth: int, index: int) -> OrbitPanel:
+        """A panel, made where it is missing."""
+        ...
+
+
+class _NoTable:
+    """A table without orbits."""
+
+    def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
+        """See OrbitTable."""
+        return None
+
+    def point(self, lead: float, velocity: float) -> OrbitPoint | None:
+        """See OrbitTable."""
+        return None
+
+
+class _CurveTable:
+    """The table of a curve."""
+
+    def __init__(self, curve: _Curve) -> None:
+        self._curve = curve
+
+    def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
+        """See OrbitTable."""
+        curve = self._curve
+        place = place_between(curve.middle, curve.reach, velocity)
+        if place < 0.0:
+            of = curve.beyond[velocity > curve.middle].of
+            return of.friction, of.factor
+        panel = _panel_around(curve, place)
+        if panel.coefficients is None:
+            return None
+        return panel.at(0, place), panel.at(1, place)
+
+    def point(self, lead: float, velocity: float) -> OrbitPoint | None:
+        """See OrbitTable."""
+        curve = self._curve
+        place = place_between(curve.middle, curve.reach, velocity)
+        if place < 0.0:
+            return curve.beyond[velocity > curve.middle]
+        panel = _panel_around(curve, place)
+        return None if panel.coefficients is None else panel.point(place)
+
+
+def _panel_around(curve: _Curve, place: float) -> OrbitPanel:
+    """The panel around a place that holds."""
+    depth = 0
+    while not (panel := curve.panel(depth, index_at(place, depth))).holds:
+        depth += 1
+    return panel
+
+
+class _SeriesTable:
+    """The table of curves at the leads of the series."""
+
+    def __init__(self, curves: tuple[OrbitCurve, ...]) -> None:
+        self._curves = curves
+
+    def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
+        """See OrbitTable."""
+        found = self._sum(lead, velocity, 2)
+        return None if found is None else (found[0][0], found[0][1])
+
+    def point(self, lead: float, velocity: float) -> OrbitPoint | None:
+        """See OrbitTable."""
+        found = self._sum(lead, velocity, len(Quantities._fields))
+        return None if found is None else OrbitPoint(Quantities(*found[0]), *found[1:])
+
+    def _sum(
+        self, lead: float, velocity: float, count: int
+    ) -> tuple[list[float], int, bool, bool] | None:
+        """The first quantities; direction, found and beyond as of OrbitPoint."""
+        weights = series_weights(lead)
+        pairs = list(zip(weights, self._curves, strict=True))
+        middle = sum(weight * curve.middle for weight, curve in pairs)
+        reach = sum(weight * curve.reach for weight, curve in pairs)
+        place = place_between(middle, reach, velocity)
+        if place < 0.0:
+            points = [curve.beyond[velocity > middle] for curve in self._curves]
+            values = [
+                sum(weight * point.of[q] for weight, point in zip(weights, points, strict=True))
+                for q in range(count)
+            ]
+            return values, points[0].direction, True, points[0].beyond
+        panels = self._panels(place)
+        if any(panel.coefficients is None for panel in panels):
+            return None
+        values = [
+            sum(weight * panel.at(q, place) for weight, panel in zip(weights, panels, strict=True))
+            for q in range(count)
+        ]
+        return values, panels[0].direction, True, False
+
+    def _panels(self, place: float) -> list[OrbitPanel]:
+        """The panels of all curves around a place, of the depth at which all hold."""
+        depth = 0
+        while True:
+            panels = [curve.panel(depth, index_at(place, depth)) for curve in self._curves]
+            if all(panel.holds for panel in panels):
+                return panels
+            depth += 1
+
+
+class _Combination:
+    """The curve at a lead that the curves of the series combine to."""
+
+    def __init__(self, curves: tuple[OrbitCurve, ...], lead: float) -> None:
+        self._curves, self._weights = curves, series_weights(lead)
+        pairs = list(zip(self._weights, curves, strict=True))
+        self.middle = sum(weight * curve.middle for weight, curve in pairs)
+        self.reach = sum(weight * curve.reach for weight, curve in pairs)
+        self.beyond = self._beyond(0), self._beyond(1)
+        self._panels: dict[tuple[int, int], OrbitPanel] = {}
+
+    def panel(self, depth: int, index: int) -> OrbitPanel:
+        """See _Curve."""
+        key = depth, index
+        if key not in self._panels:
+            self._panels[key] = self._made(depth, index)
+        return self._panels[key]
+
+    def _beyond(self, side: int) -> OrbitPoint:
+        points = [curve.beyond[side] for curve in self._curves]
+        values = [
+            sum(weight * value for weight, value in zip(self._weights, column, strict=True))
+            for column in zip(*(point.of for point in points), strict=True)
+        ]
+        return OrbitPoint(Quantities(*values), points[0].direction, beyond=points[0].beyond)
+
+    def _made(self, depth: int, index: int) -> OrbitPanel:
+        panels = [curve.panel(depth, index) for curve in self._curves]
+        holds = all(panel.holds for panel in panels)
+        known = [panel.coefficients for panel in panels if panel.coefficients is not None]
+        if len(known) < len(panels):
+            return OrbitPanel(depth, index, holds, None)
+        coefficients = []
+        for columns in zip(*known, strict=True):
+            length = max(map(len, columns))
+            total = [0.0] * length
+            for weight, column in zip(self._weights, columns, strict=True):
+                for k, value in enumerate(column):
+                    total[k] += weight * value
+            coefficients.append(trimmed(total))
+        return OrbitPanel(depth, index, holds, tuple(coefficients))
+
+
+def series_weights(lead: float) -> list[float]:
+    """Weights of the leads of the series at one lead [rad]: trigonometric cardinal functions.
+
+    Cosines by Chebyshev's recurrence.
+    """
+    weights = []
+    for i in range(SERIES_LEADS):
+        cosine = cos(lead - tau * i / SERIES_LEADS)
+        before, now, total = 1.0, cosine, 0.5
+        for _ in range(SERIES_LEADS // 2):
+            total += now
+            before, now = now, 2.0 * cosine * now - before
+        weights.append(2.0 * total / SERIES_LEADS)
+    return weights
+
+
+def _what_orbits_depend_on(device: Device) -> Device:
+    """The device with the start values of what does not change its orbits."""
+    start = Device()
+    return replace(
+        device,
+        fidelity=start.fidelity,
+        averaging_order=start.averaging_order,
+        initial_position=start.initial_position,
+        initial_velocity=start.initial_velocity,
+        initial_resonator_displacement=start.initial_resonator_displacement,
+        initial_resonator_velocity=start.initial_resonator_velocity,
+        initial_bristle_deflection=start.initial_bristle_deflection,
+    )
+
+
+_map = lru_cache(maxsize=CURVES)(period_map)
+
+
+@lru_cache(maxsize=CURVES)
+def _curve(device: Device, waves: float, turns: int, lead: float) -> OrbitCurve | None:
+    try:
+        return OrbitCurve(_map(device, waves, turns), lead)
+    except NoOrbitError:
+        return None
+
+
+@lru_cache(maxsize=2)
+def _series(device: Device, waves: float, turns: int) -> tuple[OrbitCurve, ...] | None:
+    curves = []
+    for i in range(SERIES_LEADS):
+        curve = _curve(device, waves, turns, tau * i / SERIES_LEADS)
+        if curve is None:
+            return None
+        curves.append(curve)
+    return tuple(curves)
+
+
+@lru_cache(maxsize=CURVES)
+def _combined(device: Device, waves: float, turns: int, lead: float) -> _Combination | None:
+    series = _series(device, waves, turns)
+    return None if series is None else _Combination(series, lead)

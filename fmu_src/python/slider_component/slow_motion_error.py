@@ -1,0 +1,98 @@
+"""Estimates of the error that averages make in the slow velocity."""
+
+from __future__ import annotations
+
+from math import inf, pi, sqrt, tau
+
+from .device import Device
+from .fast_vibration import FastVibration
+
+FIRST_ORDER = 2.0
+"""Error of first order in friction shares and v_q: of the average, and of the resonator's first
+swing, which the average leaves out."""
+
+STIFF = 0.8
+"""Error of second order in squares of the friction share and v_q, with a resonator that is stiff
+against the drive."""
+
+SOFT = 5.0
+"""The same with a soft one."""
+
+BY_DAMPING = 6.0
+"""How much more that is by the square of the damping ratio."""
+
+BY_FLIGHT = 2.0
+"""Factor of it under a contact that lifts."""
+
+ADDED_MASS = 0.5
+"""Error of second order in squares of the added mass and v_q."""
+
+GRAZING = 5.0
+"""Error after grazing, where friction changes within a period, in the friction share to the power
+of 3/2 and v_q."""
+
+STIFF_UP_TO = 1.5
+"""Drive frequency over resonator frequency up to which the resonator counts as stiff."""
+
+SOFT_FROM = 3.0
+"""The same from which on it counts as soft."""
+
+RESOLUTION = 1e-8
+"""Error of the integration and of the tables, in v_q."""
+
+
+def friction_share(device: Device, fast: FastVibration) -> float:
+    """Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q).
+
+    It is the small number by which averages expand.
+    """
+    normal = max(device.normal_preload, device.normal_amplitude / pi)
+    friction = device.friction_faces * device.friction_coefficient * normal
+    return friction / (device.total_mass * device.drive_frequency * fast.velocity)
+
+
+def decay_in_turn(device: Device) -> float:
+    """Decay of the resonator's own vibration in a turn of the drive, the slower of two.
+
+    It is infinite without resonator.
+    """
+    if device.resonator_mass == 0.0:
+        return inf
+    free_share = device.slider_mass / device.total_mass
+    wn = device.resonator_frequency
+    decay = device.damping_ratio * wn / free_share
+    excess = decay * decay - wn * wn / free_share
+    slower = wn * wn / free_share / (decay + sqrt(excess)) if excess > 0.0 else decay
+    return slower * tau / device.drive_frequency
+
+
+def first_order_error(device: Device, fast: FastVibration) -> float:
+    """Error [m/s] of averages of first order."""
+    decay = decay_in_turn(device)
+    if not fast.velocity > 0.0:
+        return 0.0
+    swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
+    return min(FIRST_ORDER * friction_share(device, fast) * swing, 1.0) * fast.velocity
+
+
+def second_order_error(
+    device: Device, fast: FastVibration, added_mass: float, grazed: bool, force: float
+) -> float:
+    """Error [m/s] of averages of second order where friction adds a share `added_mass`.
+
+    Friction and load leave a mean `force` [N]: without it motion is steady, and its orbit exact. It
+    is larger once the motion has `grazed` the velocity from which on the slider turns back.
+    """
+    share = friction_share(device, fast)
+    inertia = device.total_mass * device.drive_frequency * fast.velocity
+    away = min(abs(force) / (share * inertia), 1.0) if share > 0.0 else 0.0
+    tuning = device.drive_frequency / device.resonator_frequency
+    soft = min(max((tuning - STIFF_UP_TO) / (SOFT_FROM - STIFF_UP_TO), 0.0), 1.0)
+    damping = min(device.damping_ratio, 1.0)
+    sensitivity = (STIFF + soft * (SOFT - STIFF)) * (1.0 + BY_DAMPING * damping * damping)
+    if device.normal_amplitude > device.normal_preload:
+        sensitivity *= BY_FLIGHT
+    squares = sensitivity * share * share + ADDED_MASS * added_mass * added_mass
+    if grazed:
+        squares += GRAZING * share * sqrt(share)
+    return min(away * squares + RESOLUTION, 1.0) * fast.velocity

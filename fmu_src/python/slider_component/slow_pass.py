@@ -1,0 +1,78 @@
+"""The slow velocity over a time: integrated, or settled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf, isfinite
+
+from .dormand_prince import Reached, integrate
+from .refusal import too_much_work
+from .settling import Acceleration, settled
+
+FIRST_STEP = 0.1
+"""Step tried first, as a share of the time in which friction changes the fast velocity."""
+
+SETTLING = 100.0
+"""What must be left, in first steps, for the motion to settle."""
+
+BEAT_SHARE = 0.125
+"""Part of a beat that a step may have: its stages then see all phases of the normal load."""
+
+MIN_SHARE = 1e-9
+"""Part of a beat up to which a kink ahead counts as the one just passed."""
+
+BLOCK = 16
+"""Steps before each of which it may turn out that the motion has settled."""
+
+
+@dataclass(frozen=True, slots=True)
+class SlowPass:
+    """How to pass.
+
+    The `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, the `duration`
+    [s] of the communication step, whether the motion may settle, and the most steps. The
+    acceleration repeats after a `beat` [s], and is smooth for `to_kink(t)` [s] from `t` [s] on.
+    """
+
+    acceleration: Acceleration
+    fast: float
+    tolerance: float
+    step: float
+    duration: float
+    may_settle: bool
+    most: int
+    beat: float = inf
+    to_kink: Callable[[float], float] | None = None
+
+    def reach(self, end: float, now: Reached) -> Reached:
+        """What is reached at time `end` [s]; motion that settles takes few steps, however long.
+
+        Raises Refusal where that takes too many.
+        """
+        for _ in range(0, self.most, BLOCK):
+            if self.may_settle and end - now.t > SETTLING * self.step:
+                now = settled(self.acceleration, self.fast, end, now) or now
+            if not now.t < end or not isfinite(now.velocity):
+                return now
+            longest = BEAT_SHARE * self.beat
+            smooth = self._end_of_smoothness(now.t, end)
+            now = integrate(self.acceleration, now, smooth, self.tolerance, BLOCK, longest)
+        if now.t < end and isfinite(now.velocity):
+            raise too_much_work(self.duration, now.t, self.most, "steps of averaged motion")
+        return now
+
+    def _end_of_smoothness(self, t: float, end: float) -> float:
+        """The next kink of the acceleration after `t`, or `end` [s]."""
+        if self.to_kink is None:
+            return end
+        return min(end, t + max(self.to_kink(t), MIN_SHARE * self.beat))
+
+
+def first_step(fast: float, mass: float, strongest: float, duration: float) -> float:
+    """The step [s] to try first.
+
+    It is a share of the time in which the `strongest` force [N] changes the fast velocity [m/s] of
+    a mass [kg]; without force all the `duration` [s].
+    """
+    return FIRST_STEP * fast * mass / strongest if strongest > 0.0 else duration

@@ -1,0 +1,97 @@
+"""What `run --plot` draws: signals, a window of time, further runs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+import click
+
+from slider_resonator.commands.options import Setting
+from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run
+from slider_resonator.scenes.scene import Scene
+
+
+class Window(click.ParamType[tuple[float, float]]):
+    """FROM:TO, two times in s."""
+
+    name = "FROM:TO"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        """Return the two times."""
+        if isinstance(value, tuple):
+            return value
+        begin, separator, end = str(value).partition(":")
+        try:
+            if separator:
+                return float(begin), float(end)
+        except ValueError:
+            pass
+        self.fail(f"{value!r}: must be FROM:TO, two times in s, such as 0.1:0.11", param, ctx)
+
+
+class Overlay(click.ParamType["tuple[str, float] | Path"]):
+    """NAME=VALUE, or an FMU."""
+
+    name = "NAME=VALUE|FMU"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, float] | Path:
+        """Return the setting, or the path of the FMU."""
+        if isinstance(value, tuple | Path):
+            return value
+        text = str(value)
+        if "=" in text and not Path(text).is_file():
+            return Setting().convert(text, param, ctx)
+        return Path(text)
+
+
+def check_drawing(scene: Scene, signals: Sequence[str], window: tuple[float, float] | None) -> None:
+    """Raise HarnessError for signals that do not exist or a window outside the run."""
+    # Imported here: drawing takes longer to load than the rest to run.
+    from slider_resonator.scenes.signals_plot import check_signals, check_window
+
+    check_signals(signals)
+    if window is not None:
+        check_window(window, scene)
+
+
+def draw_signals(
+    isolated: IsolatedFmu,
+    fmu: Path,
+    scene: Scene,
+    signals: Sequence[str],
+    window: tuple[float, float] | None,
+    overlays: Sequence[tuple[str, float] | Path],
+    path: Path,
+    time_limit: float,
+) -> None:
+    """Run the scene, and again for each overlay, and draw; by default `SIGNALS` and the whole run.
+
+    Raises HarnessError for a setting that the scene refuses, and as `IsolatedFmu` does.
+    """
+    from slider_resonator.scenes.signals_plot import SIGNALS, Run, plot_signals, schedule_for_window
+
+    shown = window or (0.0, float(scene.schedule().times[-1]))
+
+    def record(on: IsolatedFmu, varied: Scene) -> Record:
+        schedule = schedule_for_window(varied, shown)
+        found: Record = on.run(partial(run, parameters=varied.parameters, schedule=schedule))
+        return found
+
+    runs = [Run(fmu.name, record(isolated, scene))]
+    for overlay in overlays:
+        if isinstance(overlay, Path):
+            with IsolatedFmu(overlay, time_limit) as other:
+                runs.append(Run(overlay.name, record(other, scene)))
+        else:
+            name, value = overlay
+            varied = scene.with_values({name: value})
+            runs.append(Run(f"{name} {value:g}", record(isolated, varied)))
+    plot_signals(runs, scene, signals or SIGNALS, shown, path)

@@ -1,0 +1,119 @@
+"""Provenance of a report: the FMUs, the versions of the tools, the machine and the date."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import re
+import zipfile
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import fmpy
+
+from slider_resonator import __version__
+from slider_resonator.errors import HarnessError
+
+DATE_VARIABLE = "SOURCE_DATE_EPOCH"
+"""Environment variable with the date of reproducible reports, in seconds since 1970."""
+
+_MAX_EPOCH = 253402300799
+"""The last second of the year 9999, the last year that a date can have."""
+_CPU_NAME = re.compile(r"^model name\s*:\s*(.+)$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class FmuIdentity:
+    """An FMU file: its path, and what identifies its content; None for what cannot be read.
+
+    `version` and `generation_tool` are those of its model description, "" where it states none.
+    """
+
+    fmu: str
+    guid: str | None
+    sha256: str | None
+    version: str | None
+    generation_tool: str | None
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """What a report was made of and with.
+
+    `cpu` names the processor, which timings depend on; `date` is in ISO 8601, UTC.
+    """
+
+    fmus: tuple[FmuIdentity, ...]
+    harness: str
+    fmpy: str
+    python: str
+    platform: str
+    cpu: str
+    date: str
+
+
+def provenance_of(*fmus: str | Path | FmuIdentity) -> Provenance:
+    """Return the provenance of a report on FMU files, which need not be usable or exist.
+
+    Raises HarnessError for a SOURCE_DATE_EPOCH that is no date.
+    """
+    return Provenance(
+        fmus=tuple(fmu if isinstance(fmu, FmuIdentity) else identity_of(fmu) for fmu in fmus),
+        harness=__version__,
+        fmpy=str(fmpy.__version__),
+        python=platform.python_version(),
+        platform=f"{platform.system()} {platform.release()} {platform.machine()}",
+        cpu=_cpu(),
+        date=_date(),
+    )
+
+
+def identity_of(fmu: str | Path) -> FmuIdentity:
+    """Return what identifies an FMU file; of one that is missing or corrupt as much as is there."""
+    guid = version = tool = None
+    root = _root_attributes(Path(fmu))
+    if root is not None:
+        guid = root.get("guid", root.get("instantiationToken"))
+        version, tool = root.get("version", ""), root.get("generationTool", "")
+    return FmuIdentity(str(fmu), guid, _digest(Path(fmu)), version, tool)
+
+
+def _root_attributes(fmu: Path) -> dict[str, str] | None:
+    """Return the attributes of the root of the model description, None where it cannot be read."""
+    try:
+        with zipfile.ZipFile(fmu) as archive, archive.open("modelDescription.xml") as file:
+            _, root = next(iter(ET.iterparse(file, events=("start",))))
+            return dict(root.attrib)
+    except Exception:  # a corrupt archive raises errors of zipfile, zlib, struct and the parser
+        return None
+
+
+def _digest(fmu: Path) -> str | None:
+    try:
+        with fmu.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError:
+        return None
+
+
+def _cpu() -> str:
+    """Return the name of the processor and the number of its logical cores."""
+    name = platform.processor()
+    try:
+        found = _CPU_NAME.search(Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+        name = found[1].strip() if found else name
+    except OSError:  # Linux only
+        pass
+    return f"{name or platform.machine()}, {os.cpu_count()} logical cores"
+
+
+def _date() -> str:
+    given = os.environ.get(DATE_VARIABLE)
+    if not given:
+        return datetime.now(UTC).isoformat(timespec="seconds")
+    if not given.isascii() or not given.isdigit() or int(given) > _MAX_EPOCH:
+        raise HarnessError(f"{DATE_VARIABLE} = {given!r}: must be whole seconds since 1970")
+    return datetime.fromtimestamp(int(given), UTC).isoformat(timespec="seconds")

@@ -1,0 +1,117 @@
+"""Plots in HTML pages whose points can be hovered, drawn by uPlot from data in the page."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib.resources import files
+
+from slider_resonator.output.html_page import escaped
+from slider_resonator.output.json_output import plain
+from slider_resonator.output.printable import printable
+
+COLOURS = (
+    *("#1f5f8b", "#c8553d", "#2e7d32", "#8e24aa", "#b8860b", "#00838f", "#5d4037", "#ad1457"),
+    *("#455a64", "#ef6c00", "#3949ab", "#7cb342"),
+)
+MARKERS = "●■▲◆▼★✚◀▶○□△◇✖"
+DASHES: tuple[tuple[int, ...], ...] = ((), (8, 4), (2, 3), (8, 3, 2, 3))
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis with its unit in the label; a logarithmic one is for positive values only.
+
+    `range` are its ends, by default those of the data.
+    """
+
+    label: str
+    log: bool = False
+    range: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Series:
+    """Points with a label, joined in their order where `width` (px) is not 0.
+
+    `notes` are further lines of text for each point, `colours` replace `colour` point by point. A
+    point without y is marked on the x axis. `cells` fill the plane up to their neighbours.
+    """
+
+    label: str
+    x: Sequence[float]
+    y: Sequence[float | None]
+    colour: str
+    marker: str = ""
+    width: float = 0.0
+    dash: Sequence[int] = ()
+    notes: Sequence[str] = ()
+    colours: Sequence[str] = ()
+    cells: bool = False
+
+
+@dataclass(frozen=True)
+class HoverPlot:
+    """A plot of some series; `height` in px."""
+
+    title: str
+    x: Axis
+    y: Axis
+    series: Sequence[Series]
+    height: int = 420
+
+
+def look(index: int) -> tuple[str, str, tuple[int, ...]]:
+    """Return colour, marker and dash of the series with an index; up to 168 differ."""
+    dash = DASHES[index // len(COLOURS) % len(DASHES)]
+    return COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)], dash
+
+
+def plot_html(plot: HoverPlot) -> str:
+    """Return the plot as HTML for a page with the scripts `hover_scripts`."""
+    return (
+        f'<figure><figcaption>{escaped(plot.title)}</figcaption><div class="plot">'
+        f'<script type="application/json">{_data(plot)}</script></div></figure>'
+    )
+
+
+@cache
+def hover_scripts() -> tuple[str, ...]:
+    """Return the scripts that draw the plots of a page."""
+    folder = files("slider_resonator.output")
+    scripts = (folder / "vendor" / "uPlot.iife.min.js", folder / "hover_plot.js")
+    return tuple(script.read_text(encoding="utf-8") for script in scripts)
+
+
+@cache
+def hover_style() -> str:
+    """Return the style sheet of the plots of a page."""
+    folder = files("slider_resonator.output")
+    return (folder / "vendor" / "uPlot.min.css").read_text(encoding="utf-8") + _STYLE
+
+
+def _data(plot: HoverPlot) -> str:
+    text = json.dumps(_printable(plain(asdict(plot))), separators=(",", ":"), ensure_ascii=True)
+    # "<" could end the script element; in JSON it occurs in strings only.
+    return text.replace("<", "\\u003c")
+
+
+def _printable(value: object) -> object:
+    if isinstance(value, str):
+        return printable(value)
+    if isinstance(value, dict):
+        return {key: _printable(item) for key, item in value.items()}
+    return [_printable(item) for item in value] if isinstance(value, list) else value
+
+
+_STYLE = """
+figure { margin: 1rem 0 } figcaption { font-weight: 600 } .plot { min-height: 12rem }
+.u-legend { font-size: 12px; text-align: left }
+.tip { position: absolute; z-index: 2; pointer-events: none; white-space: pre-line;
+  max-width: 26rem; padding: .3rem .5rem; font-size: 12px; background: #fffffff0;
+  border: 1px solid #90a4ae }
+.scale { display: flex; gap: .5rem; align-items: center; font-size: 12px }
+.scale i { width: 12rem; height: .8rem }
+"""

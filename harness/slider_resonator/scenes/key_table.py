@@ -1,0 +1,54 @@
+"""What all tables of a scene file have in common: keys, numbers, devices."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from slider_resonator.device.interface import PARAMETERS
+from slider_resonator.device.values import check_value
+from slider_resonator.errors import unknown_name
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
+NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
+Point = tuple[Number, Number]
+
+
+class KeyTable(BaseModel):
+    """A table of a scene file; a key that it does not list is refused.
+
+    `rules` are those that hold between its keys.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    rules: ClassVar[tuple[str, ...]] = ()
+
+
+def key(meaning: str, example: Any, *, unit: str = "", default: Any = None) -> Any:
+    """Return the field of a key that may be left out; `example` is a value that it may have."""
+    unit_of: dict[str, Any] = {"unit": unit} if unit else {}
+    return Field(
+        default=default, description=meaning, examples=[example], json_schema_extra=unit_of
+    )
+
+
+def required(meaning: str, example: Any) -> Any:
+    """Return the field of a key that must be given, as `key` does."""
+    return Field(description=meaning, examples=[example])
+
+
+def exactly_one(table: str, given: list[str], choices: str) -> None:
+    """Raise ValueError unless one key is given of those that exclude each other."""
+    if len(given) != 1:
+        raise ValueError(f"{table} needs exactly one of {choices}, has {given or 'none'}")
+
+
+def checked_device(device: dict[str, float]) -> dict[str, float]:
+    """Return the parameters; ValueError for an unknown name or an impossible value."""
+    for name, value in device.items():
+        if name not in PARAMETERS:
+            raise ValueError(unknown_name("parameter", name, PARAMETERS))
+        check_value(name, value)
+    return device

@@ -1,0 +1,189 @@
+"""The page docs/scenes.md: every key, unit, rule and quantity of scene files, from the schema."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import resources
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
+from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
+from slider_resonator.scenes.expect_table import ExpectTable
+from slider_resonator.scenes.input_tables import (
+    BesideTable,
+    InputsTable,
+    InputTable,
+    TuningTable,
+)
+from slider_resonator.scenes.key_table import KeyTable
+from slider_resonator.scenes.need_table import AllowedTable, NeedTable
+from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
+from slider_resonator.scenes.toml_text import toml_value
+from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES, Quantity
+
+TABLES: dict[str, type[KeyTable]] = {
+    "The top of the file": SceneTable,
+    "[inputs]": InputsTable,
+    "Values over time": InputTable,
+    "[tuning]": TuningTable,
+    "[beside]": BesideTable,
+    "[run]": RunTable,
+    "[[expect]]": ExpectTable,
+    "[sweep]": SweepTable,
+    "[need]": NeedTable,
+    "The accuracy of a need": AllowedTable,
+}
+"""The tables of a scene file, by their headings on the page."""
+
+_INTRODUCTION = """\
+# Scene files
+
+<!-- Written by `slider-resonator scenes --page docs/scenes.md` from the schema; do not edit. -->
+
+A scene is a TOML file: the device, the inputs over time, the length of the run, and what must hold.
+
+```sh
+slider-resonator scenes --template > my_step.toml        # a commented scene to start from
+slider-resonator scenes --check my_step.toml             # is it valid? nothing is run
+slider-resonator validate --scene my_step.toml           # run it and compare
+slider-resonator scenes --show table_1                   # the text of a built-in scene
+slider-resonator scenes --schema > scene.schema.json     # JSON schema for editors
+```
+
+An editor with a TOML language server completes and checks the keys, if the first line of a scene is
+`#:schema ./scene.schema.json`.
+"""
+_AT_THE_TOP = """\
+A mistake is reported in one line with file, key and remedy:
+
+```text
+my_step.toml: run.stop_tme: unknown key 'stop_tme'; did you mean 'stop_time'? (must be one of ...)
+```
+"""
+
+
+def example_text(name: str) -> str:
+    """Return the text of an example file of this package, such as `template.toml`."""
+    return (resources.files(__package__) / "examples" / name).read_text(encoding="utf-8")
+
+
+def scene_page() -> str:
+    """Return the page as Markdown, with a newline at the end."""
+    parts = [_INTRODUCTION]
+    for heading, model in TABLES.items():
+        parts.append(_section(heading, model))
+        if model is SceneTable:
+            parts += [_AT_THE_TOP, _device_section()]
+    parts += [
+        "## Quantities\n",
+        "What an expectation can compare. One that needs *constants* is for constant "
+        "inputs and parameters, without [tuning].\n",
+        _table(("quantity", "kind", "unit", "meaning", "needs", "references"), _quantities()),
+        "## References\n",
+        _table(("reference", "what it is, and when it applies"), _references()),
+        "A reference that does not apply to a scene is an error of that scene (exit code 2), "
+        "not a failed check.\n",
+        "## A scene with every key\n",
+        "It is valid, and passes. A line that begins with `# or:` can replace the one above it.\n",
+        f"```toml\n{example_text('every_key.toml').rstrip()}\n```\n",
+        "The file `recorded.csv` beside it:\n",
+        f"```text\n{example_text('recorded.csv').rstrip()}\n```\n",
+    ]
+    return "\n".join(parts)
+
+
+def _section(heading: str, model: type[KeyTable]) -> str:
+    rows = [_row(name, field) for name, field in model.model_fields.items()]
+    table = _table(("key", "unit", "default", "meaning", "example"), rows)
+    rules = [f"- {rule}" for rule in model.rules]
+    summary = (model.__doc__ or "").splitlines()[0]
+    return "\n".join([f"## {heading}\n", f"{summary}\n", table, *rules, *([""] if rules else [])])
+
+
+def _row(name: str, field: FieldInfo) -> tuple[str, ...]:
+    extra: Any = field.json_schema_extra or {}
+    (example,) = field.examples or [None]
+    shown = _code(f"{name} = {toml_value(example)}")
+    unit = str(extra.get("unit", ""))
+    return _code(name), unit, _default(field), field.description or "", shown
+
+
+def _default(field: FieldInfo) -> str:
+    default = field.default
+    if field.is_required():
+        return "must be given"
+    if isinstance(default, InputTable):
+        return _code(toml_value(default.constant))
+    if default is None or isinstance(default, BaseModel) or default in ("", (), {}):
+        return ""
+    return _code(toml_value(default))
+
+
+def _device_section() -> str:
+    rows = [
+        (
+            _code(name),
+            VARIABLES[name].unit,
+            _bounds(name),
+            _code(f"{VARIABLES[name].start:g}"),
+            PARAMETER_MEANINGS[name] + (" (tunable)" if name in TUNABLES else ""),
+        )
+        for name in PARAMETERS
+    ]
+    table = _table(("key", "unit", "must be", "default", "meaning"), rows)
+    return "\n".join(
+        [
+            "## [device]\n",
+            "The parameters of the FMU; the defaults are the device of table 1. The tunable ones "
+            "can change in a run, in [tuning]. The FMU itself refuses values out of bounds.\n",
+            table,
+        ]
+    )
+
+
+def _bounds(name: str) -> str:
+    variable = VARIABLES[name]
+    low, high = variable.minimum, variable.maximum
+    if low is None or high is None:
+        return "" if low is None else f"at least {low:g}"
+    return f"{low:g} to {high:g}"
+
+
+def _quantities() -> list[tuple[str, ...]]:
+    return [
+        (
+            _code(name),
+            quantity.kind,
+            quantity.unit,
+            quantity.meaning,
+            _needs(quantity),
+            ", ".join(map(_code, quantity.references)),
+        )
+        for name, quantity in QUANTITIES.items()
+    ]
+
+
+def _needs(quantity: Quantity) -> str:
+    needs = {
+        "constants": quantity.needs_constants,
+        "[run]": quantity.needs_run,
+        "[beside]": quantity.needs_beside,
+    }
+    return ", ".join(name for name, needed in needs.items() if needed)
+
+
+def _references() -> list[tuple[str, ...]]:
+    return [(_code(name), meaning) for name, meaning in REFERENCES.items()]
+
+
+def _table(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    lines = [headings, ["---"] * len(headings), *rows]
+    escaped = ([cell.replace("|", "\\|") for cell in cells] for cells in lines)
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in escaped) + "\n"
+
+
+def _code(text: str) -> str:
+    return f"`{text}`"

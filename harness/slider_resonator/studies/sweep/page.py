@@ -1,0 +1,168 @@
+"""A sweep as a page of HTML: every measure over what was varied, each point to be hovered."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.colors import Normalize, to_hex
+from numpy.typing import NDArray
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.provenance import Provenance
+from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.output.hover_plot import (
+    Axis,
+    HoverPlot,
+    Series,
+    hover_scripts,
+    hover_style,
+    look,
+    plot_html,
+)
+from slider_resonator.output.html_page import escaped, rendered, write_page
+from slider_resonator.output.table import Row, Table, numbers, texts
+from slider_resonator.studies.sweep.grid import Sweep
+from slider_resonator.studies.sweep.measures import Array
+from slider_resonator.studies.sweep.picture import (
+    NO_ANSWER,
+    check_picture,
+    measure_label,
+    split_into_lines,
+    variable_label,
+)
+from slider_resonator.studies.sweep.table import Columns
+
+MAX_POINTS = 20_000
+"""Points of a page, some 200 bytes each for every measure."""
+GREY = "#78909c"
+DIVERGING, SEQUENTIAL = "RdBu_r", "viridis"
+
+
+def check_page(sweep: Sweep, option: str) -> None:
+    """Raise HarnessError, which begins with the option, for a sweep that has no page."""
+    check_picture(sweep, option)
+    if len(sweep.points) > MAX_POINTS:
+        raise HarnessError(f"{option}: {len(sweep.points)} points; must be at most {MAX_POINTS}")
+
+
+def write_sweep_page(path: Path, sweep: Sweep, columns: Columns, provenance: Provenance) -> None:
+    """Write the page of a sweep over one or two variables; HarnessError when that is impossible."""
+    failed = sum(error is not None for error in columns["error"])
+    counts = f"<p>{len(sweep.points)} points, {failed} of them failed.</p>"
+    parts = [counts, rendered(_setup(sweep))]
+    for measure in sweep.task.measures:
+        parts += _measure(sweep, columns, measure)
+    parts.append(provenance_html(provenance))
+    write_page(path, sweep.title or "Sweep", parts, hover_scripts(), hover_style())
+
+
+def _setup(sweep: Sweep) -> Table:
+    rows: list[Row] = []
+    for column, name in enumerate(sweep.task.names):
+        values = {point[column] for point in sweep.points}
+        spacing = ", logarithmic" if name in sweep.logarithmic else ""
+        rows.append(
+            (
+                variable_label(name),
+                f"{min(values):g}",
+                f"{max(values):g}",
+                f"{len(values)}{spacing}",
+            )
+        )
+    for name, value in sweep.task.fixed:
+        rows.append((variable_label(name), f"{value:g}", f"{value:g}", "fixed"))
+    return Table((*texts("variable"), *numbers("from", "to", "values")), rows)
+
+
+def _measure(sweep: Sweep, columns: Columns, measure: str) -> list[str]:
+    names = sweep.task.names
+    values = {name: np.array(columns[name], dtype=np.float64) for name in names}
+    result = np.array(columns[measure], dtype=np.float64)  # None becomes NaN
+    notes = [_note(columns, measure, point) for point in range(len(result))]
+    label, title = measure_label(measure), measure.replace("_", " ")
+    lines = split_into_lines(sweep, values)
+    if lines is not None:
+        abscissa, groups = lines
+        series = [
+            one
+            for index, (name, chosen) in enumerate(groups)
+            for one in _line(index, name or title, values[abscissa], result, chosen, notes)
+        ]
+        plot = HoverPlot(title, _axis(sweep, abscissa), Axis(label), series)
+        return [plot_html(plot)]
+    colours, scale = _coloured(result, label)
+    found = np.flatnonzero(np.isfinite(result))
+    missing = np.flatnonzero(np.isnan(result))
+    x, y = (values[name] for name in names)
+    series = [
+        Series(
+            *(title, x[found].tolist(), y[found].tolist(), colours[len(found) // 2], "●"),
+            notes=[notes[i] for i in found],
+            colours=colours,
+            cells=sweep.is_grid,
+        )
+        for _ in found[:1]
+    ]
+    series += [
+        Series(
+            *(NO_ANSWER, x[missing].tolist(), y[missing].tolist(), GREY, "✖"),
+            notes=[notes[i] for i in missing],
+        )
+        for _ in missing[:1]
+    ]
+    plot = HoverPlot(title, _axis(sweep, names[0]), _axis(sweep, names[1]), series)
+    return [plot_html(plot), scale]
+
+
+def _line(
+    index: int, label: str, x: Array, result: Array, chosen: NDArray[np.intp], notes: Sequence[str]
+) -> list[Series]:
+    """Return the series of one line, and one of its points without an answer, if any."""
+    colour, marker, dash = look(index)
+    points = chosen[np.argsort(x[chosen], kind="stable")]
+    found = [i for i in points if not np.isnan(result[i])]
+    missing = [i for i in points if np.isnan(result[i])]
+    line = Series(
+        *(label, x[found].tolist(), result[found].tolist(), colour, marker, 1.4, dash),
+        notes=[notes[i] for i in found],
+    )
+    none = Series(
+        *(f"{label}: {NO_ANSWER}", x[missing].tolist(), [None] * len(missing), colour, "✖"),
+        notes=[notes[i] for i in missing],
+    )
+    return [line, none] if missing else [line]
+
+
+def _coloured(result: Array, label: str) -> tuple[list[str], str]:
+    """Return the colours of the answers, and their scale as HTML; symmetric about 0 if signed."""
+    answers = result[np.isfinite(result)]
+    if not answers.size:
+        return [], ""
+    low, high = float(answers.min()), float(answers.max())
+    signed = low < 0.0 < high
+    if signed:
+        low, high = -max(-low, high), max(-low, high)
+    colours = mpl.colormaps[DIVERGING if signed else SEQUENTIAL]
+    shades = ",".join(to_hex(colours(share)) for share in np.linspace(0.0, 1.0, 9))
+    scale = (
+        f'<div class="scale"><span>{low:.4g}</span>'
+        f'<i style="background:linear-gradient(to right,{shades})"></i>'
+        f"<span>{high:.4g}</span><span>{escaped(label)}</span></div>"
+    )
+    return [to_hex(one) for one in colours(Normalize(low, high)(answers))], scale
+
+
+def _axis(sweep: Sweep, name: str) -> Axis:
+    return Axis(variable_label(name), log=name in sweep.logarithmic)
+
+
+def _note(columns: Columns, measure: str, point: int) -> str:
+    value, error = columns[measure][point], columns["error"][point]
+    lines = [NO_ANSWER if value is None else f"{measure_label(measure)}: {value:.8g}"]
+    status = columns.get(f"{measure}_status")
+    if status is not None and status[point] is not None:
+        lines.append(str(status[point]))
+    return "\n".join([*lines, *([str(error)] if error else [])])

@@ -1,0 +1,68 @@
+"""The help of all commands, and the names of their options."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+import pytest
+
+from slider_resonator.cli import COMMANDS, main
+from tests.harness.calling import call, refused
+
+
+def commands() -> Iterator[tuple[str, click.Command]]:
+    """Yield every command by its name, with those of a group."""
+    context = click.Context(main)
+    for name in COMMANDS:
+        command = main.get_command(context, name)
+        assert command is not None
+        yield name, command
+        if isinstance(command, click.Group):
+            yield from ((f"{name} {inner}", c) for inner, c in command.commands.items())
+
+
+EVERY = dict(commands())
+OPTIONS = {
+    name: {opt for p in command.params if isinstance(p, click.Option) for opt in p.opts}
+    for name, command in EVERY.items()
+}
+
+
+@pytest.mark.parametrize("group", ["", "baseline"])
+def test_summaries_are_whole_at_80_columns(group: str) -> None:
+    printed = call(*group.split(), "--help", COLUMNS="80").stdout
+    rows = printed[printed.index("Commands:") :].splitlines()[1:]
+    assert len(rows) == len(COMMANDS) if not group else 3
+    assert not [row for row in rows if row.endswith("...") or len(row) > 80]
+
+
+def test_commands_that_take_an_fmu_take_it_by_the_same_option() -> None:
+    takes = set(EVERY) - {"baseline", "build", "closed-loop", "hosts", "scenes"}
+    assert {name for name, options in OPTIONS.items() if "--fmu" in options} == takes
+
+
+def test_old_names_of_options_go_on_working_and_are_not_in_the_help() -> None:
+    for name, old, new in (
+        ("sweep", "--workers", "--jobs"),
+        ("extremes", "--limit", "--time-limit"),
+    ):
+        assert {old, new} <= OPTIONS[name]
+        printed = call(name, "--help").stdout
+        assert f"{new} " in printed
+        assert f"{old} " not in printed
+    assert "'--jobs'" in refused("sweep", "grid.toml", "--out", "x.csv", "--workers", "0")
+
+
+def test_an_fmu_is_given_once(tmp_path: Path) -> None:
+    fmu = tmp_path / "mine.fmu"
+    assert f"{fmu}: no such file" in refused("steady", "--fmu", fmu)
+    assert f"{fmu}: no such file" in refused("run", "--fmu", fmu, "table_1")
+    assert f"{fmu}: no such file" in refused("validate", "--fmu", fmu, "--scene", "table_1")
+    assert "must be one FMU" in refused("steady", fmu, "--fmu", fmu)
+
+
+def test_a_scene_must_be_named() -> None:
+    assert "Missing argument 'SCENE'" in refused("run", "my.fmu")
+    assert "Missing argument 'SCENE'" in refused("run")

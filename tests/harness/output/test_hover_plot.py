@@ -1,0 +1,86 @@
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from slider_resonator.output.hover_plot import (
+    COLOURS,
+    DASHES,
+    MARKERS,
+    Axis,
+    HoverPlot,
+    Series,
+    hover_scripts,
+    hover_style,
+    look,
+    plot_html,
+)
+from slider_resonator.output.html_page import write_page
+from tests.html_pages import Page
+
+SERIES = Series("an FMU", [1.0, 2.0], [0.5, None], "#000", notes=["one", "two"])
+PLOT = HoverPlot("A plot", Axis("time [s]"), Axis("velocity [m/s]", log=True), [SERIES])
+HOSTILE = "</script><script>alert(1)</script><img onerror=x>\x1b[31m"
+
+
+def written(folder: Path, plot: HoverPlot) -> tuple[str, Page]:
+    path = folder / "page.html"
+    write_page(path, "title", [plot_html(plot)], hover_scripts(), hover_style())
+    text = path.read_text(encoding="utf-8")
+    return text, Page(text)
+
+
+def data_in(text: str) -> dict[str, Any]:
+    found = re.search(r'<script type="application/json">(.*?)</script>', text, re.DOTALL)
+    assert found is not None
+    return dict(json.loads(found[1]))
+
+
+def test_the_data_is_in_the_page_and_nothing_is_loaded(tmp_path: Path) -> None:
+    text, page = written(tmp_path, PLOT)
+    assert page.loaded == ["data:,"]
+    data = data_in(text)
+    assert data["y"] == {"label": "velocity [m/s]", "log": True, "range": None}
+    (series,) = data["series"]
+    assert (series["x"], series["y"]) == ([1.0, 2.0], [0.5, None])
+    assert series["notes"] == ["one", "two"]
+
+
+def test_the_policy_allows_the_scripts_of_the_page_and_no_other(tmp_path: Path) -> None:
+    text, _ = written(tmp_path, PLOT)
+    (policy,) = re.findall('Content-Security-Policy" content="([^"]*)"', text)
+    assert "default-src 'none'" in policy
+    allowed = re.findall("sha256-([^']*)", policy)
+    run = re.findall("<script>(.*?)</script>", text, re.DOTALL)
+    digests = [base64.b64encode(hashlib.sha256(s.encode()).digest()).decode() for s in run]
+    assert digests == allowed
+    assert len(digests) == 2
+
+
+def test_hostile_text_stays_text(tmp_path: Path) -> None:
+    series = replace(SERIES, label=HOSTILE, notes=[HOSTILE, ""])
+    plot = HoverPlot(HOSTILE, Axis(HOSTILE), Axis("y"), [series])
+    text, page = written(tmp_path, plot)
+    assert page.tags.count("script") == 3
+    assert "img" not in page.tags
+    assert "\x1b" not in text
+    assert data_in(text)["x"]["label"] == HOSTILE.replace("\x1b", "\ufffd")
+
+
+def test_what_is_not_finite_is_a_gap(tmp_path: Path) -> None:
+    plot = replace(PLOT, series=[replace(SERIES, y=[float("nan"), float("inf")])])
+    text, _ = written(tmp_path, plot)
+    assert data_in(text)["series"][0]["y"] == [None, None]
+
+
+def test_series_differ_in_colour_marker_or_dash() -> None:
+    looks = [look(index) for index in range(60)]
+    assert len(set(looks)) == 60
+    assert len({colour for colour, _, _ in looks[: len(COLOURS)]}) == len(COLOURS)
+    assert len({marker for _, marker, _ in looks[: len(MARKERS)]}) == len(MARKERS)
+    assert {dash for _, _, dash in looks} == set(DASHES)

@@ -1,0 +1,172 @@
+"""The page about scene files, its examples, and the JSON schema."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from slider_resonator.device.interface import PARAMETERS
+from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
+from slider_resonator.scenes.json_schema import scene_schema
+from slider_resonator.scenes.page import TABLES, example_text, scene_page
+from slider_resonator.scenes.scene import Scene, built_in_scenes, scene_from
+from slider_resonator.scenes.schema import SceneTable
+from slider_resonator.scenes.toml_text import toml_value
+from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES
+from tests.harness.scenes.test_mistakes import MISTAKES
+from tests.processes import ROOT
+
+EVERY_KEY = example_text("every_key.toml").splitlines()
+OR = "# or: "
+ALTERNATIVES = [number for number, line in enumerate(EVERY_KEY) if line.startswith(OR)]
+VALIDATOR = jsonschema.Draft202012Validator(scene_schema())
+
+
+def replaced(number: int) -> str:
+    """Return the scene with every key, the line at an alternative replaced by it."""
+    above = max(n for n, line in enumerate(EVERY_KEY[:number]) if not line.startswith("#"))
+    lines = list(EVERY_KEY)
+    lines[above] = lines[number].removeprefix(OR)
+    return "\n".join(lines)
+
+
+def steady() -> str:
+    """Return a scene with the keys that need constant inputs."""
+    begin = next(n for n, line in enumerate(EVERY_KEY) if line.startswith("# With constant")) + 1
+    needs = "\n".join(line.removeprefix("# ") for line in EVERY_KEY[begin:])
+    return f'name = "steady"\ntitle = "Steady"\n[need]\n{needs}\n'
+
+
+VARIANTS = ["\n".join(EVERY_KEY), steady(), *map(replaced, ALTERNATIVES)]
+
+
+def scene_of_text(text: str, folder: Path) -> Scene:
+    (folder / "recorded.csv").write_text(example_text("recorded.csv"))
+    return scene_from(tomllib.loads(text), "x.toml", folder)
+
+
+def keys(table: Mapping[str, Any], place: str = "") -> Iterator[str]:
+    """Yield the path of each key, with [] for the entries of a list of tables."""
+    for name, value in table.items():
+        yield f"{place}.{name}".removeprefix(".")
+        if isinstance(value, Mapping):
+            yield from keys(value, f"{place}.{name}")
+        for entry in value if isinstance(value, list) else ():
+            if isinstance(entry, Mapping):
+                yield from keys(entry, f"{place}.{name}")
+
+
+def test_the_page_is_that_of_the_schema() -> None:
+    page = (ROOT / "docs" / "scenes.md").read_text(encoding="utf-8")
+    assert page == scene_page(), "run: slider-resonator scenes --page docs/scenes.md"
+
+
+def test_the_page_has_every_key_quantity_and_reference() -> None:
+    page = scene_page()
+    fields = {name for model in TABLES.values() for name in model.model_fields}
+    for name in {*fields, *PARAMETERS, *QUANTITIES, *REFERENCES}:
+        assert f"\n| `{name}` | " in page, name
+
+
+@pytest.mark.parametrize("heading", TABLES)
+def test_every_key_is_described_and_its_example_is_valid(heading: str) -> None:
+    model = TABLES[heading]
+    for name, field in model.model_fields.items():
+        assert field.description, name
+        assert field.examples, name
+        text = f"{name} = {toml_value(field.examples[0])}"
+        value = tomllib.loads(text)[name]
+        assert value == field.examples[0]
+        validator = model.__pydantic_validator__
+        given = {} if name != "quantity" else {"reference": "taylor"}
+        # Keys that other keys need may be missing; the value itself must do.
+        try:
+            validator.validate_python({name: value, **given})
+        except ValueError as error:
+            wrong = [e for e in error.errors() if e["loc"][:1] == (name,)]  # type: ignore[attr-defined]
+            assert not wrong, wrong
+
+
+def test_a_scene_with_every_key_validates(tmp_path: Path) -> None:
+    seen: set[str] = set()
+    for text in VARIANTS:
+        scene_of_text(text, tmp_path)
+        VALIDATOR.validate(tomllib.loads(text))
+        seen |= set(keys(tomllib.loads(text)))
+    assert seen >= set(PARAMETERS_OF_TABLES)
+    for model, places in {
+        "The top of the file": [""],
+        "[inputs]": ["inputs.", "beside.inputs."],
+        "[tuning]": ["tuning."],
+        "[beside]": ["beside."],
+        "[run]": ["run."],
+        "[[expect]]": ["expect."],
+        "[sweep]": ["sweep."],
+        "[need]": ["need."],
+    }.items():
+        for place in places:
+            missing = {f"{place}{name}" for name in TABLES[model].model_fields} - seen
+            assert not missing, missing
+    for heading in ("Values over time", "The accuracy of a need"):
+        last = {path.rsplit(".", 1)[-1] for path in seen}
+        assert set(TABLES[heading].model_fields) <= last
+
+
+PARAMETERS_OF_TABLES = [
+    f"tuning.{name}" if name in TABLES["[tuning]"].model_fields else f"device.{name}"
+    for name in PARAMETERS
+]
+
+
+def test_every_parameter_has_a_meaning() -> None:
+    assert list(PARAMETER_MEANINGS) == list(PARAMETERS)
+
+
+def test_every_reference_of_a_quantity_is_described() -> None:
+    assert {name for q in QUANTITIES.values() for name in q.references} == set(REFERENCES)
+
+
+def test_the_template_is_valid_with_and_without_its_comments(tmp_path: Path) -> None:
+    text = example_text("template.toml")
+    assert len(scene_of_text(text, tmp_path).expect) == 2
+    commented = re.findall(r"^# (\[\w+\]|\w+ = .*)$", text, re.M)
+    assert len(commented) >= 7
+    for line in commented:
+        tomllib.loads(line)
+
+
+def test_the_json_schema_is_one_and_accepts_what_is_valid() -> None:
+    jsonschema.Draft202012Validator.check_schema(scene_schema())
+    for path in built_in_scenes().values():
+        VALIDATOR.validate(tomllib.loads(path.read_text(encoding="utf-8")))
+    VALIDATOR.validate(tomllib.loads(example_text("template.toml")))
+
+
+NOT_IN_A_SCHEMA = {
+    *("step in ms", "no run", "no such CSV", "short CSV", "no column", "times not in order"),
+    *("tuned and fixed", "no tolerance", "not a number", "a bound of a signal"),
+}
+"""Mistakes that depend on other tables, files or numbers in a way that a schema cannot say."""
+
+
+@pytest.mark.parametrize("name", sorted(MISTAKES.keys() - NOT_IN_A_SCHEMA))
+def test_an_editor_finds_typical_mistakes(name: str) -> None:
+    try:
+        content = tomllib.loads(MISTAKES[name].text)
+    except tomllib.TOMLDecodeError:
+        return
+    assert list(VALIDATOR.iter_errors(content))
+
+
+def test_the_schema_describes_every_key() -> None:
+    tables = {SceneTable.__name__: scene_schema(), **scene_schema()["$defs"]}
+    for name, table in tables.items():
+        for option in (table, *table.get("anyOf", ())):
+            for key, entry in option.get("properties", {}).items():
+                assert entry.get("description"), f"{name}.{key}"

@@ -1,0 +1,129 @@
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
+from slider_resonator.scenes import signals_plot
+from slider_resonator.scenes.scene import Scene, find_scene, read_scene
+from slider_resonator.scenes.signals_plot import (
+    MAX_POINTS,
+    SIGNALS,
+    SMOOTH_POINTS,
+    Run,
+    check_signals,
+    check_window,
+    plot_signals,
+    schedule_for_window,
+)
+
+WINDOW = (0.02, 0.04)
+
+
+@cache
+def scene_called(name: str) -> Scene:
+    return read_scene(find_scene(name))
+
+
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
+    """The figures, which are not rendered."""
+    figures: list[Figure] = []
+
+    def keep(figure: Figure, path: Path) -> None:
+        figures.append(figure)
+        path.write_text("drawn", encoding="utf-8")
+
+    monkeypatch.setattr(signals_plot, "save", keep)
+    return figures
+
+
+def test_a_window_gets_smooth_points_under_the_same_inputs() -> None:
+    scene = scene_called("changing_inputs")
+    found, own = schedule_for_window(scene, WINDOW), scene.schedule()
+    inside = found.times[(found.times >= WINDOW[0]) & (found.times <= WINDOW[1])]
+    assert inside[0] == pytest.approx(WINDOW[0])
+    assert inside[-1] == pytest.approx(WINDOW[1])
+    assert np.diff(inside).max() <= 1.02 * scene.drive_period / SMOOTH_POINTS
+    assert found.held() == own.held(), "the motion must be that of the scene"
+
+
+def test_a_long_window_has_a_bounded_number_of_points() -> None:
+    scene = scene_called("long_run")
+    own = scene.schedule()
+    found = schedule_for_window(scene, (0.0, float(own.times[-1])))
+    assert len(found.times) <= len(own.times) + MAX_POINTS
+
+
+def test_each_signal_has_a_panel_with_its_unit_over_contact(
+    instance: Instance, tmp_path: Path, drawn: list[Figure]
+) -> None:
+    scene = scene_called("changing_inputs")
+    record = run(instance, scene.parameters, schedule_for_window(scene, WINDOW))
+    names = ("velocity", "load", "contact_mode")
+    plot_signals([Run("a", record)], scene, names, WINDOW, tmp_path / "a.png")
+    velocity, load, contact = drawn[0].axes
+    assert velocity.get_ylabel() == "velocity\n[m/s]"
+    assert load.get_ylabel() == "load\n[N]"
+    assert contact.get_xlabel() == "time [s]"
+    assert [label.get_text() for label in contact.get_yticklabels()][1:3] == [
+        "sticks",
+        "slips forward",
+    ]
+    (line,) = velocity.get_lines()
+    times = np.asarray(line.get_xdata())
+    assert times.min() >= WINDOW[0]
+    assert times.max() <= WINDOW[1]
+    inside = (record.times >= WINDOW[0]) & (record.times <= WINDOW[1])
+    assert np.array_equal(np.asarray(line.get_ydata()), record["velocity"][inside])
+    (legend,) = drawn[0].legends
+    assert {text.get_text() for text in legend.get_texts()} == {"slips backward", "slips forward"}
+
+
+def test_overlaid_runs_can_be_told_apart(
+    instance: Instance, tmp_path: Path, drawn: list[Figure]
+) -> None:
+    scene = scene_called("table_1")
+    runs = []
+    for fidelity in (2, 1, 0):
+        varied = scene.with_values({"fidelity": fidelity})
+        record = run(instance, varied.parameters, schedule_for_window(varied, WINDOW))
+        runs.append(Run(f"fidelity {fidelity}", record))
+    plot_signals(runs, scene, SIGNALS, WINDOW, tmp_path / "a.png")
+    lines = drawn[0].axes[0].get_lines()
+    assert len({(line.get_color(), line.get_linestyle()) for line in lines}) == 3
+    assert len({line.get_color() for line in lines}) == 3
+    (legend,) = drawn[0].legends
+    shown = [text.get_text() for text in legend.get_texts()]
+    assert shown == ["fidelity 2", "fidelity 1", "fidelity 0"]
+    ends = [np.asarray(line.get_ydata())[-1] for line in drawn[0].axes[1].get_lines()]
+    assert ends == [one.record["mean_velocity"][one.record.times <= WINDOW[1]][-1] for one in runs]
+    assert len(set(ends)) == 3, "each line is a run of its own"
+
+
+@pytest.mark.parametrize(
+    ("names", "message"),
+    [
+        (["velocty"], "--signals: unknown output or input 'velocty'; did you mean 'velocity'?"),
+        (["tolerance"], "--signals: unknown output or input 'tolerance'"),
+        (["load", "load"], "--signals: load is given twice; must be given once"),
+    ],
+)
+def test_other_signals_are_refused(names: list[str], message: str) -> None:
+    with pytest.raises(HarnessError, match=re.escape(message)):
+        check_signals(names)
+
+
+@pytest.mark.parametrize(
+    "window", [(0.1, 0.1), (0.2, 0.1), (-0.1, 0.1), (0.0, 9.0), (float("nan"), 0.1)]
+)
+def test_a_window_outside_the_run_is_refused(window: tuple[float, float]) -> None:
+    with pytest.raises(HarnessError, match=r"must be FROM:TO with 0 <= FROM < TO <= 0\.17952 s"):
+        check_window(window, scene_called("table_1"))

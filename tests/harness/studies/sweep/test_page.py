@@ -1,0 +1,87 @@
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.studies.sweep.grid import grid_from
+from slider_resonator.studies.sweep.page import MAX_POINTS, check_page, write_sweep_page
+from slider_resonator.studies.sweep.table import table_columns
+from slider_resonator.studies.sweep.worker import Row
+from tests.harness.known_provenance import PROVENANCE
+from tests.html_pages import Page
+
+AXIS = {"from": 0.0, "to": 1.0, "count": 8}
+LOGARITHMIC = {"from": 0.1, "to": 10.0, "count": 8, "spacing": "log"}
+
+
+def plots(path: Path, content: dict[str, Any], *, answered: bool = True) -> list[dict[str, Any]]:
+    """The data of the plots of a sweep whose second point is refused, or all of them."""
+    sweep = grid_from(content, "grid.toml")
+    rows: dict[int, Row] = {
+        n: (n, [float(n) - 3.0, "steady"] if answered else [None, "beat"], None)
+        for n in range(len(sweep.points))
+    }
+    rows[1] = (1, [None, None], "<refused>")
+    columns = table_columns(sweep.task, sweep.points, rows)
+    write_sweep_page(path, sweep, columns, PROVENANCE)
+    text = path.read_text(encoding="utf-8")
+    page = Page(text)
+    assert page.loaded == ["data:,"]
+    assert page.ids == ["provenance"]
+    assert "0123abcd" in text
+    return [
+        json.loads(data)
+        for data in re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
+    ]
+
+
+def test_a_line_has_every_point_with_what_it_is(tmp_path: Path) -> None:
+    (plot,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS}, "title": "<i>"})
+    line, missing = plot["series"]
+    assert plot["x"]["label"] == "phase [rad]"
+    assert plot["y"]["label"] == "steady velocity [m/s]"
+    assert line["y"] == [-3.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0]
+    assert line["notes"][0] == "steady velocity [m/s]: -3\nsteady"
+    assert missing["x"] == [pytest.approx(1.0 / 7.0)]
+    assert missing["y"] == [None]
+    assert missing["notes"] == ["no answer\n<refused>"]
+
+
+def test_few_values_are_lines_that_differ_and_many_are_cells(tmp_path: Path) -> None:
+    (lines,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": [0.0, 0.1]}})
+    drawn = [one for one in lines["series"] if one["width"] > 0]
+    assert [one["label"] for one in drawn] == ["load 0", "load 0.1"]
+    assert drawn[0]["colour"] != drawn[1]["colour"]
+    assert drawn[0]["marker"] != drawn[1]["marker"]
+    (cells,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": AXIS}})
+    assert cells["series"][0]["cells"]
+    assert len(cells["series"][0]["colours"]) == 63
+    assert cells["y"]["label"] == "load [N]"
+
+
+def test_axes_are_logarithmic_where_the_grid_is(tmp_path: Path) -> None:
+    grid = {"friction_coefficient": LOGARITHMIC, "phase": AXIS}
+    (plot,) = plots(tmp_path / "a.html", {"grid": grid})
+    assert (plot["x"]["log"], plot["y"]["log"]) == (True, False)
+    content = {"random": {"count": 9, "seed": 1, "friction_coefficient": LOGARITHMIC_RANGE}}
+    (plot,) = plots(tmp_path / "a.html", content)
+    assert plot["x"]["log"]
+
+
+LOGARITHMIC_RANGE = {key: value for key, value in LOGARITHMIC.items() if key != "count"}
+
+
+def test_a_sweep_without_any_answer_has_a_page(tmp_path: Path) -> None:
+    (plot,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": AXIS}}, answered=False)
+    assert [one["label"] for one in plot["series"]] == ["no answer"]
+
+
+def test_too_many_points_are_refused() -> None:
+    axis = {"from": 0.0, "to": 1.0, "count": MAX_POINTS + 1}
+    with pytest.raises(HarnessError, match=f"--html: {MAX_POINTS + 1} points; must be at most"):
+        check_page(grid_from({"grid": {"phase": axis}}, "a"), "--html")

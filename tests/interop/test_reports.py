@@ -1,0 +1,92 @@
+"""The reports in a real browser, without a network: they draw, tell points, and log nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from selenium.webdriver import ActionChains, Chrome
+from selenium.webdriver.support.wait import WebDriverWait
+
+from slider_resonator.checks.reports.html_report import write_html
+from slider_resonator.checks.validate import validate
+from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.scenes.scene import find_scene
+from slider_resonator.studies.sweep.grid import grid_from
+from slider_resonator.studies.sweep.page import write_sweep_page
+from slider_resonator.studies.sweep.sweeping import run_sweep
+from slider_resonator.studies.trade.page import write_trades
+from tests.harness.known_provenance import PROVENANCE
+from tests.harness.studies.trade.test_needs import TRADE
+
+pytestmark = pytest.mark.interop
+
+SECONDS = 30.0
+TIPS = "[...document.querySelectorAll('.tip')].filter((tip) => !tip.hidden)"
+
+
+def opened(browser: Chrome, page: Path) -> int:
+    """Open a page and scroll to each of its plots; return how many there are."""
+    browser.get_log("browser")
+    browser.get(page.as_uri())
+    plots = browser.find_elements("css selector", ".plot")
+    for plot in plots:
+        browser.execute_script("arguments[0].scrollIntoView()", plot)
+        WebDriverWait(browser, SECONDS, poll_frequency=0.02).until(
+            lambda _, plot=plot: plot.get_attribute("data-drawn")
+        )
+        (over,) = plot.find_elements("css selector", ".u-over")
+        assert over.size["width"] > 200
+    assert browser.get_log("browser") == []
+    assert browser.execute_script("return performance.getEntriesByType('resource').length") == 0
+    assert browser.find_elements("id", "provenance")
+    return len(plots)
+
+
+def hovered(browser: Chrome) -> str:
+    """What the first plot says of a point near the pointer, which is moved until it is near one."""
+    over = browser.find_elements("css selector", ".u-over")[0]
+    browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", over)
+    width, height = over.size["width"], over.size["height"]
+    for across in range(-9, 10):
+        for down in range(-9, 10, 2):
+            place = (int(across * width / 20), int(down * height / 20))
+            ActionChains(browser, duration=0).move_to_element_with_offset(over, *place).perform()
+            tips = browser.execute_script(f"return {TIPS}.map((tip) => tip.textContent)")
+            if tips:
+                return str(tips[0])
+    return ""
+
+
+def test_validation(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path) -> None:
+    scenes = [find_scene(name) for name in ("table_1", "load_speed")]
+    page = tmp_path / "report.html"
+    write_html(page, validate([native_fmu_for_wine], scenes))
+    assert opened(browser, page) == 2
+    text = hovered(browser)
+    assert "time [s]: " in text
+    assert "position [m]: " in text
+
+
+def test_trade(browser: Chrome, tmp_path: Path) -> None:
+    page = tmp_path / "index.html"
+    write_trades(page, [TRADE], PROVENANCE)
+    assert opened(browser, page) == 1
+    text = hovered(browser)
+    assert "CPU time" in text
+    assert "error: " in text
+
+
+@pytest.mark.parametrize("phases", [3, 9])
+def test_sweep(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path, phases: int) -> None:
+    axis = {"from": 0.05, "to": 0.5, "count": 8, "spacing": "log"}
+    phase = {"from": 0.0, "to": 1.0, "count": phases}
+    sweep = grid_from(
+        {"title": "</script><b>", "grid": {"friction_coefficient": axis, "phase": phase}}, "grid"
+    )
+    done = run_sweep(sweep, native_fmu_for_wine, tmp_path / "a.csv", workers=1)
+    page = tmp_path / "sweep.html"
+    write_sweep_page(page, sweep, done.columns, provenance_of(native_fmu_for_wine))
+    assert opened(browser, page) == 1
+    assert "steady velocity [m/s]: " in hovered(browser)
+    assert browser.title == "</script><b>"
