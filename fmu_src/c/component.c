@@ -51,6 +51,12 @@ static bool refuse_extreme(const double values[SETTABLE_COUNT], Refusal *refusal
                                 value_text(variable, variable->start, start));
 }
 
+static Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
+    Inputs inputs = inputs_of(values);
+    inputs.phase = remainder(inputs.phase, TAU);
+    return inputs;
+}
+
 /* Give a law what averages of second order need; the law of the full device goes to `resolved`. */
 static bool prepare_orbits(Component *component, Law *law, Law *resolved, Refusal *refusal) {
     if (law_follows_orbits(law)) {
@@ -69,8 +75,7 @@ static bool prepare_orbits(Component *component, Law *law, Law *resolved, Refusa
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
     Device device = device_of(values);
-    Inputs inputs = inputs_of(values);
-    inputs.phase = remainder(inputs.phase, TAU);
+    Inputs inputs = reduced_inputs(values);
     if (!law_prepare(&component->laws[next], &device, &inputs, &component->table, refusal)) {
         return false;
     }
@@ -135,6 +140,27 @@ bool component_terminate(Component *component, Refusal *refusal) {
     return lifecycle_change(lifecycle, "terminate", from, TERMINATED, refusal);
 }
 
+/* Whether the present law can take over values that differ in these variables alone. */
+static bool changes_in_place(const Component *component, const unsigned *references, size_t count) {
+    bool in_place = component->prepared && present_law(component)->device.fidelity > 0;
+    for (size_t i = 0; i < count; i++) {
+        in_place = in_place && (references[i] == VR_PHASE || references[i] == VR_LOAD);
+    }
+    return in_place;
+}
+
+/* The law of changed values, for a component that runs. */
+static bool change(Component *component, const double values[SETTABLE_COUNT],
+                   const unsigned *references, size_t count, Refusal *refusal) {
+    if (!changes_in_place(component, references, count)) {
+        return prepare(component, values, refusal);
+    }
+    Inputs inputs = reduced_inputs(values);
+    law_change(&component->laws[component->present], inputs.phase, inputs.load);
+    component->theory.known = false;
+    return true;
+}
+
 bool component_set(Component *component, const unsigned *references, const double *values,
                    size_t count, Refusal *refusal) {
     double changed[SETTABLE_COUNT];
@@ -150,7 +176,7 @@ bool component_set(Component *component, const unsigned *references, const doubl
         return true;
     }
     bool running = is_running(component->now.lifecycle);
-    if (running && !prepare(component, changed, refusal)) {
+    if (running && !change(component, changed, references, count, refusal)) {
         return false;
     }
     component->prepared = running;

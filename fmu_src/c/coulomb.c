@@ -36,15 +36,20 @@ static double needed_force(const Plant *plant, const Moment *moment) {
            direct.im * cos(moment->theta);
 }
 
-static int mode_in_contact(const Plant *plant, const Moment *moment) {
-    if (moment->state.velocity != 0.0) {
-        return direction_of(moment->state.velocity);
-    }
-    double needed = needed_force(plant, moment), limit = friction_limit(plant, moment->psi);
+/* The contact mode at rest where friction is up to `limit` [N]. */
+static int mode_at_rest(double limit, const Plant *plant, const Moment *moment) {
+    double needed = needed_force(plant, moment);
     if (needed > limit) {
         return FORWARD;
     }
     return needed < -limit ? BACKWARD : STICK;
+}
+
+static int mode_in_contact(const Plant *plant, const Moment *moment) {
+    if (moment->state.velocity != 0.0) {
+        return direction_of(moment->state.velocity);
+    }
+    return mode_at_rest(friction_limit(plant, moment->psi), plant, moment);
 }
 
 /* Whether the slider was released right now: friction still balances the other forces, and only the
@@ -111,11 +116,14 @@ static void follow(Leg *leg, const Law *law, Moment *now, double longest, double
 }
 
 static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
+    const Plant *plant = &law->held.plant;
     int mode = leg->mode;
     if (leg_released(leg)) {
         mode = leg->zero_of == 0 ? FORWARD : BACKWARD;
     } else if (leg_stopped(leg) || (switches && mode == LIFTED)) {
-        mode = mode_in_contact(&law->held.plant, now);
+        mode = leg->known.known && now->state.velocity == 0.0
+                   ? mode_at_rest(friction_limit_by(plant, &leg->known.phasors), plant, now)
+                   : mode_in_contact(plant, now);
     } else if (switches) {
         mode = LIFTED;
     }

@@ -84,6 +84,7 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Event
     Leg leg;
     Moment begin;
     *now = *moment;
+    leg.known.known = false;
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {

@@ -16,14 +16,14 @@ typedef struct {
     double value, slope, bound;
 } Signal;
 
-typedef Signal (*SignalFunction)(const void *motion, double t);
+typedef Signal (*SignalFunction)(void *motion, double t);
 
 /* A signal whose first zero ends the mode, with the scales that its search needs: `noise` is the
  * rounding error of its values, `fastest` [rad/s] its highest frequency, and `horizon` [s] how far
  * ahead its curvature bound holds. */
 typedef struct {
     SignalFunction signal;
-    const void *motion;
+    void *motion;
     double noise, fastest, horizon;
 } Watch;
 

@@ -36,6 +36,11 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
            (!is_averaged(device) || fast_vibration_prepare(&law->fast, device, refusal));
 }
 
+void law_change(Law *law, double phase, double load) {
+    law->inputs.phase = law->held.plant.phase = phase;
+    law->inputs.load = law->held.plant.load = load;
+}
+
 bool law_follows_orbits(const Law *law) {
     const Device *device = &law->device;
     return is_averaged(device) && device->averaging_order == 2 && has_slow_motion(law);

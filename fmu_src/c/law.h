@@ -37,6 +37,10 @@ typedef struct Law {
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionTable *table,
                  Refusal *refusal);
 
+/* Gives a law of resolved motion another phase [rad] and load [N], on which nothing else that is
+ * prepared depends. */
+void law_change(Law *law, double phase, double load);
+
 /* Whether the law needs `resolved` and `orbits`: fidelity 0 by averages of second order, where motion
  * becomes slow. */
 bool law_follows_orbits(const Law *law);

@@ -20,7 +20,7 @@ void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int directio
     leg->direction = direction;
     leg->watched_from = 0.0;
     slide_begin(&leg->motion.slide, held, sign, &now->state, now->theta,
-                now->psi + held->plant.phase, direction);
+                now->psi + held->plant.phase, &leg->known, direction);
 }
 
 void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
@@ -33,7 +33,7 @@ void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const
                        now->bristle, now->theta, now->psi + held->plant.phase, tolerance);
 }
 
-bool leg_departs(const Leg *leg) {
+bool leg_departs(Leg *leg) {
     if (leg->kind == BENDS) {
         return taylor_slide_departs(&leg->motion.series);
     }
@@ -58,6 +58,18 @@ static void follow_rest(Leg *leg, double turn) {
     }
 }
 
+/* Whether a watched signal exceeds its noise before `t` [s]. A parabola that is below it shows that at
+ * once, most often. */
+static bool moves(const Watch *watch, double t) {
+    Signal at = watch->signal(watch->motion, 0.0);
+    double rising = at.bound * fmin(t, watch->horizon);
+    if (at.slope > 0.0 && at.slope < rising &&
+        at.value + 0.5 * at.slope * at.slope / at.bound > watch->noise) {
+        return true;
+    }
+    return watch->signal(watch->motion, 0.5 * t).value > watch->noise;
+}
+
 /* Ends sliding at a stop; tells whether it goes in another direction than `before`. */
 static void follow_sliding(Leg *leg, double expected, int before) {
     Watch watch = leg->kind == BENDS ? taylor_slide_watch(&leg->motion.series, leg->t)
@@ -67,8 +79,7 @@ static void follow_sliding(Leg *leg, double expected, int before) {
         leg->t = zero;
         leg->zero_of = 0;
     }
-    leg->turns = leg->direction != before
-                 && watch.signal(watch.motion, 0.5 * leg->t).value > watch.noise;
+    leg->turns = leg->direction != before && moves(&watch, leg->t);
 }
 
 void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
@@ -104,12 +115,13 @@ static double travel_at(const void *motion, double t) {
 /* The state at the end of the leg; takes down how far it goes. */
 static State end_of(Leg *leg) {
     State state = {NAN, NAN, NAN};
+    leg->known.known = false;
     switch (leg->kind) {
     case RESTS:
         leg->travelled = 0.0;
         return stick_state(&leg->motion.stick, leg->t);
     case SLIDES:
-        return slide_end(&leg->motion.slide, leg->t, &leg->travelled);
+        return slide_end(&leg->motion.slide, leg->t, &leg->travelled, &leg->known);
     case BENDS:
         leg->travelled = taylor_slide_travel(&leg->motion.series, leg->t);
         return taylor_slide_state(&leg->motion.series, leg->t);

@@ -18,7 +18,8 @@ typedef enum { RESTS, SLIDES, BENDS } LegKind;
  *
  * Followed, it ends after `t` [s] and `travelled` [m], at the zero of a watched signal (`zero_of` >=
  * 0) or not; `turns` tells whether the slider really moves, beyond rounding, in another direction
- * than it slid before. `departs` is known before it begins: from rest, and not thrown back by a reversal. */
+ * than it slid before. `departs` is known before it begins: from rest, and not thrown back by a reversal. So are
+ * the phasors, or unknown, which after it are those of its end. */
 typedef struct {
     LegKind kind;
     int mode, direction;
@@ -31,6 +32,7 @@ typedef struct {
     double t, travelled;
     int zero_of;
     bool turns, departs;
+    KnownPhasors known;
 } Leg;
 
 /* Rest. */
@@ -44,7 +46,7 @@ void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const
                        int direction, double tolerance);
 
 /* Whether a slider at rest begins to move in the direction of the leg, or not at all. */
-bool leg_departs(const Leg *leg);
+bool leg_departs(Leg *leg);
 
 /* Follows the leg until it ends, for up to `longest` [s]. */
 void leg_follow(Leg *leg, const Held *held, Moment *now, double longest);

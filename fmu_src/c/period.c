@@ -25,7 +25,7 @@ double period_last_end(double theta, double frequency, double duration) {
 
 double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency) {
     double duration = segment->duration, end = theta + frequency * duration;
-    double ended = floor((end + MARK_TOLERANCE) / TAU);
+    double ended = end + MARK_TOLERANCE < TAU ? 0.0 : floor((end + MARK_TOLERANCE) / TAU);
     if (!(ended > 0.0)) {
         means->travel += segment->travelled;
         means->elapsed += duration;

@@ -49,7 +49,7 @@ static double bound_of(const RegularSlide *slide, const Sample *sample) {
     return by_slider < by_pair ? by_slider : by_pair;
 }
 
-static Signal velocity_ahead(const void *motion, double t) {
+static Signal velocity_ahead(void *motion, double t) {
     const RegularSlide *slide = motion;
     double fraction = slide->plant->mass_fraction;
     double acceleration = -slide->deceleration, bound = slide->pair_bound, rate = 0.0;
@@ -69,7 +69,7 @@ static Signal velocity_ahead(const void *motion, double t) {
                     slide->direction * acceleration, bound};
 }
 
-Watch regular_slide_watch(const RegularSlide *slide) {
+Watch regular_slide_watch(RegularSlide *slide) {
     const Plant *plant = slide->plant;
     double fastest = fmax(plant->drive_frequency, fabs(plant->normal_frequency));
     double horizon = INFINITY, rate = 0.0;

@@ -28,7 +28,7 @@ void regular_slide_begin(RegularSlide *slide, const Plant *plant, int sign, cons
                          double theta, double chi, int direction);
 
 /* The velocity in the direction to watch. */
-Watch regular_slide_watch(const RegularSlide *slide);
+Watch regular_slide_watch(RegularSlide *slide);
 
 /* Displacement of the slider after `t` [s], in m. */
 double regular_slide_travel(const RegularSlide *slide, double t);

@@ -1,17 +1,20 @@
 #include "slide.h"
 
 void slide_begin(Slide *slide, const Held *held, int sign, const State *state, double theta,
-                 double chi, int direction) {
+                 double chi, KnownPhasors *known, int direction) {
     slide->splits = held->splits;
     if (held->splits) {
+        if (!known->known) {
+            *known = (KnownPhasors){true, phasors_of(&held->plant, theta, chi)};
+        }
         split_slide_begin(&slide->form.split, &held->split, &held->plant, sign, state, theta, chi,
-                          direction);
+                          &known->phasors, direction);
     } else {
         regular_slide_begin(&slide->form.regular, &held->plant, sign, state, theta, chi, direction);
     }
 }
 
-Watch slide_watch(const Slide *slide) {
+Watch slide_watch(Slide *slide) {
     return slide->splits ? split_slide_watch(&slide->form.split)
                          : regular_slide_watch(&slide->form.regular);
 }
@@ -22,7 +25,8 @@ double slide_travel(const void *motion, double t) {
                          : regular_slide_travel(&slide->form.regular, t);
 }
 
-State slide_end(const Slide *slide, double t, double *travel) {
-    return slide->splits ? split_slide_end(&slide->form.split, t, travel)
+State slide_end(const Slide *slide, double t, double *travel, KnownPhasors *known) {
+    known->known = false;
+    return slide->splits ? split_slide_end(&slide->form.split, t, travel, known)
                          : regular_slide_end(&slide->form.regular, t, travel);
 }

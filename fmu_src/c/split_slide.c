@@ -38,11 +38,31 @@ bool split_prepare(Split *split, const Plant *plant) {
     return true;
 }
 
+Phasors phasors_of(const Plant *plant, double theta, double chi) {
+    double changing = plant->normal_frequency == plant->drive_frequency ? chi - theta : chi;
+    return (Phasors){complex_rect(1.0, theta), complex_rect(1.0, changing)};
+}
+
+double friction_limit_by(const Plant *plant, const Phasors *phasors) {
+    double sine = plant->normal_frequency == plant->drive_frequency
+                      ? complex_mul(phasors->drive, phasors->normal).im
+                      : phasors->normal.im;
+    double limit = plant->friction_preload + plant->friction_amplitude * sine;
+    return limit > 0.0 ? limit : 0.0;
+}
+
 /* Amplitudes and bounds of a slide whose forced parts are known, from `state` on. */
 static void match_state(SplitSlide *slide, const State *state) {
     const Plant *plant = slide->plant;
     double w = plant->drive_frequency, q = plant->normal_frequency;
-    Complex ae = slide->resonator_drive, aq = slide->resonator_normal;
+    const Phasors *start = &slide->start.phasors;
+    Complex ae = complex_mul(slide->resonator_drive, start->drive), aq = complex_of(0.0, 0.0);
+    double forced = complex_mul(slide->velocity_drive, start->drive).re, normal = 0.0;
+    if (!slide->split->merges) {
+        aq = complex_mul(slide->resonator_normal, start->normal);
+        forced += complex_mul(slide->velocity_normal, start->normal).re;
+        normal = complex_abs(slide->velocity_normal);
+    }
     Complex free = complex_of(0.0, 0.0);
     if (plant->resolves_resonator) {
         Complex eigenvalue = plant->slip.eigenvalue;
@@ -54,119 +74,188 @@ static void match_state(SplitSlide *slide, const State *state) {
     slide->resonator_free = free;
     slide->velocity_free = complex_scale(-plant->mass_fraction, turning);
     slide->travel_free = complex_scale(-plant->mass_fraction, free);
-    slide->k0 = state->velocity - (slide->velocity_drive.re + slide->velocity_normal.re +
-                                   slide->velocity_free.re);
-    double drive = complex_abs(slide->velocity_drive), normal = complex_abs(slide->velocity_normal);
-    double decaying = complex_abs(slide->velocity_free);
+    slide->k0 = state->velocity - (forced + slide->velocity_free.re);
+    double drive = complex_abs(slide->velocity_drive);
+    double decaying = plant->resolves_resonator ? complex_abs(slide->velocity_free) : 0.0;
     slide->bound = drive * w * w + normal * q * q;
     slide->free_bound = decaying * plant->slip.stiffness;
     slide->noise = 2.0 * EPSILON * (fabs(slide->k0) + drive + normal + decaying);
 }
 
 void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, int sign,
-                       const State *state, double theta, double chi, int direction) {
-    Complex drive_turn = complex_rect(1.0, theta), zero = complex_of(0.0, 0.0);
-    double friction = sign * plant->friction_preload, normal_sine = sin(chi);
-    Complex normal_turn = complex_of(sign * cos(chi), sign * normal_sine);
-    if (plant->normal_frequency == 0.0) {
-        friction += sign * plant->friction_amplitude * normal_sine;
-        normal_turn = zero;
-    }
+                       const State *state, double theta, double chi, const Phasors *start,
+                       int direction) {
+    double friction = sign * plant->friction_preload;
     slide->split = split;
     slide->plant = plant;
     slide->direction = direction;
+    slide->theta = theta;
+    slide->chi = chi;
+    slide->start.t = 0.0;
+    slide->start.phasors = *start;
+    slide->start.free = complex_of(1.0, 0.0);
+    slide->start.envelope = 1.0;
+    slide->anchored = false;
+    slide->resonator_drive = split->resonator_drive;
+    slide->velocity_drive = split->velocity_drive;
+    slide->resonator_normal = complex_scale(sign, split->resonator_normal);
+    slide->velocity_normal = complex_scale(sign, split->velocity_normal);
+    if (plant->normal_frequency == 0.0) {
+        friction += sign * plant->friction_amplitude * start->normal.im;
+    } else if (split->merges) {
+        Complex resonator = complex_mul(slide->resonator_normal, start->normal);
+        Complex velocity = complex_mul(slide->velocity_normal, start->normal);
+        slide->resonator_drive = complex_add(slide->resonator_drive, resonator);
+        slide->velocity_drive = complex_add(slide->velocity_drive, velocity);
+    }
     slide->constant = (friction + plant->load) / (plant->slider_mass * plant->slip.stiffness);
     slide->k1 = -(friction + plant->load) / plant->total_mass;
-    slide->resonator_drive = complex_mul(split->resonator_drive, drive_turn);
-    slide->resonator_normal = complex_mul(split->resonator_normal, normal_turn);
-    slide->velocity_drive = complex_mul(split->velocity_drive, drive_turn);
-    slide->velocity_normal = complex_mul(split->velocity_normal, normal_turn);
-    if (split->merges) {
-        slide->resonator_drive = complex_add(slide->resonator_drive, slide->resonator_normal);
-        slide->velocity_drive = complex_add(slide->velocity_drive, slide->velocity_normal);
-        slide->resonator_normal = slide->velocity_normal = zero;
-    }
     match_state(slide, state);
 }
 
-/* exp(i w t), exp(i q t), exp(lambda t) and |exp(lambda t)|; 1 where no resonator swings freely. */
-typedef struct {
-    Complex drive, normal, free;
-    double envelope;
-} Turns;
-
-static inline Turns turns_at(const SplitSlide *slide, double t) {
-    const Plant *plant = slide->plant;
-    Complex eigenvalue = plant->slip.eigenvalue;
-    Complex one = complex_of(1.0, 0.0);
-    Turns turns = {one, one, one, 1.0};
-    if (t == 0.0) {
-        return turns;
-    }
-    if (plant->resolves_resonator) {
-        turns.envelope = exp(eigenvalue.re * t);
-        turns.free = complex_rect(turns.envelope, eigenvalue.im * t);
-    }
-    turns.drive = complex_rect(1.0, plant->drive_frequency * t);
-    turns.normal = slide->split->merges ? turns.drive
-                                        : complex_rect(1.0, plant->normal_frequency * t);
-    return turns;
+/* exp(i theta); at the end of a turn, where means over a period are taken, that needs no sine. */
+static Complex drive_at(double theta) {
+    double passed = theta - TAU;
+    return fabs(passed) < 1e-9 ? complex_of(1.0, passed) : complex_rect(1.0, theta);
 }
 
-static Signal velocity_ahead(const void *motion, double t) {
-    const SplitSlide *slide = motion;
+/* Turns at `t`, by sines and cosines. */
+static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
+    const Plant *plant = slide->plant;
+    turns->t = t;
+    turns->free = complex_of(1.0, 0.0);
+    turns->envelope = 1.0;
+    if (plant->resolves_resonator) {
+        Complex eigenvalue = plant->slip.eigenvalue;
+        turns->envelope = exp(eigenvalue.re * t);
+        turns->free = complex_rect(turns->envelope, eigenvalue.im * t);
+    }
+    turns->phasors.drive = drive_at(slide->theta + plant->drive_frequency * t);
+    turns->phasors.normal = slide->split->merges
+                                ? slide->start.phasors.normal
+                                : complex_rect(1.0, slide->chi + plant->normal_frequency * t);
+}
+
+/* Angle [rad] of the fastest oscillation up to which turns are rotated: the terms below then reach
+ * rounding. */
+#define SMALL_TURN 0x1p-7
+
+/* `z` exp(i angle) for a small `angle` [rad]. */
+static inline Complex rotated(Complex z, double angle) {
+    double square = angle * angle;
+    double versed = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
+    double sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
+    return complex_of(z.re - (versed * z.re + sine * z.im), z.im + (sine * z.re - versed * z.im));
+}
+
+/* exp(x) for a small `x`. */
+static inline double grown(double x) {
+    double tail = 1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0));
+    return 1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * tail)));
+}
+
+/* Turns at the anchor, or another time, rotated by the little that is missing to `t`. */
+static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, double t,
+                                Turns *turns) {
+    const Plant *plant = slide->plant;
+    double ahead = t - anchor->t;
+    turns->t = t;
+    turns->free = anchor->free;
+    turns->envelope = anchor->envelope;
+    if (plant->resolves_resonator) {
+        Complex eigenvalue = plant->slip.eigenvalue;
+        double growth = grown(eigenvalue.re * ahead);
+        turns->envelope *= growth;
+        turns->free = complex_scale(growth, rotated(anchor->free, eigenvalue.im * ahead));
+    }
+    turns->phasors.drive = rotated(anchor->phasors.drive, plant->drive_frequency * ahead);
+    turns->phasors.normal = slide->split->merges
+                                ? anchor->phasors.normal
+                                : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
+}
+
+static inline bool is_soon(const SplitSlide *slide, double t) {
+    return t * slide->split->fastest < SMALL_TURN;
+}
+
+/* Turns at `t`: close to the start or the anchor in `place`, or computed in `fresh`. Close to the start
+ * rounding must not differ from what it is there: a slider that sets out moves forward at once. */
+static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place,
+                                    Turns *fresh) {
+    if (t == 0.0) {
+        return &slide->start;
+    }
+    if (is_soon(slide, t)) {
+        rotate_turns(slide, &slide->start, t, place);
+        return place;
+    }
+    if (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < SMALL_TURN) {
+        rotate_turns(slide, &slide->anchor, t, place);
+        return place;
+    }
+    compute_turns(slide, t, fresh);
+    return fresh;
+}
+
+static Signal velocity_ahead(void *motion, double t) {
+    SplitSlide *slide = motion;
     const Plant *plant = slide->plant;
     Complex eigenvalue = plant->slip.eigenvalue;
-    Turns turns = turns_at(slide, t);
-    Complex e = complex_mul(slide->velocity_drive, turns.drive);
-    Complex h = complex_mul(slide->velocity_free, turns.free);
+    Turns place;
+    bool later = !slide->anchored || t > slide->anchor.t;
+    const Turns *turns = turns_at(slide, t, &place, later ? &slide->anchor : &place);
+    slide->anchored = slide->anchored || turns == &slide->anchor;
+    Complex e = complex_mul(slide->velocity_drive, turns->phasors.drive);
+    Complex h = complex_mul(slide->velocity_free, turns->free);
     double velocity = slide->k0 + slide->k1 * t + e.re + h.re;
     double acceleration = slide->k1 - plant->drive_frequency * e.im + eigenvalue.re * h.re -
                           eigenvalue.im * h.im;
     if (!slide->split->merges) {
-        Complex n = complex_mul(slide->velocity_normal, turns.normal);
+        Complex n = complex_mul(slide->velocity_normal, turns->phasors.normal);
         velocity += n.re;
         acceleration -= plant->normal_frequency * n.im;
     }
     return (Signal){slide->direction * velocity, slide->direction * acceleration,
-                    slide->bound + slide->free_bound * turns.envelope};
+                    slide->bound + slide->free_bound * turns->envelope};
 }
 
-Watch split_slide_watch(const SplitSlide *slide) {
+Watch split_slide_watch(SplitSlide *slide) {
     return (Watch){velocity_ahead, slide, slide->noise, slide->split->fastest, INFINITY};
 }
 
-/* Integral of the real part of amplitude exp(i frequency s) from turn 1 on, frequency != 0. */
-static double swing_travel(Complex amplitude, double frequency, Complex turn) {
-    turn.re -= 1.0;
-    return complex_mul(amplitude, turn).im / frequency;
+/* Integral of the real part of amplitude exp(i frequency s), between turns `start` and `end`;
+ * frequency != 0. */
+static double swing_travel(Complex amplitude, double frequency, Complex start, Complex end) {
+    return complex_mul(amplitude, complex_sub(end, start)).im / frequency;
 }
 
-static inline double travel_by(const SplitSlide *slide, double t, Turns turns) {
+static inline double travel_by(const SplitSlide *slide, double t, const Turns *turns) {
     const Plant *plant = slide->plant;
-    Complex free = complex_of(turns.free.re - 1.0, turns.free.im);
+    const Phasors *start = &slide->start.phasors, *end = &turns->phasors;
+    Complex free = complex_of(turns->free.re - 1.0, turns->free.im);
     double travel = complex_mul(slide->travel_free, free).re;
-    travel += swing_travel(slide->velocity_drive, plant->drive_frequency, turns.drive);
+    travel += swing_travel(slide->velocity_drive, plant->drive_frequency, start->drive, end->drive);
     if (!slide->split->merges) {
-        travel += swing_travel(slide->velocity_normal, plant->normal_frequency, turns.normal);
+        travel += swing_travel(slide->velocity_normal, plant->normal_frequency, start->normal,
+                               end->normal);
     }
     return (slide->k0 + 0.5 * slide->k1 * t) * t + travel;
 }
 
-static inline State state_by(const SplitSlide *slide, double t, Turns turns) {
+static inline State state_by(const SplitSlide *slide, double t, const Turns *turns) {
     const Plant *plant = slide->plant;
     Complex eigenvalue = plant->slip.eigenvalue;
-    Complex ae = complex_mul(slide->resonator_drive, turns.drive);
-    Complex ah = complex_mul(slide->resonator_free, turns.free);
+    Complex ae = complex_mul(slide->resonator_drive, turns->phasors.drive);
+    Complex ah = complex_mul(slide->resonator_free, turns->free);
     State state;
     state.velocity = slide->k0 + slide->k1 * t +
-                     complex_mul(slide->velocity_drive, turns.drive).re +
-                     complex_mul(slide->velocity_free, turns.free).re;
+                     complex_mul(slide->velocity_drive, turns->phasors.drive).re +
+                     complex_mul(slide->velocity_free, turns->free).re;
     state.displacement = slide->constant + ae.re + ah.re;
     state.rate = eigenvalue.re * ah.re - eigenvalue.im * ah.im - plant->drive_frequency * ae.im;
     if (!slide->split->merges) {
-        Complex aq = complex_mul(slide->resonator_normal, turns.normal);
-        state.velocity += complex_mul(slide->velocity_normal, turns.normal).re;
+        Complex aq = complex_mul(slide->resonator_normal, turns->phasors.normal);
+        state.velocity += complex_mul(slide->velocity_normal, turns->phasors.normal).re;
         state.displacement += aq.re;
         state.rate -= plant->normal_frequency * aq.im;
     }
@@ -174,11 +263,14 @@ static inline State state_by(const SplitSlide *slide, double t, Turns turns) {
 }
 
 double split_slide_travel(const SplitSlide *slide, double t) {
-    return travel_by(slide, t, turns_at(slide, t));
+    Turns place;
+    return travel_by(slide, t, turns_at(slide, t, &place, &place));
 }
 
-State split_slide_end(const SplitSlide *slide, double t, double *travel) {
-    Turns turns = turns_at(slide, t);
+State split_slide_end(const SplitSlide *slide, double t, double *travel, KnownPhasors *known) {
+    Turns place;
+    const Turns *turns = turns_at(slide, t, &place, &place);
     *travel = travel_by(slide, t, turns);
+    *known = (KnownPhasors){!is_soon(slide, t), turns->phasors};
     return state_by(slide, t, turns);
 }

@@ -41,15 +41,15 @@ static Signal margin(const Stick *stick, double direction, double t) {
     return signal;
 }
 
-static Signal forward_margin(const void *stick, double t) {
+static Signal forward_margin(void *stick, double t) {
     return margin(stick, 1.0, t);
 }
 
-static Signal backward_margin(const void *stick, double t) {
+static Signal backward_margin(void *stick, double t) {
     return margin(stick, -1.0, t);
 }
 
-int stick_watches(const Stick *stick, Watch watches[2]) {
+int stick_watches(Stick *stick, Watch watches[2]) {
     const Plant *plant = stick->plant;
     double reach = fabs(plant->load) + complex_abs(stick->direct);
     double fastest = fmax(plant->drive_frequency, fabs(plant->normal_frequency));

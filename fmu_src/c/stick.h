@@ -23,7 +23,7 @@ void stick_begin(Stick *stick, const Plant *plant, const State *state, double th
 
 /* Forward margin (limit - needed force), then backward margin (limit + needed force); returns how
  * many: none when no force is needed, or never one that reaches the least limit. */
-int stick_watches(const Stick *stick, Watch watches[2]);
+int stick_watches(Stick *stick, Watch watches[2]);
 
 /* State after `t` [s]. */
 State stick_state(const Stick *stick, double t);

@@ -130,7 +130,7 @@ bool taylor_slide_departs(const TaylorSlide *slide) {
     return true;
 }
 
-static Signal velocity_ahead(const void *motion, double t) {
+static Signal velocity_ahead(void *motion, double t) {
     const TaylorSlide *slide = motion;
     double total = 0.0, slope = 0.0;
     for (int k = TAYLOR_ORDER; k >= 0; k--) {

@@ -33,8 +33,7 @@ ONLY_IN_C = {
     # Literals of the Python twin.
     *("LEAD_PARTS", "SLOWEST"),
     # Faster ways to the same zeros and series than those of the Python twin.
-    *("MAX_BISECTIONS", "MAX_DRIFT", "MAX_EXPECTING_STEPS", "MAX_NEWTON_STEPS"),
-    *("NEGLIGIBLE", "SURE"),
+    *("MAX_BISECTIONS", "NEGLIGIBLE", "SMALL_TURN"),
 }
 """C constants without a twin."""
 

@@ -70,4 +70,5 @@ def direction_of(velocity: float) -> int:
 
 def friction_limit(plant: Plant, psi: float) -> float:
     """Friction force [N] of all faces at normal phase `psi` [rad] when sliding; 0 in flight."""
-    return max(0.0, plant.friction_preload + plant.friction_amplitude * sin(psi + plant.phase))
+    limit = plant.friction_preload + plant.friction_amplitude * sin(psi + plant.phase)
+    return limit if limit > 0.0 else 0.0

@@ -58,7 +58,7 @@ def follow(held: Held, now: Moment, longest: float, switching: float, departs: b
     """See FrictionLaw."""
     plant, chi = held.plant, now.psi + held.plant.phase
     if now.mode == STICK:
-        leg = followed(Stick(plant, now.state, now.theta, chi), STICK, 0, longest)
+        leg = followed(Stick(plant, now.state, now.theta, chi), held, now, 0, longest)
         near_switch = switching == longest and switching - leg.t < SAME * held.arc
         chi += plant.normal_frequency * leg.t
         if leg.released and near_switch and _lifts_first(plant, chi):
@@ -68,16 +68,18 @@ def follow(held: Held, now: Moment, longest: float, switching: float, departs: b
     watched_from = 0.0
     if direction != 0 and departs:
         watched_from = departure_time(plant, direction, now.state, now.theta, chi)
-    return followed(slide(held, now, direction), now.mode, direction, longest, watched_from)
+    return followed(slide(held, now, direction), held, now, direction, longest, watched_from)
 
 
 def succeed(held: Held, leg: Leg, now: Moment, switches: bool) -> None:
     """See FrictionLaw."""
+    if leg.zero_of is None and not switches:
+        return
     if leg.released:
         now.enter(FORWARD if leg.zero_of == 0 else BACKWARD)
-    elif leg.stopped or (switches and leg.mode == LIFTED):
+    elif leg.stopped or leg.mode == LIFTED:
         now.enter(_mode_in_contact(held.plant, now))
-    elif switches:
+    else:
         now.enter(LIFTED)
 
 
@@ -85,6 +87,8 @@ def _needed_force(plant: Plant, moment: Moment) -> float:
     """Friction force [N] that holds a slider at rest."""
     state, direct, theta = moment.state, plant.holding_drive, moment.theta
     resonator = plant.spring * state.displacement + plant.damper * state.rate
+    if not direct:
+        return resonator - plant.load
     return resonator - plant.load + direct.real * sin(theta) + direct.imag * cos(theta)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import tau
+from math import inf, tau
 
 from .clock import Clock
 from .constants import MAX_STEP_LEGS, PYTHON_SLOWDOWN
@@ -22,7 +22,8 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
 
     Raises Refusal where it takes too much work, or time does not get on.
     """
-    plant, turn = held.plant, tau / LONGEST_ARC * held.arc
+    plant, arc = held.plant, held.arc
+    turn = tau / LONGEST_ARC * arc
     clock, remaining = Clock(duration), duration
     legs, all_legs, turn_began = 0, 0, 0.0
     departs = moment.state.velocity == 0.0
@@ -39,9 +40,11 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
         if all_legs > MAX_STEP_LEGS // PYTHON_SLOWDOWN:
             most = MAX_STEP_LEGS // PYTHON_SLOWDOWN
             raise too_much_work(duration, clock.elapsed, most, "legs of motion")
-        chi, lifted = now.psi + plant.phase, now.mode == LIFTED
-        switching = time_to_switch(held.window, chi, plant.normal_frequency, lifted)
-        longest = min(remaining, switching, held.arc)
+        switching = inf
+        if held.window is not None:
+            chi, lifted = now.psi + plant.phase, now.mode == LIFTED
+            switching = time_to_switch(held.window, chi, plant.normal_frequency, lifted)
+        longest = min(remaining, switching, arc)
         leg = friction.follow(held, now, longest, switching, departs)
         leg.finish(held, now)
         friction.succeed(held, leg, now, leg.zero_of is None and leg.t == switching)

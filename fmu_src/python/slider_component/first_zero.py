@@ -4,12 +4,15 @@ From a point where the signal f is positive, f(t + d) >= f + f' d - B d^2 / 2 wh
 The search advances by the zero of that parabola: it approaches the first zero from the left and
 cannot step across it, nor across a pair of close zeros. Once f'^2 > 2 B f holds with f' < 0, the
 next zero is simple and Newton's method converges to it (Kantorovich), so the search ends there.
+
+A zero that is expected at some time is looked for there at once. It is the first one if the
+parabola from the start and that from the zero backwards leave no gap between them.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
+from math import sqrt
 from typing import NamedTuple
 
 Signal = Callable[[float], tuple[float, float, float]]
@@ -33,22 +36,34 @@ FLOOR_DOUBLING = 1000
 """Evaluations after which the shortest step doubles: bounds the work on signals that stay within
 rounding of zero."""
 
+MAX_NEWTON_STEPS = 60
+MAX_EXPECTING_STEPS = 4
 
-def first_zero(watch: Watch, limit: float, start: float = 0.0) -> float | None:
+SURE = 0.99
+"""Share of what two parabolas cover that must do: keeps rounding out of the argument."""
+
+
+def first_zero(
+    watch: Watch, limit: float, start: float = 0.0, expected: float | None = None
+) -> float | None:
     """Time of the first downward zero in [start, limit) [s], or None.
 
     The signal is non-negative at `start`. Two zeros closer than 1e-7 / fastest enclose a dip
-    within rounding and count as a touch, which is no zero.
+    within rounding and count as a touch, which is no zero. A zero near `expected` [s] is found
+    sooner.
     """
     signal, noise, fastest, horizon = watch
     t = start
-    floor = 1e-7 / fastest
+    shortest = 1e-7 / fastest
+    zero, steepness = None, 0.0
+    if expected is not None and start < expected < limit:
+        zero, steepness = _zero_near(watch, start, expected)
     evaluations = 0
     while t < limit:
         value, slope, bound = signal(t)
+        square = slope * slope
         evaluations += 1
         if slope < 0.0:
-            square = slope * slope
             if value <= noise:
                 if value < -noise or square > 16.0 * noise * bound:
                     return t
@@ -56,25 +71,62 @@ def first_zero(watch: Watch, limit: float, start: float = 0.0) -> float | None:
             elif square > 2.2 * bound * (value + noise):
                 root = _newton(signal, t, value, slope, fastest)
                 return root if root < limit else None
-        elif value < noise:
-            value = noise
-        root_term = math.sqrt(slope * slope + 2.0 * bound * value)
-        if slope < 0.0:
-            step = 2.0 * value / (root_term - slope)
-        elif bound > 0.0:
-            step = (slope + root_term) / bound
+            step = 2.0 * value / (sqrt(square + 2.0 * bound * value) - slope)
         else:
-            step = horizon
+            value = value if value > noise else noise
+            root_term = sqrt(square + 2.0 * bound * value)
+            step = (slope + root_term) / bound if bound > 0.0 else horizon
+        # Whether the signal is positive from here to the zero too, and not by rounding only.
+        if (
+            zero is not None
+            and 0.0 < zero - t < horizon
+            and bound * (zero - t) < SURE * (bound * step - 2.0 * steepness)
+            and steepness * steepness > 16.0 * noise * bound
+        ):
+            return zero if zero < limit else None
         if evaluations % FLOOR_DOUBLING == 0:
-            floor *= 2.0
-        t += min(max(step, floor), horizon)
+            shortest *= 2.0
+        if step < shortest:
+            step = shortest
+        t += horizon if step > horizon else step  # not a number stays so, and ends the search
     return None
+
+
+def exceeds_noise(watch: Watch, t: float) -> bool:
+    """Whether a watched signal exceeds its noise before `t` [s].
+
+    A parabola that is below it shows that at once, most often.
+    """
+    value, slope, bound = watch.signal(0.0)
+    if (
+        0.0 < slope < bound * min(t, watch.horizon)
+        and value + 0.5 * slope * slope / bound > watch.noise
+    ):
+        return True
+    return watch.signal(0.5 * t)[0] > watch.noise
+
+
+def _zero_near(watch: Watch, start: float, t: float) -> tuple[float | None, float]:
+    """The downward zero near `t`, if Newton's method finds one soon, and the slope there."""
+    signal, resolution = watch.signal, 1e-16 / watch.fastest
+    for _ in range(MAX_EXPECTING_STEPS):
+        value, slope, bound = signal(t)
+        if not slope < 0.0:
+            break
+        step = -value / slope
+        t += step
+        if not t > start:
+            break
+        # The next step would be below the resolution.
+        if bound * step * step <= -slope * resolution:
+            return t, slope
+    return None, 0.0
 
 
 def _newton(signal: Signal, t: float, value: float, slope: float, fastest: float) -> float:
     """Newton's method from a point that satisfies Kantorovich's condition."""
     resolution = 1e-16 / fastest
-    for _ in range(60):
+    for _ in range(MAX_NEWTON_STEPS):
         step = -value / slope
         t += step
         if abs(step) <= resolution:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import tau
 
-from .first_zero import first_zero
+from .first_zero import exceeds_noise, first_zero
 from .held import Held
 from .moment import Moment
 from .motion import Motion, State
@@ -16,9 +16,9 @@ from .stick import Stick
 class Leg:
     """A motion in contact mode `mode`, which ends after `t` [s] and `travelled` [m].
 
-    `direction` is that of sliding, 0 where it does not matter, and `slides` tells whether the
-    slider really moves in it, beyond rounding; `zero_of` is the watched signal that ends the leg,
-    or None.
+    `direction` is that of sliding, 0 where it does not matter, and `turns` tells whether the
+    slider really moves, beyond rounding, in another one than it slid before; `zero_of` is the
+    watched signal that ends the leg, or None; `rests` tells whether the slider is at rest.
     """
 
     motion: Motion
@@ -27,12 +27,8 @@ class Leg:
     t: float
     travelled: float
     zero_of: int | None
-    slides: bool
-
-    @property
-    def rests(self) -> bool:
-        """Whether the slider is at rest."""
-        return isinstance(self.motion, Stick)
+    turns: bool
+    rests: bool
 
     @property
     def stopped(self) -> bool:
@@ -47,31 +43,42 @@ class Leg:
     def finish(self, held: Held, now: Moment) -> None:
         """Move on from where the leg begins to its end, in its mode."""
         plant, motion, t = held.plant, self.motion, self.t
-        now.state = motion.state(t)
+        state = motion.state(t)
+        stopped = self.zero_of is not None and not self.rests
+        now.state = State(0.0, state.displacement, state.rate) if stopped else state
         now.means, now.theta = now.means.advanced(
             t, now.theta, plant.drive_frequency, self.rests, motion.travel, self.travelled
         )
         now.psi = (now.psi + plant.normal_frequency * t) % tau
         now.position += self.travelled
-        if self.slides and self.direction != now.counts.sliding:
+        if self.turns:
             now.counts, now.event_age = now.counts.slid(self.direction), 0.0
         now.event_age += t
-        if self.stopped:
-            now.state = State(0.0, now.state.displacement, now.state.rate)
+        if stopped:
+            now.stops = now.stops.then(self.direction, now.theta)
 
 
 def followed(
-    motion: Motion, mode: int, direction: int, longest: float, watched_from: float = 0.0
+    motion: Motion,
+    held: Held,
+    now: Moment,
+    direction: int,
+    longest: float,
+    watched_from: float = 0.0,
 ) -> Leg:
-    """The leg that follows `motion` until it ends, for up to `longest` [s].
+    """The leg that follows `motion` from `now` until it ends, for up to `longest` [s].
 
     What it watches is watched from `watched_from` [s] on.
     """
-    t, zero_of = longest, None
+    t, zero_of, expected, turns = longest, None, None, False
     watches = motion.watches(longest) if longest > 0.0 else ()
+    if direction != 0:
+        expected = now.stops.expected(direction, now.theta, held.plant.drive_frequency)
     for index, watch in enumerate(watches):
-        zero = first_zero(watch, t, watched_from)
+        zero = first_zero(watch, t, watched_from, expected)
         if zero is not None:
             t, zero_of = zero, index
-    slides = direction != 0 and any(watch.signal(0.5 * t)[0] > watch.noise for watch in watches)
-    return Leg(motion, mode, direction, t, motion.travel(t), zero_of, slides)
+    if watches and direction not in (0, now.counts.sliding):
+        turns = exceeds_noise(watches[0], t)
+    rests = isinstance(motion, Stick)
+    return Leg(motion, now.mode, direction, t, motion.travel(t), zero_of, turns, rests)

@@ -66,7 +66,7 @@ def follow(held: Held, now: Moment, longest: float, switching: float, departs: b
         motion = _motion(held, now, direction)
     if isinstance(motion, TaylorSlide):
         longest = min(longest, motion.reach)
-    return followed(motion, now.mode, direction, longest)
+    return followed(motion, held, now, direction, longest)
 
 
 def succeed(held: Held, leg: Leg, now: Moment, switches: bool) -> None:

@@ -9,6 +9,7 @@ from .contact import STICK
 from .motion import State
 from .orbit_state import NO_ORBIT, OrbitState
 from .period import PeriodMeans
+from .stops import NO_STOPS, Stops
 
 
 class Counts(NamedTuple):
@@ -20,7 +21,8 @@ class Counts(NamedTuple):
 
     def slid(self, direction: int) -> Counts:
         """The counts once the slider has moved on in `direction`."""
-        return Counts(direction, self.reversals + (self.sliding == -direction), self.sticks)
+        sliding, reversals, sticks = self
+        return Counts(direction, reversals + (sliding == -direction), sticks)
 
 
 @dataclass(slots=True)
@@ -28,9 +30,10 @@ class Moment:
     """Position [m], phases [rad], contact mode, and what outputs count.
 
     `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
-    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction; `orbit` serves averages
-    of second order alone. A moment is changed only by the loop over events, which begins with a
-    copy.
+    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. `stops` decide where a
+    stop is looked for first, and so the last digit of the time that is found: they are part of the
+    state for a replay to be equal to the last bit. `orbit` serves averages of second order alone. A
+    moment is changed only by the loop over events, which begins with a copy.
     """
 
     state: State
@@ -42,6 +45,7 @@ class Moment:
     event_age: float
     means: PeriodMeans
     bristle: float = 0.0
+    stops: Stops = NO_STOPS
     orbit: OrbitState = NO_ORBIT
 
     def copied(self) -> Moment:
@@ -56,6 +60,7 @@ class Moment:
             self.event_age,
             self.means,
             self.bristle,
+            self.stops,
             self.orbit,
         )
 

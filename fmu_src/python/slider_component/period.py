@@ -40,7 +40,7 @@ class PeriodMeans(NamedTuple):
         and the drive phase at the end, modulo 2 pi.
         """
         end = theta + frequency * duration
-        ended = floor((end + MARK_TOLERANCE) / tau)
+        ended = 0 if end + MARK_TOLERANCE < tau else floor((end + MARK_TOLERANCE) / tau)
         if ended <= 0:
             return (
                 PeriodMeans(

@@ -23,6 +23,7 @@ from .orbit_state import (
 )
 from .period import PeriodMeans
 from .refusal import Refusal
+from .stops import Stops
 from .values import flag, integer, integer_within, number, phase
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
@@ -35,7 +36,7 @@ _PARTS_OF_ORBIT = ("swing", "under", "leads")
 def moment_to_plain(moment: Moment) -> dict[str, Any]:
     """Return the moment as nested dictionaries; before any event its age is None."""
     plain: dict[str, Any] = {f.name: getattr(moment, f.name) for f in fields(moment)}
-    for name in ("state", "counts", "means"):
+    for name in ("state", "counts", "means", "stops"):
         plain[name] = plain[name]._asdict()
     plain["orbit"] = moment.orbit._asdict()
     for name in _PARTS_OF_ORBIT:
@@ -51,6 +52,7 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
     state = entries("state", plain["state"], State._fields)
     counts = entries("counts", plain["counts"], Counts._fields)
     means = entries("means", plain["means"], PeriodMeans._fields)
+    stops = entries("stops", plain["stops"], Stops._fields)
     age = plain["event_age"]
     return Moment(
         State(**{key: number(f"state.{key}", value) for key, value in state.items()}),
@@ -73,6 +75,7 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
             },
         ),
         number("bristle", plain["bristle"]),
+        Stops(**{key: number(f"stops.{key}", value) for key, value in stops.items()}),
         _orbit_from_plain(plain["orbit"]),
     )
 

@@ -21,12 +21,19 @@ from .plant import Plant
 class Split:
     """Complex amplitudes per unit exp(i theta_0) and, for s = 1, per unit exp(i chi_0).
 
-    Displacement of the resonator (`resonator_*`), velocity of the slider (`velocity_*`).
+    Displacement of the resonator (`resonator_*`), velocity of the slider (`velocity_*`);
+    `velocity_free` is that per displacement of the free resonator [1/s], `compliance` the
+    displacement per constant force [m/N]. Where the split `merges`, drive and normal load swing at
+    one frequency, or the normal load is constant: one term of v(t) then stands for both.
     """
 
     plant: Plant
     eigenvalue: complex
+    resolves_resonator: bool
     fastest: float
+    merges: bool
+    compliance: float
+    velocity_free: complex
     resonator_drive: complex
     velocity_drive: complex
     resonator_normal: complex
@@ -64,7 +71,11 @@ def split(plant: Plant) -> Split | None:
     return Split(
         plant,
         eigenvalue,
+        follows,
         max(w, abs(q), abs(eigenvalue)),
+        q in (w, 0.0),
+        1.0 / (plant.slider_mass * plant.slip.stiffness),
+        -fraction * eigenvalue,
         turn * resonator_drive,
         turn * velocity_drive,
         turn * resonator_normal,
@@ -75,24 +86,23 @@ def split(plant: Plant) -> Split | None:
 class SplitSlide:
     """Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight.
 
-    The velocity is watched in `direction`, unless that is 0.
+    The velocity is watched in `direction`, unless that is 0. Where the split merges, the terms of
+    the drive stand for the normal load too.
     """
 
     __slots__ = (
         "_constant",
-        "_direction",
-        "_displacement",
-        "_eigenvalue",
         "_k0",
         "_k1",
         "_resonator_drive",
         "_resonator_free",
         "_resonator_normal",
         "_split",
-        "_velocity",
+        "_turns",
         "_velocity_drive",
         "_velocity_free",
         "_velocity_normal",
+        "_watches",
     )
 
     def __init__(
@@ -101,104 +111,110 @@ class SplitSlide:
         plant = split.plant
         w, q = plant.drive_frequency, plant.normal_frequency
         drive_turn = rect(1.0, theta)
-        friction = sign * plant.friction_preload
+        ae, ve = split.resonator_drive * drive_turn, split.velocity_drive * drive_turn
+        aq = vq = free = vh = 0j
+        resisting = sign * plant.friction_preload + plant.load
         if q == 0.0:
-            friction += sign * plant.friction_amplitude * sin(chi)
-            normal_turn = 0j
+            resisting += sign * plant.friction_amplitude * sin(chi)
         else:
             normal_turn = rect(float(sign), chi)
-        ae = split.resonator_drive * drive_turn
-        aq = split.resonator_normal * normal_turn
-        ve = split.velocity_drive * drive_turn
-        vq = split.velocity_normal * normal_turn
-        constant = (friction + plant.load) / (plant.slider_mass * plant.slip.stiffness)
-        eigenvalue = split.eigenvalue
-        free = vh = 0j
-        if plant.resolves_resonator:
+            aq, vq = split.resonator_normal * normal_turn, split.velocity_normal * normal_turn
+            if split.merges:
+                ae, ve, aq, vq = ae + aq, ve + vq, 0j, 0j
+        self._constant = constant = resisting * split.compliance
+        if split.resolves_resonator:
+            eigenvalue = split.eigenvalue
             displacement = state.displacement - constant - (ae + aq).real
             rate = state.rate + w * ae.imag + q * aq.imag
-            free = complex(displacement, -(rate - eigenvalue.real * displacement) / eigenvalue.imag)
-            vh = -plant.mass_fraction * eigenvalue * free
+            free = complex(displacement, (eigenvalue.real * displacement - rate) / eigenvalue.imag)
+            vh = split.velocity_free * free
         self._split = split
-        self._direction = direction
-        self._eigenvalue = eigenvalue
-        self._velocity = state.velocity
-        self._constant = constant
         self._resonator_drive = ae
         self._resonator_normal = aq
         self._resonator_free = free
         self._velocity_drive = ve
         self._velocity_normal = vq
         self._velocity_free = vh
-        self._k0 = state.velocity - (ve + vq + vh).real
-        self._k1 = -(friction + plant.load) / plant.total_mass
+        self._k0 = k0 = state.velocity - (ve + vq + vh).real
+        self._k1 = k1 = -resisting / plant.total_mass
+        self._turns = (0.0, 1.0 + 0j, 1.0 + 0j, 1.0 + 0j)
+        self._watches: tuple[Watch, ...] = ()
+        if direction != 0:
+            drive, normal = abs(ve), abs(vq)
+            noise = 2.0 * EPSILON * (abs(k0) + drive + normal + abs(vh))
+            if direction < 0:
+                k0, k1, ve, vq, vh = -k0, -k1, -ve, -vq, -vh
+            bound = drive * w * w + normal * q * q
+            signal = (
+                _two_frequencies(k0, k1, ve, bound, vh, split)
+                if split.merges
+                else _three_frequencies(k0, k1, ve, vq, bound, vh, split)
+            )
+            self._watches = (Watch(signal, noise, split.fastest, inf),)
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """The velocity in the direction to watch."""
-        sign = self._direction
-        if sign == 0:
-            return ()
-        plant = self._split.plant
-        w, q = plant.drive_frequency, plant.normal_frequency
-        ve, vq, vh = sign * self._velocity_drive, sign * self._velocity_normal, self._velocity_free
-        k0, k1, vh = sign * self._k0, sign * self._k1, sign * vh
-        eigenvalue = self._eigenvalue
-        noise = 2.0 * EPSILON * (abs(k0) + abs(ve) + abs(vq) + abs(vh))
-        signal = (
-            _two_frequencies(k0, k1, ve + vq, w, vh, eigenvalue)
-            if q in (w, 0.0)
-            else _three_frequencies(k0, k1, ve, w, vq, q, vh, eigenvalue)
-        )
-        return (Watch(signal, noise, self._split.fastest, inf),)
+        return self._watches
+
+    def _turns_at(self, t: float) -> tuple[float, complex, complex, complex]:
+        """`t`, exp(i w t), exp(i q t) and exp(lambda t), kept until they are needed for another."""
+        turns = self._turns
+        if turns[0] == t:
+            return turns
+        split = self._split
+        plant = split.plant
+        drive = rect(1.0, plant.drive_frequency * t)
+        normal = drive if split.merges else rect(1.0, plant.normal_frequency * t)
+        self._turns = turns = (t, drive, normal, exp(split.eigenvalue * t))
+        return turns
 
     def travel(self, t: float) -> float:
         """Displacement of the slider after `t` [s], in m."""
-        plant = self._split.plant
-        w, q = plant.drive_frequency, plant.normal_frequency
-        total = self._velocity_drive * (rect(1.0, w * t) - 1.0) / complex(0.0, w)
-        if q != 0.0:
-            total += self._velocity_normal * (rect(1.0, q * t) - 1.0) / complex(0.0, q)
-        eigenvalue = self._eigenvalue
-        total += self._velocity_free * (exp(eigenvalue * t) - 1.0) / eigenvalue
-        return (self._k0 + 0.5 * self._k1 * t) * t + total.real
+        split = self._split
+        plant = split.plant
+        _, drive, normal, free = self._turns_at(t)
+        total = (self._velocity_drive * (drive - 1.0)).imag / plant.drive_frequency
+        if not split.merges:
+            total += (self._velocity_normal * (normal - 1.0)).imag / plant.normal_frequency
+        total -= plant.mass_fraction * (self._resonator_free * (free - 1.0)).real
+        return (self._k0 + 0.5 * self._k1 * t) * t + total
 
     def state(self, t: float) -> State:
         """State after `t` [s]."""
-        plant = self._split.plant
-        w, q = plant.drive_frequency, plant.normal_frequency
-        drive, normal = rect(1.0, w * t), rect(1.0, q * t)
-        free = exp(self._eigenvalue * t)
-        ae = self._resonator_drive * drive
-        aq = self._resonator_normal * normal
-        ah = self._resonator_free * free
-        velocity = (
-            self._k0
-            + self._k1 * t
-            + (
-                self._velocity_drive * drive
-                + self._velocity_normal * normal
-                + self._velocity_free * free
-            ).real
-        )
-        return State(
-            velocity,
-            self._constant + (ae + aq + ah).real,
-            (self._eigenvalue * ah).real - w * ae.imag - q * aq.imag,
-        )
+        split = self._split
+        plant = split.plant
+        _, drive, normal, free = self._turns_at(t)
+        ae, ah = self._resonator_drive * drive, self._resonator_free * free
+        forced = self._velocity_drive * drive + self._velocity_free * free
+        displacement = self._constant + ae.real + ah.real
+        rate = (split.eigenvalue * ah).real - plant.drive_frequency * ae.imag
+        if not split.merges:
+            forced += self._velocity_normal * normal
+            aq = self._resonator_normal * normal
+            displacement += aq.real
+            rate -= plant.normal_frequency * aq.imag
+        return State(self._k0 + self._k1 * t + forced.real, displacement, rate)
 
 
 def _two_frequencies(
-    k0: float, k1: float, ve: complex, w: float, vh: complex, eigenvalue: complex
+    k0: float, k1: float, ve: complex, bound: float, vh: complex, split: Split
 ) -> Signal:
-    bound = abs(ve) * w * w
-    square = abs(eigenvalue) ** 2
+    w, eigenvalue = split.plant.drive_frequency, split.eigenvalue
+    square, turning = split.plant.slip.stiffness, complex(0.0, w)
+    at_start = (
+        k0 + (ve + vh).real,
+        k1 - w * ve.imag + (eigenvalue * vh).real,
+        bound + square * abs(vh),
+    )
 
     def signal(t: float) -> tuple[float, float, float]:
+        if t == 0.0:
+            return at_start
         e = ve * rect(1.0, w * t)
         h = vh * exp(eigenvalue * t)
         return (
-            k0 + k1 * t + e.real + h.real,
-            k1 - w * e.imag + (eigenvalue * h).real,
+            k0 + k1 * t + (e + h).real,
+            k1 + (turning * e + eigenvalue * h).real,
             bound + square * abs(h),
         )
 
@@ -206,25 +222,19 @@ def _two_frequencies(
 
 
 def _three_frequencies(
-    k0: float,
-    k1: float,
-    ve: complex,
-    w: float,
-    vq: complex,
-    q: float,
-    vh: complex,
-    eigenvalue: complex,
+    k0: float, k1: float, ve: complex, vq: complex, bound: float, vh: complex, split: Split
 ) -> Signal:
-    bound = abs(ve) * w * w + abs(vq) * q * q
-    square = abs(eigenvalue) ** 2
+    eigenvalue, square = split.eigenvalue, split.plant.slip.stiffness
+    w, q = split.plant.drive_frequency, split.plant.normal_frequency
+    turning, turning_normal = complex(0.0, w), complex(0.0, q)
 
     def signal(t: float) -> tuple[float, float, float]:
         e = ve * rect(1.0, w * t)
         n = vq * rect(1.0, q * t)
         h = vh * exp(eigenvalue * t)
         return (
-            k0 + k1 * t + e.real + n.real + h.real,
-            k1 - w * e.imag - q * n.imag + (eigenvalue * h).real,
+            k0 + k1 * t + (e + n + h).real,
+            k1 + (turning * e + turning_normal * n + eigenvalue * h).real,
             bound + square * abs(h),
         )
 

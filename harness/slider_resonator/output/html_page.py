@@ -44,13 +44,21 @@ def folded(summary: str, html: str) -> str:
 
 
 def write_page(
-    path: Path, title: str, parts: Sequence[str], scripts: Sequence[str] = (), style: str = ""
+    path: Path,
+    title: str,
+    parts: Sequence[str],
+    scripts: Sequence[str] = (),
+    style: str = "",
+    *,
+    images_beside: bool = False,
 ) -> None:
     """Write a page with a title and parts of HTML; HarnessError when it cannot be written.
 
-    It loads nothing, and runs no other scripts than those given.
+    It loads nothing but, with `images_beside`, images in its folder, and runs no other scripts than
+    those given.
     """
-    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'{_allowed(scripts)}"
+    images = "data: 'self' file:" if images_beside else "data:"
+    policy = f"default-src 'none'; img-src {images}; style-src 'unsafe-inline'{_allowed(scripts)}"
     page = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width">',

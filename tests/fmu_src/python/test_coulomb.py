@@ -115,9 +115,11 @@ def test_work_is_bounded_by_the_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     """Searches for a zero, per drive period: two while it moves, none where nothing can happen."""
     searches = []
 
-    def counted(watch: Watch, limit: float, start: float = 0.0) -> float | None:
+    def counted(
+        watch: Watch, limit: float, start: float = 0.0, expected: float | None = None
+    ) -> float | None:
         searches.append(1)
-        return first_zero(watch, limit, start)
+        return first_zero(watch, limit, start, expected)
 
     monkeypatch.setattr(leg, "first_zero", counted)
     after(100 * PERIOD, TABLE_1)

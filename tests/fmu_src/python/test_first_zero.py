@@ -8,7 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.first_zero import Signal, Watch, first_zero
+from fmu_src.python.slider_component.first_zero import (
+    Signal,
+    Watch,
+    exceeds_noise,
+    first_zero,
+)
 
 
 def sine_sum(offset: float, waves: list[tuple[float, float, float]]) -> Signal:
@@ -91,3 +96,42 @@ def test_nothing_is_passed_over(waves: list[tuple[float, float, float]], offset:
     assert lowest > -1e-12, f"a zero before {end} was passed over: the signal fell to {lowest}"
     if zero is not None:
         assert abs(signal(zero)[0]) < 1e-12
+
+
+@given(
+    offset=st.floats(-0.9, 0.9),
+    phase=st.floats(0.0, 6.0),
+    second=st.tuples(st.floats(-0.5, 0.5), st.floats(0.5, 4.0), st.floats(0.0, 6.0)),
+    expected=st.floats(-1.0, 12.0),
+)
+def test_an_expected_zero_changes_nothing(
+    offset: float, phase: float, second: tuple[float, float, float], expected: float
+) -> None:
+    """Wherever a zero is expected, the first one is found, to what rounding makes of its slope."""
+    signal = sine_sum(offset, [(1.0, 1.0, phase), second])
+    if signal(0.0)[0] <= 0.0:
+        return
+    watched = watch(signal, noise=4e-16, fastest=4.0)
+    plain, guided = (first_zero(watched, 10.0, 0.0, guess) for guess in (None, expected))
+    assert (plain is None) == (guided is None)
+    if plain is not None and guided is not None:
+        steepness = max(-signal(plain)[1], 1e-7)
+        assert guided == pytest.approx(plain, abs=4e-15 / steepness + 4e-15)
+
+
+def test_a_zero_where_it_is_expected_costs_few_evaluations() -> None:
+    calls = []
+
+    def counted(t: float) -> tuple[float, float, float]:
+        calls.append(t)
+        return math.sin(t + 0.1), math.cos(t + 0.1), 1.0
+
+    zero = math.pi - 0.1
+    assert first_zero(watch(counted), 10.0, 0.0, zero + 1e-6) == pytest.approx(zero, abs=4e-16)
+    assert len(calls) <= 3
+
+
+@pytest.mark.parametrize(("height", "expected"), [(1e-3, True), (1e-20, False)])
+def test_a_motion_within_rounding_does_not_exceed_it(height: float, expected: bool) -> None:
+    signal = sine_sum(0.0, [(height, 1.0, 0.0)])
+    assert exceeds_noise(watch(signal), math.pi) is expected

@@ -166,7 +166,8 @@ def test_beyond_grazing_friction_is_its_mean_and_does_not_slope(
     orbit = held_orbit_linearised(scales, held_orbit_at(scales, 0.4, velocity))
     assert orbit.reversals == 0
     assert orbit.friction == np.copysign(scales.sliding_friction(0.4), velocity)
-    assert orbit.slope == pytest.approx(0.0, abs=1e-6)
+    # One last digit of the travel in a turn, over the step of the difference.
+    assert orbit.slope == pytest.approx(0.0, abs=5e-7 * (1.0 + abs(velocity)))
     assert orbit.factor == pytest.approx(1.0, abs=1e-8)
 
 

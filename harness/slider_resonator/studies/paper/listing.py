@@ -90,7 +90,7 @@ def write_index(
     Raises HarnessError when it cannot be written.
     """
     text = html_page.escaped
-    parts = [f"<p>{text(HEAD)}</p>", provenance_html(provenance)]
+    parts = [f"<p>{text(HEAD)}</p>"]
     claims = [claim for _, group in groups for claim in group]
     if claims:
         parts.append(f"<h2>Statements of the paper</h2><p>{text(verdicts(claims))}</p>")
@@ -110,7 +110,8 @@ def write_index(
         )
         parts.append(f'<div class="wide">{rendered}</div>')
         parts += [f"<p>{text(line)}</p>" for line in _largest(shown, data)]
-    html_page.write_page(folder / "index.html", "The paper, reproduced", parts)
+    parts.append(provenance_html(provenance))
+    html_page.write_page(folder / "index.html", "The paper, reproduced", parts, images_beside=True)
 
 
 def _measured(table: PaperTable, data: Data) -> Table:

@@ -87,9 +87,9 @@ def test_the_index_has_all_figures_tables_and_claims_escaped(tmp_path: Path) -> 
     wrong = replace(CLAIM, statement="It <b>flies</b>", verdict="disagrees", confirmed=False)
     table = PaperTable("speeds", "Speeds", "By <load>.", {"v": "speed"}, {"v": 0.1}, lambda _: {})
     data = {"rows": [{"v": 0.2}]}
-    write_index(
-        tmp_path, FIGURES.values(), [(table, data)], [("All", [CLAIM, wrong])], "<a>.fmu", "guid"
-    )
+    fmu = replace(PROVENANCE.fmus[0], fmu="<a>.fmu")
+    known = replace(PROVENANCE, fmus=(fmu,))
+    write_index(tmp_path, FIGURES.values(), [(table, data)], [("All", [CLAIM, wrong])], known)
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     for figure in FIGURES.values():
         assert f'<img src="{figure.name}.png" alt="{escape(figure.title)}">' in page
@@ -99,6 +99,8 @@ def test_the_index_has_all_figures_tables_and_claims_escaped(tmp_path: Path) -> 
     assert "NOT CONFIRMED" in page
     assert "By &lt;load&gt;." in page
     assert "&lt;a&gt;.fmu" in page
+    assert "0123abcd" in page
+    assert "img-src data: 'self' file:" in page
 
 
 SCALED = re.compile(r"\[[^]]+\]|before the end")

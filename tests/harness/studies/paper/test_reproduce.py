@@ -32,7 +32,7 @@ def test_a_part_is_written_beside_existing_files(native_fmu: Path, tmp_path: Pat
     outcome = reproduce(native_fmu, tmp_path, ("figure_3",), _quiet)
     assert outcome.run == ["figure_3"]
     assert {path.name for path in tmp_path.iterdir()} == {
-        *("figure_3.png", "figure_3.svg", "FIGURES.md", "results")
+        *("figure_3.png", "figure_3.svg", "FIGURES.md", "index.html", "results")
     }
     outcome = reproduce(native_fmu, tmp_path, ("lugre_blocking",), _quiet)
     (table,) = outcome.tables
