@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -54,6 +55,14 @@ def _averaged(output: str) -> Mapping[str, Expected]:
     return {"averaged": lambda references: getattr(references.averaged_outputs, output)}
 
 
+def _held_orbits(output: str) -> Mapping[str, Expected]:
+    return {"held_orbits": lambda references: references.on_held_orbits(output)}
+
+
+def _centre_velocity(reference: str) -> Expected:
+    return lambda references: references.centre_velocity(partial(references.signal, reference))
+
+
 def _reversals(reference: str) -> Expected:
     return lambda references: references.trajectory(reference).reversals
 
@@ -88,10 +97,12 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: references.predicted_blocking_force,
     },
     "predicted_velocity": {
+        "located_events": lambda references: references.full_device.steady_velocity,
         "closed_form": lambda references: references.averaged_velocity,
         "averaged": lambda references: references.predicted_velocity,
     },
     "predicted_blocking_force": {
+        "located_events": lambda references: references.full_device.blocking_force,
         "closed_form": lambda references: references.averaged_blocking_force,
         "averaged": lambda references: references.predicted_blocking_force,
     },
@@ -102,9 +113,11 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: references.predictions("predicted_blocking_force"),
     },
     "final_predicted_velocity": {
+        "located_events": lambda references: references.at_the_end.full_device.steady_velocity,
         "averaged": lambda references: references.at_the_end.predicted_velocity,
     },
     "final_predicted_blocking_force": {
+        "located_events": lambda references: references.at_the_end.full_device.blocking_force,
         "averaged": lambda references: references.at_the_end.predicted_blocking_force,
     },
     "prediction_valid": {
@@ -113,17 +126,24 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "position": {
         **_resolved("position"),
         "averaged": lambda references: references.averaged_motion.position,
+        **_held_orbits("position"),
     },
     "velocity": {
         **_resolved("velocity"),
         "averaged": lambda references: references.averaged_motion.velocity,
+        **_held_orbits("velocity"),
+    },
+    **{
+        output: {**_resolved(output), **_averaged(output), **_held_orbits(output)}
+        for output in ("resonator_displacement", "resonator_velocity")
     },
     **{
         output: {**_resolved(output), **_averaged(output)}
-        for output in (
-            *("resonator_displacement", "resonator_velocity"),
-            *("normal_force", "friction_force", "contact_mode"),
-        )
+        for output in ("normal_force", "friction_force", "contact_mode")
+    },
+    "centre_velocity": {
+        **{reference: _centre_velocity(reference) for reference in RESOLVED},
+        "held_orbits": lambda references: references.centre_velocity(references.on_held_orbits),
     },
     "slow_displacement": {
         "located_events": lambda references: slow_displacement(
@@ -138,10 +158,12 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "mean_velocity": {
         **_at_the_end(ReferenceSide.mean_velocity),
         "averaged": lambda references: float(references.averaged_motion.mean_velocity[-1]),
+        "held_orbits": lambda references: float(references.mean_velocities_on_held_orbits[-1]),
     },
     "mean_velocity_in_run": {
         **_in_run(mean_velocities),
         "averaged": lambda references: references.averaged_motion.mean_velocity,
+        "held_orbits": lambda references: references.mean_velocities_on_held_orbits,
     },
     "stick_fraction": _at_the_end(ReferenceSide.stick_fraction),
     "stick_fraction_in_run": {

@@ -25,6 +25,7 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
 from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.checks.measures.slow_error import centre_velocity, slow_error_share
 from slider_resonator.errors import NotApplicable, SceneError
 from slider_resonator.fmu.interface_check import description_faults
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -75,8 +76,13 @@ def _output(name: str) -> Callable[[FmuSide], Array]:
 
 
 def _final(name: str) -> Callable[[FmuSide], float]:
-    """Return a function for an output at the end of the run."""
-    return lambda fmu: fmu.record.final(name)
+    """Return a function for an output at the end of the run; NotApplicable where it is lacking."""
+
+    def final(fmu: FmuSide) -> float:
+        fmu.instance.fmu.variable(name)
+        return fmu.record.final(name)
+
+    return final
 
 
 def _later_half(times: Array, signal: Array) -> tuple[Array, Array]:
@@ -110,6 +116,9 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     ),
     "mean_velocity": _final("mean_velocity"),
     "mean_velocity_in_run": _output("mean_velocity"),
+    "centre_velocity": lambda fmu: centre_velocity(fmu.record, fmu.scene.device.mass_ratio),
+    "slow_motion_error": _final("slow_motion_error"),
+    "slow_error_share": slow_error_share,
     "stick_fraction": _final("stick_fraction"),
     "stick_fraction_in_run": _output("stick_fraction"),
     "reversals": _final("reversals"),

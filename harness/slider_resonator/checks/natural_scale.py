@@ -50,6 +50,7 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "mean_velocity": _velocity,
     "mean_velocity_in_run": _velocity,
     "velocity": _velocity,
+    "centre_velocity": _velocity,
     "blocking_force": _full_friction,
     "predicted_blocking_force": _full_friction,
     "predicted_blocking_force_in_run": _full_friction,

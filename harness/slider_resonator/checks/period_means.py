@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -16,6 +17,22 @@ COINCIDENCE = 1e-6
 
 _ENDED = 1e-9
 """Share of a drive period that may be missing from one that counts as ended."""
+
+
+class Travel(Protocol):
+    """Anything with position (m) and velocity (m/s) at times (s), all (n,)."""
+
+    @property
+    def time(self) -> Array:
+        """Times (s)."""
+
+    @property
+    def position(self) -> Array:
+        """Position (m)."""
+
+    @property
+    def velocity(self) -> Array:
+        """Velocity (m/s)."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +71,7 @@ class DriveTurns:
         return np.asarray(np.floor(turned + _ENDED))
 
 
-def mean_velocities(run: Trajectory, times: Array, turns: DriveTurns) -> Array:
+def mean_velocities(run: Travel, times: Array, turns: DriveTurns) -> Array:
     """Return the mean velocity (m/s) over the last whole drive period, shape (n,).
 
     Before the first is over it is the mean since the start, and at the start the velocity. The

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from math import pi
 from typing import Any
@@ -30,6 +31,10 @@ from slider_resonator.references.averaged.averaged_outputs import (
     AveragedOutputs,
     averaged_outputs,
 )
+from slider_resonator.references.averaged.motion_from_start import (
+    MotionFromStart,
+    simulate_from_start,
+)
 from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
@@ -43,6 +48,9 @@ _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
     "taylor": taylor.simulate,
     "bristle_state": lugre_scipy.simulate_lugre,
 }
+
+FULL = 2
+"""Fidelity of the full device."""
 
 TUBE_POINTS = 3
 """Points on each side of a time at which a tube samples the reference."""
@@ -120,7 +128,10 @@ class ReferenceSide:
         return self.scene.start_time + last * self.drive_period
 
     def _simulate(self, reference: str, times: Array) -> Trajectory:
-        return _SIMULATORS[reference](self.device, self.scene.schedule().held(), times)
+        # What averaged motion comes close to is the full device.
+        fidelity = self.device.fidelity or FULL
+        device = replace(self.device, fidelity=fidelity)
+        return _SIMULATORS[reference](device, self.scene.schedule().held(), times)
 
     @cached_property
     def averaged_motion(self) -> AveragedMotion:
@@ -131,6 +142,26 @@ class ReferenceSide:
     def averaged_outputs(self) -> AveragedOutputs:
         """Resonator, contact and forces of the averaged motion, at the communication points."""
         return averaged_outputs(self.device, self.scene.schedule().held(), self.averaged_motion)
+
+    @cached_property
+    def _on_held_orbits(self) -> MotionFromStart:
+        """The motion of second order at the communication points and the ends of turns."""
+        times = np.union1d(self.times, self.turns.ends(self.times))
+        return simulate_from_start(self.device, self.scene.schedule().held(), times)
+
+    def on_held_orbits(self, name: str) -> Array:
+        """Return an output of the motion of second order at the communication points."""
+        run = self._on_held_orbits
+        return np.asarray(getattr(run, name)[np.searchsorted(run.time, self.times)])
+
+    @property
+    def mean_velocities_on_held_orbits(self) -> Array:
+        """Mean velocities (m/s) of `period_means` at the communication points, shape (n,)."""
+        return mean_velocities(self._on_held_orbits, self.times, self.turns)
+
+    def centre_velocity(self, signal: Callable[[str], Array]) -> Array:
+        """Return X' + r Y' (m/s) of the signals of a reference by name, shape (n,)."""
+        return signal("velocity") + self.device.mass_ratio * signal("resonator_velocity")
 
     def mean_velocity(self, reference: str) -> float:
         """Return the mean velocity (m/s) over the last whole drive period of the run."""
@@ -157,6 +188,11 @@ class ReferenceSide:
         """Load (N) that makes the mean velocity zero, by shooting with located events."""
         phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
         return reference_blocking_force(self.device, phase, ratio)
+
+    @property
+    def full_device(self) -> ReferenceSide:
+        """The references for the full device, whatever the fidelity of the scene."""
+        return ReferenceSide(self.scene, self.inputs, replace(self.device, fidelity=FULL))
 
     @property
     def predicted_velocity(self) -> float:

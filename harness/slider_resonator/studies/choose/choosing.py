@@ -145,7 +145,11 @@ class _Choosing:
             return None
         if "event_times" in self.needs:
             return "averaged motion has no events"
+        if model.averaging_order == 2 and not self.scales.has_slow_motion:
+            return "no motion is slow against the resonator: there are no held orbits"
         law = self.scales.averaging_error or 0.0
+        if model.averaging_order == 2:
+            return None
         for name in ("mean_velocity", "velocity") if self.law == COULOMB else ():
             need = self.needs.get(name)
             if need and need.rel is None and law > HOPELESS * (need.abs or inf):
@@ -158,6 +162,8 @@ class _Choosing:
         if model.friction_law != self.law and scales.kappa:
             share = scales.bristle_share
             return f"the bristle bends for a share of about {share:.1g} of the time"
+        if model.averaging_order == 2:
+            return ""
         if model.fidelity == 0 and scales.averaging_error is not None:
             return f"averaging errs by the order of {scales.averaging_error:.1g} m/s"
         if model.fidelity == 1:
@@ -177,7 +183,8 @@ class _Choosing:
             duration = self.probe.duration
             steps = ceil(duration / candidate.step)
             changes = steps if self.probe.varying else self.probe.jumps
-            cost += run_cost(candidate, self.scales, duration, steps, changes)
+            leads = self.probe.leads(steps)
+            cost += run_cost(candidate, self.scales, duration, steps, changes, leads)
         if self.probe.steady_needs:
             cost += search_cost(candidate.model, candidate.tolerance, periods, self.scales)
         return cost

@@ -59,13 +59,18 @@ class AveragedPrices:
 
     `step` is added to each communication step, `transient` is for each relaxation time after a
     change, until the motion has settled; `relaxation` is for each where beats keep it moving, and
-    `beat` for each of these.
+    `beat` for each of these. Of second order `start` is for the first orbits and `lead` for those
+    after each change of phase or frequency ratio, and the first `resolved` memories of the
+    resonator cost what resolved motion does.
     """
 
     step: float
     transient: float
     relaxation: float
     beat: float
+    start: float = 0.0
+    lead: float = 0.0
+    resolved: float = 0.0
 
 
 AVERAGED = {
@@ -73,6 +78,10 @@ AVERAGED = {
     (1, COULOMB, True): AveragedPrices(0.4e-6, 2.4e-6, 1.5e-6, 6e-6),
     (1, LUGRE, False): AveragedPrices(0.4e-6, 2.6e-6, 1.9e-6, 15e-6),
     (1, LUGRE, True): AveragedPrices(60e-6, 0.6e-3, 1.9e-6, 2.2e-3),
+    (2, COULOMB, False): AveragedPrices(5e-6, 5e-6, 1e-6, 130e-6, 0.1e-3, 3e-3, 16.0),
+    (2, COULOMB, True): AveragedPrices(5e-6, 5e-6, 1e-6, 1.3e-3, 0.2e-3, 3e-3, 16.0),
+    (2, LUGRE, False): AveragedPrices(15e-6, 10e-6, 2e-6, 0.4e-3, 2e-3, 2e-3, 16.0),
+    (2, LUGRE, True): AveragedPrices(15e-6, 20e-6, 2e-6, 2.2e-3, 4e-3, 4e-3, 16.0),
 }
 """By averaging order, friction law and whether the contact lifts: then the mean friction of a
 bristle is integrated. An order is chosen from once it has its rows."""
@@ -115,12 +124,21 @@ def _sticking_share(scales: Scales) -> float:
 
 
 def run_cost(
-    candidate: Candidate, scales: Scales, duration: float, steps: int, changes: int = 0
+    candidate: Candidate,
+    scales: Scales,
+    duration: float,
+    steps: int,
+    changes: int = 0,
+    leads: int = 0,
 ) -> float:
-    """Return the cost (s) of a run of `duration` (s) in so many steps, with changes of inputs."""
+    """Return the cost (s) of a run of `duration` (s) in so many steps, with changes of inputs.
+
+    `leads` is how many of these change phase or frequency ratio.
+    """
     cost = RUN + STEP * steps + CHANGE * changes
     model = candidate.model
     if model.fidelity == 0:
+        cost += _preparation_cost(candidate, scales, duration, leads)
         return cost + _averaged_cost(model, scales, duration, steps, changes)
     prices = RESOLVED[model.fidelity, model.friction_law]
     periods = duration / scales.period
@@ -129,11 +147,27 @@ def run_cost(
     return cost + periods * period_cost(model, candidate.tolerance, scales)
 
 
+def _averaged_prices(model: Model, scales: Scales) -> AveragedPrices:
+    lifts = scales.lifts and (scales.detuning == 0.0 or scales.beat > 0.0)
+    return AVERAGED[model.averaging_order or 1, model.friction_law, lifts]
+
+
+def _preparation_cost(candidate: Candidate, scales: Scales, duration: float, leads: int) -> float:
+    """Return the cost (s) of the resolved start of second-order averages, and of their orbits."""
+    model, prices = candidate.model, _averaged_prices(candidate.model, scales)
+    if not prices.resolved:
+        return 0.0
+    full = Model(2, model.friction_law)
+    each = period_cost(full, candidate.tolerance, scales)
+    each += RESOLVED[2, model.friction_law].unsettled
+    resolved = min(duration / scales.period, prices.resolved * scales.memory)
+    return prices.start + prices.lead * leads + each * resolved
+
+
 def _averaged_cost(
     model: Model, scales: Scales, duration: float, steps: int, changes: int
 ) -> float:
-    lifts = scales.lifts and (scales.detuning == 0.0 or scales.beat > 0.0)
-    prices = AVERAGED[model.averaging_order or 1, model.friction_law, lifts]
+    prices = _averaged_prices(model, scales)
     beats, relaxations = scales.beat * duration, duration / scales.relaxation
     cost = prices.step * steps + prices.beat * beats
     if beats:

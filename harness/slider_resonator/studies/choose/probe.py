@@ -83,6 +83,16 @@ class Probe:
         """Times at which inputs change in the run, where they do not vary between."""
         return len(self.coverage.corners)
 
+    def leads(self, steps: int) -> int:
+        """Return how often phase or frequency ratio change in a run of so many steps."""
+        found = 0
+        for name in ("phase", "frequency_ratio"):
+            signal = self.scene.signals[name]
+            if len(set(signal.values)) > 1:
+                inside = sum(0.0 < time < self.duration for time in signal.times)
+                found += inside if signal.hold else steps
+        return found
+
     def resolve(self, step: float) -> None:
         """Run the resolved device as for a candidate with this step (s).
 

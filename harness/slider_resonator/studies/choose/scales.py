@@ -50,6 +50,15 @@ class Scales:
     bristle_turns: float
 
     @property
+    def has_slow_motion(self) -> bool:
+        """Whether the slow motion is slower than the resonator forgets, and slow in a period.
+
+        Else averages of second order do not exist.
+        """
+        decay = 1.0 / self.memory if self.memory else inf
+        return self.slowness is not None and 0.0 < 4.0 * self.slowness < min(1.0, decay)
+
+    @property
     def bristle_share(self) -> float:
         """Share of the time in which LuGre friction is not Coulomb's, of the order of kappa^(-1/2).
 

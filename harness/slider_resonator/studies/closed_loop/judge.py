@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
 from slider_resonator.studies.closed_loop.loop import Array, LoopRecord
 
+AGREEMENT = 1e-6
+"""Difference (m/s) of two fidelities that always counts as agreement."""
+
 
 @dataclass(frozen=True)
 class IntervalResult:
@@ -74,7 +77,7 @@ def _held(record: LoopRecord, duty: Duty, interval: LoadInterval) -> IntervalRes
 def judge_agreement(
     design: LoopRecord, proof: LoopRecord, duty: Duty, predicted: Sequence[float | None]
 ) -> list[Agreement]:
-    """Compare the two records of a host from each load step on with the predicted errors.
+    """Compare the two records of a host from each load step on, to predicted errors or `AGREEMENT`.
 
     `predicted` has the error (m/s) of averaged motion for each of the duty's load steps. The whole
     answer of the loop counts, not only what it settles to: that is the reference in any case.
@@ -85,7 +88,7 @@ def judge_agreement(
         inside = np.flatnonzero(_inside(design.times, duty, interval))
         worst = inside[np.argmax(difference[inside])]
         largest, time = float(difference[worst]), float(design.times[worst])
-        passed = error is not None and largest <= error
+        passed = error is not None and largest <= max(error, AGREEMENT)
         found.append(
             Agreement(design.host, interval.start, interval.load, largest, time, error, passed)
         )

@@ -1,4 +1,4 @@
-"""Errors that `choose` predicts for averaged motion in the loop."""
+"""Errors that the probe of `choose` predicts for averaged motion in the loop."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ from pathlib import Path
 from fmpy.ssp.ssd import read_ssd
 
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.studies.choose.choice import Choice
-from slider_resonator.studies.choose.choosing import TIME_LIMIT, choose_with
+from slider_resonator.studies.choose.candidate import START_TOLERANCE, Candidate, Model
+from slider_resonator.studies.choose.choosing import TIME_LIMIT
+from slider_resonator.studies.choose.probe import Probe
 from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
 from slider_resonator.studies.closed_loop.loop import DESIGN, FIDELITY, LoopRecord, parameters
 
@@ -68,8 +70,20 @@ def _device(package: Path) -> dict[str, float]:
 
 
 def _error(slider: IsolatedFmu, scene: Scene) -> float | None:
-    choice: Choice = slider.run(partial(choose_with, scene=scene))
-    return choice.error["mean_velocity"] if choice.meets and choice.fidelity == 0 else None
+    """Return the error (m/s) of averaged motion in a scene, None above the allowed one."""
+    error, allowed = slider.run(partial(_probed, scene=scene))
+    return error if error <= allowed else None
+
+
+def _probed(instance: Instance, scene: Scene) -> tuple[float, float]:
+    """Return error and allowed error (m/s) of averaged motion of the order of the device."""
+    assert scene.need is not None
+    device = scene.device
+    has_orders = "averaging_order" in instance.fmu.variables
+    model = Model(0, device.friction_law, device.averaging_order if has_orders else None)
+    candidate = Candidate(model, START_TOLERANCE, scene.step_size)
+    found = Probe(instance, scene).run_errors(candidate)["mean_velocity"]
+    return found.error, scene.need.needs["mean_velocity"].at(found.magnitude)
 
 
 def _scene(design: LoopRecord, duty: Duty, device: Mapping[str, float], stop: int) -> Scene:

@@ -12,7 +12,8 @@ from slider_resonator.studies.trade.result import Row, Trade
 from slider_resonator.studies.trade.solution import QUANTITIES
 
 COLUMNS = (
-    *("scene", "answer", "kind", "family", "method", "fidelity", "friction_law"),
+    *("scene", "answer", "kind", "family", "method", "fidelity", "averaging_order"),
+    "friction_law",
     *("step_periods", "tolerance", "periods", "repeats", "cpu_median_s", "cpu_min_s", "cpu_max_s"),
     *("start_cpu_s", "steps", "evaluations", "events"),
     *(f"error_{quantity}" for quantity in QUANTITIES),
@@ -38,7 +39,8 @@ def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
 
 def _cells(row: Row) -> list[Any]:
     return [
-        *(row.scene, row.answer, row.kind, row.family, row.method, row.fidelity, row.friction_law),
+        *(row.scene, row.answer, row.kind, row.family, row.method),
+        *(row.fidelity, row.averaging_order, row.friction_law),
         *(row.step, row.tolerance, row.periods, len(row.cpu), row.cost, min(row.cpu), max(row.cpu)),
         *(row.start_cpu, row.steps, row.evaluations, row.events),
         *(row.errors.get(quantity) for quantity in QUANTITIES),

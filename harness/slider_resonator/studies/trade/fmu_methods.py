@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from math import ceil
 from time import process_time
@@ -28,6 +29,7 @@ USUAL_STEP = 10.0
 TOLERANCES = (1e-4, 1e-6, 1e-10, 1e-12)
 """Of LuGre friction, besides the one that the FMU starts with."""
 USUAL_TOLERANCE = 1e-8
+AVERAGING_ORDERS = (2, 1)
 LAWS = ("Coulomb", "LuGre")
 OUTPUTS = ("position", "velocity", "mean_velocity")
 SHORTEST = 2e-3
@@ -35,6 +37,25 @@ SHORTEST = 2e-3
 MAX_RUNS = 20
 
 _UNRESOLVED = {"event_times": "averaged motion has no events"}
+
+
+@dataclass(frozen=True)
+class Model:
+    """A fidelity and, of averages, the order; None where there are none, or no choice."""
+
+    fidelity: int
+    order: int | None = None
+
+    @property
+    def name(self) -> str:
+        """The model in words."""
+        return f"fidelity {self.fidelity}" + (f", order {self.order}" if self.order else "")
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The FMU parameters that make it."""
+        order = {"averaging_order": self.order} if self.order else {}
+        return {"fidelity": self.fidelity, **order}
 
 
 class TaskRunner(Protocol):
@@ -52,6 +73,14 @@ class FmuMethods:
         self.build = build
         self.fmu = fmu
         self._cpu = 0.0
+        self._orders: tuple[int | None, ...] | None = None
+
+    @property
+    def orders(self) -> tuple[int | None, ...]:
+        """The orders of averages from which the FMU has a choice, highest first; else None."""
+        if self._orders is None:
+            self._orders = AVERAGING_ORDERS if self.fmu.run(_has_orders) else (None,)
+        return self._orders
 
     def _clock(self) -> float:
         """Return the CPU time (s) that the FMU has taken so far, in its own process."""
@@ -66,28 +95,29 @@ class FmuMethods:
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
         own = self.problem.device.friction_law
-        for fidelity in (2, 1, 0):
+        for model in (Model(2), Model(1), *(Model(0, order) for order in self.orders)):
             for step in STEPS:
-                yield self._method(fidelity, own, step, USUAL_TOLERANCE)
-            yield self._method(fidelity, 1 - own, USUAL_STEP, USUAL_TOLERANCE)
-            for tolerance in TOLERANCES if own == 1 and fidelity else ():
-                yield self._method(fidelity, own, USUAL_STEP, tolerance)
+                yield self._method(model, own, step, USUAL_TOLERANCE)
+            yield self._method(model, 1 - own, USUAL_STEP, USUAL_TOLERANCE)
+            for tolerance in TOLERANCES if own == 1 and model.fidelity else ():
+                yield self._method(model, own, USUAL_STEP, tolerance)
 
     def answers(self) -> Iterator[SteadyMethod]:
         """Yield the searches for steady motion and blocking force, and the outputs of theory."""
         own = self.problem.device.friction_law
         for quantity in ("steady_velocity", "blocking_force"):
-            for fidelity in (2, 1, 0):
-                yield self._search(quantity, fidelity, own)
-            yield self._prediction(quantity)
+            for model in (Model(2), Model(1), *(Model(0, order) for order in self.orders)):
+                yield self._search(quantity, model, own)
+            for order in self.orders:
+                yield self._prediction(quantity, order)
 
-    def _values(self, fidelity: int, law: int, tolerance: float) -> dict[str, float]:
-        own = {"fidelity": fidelity, "friction_law": law}
+    def _values(self, model: Model, law: int, tolerance: float) -> dict[str, float]:
+        own = {**model.parameters, "friction_law": law}
         return {**self.problem.parameters, **own, "tolerance": tolerance}
 
-    def _label(self, fidelity: int, law: int, tolerance: float, step: float | None) -> Label:
+    def _label(self, model: Model, law: int, tolerance: float, step: float | None) -> Label:
         own = self.problem.device.friction_law
-        family = f"{self.build} FMU, fidelity {fidelity}"
+        family = f"{self.build} FMU, {model.name}"
         if law != own:
             family += f", {LAWS[law]} instead"
         name = family
@@ -95,16 +125,16 @@ class FmuMethods:
             name += f", steps of {step:g} period{'s' if step != 1.0 else ''}"
         if law == 1 and tolerance != USUAL_TOLERANCE:
             name += f", tol {tolerance:.0e}"
-        kind = RESOLVED if fidelity else AVERAGED
+        kind = RESOLVED if model.fidelity else AVERAGED
         used = tolerance if law == 1 else None
-        return Label(kind, family, name, law, fidelity, step, used)
+        return Label(kind, family, name, law, model.fidelity, step, used, model.order)
 
-    def _method(self, fidelity: int, law: int, step: float, tolerance: float) -> Method:
-        values = self._values(fidelity, law, tolerance)
+    def _method(self, model: Model, law: int, step: float, tolerance: float) -> Method:
+        values = self._values(model, law, tolerance)
         size = step * self.problem.period
 
         def follow(periods: int) -> Solution:
-            return self._follow(values, periods, size, resolved=fidelity > 0)
+            return self._follow(values, periods, size, resolved=model.fidelity > 0)
 
         def seconds(periods: int) -> float:
             schedule = self.problem.schedule(periods, size)
@@ -114,11 +144,11 @@ class FmuMethods:
             return sum(taken) / len(taken)
 
         return Method(
-            self._label(fidelity, law, tolerance, step),
+            self._label(model, law, tolerance, step),
             follow,
             seconds,
             min_periods=ceil(step),
-            missing={} if fidelity else _UNRESOLVED,
+            missing={} if model.fidelity else _UNRESOLVED,
             clock=self._clock,
         )
 
@@ -144,8 +174,8 @@ class FmuMethods:
             start_cpu=record.start_cpu,
         )
 
-    def _search(self, quantity: str, fidelity: int, law: int) -> SteadyMethod:
-        values = {**self._values(fidelity, law, USUAL_TOLERANCE), **self.problem.inputs}
+    def _search(self, quantity: str, model: Model, law: int) -> SteadyMethod:
+        values = {**self._values(model, law, USUAL_TOLERANCE), **self.problem.inputs}
 
         def find(_: float) -> SteadyAnswer:
             search: SearchResult
@@ -156,19 +186,20 @@ class FmuMethods:
                 search = self._run(find_blocking, free)
             return SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
 
-        label = self._label(fidelity, law, USUAL_TOLERANCE, None)
+        label = self._label(model, law, USUAL_TOLERANCE, None)
         return SteadyMethod(label, quantity, find, self._clock)
 
-    def _prediction(self, quantity: str) -> SteadyMethod:
-        """Return the value of an output that holds averaged theory, at the start of a run."""
+    def _prediction(self, quantity: str, order: int | None) -> SteadyMethod:
+        """Return the value of an output that predicts, at the start of a run at fidelity 2."""
         law = self.problem.device.friction_law
-        values = {**self._values(2, law, USUAL_TOLERANCE), **self.problem.inputs}
-        family = f"{self.build} FMU, output {quantity}"
+        values = {**self._values(Model(2, order), law, USUAL_TOLERANCE), **self.problem.inputs}
+        family = f"{self.build} FMU, output {quantity}" + (f", order {order}" if order else "")
 
         def find(_: float) -> SteadyAnswer:
             return SteadyAnswer(self._run(_value_at_start, values, quantity), "", 0)
 
-        return SteadyMethod(Label(AVERAGED, family, family, law), quantity, find, self._clock)
+        label = Label(AVERAGED, family, family, law, averaging_order=order)
+        return SteadyMethod(label, quantity, find, self._clock)
 
 
 def _timed(
@@ -178,6 +209,10 @@ def _timed(
     began = process_time()
     result = task(instance, *arguments)
     return process_time() - began, result
+
+
+def _has_orders(instance: Instance) -> bool:
+    return "averaging_order" in instance.fmu.variables
 
 
 def _value_at_start(instance: Instance, values: Mapping[str, float], output: str) -> float:

@@ -20,6 +20,7 @@ class Label:
     fidelity: int | None = None
     step: float | None = None
     tolerance: float | None = None
+    averaging_order: int | None = None
 
 
 @dataclass(frozen=True)

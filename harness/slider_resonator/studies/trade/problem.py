@@ -155,7 +155,7 @@ def problem_of(
             periods = max(periods, MIN_PERIODS)
     if max_periods is not None:
         periods = min(periods, max_periods)
-    own = {"fidelity", "friction_law", "tolerance"}
+    own = {"fidelity", "averaging_order", "friction_law", "tolerance"}
     at = "".join(f", {name} {value:g}" for name, value in varied.items())
     return Problem(
         name=scene.name + at,

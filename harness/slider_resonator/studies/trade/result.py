@@ -17,7 +17,8 @@ class Row:
     `answer` is `run`, with the errors of a trajectory over `periods` drive periods, or
     `steady_velocity` or `blocking_force`, with that error alone. `cpu` (s) holds every repeat, per
     simulated second of a run and per answer otherwise, and `start_cpu` (s) what initialisation took
-    besides. `step` is the communication step in drive periods. Of a run `steps` counts the
+    besides. `step` is the communication step in drive periods, `averaging_order` that of
+    fidelity 0, in an FMU that has a choice, and of predictions. Of a run `steps` counts the
     communication steps of an FMU or an integrator's own, `evaluations` those of the equations,
     `events` the located ones, or the reversals where a method reports no others. What a method does
     not have or does not report is None.
@@ -39,6 +40,7 @@ class Row:
     evaluations: int | None
     events: int | None
     errors: Mapping[str, float]
+    averaging_order: int | None = None
 
     @property
     def cost(self) -> float:

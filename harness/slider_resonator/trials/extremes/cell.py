@@ -81,6 +81,8 @@ class MatrixCell:
     def settings(self) -> dict[str, float]:
         """All parameters that are set in the FMU."""
         chosen = {"fidelity": self.model.fidelity, "friction_law": self.model.friction_law}
+        if self.model.fidelity == 0:
+            chosen["averaging_order"] = 1  # that of the reference of averaged motion
         return {**self.parameters, **chosen}
 
     @property

@@ -33,10 +33,9 @@ def errors_of_the_whole(instance: Instance, scene: Scene, model: Model) -> dict[
     duration = scene.stop_time or 0.0
     held = averaged_inputs(scene, duration, 0.01)
     stretch = Stretch(0.0, duration, scene.schedule().times[1:])
-    law = {"friction_law": float(model.friction_law), "tolerance": 1e-12}
     found, true = (
-        follow(instance, scene, {**law, "fidelity": fidelity}, held, stretch)
-        for fidelity in (float(model.fidelity), 2.0)
+        follow(instance, scene, {**one.parameters, "tolerance": 1e-12}, held, stretch)
+        for one in (model, Model(2, model.friction_law))
     )
     return {
         "position": float(np.abs(found["position"] - true["position"]).max()),
@@ -61,7 +60,7 @@ def test_errors_are_carried_through_a_long_scene(
     scene = scene_of(LONG.format(device=device, load=load))
     probe = Probe(instance, scene)
     assert probe.covers == "windows"
-    model = Model(0, scene.device.friction_law)
+    model = Model(0, scene.device.friction_law, 1)
     step = scene.step_size or 0.0
     estimates = probe.run_errors(Candidate(model, 1e-8, step / 64.0 if probe.varying else step))
     true = errors_of_the_whole(instance, scene, model)
@@ -74,7 +73,7 @@ def test_a_late_jump_of_the_phase_kicks_the_slow_velocity(instance: Instance) ->
     """Averaged motion goes on, while the full device takes the kick over: a window shows it."""
     calm = LONG.format(device="", load="constant = 0.0")
     late = calm.replace("phase = 0.4", "phase = { steps = [[0, 0.4], [13.9, 2.7]] }")
-    model = Model(0, 0)
+    model = Model(0, 0, 1)
     without, true = (
         errors_of_the_whole(instance, scene_of(text), model)["mean_velocity"]
         for text in (calm, late)
@@ -102,7 +101,7 @@ def test_a_mean_velocity_near_zero_is_not_as_large_as_averaging_leaves_it(
     whole = follow(instance, scene, {"fidelity": 2.0}, held, Stretch(0.0, 14.0, np.array([14.0])))
     true = abs(float(whole["mean_velocity"][-1]))
     averaged = follow(
-        *(instance, scene, {"fidelity": 0.0, "averaging_order": 1.0}, held),
+        *(instance, scene, Model(0, 0, 1).parameters, held),
         Stretch(0.0, 14.0, np.array([14.0])),
     )
     assert abs(float(averaged["mean_velocity"][-1])) < 0.1 * true

@@ -25,8 +25,9 @@ def test_mean_velocity_to_a_per_cent_needs_averaged_motion_in_one_step(instance:
 def test_what_averaging_leaves_out_needs_the_full_device(instance: Instance) -> None:
     choice = choose_with(instance, table_1("position = { abs = 1e-9 }"))
     assert (choice.meets, choice.fidelity) == (True, 2)
-    assert {m.fidelity for m in choice.ruled_out} == {0, 1}
-    assert all("position is off by" in m.why for m in choice.ruled_out)
+    why = {(m.fidelity, m.averaging_order): m.why for m in choice.ruled_out}
+    assert set(why) == {(0, 1), (0, 2), (1, None)}
+    assert all("position is off by" in why[model] for model in ((0, 1), (1, None)))
 
 
 def test_events_rule_averaged_motion_out_unprobed(instance: Instance) -> None:
@@ -40,7 +41,29 @@ def test_a_need_below_rounding_is_not_met(instance: Instance) -> None:
     choice = choose_with(instance, table_1("position = { rel = 1e-15 }", periods=20.0))
     assert not choice.meets
     assert choice.fidelity == 2, "the nearest is reported"
-    assert len(choice.ruled_out) == 3
+    assert len(choice.ruled_out) == 4
+
+
+def test_a_long_run_takes_second_order_where_first_does_not_do(instance: Instance) -> None:
+    orders = []
+    for need in ("1e-2", "1e-6"):
+        choice = choose_with(
+            instance, table_1(f"mean_velocity = {{ rel = {need} }}", periods=8000.0)
+        )
+        assert (choice.meets, choice.fidelity) == (True, 0)
+        orders.append(choice.averaging_order)
+    assert orders == [1, 2]
+
+
+def test_there_are_no_held_orbits_without_damping(instance: Instance) -> None:
+    scene = scene_of(
+        "[device]\ndamping_ratio = 0.0\nresonator_frequency = 3000.0\n"
+        "[run]\ndrive_periods = 50\nsteps_per_period = 1\n"
+        "[need]\nmean_velocity = { rel = 1e-3 }\n"
+    )
+    choice = choose_with(instance, scene)
+    why = {m.averaging_order: m.why for m in choice.ruled_out if m.fidelity == 0}
+    assert "no held orbits" in why[2]
 
 
 def lugre(need: str, stiffness: float = 1e5, periods: int = 200) -> Scene:
@@ -106,7 +129,8 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
     loose = choose_with(instance, scene_of("[need]\nsteady_velocity = { rel = 0.01 }\n"))
     tight = choose_with(instance, scene_of("[need]\nsteady_velocity = { rel = 1e-7 }\n"))
     assert (loose.meets, loose.fidelity, loose.step) == (True, 0, None)
-    assert (tight.meets, tight.fidelity, tight.step) == (True, 2, None)
+    assert (loose.averaging_order, tight.averaging_order) == (1, 2)
+    assert (tight.meets, tight.fidelity, tight.step) == (True, 0, None), "by held orbits: exact"
 
 
 @pytest.mark.parametrize("need", ["steady_velocity", "blocking_force"])
@@ -156,7 +180,7 @@ def test_a_quantity_that_does_not_exist_is_met_by_no_model(
     choice = choose_with(instance, scene)
     assert not choice.meets
     assert message in choice.reason
-    assert len(choice.ruled_out) == 3
+    assert len(choice.ruled_out) == 4
 
 
 def test_a_beat_is_read_from_averaged_motion(instance: Instance) -> None:

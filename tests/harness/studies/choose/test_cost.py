@@ -45,3 +45,15 @@ def test_inputs_that_change_cost_averaged_motion_its_transients() -> None:
     costs = [run_cost(candidate, scales, 100.0, 10, changes) for changes in (0, 1, 5)]
     assert costs == sorted(costs)
     assert costs[2] - costs[0] == pytest.approx(5.0 * (costs[1] - costs[0]), rel=0.1)
+
+
+def test_second_order_costs_its_orbits_and_a_resolved_start() -> None:
+    damped, weakly = (
+        scales_of(scene_of(f"[device]\ndamping_ratio = {ratio}\n")) for ratio in (0.05, 0.005)
+    )
+    first, second = (Candidate(Model(0, 0, order), 1e-8, 100.0) for order in (1, 2))
+    costs = [run_cost(second, scales, 10.0, 1) for scales in (damped, weakly)]
+    assert run_cost(first, damped, 10.0, 1) < costs[0] < costs[1]
+    jumps = [run_cost(second, damped, 10.0, 1, 4, leads) for leads in (0, 2, 4)]
+    assert jumps[2] - jumps[1] == pytest.approx(jumps[1] - jumps[0])
+    assert jumps[0] < jumps[1]

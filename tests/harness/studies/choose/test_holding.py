@@ -18,7 +18,8 @@ def test_holding_an_input_errs_in_proportion_to_the_step(instance: Instance) -> 
     """A load that ramps at 0.02 N/s and is held for h pulls 0.01 h N too little on 1.1 kg."""
     scene = scene_of(SCENE)
     coarse, fine = (
-        holding_errors(instance, scene, Model(0, 0), 7.0, step)["position"] for step in (0.02, 0.01)
+        holding_errors(instance, scene, Model(0, 0, 1), 7.0, step)["position"]
+        for step in (0.02, 0.01)
     )
     assert coarse / fine == pytest.approx(2.0, rel=0.02)
     held, meant = (grid(scene, 7.0, 0.02) for grid in (sampled_inputs, averaged_inputs))

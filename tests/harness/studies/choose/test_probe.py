@@ -53,7 +53,7 @@ def test_partial_probe_confirms_only_the_resolved_model(
     text = f"[inputs]\nfrequency_ratio = 1.01\n{RUN.format(1e6, 'position')}"
     probe = Probe(instance, scene_of(text))
     step = probe.scene.step_size
-    averaged = probe.run_errors(Candidate(Model(0, 0), 1e-8, step))["position"]
+    averaged = probe.run_errors(Candidate(Model(0, 0, 1), 1e-8, step))["position"]
     resolved = probe.run_errors(Candidate(Model(2, 0), 1e-8, step))["position"]
     assert averaged.error == inf
     assert "too long" in averaged.reason

@@ -10,14 +10,18 @@ from slider_resonator.studies.choose.steady_need import SteadyValue, find, stead
 
 
 @pytest.mark.parametrize(
-    ("fidelity", "velocity", "force"),
-    [(0, 0.126731, 0.085222), (2, 0.12666700, 0.0851861)],
+    ("fidelity", "order", "velocity", "force"),
+    [
+        (0, 1, 0.126731, 0.085222),
+        (0, 2, 0.12666700, 0.0851861),
+        (2, None, 0.12666700, 0.0851861),
+    ],
 )
 def test_table_1_by_theory_and_by_shooting(
-    instance: Instance, fidelity: int, velocity: float, force: float
+    instance: Instance, fidelity: int, order: int | None, velocity: float, force: float
 ) -> None:
     """The design's figures: (5) and its blocking force, and those of two degrees of freedom."""
-    candidate = Candidate(Model(fidelity, 0), 1e-8, None)
+    candidate = Candidate(Model(fidelity, 0, order), 1e-8, None)
     for name, value in (("steady_velocity", velocity), ("blocking_force", force)):
         found = find(instance, {"load": 0.0}, name, candidate)
         assert found.value == pytest.approx(value, rel=1e-5)

@@ -3,6 +3,7 @@ from __future__ import annotations
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from slider_resonator.errors import HarnessError
@@ -28,26 +29,31 @@ def changed(package: Path, out: Path, old: bytes, new: bytes) -> Path:
     return out
 
 
-def test_error_is_of_the_order_of_friction_over_a_radian_of_the_drive(
-    closed_loop_package: Path,
-) -> None:
-    design, _ = run_loop(closed_loop_package, HOSTS[0], DUTY)
-    shares: list[float] = []
-    (error,) = predicted_errors(closed_loop_package, design, DUTY, shares.append)
-    per_radian = 2.0 * 0.1 * 1.0 / (1.1 * 3500.0)
-    assert error is not None
-    assert per_radian / 10.0 < error < 4.0 * per_radian
-    assert shares == [1.0]
+PLACE = b'<ssv:Parameter name="slider.fidelity">'
+ORDER_1 = b'<ssv:Parameter name="slider.averaging_order"><ssv:Integer value="1"/></ssv:Parameter>'
+
+
+def test_errors_are_of_the_order_of_the_averages(closed_loop_package: Path, tmp_path: Path) -> None:
+    first = changed(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
+    per_radian, fast = 2.0 * 0.1 * 1.0 / (1.1 * 3500.0), 0.2366
+    for package, size in ((first, per_radian), (closed_loop_package, per_radian**2 / fast)):
+        design, proof = run_loop(package, HOSTS[0], DUTY)
+        shares: list[float] = []
+        (error,) = predicted_errors(package, design, DUTY, shares.append)
+        assert error is not None
+        assert size / 10.0 < error < 4.0 * size
+        assert shares == [1.0]
+        made = np.abs(design.velocity - proof.velocity)[design.times > 0.81].max()
+        assert error / 10.0 < made < 3.0 * error
 
 
 @pytest.mark.usefixtures("brief")
 def test_the_device_is_that_of_the_package(closed_loop_package: Path, tmp_path: Path) -> None:
     design, _ = run_loop(closed_loop_package, HOSTS[0], DUTY)
-    place = b'<ssv:Parameter name="slider.fidelity">'
     more = (
         b'<ssv:Parameter name="slider.friction_coefficient"><ssv:Real value="0.3"/></ssv:Parameter>'
     )
-    slow = changed(closed_loop_package, tmp_path / "slow.ssp", place, more + place)
+    slow = changed(closed_loop_package, tmp_path / "slow.ssp", PLACE, more + PLACE)
     (usual,) = predicted_errors(closed_loop_package, design, DUTY)
     (rough,) = predicted_errors(slow, design, DUTY)
     assert usual is not None
@@ -56,7 +62,7 @@ def test_the_device_is_that_of_the_package(closed_loop_package: Path, tmp_path: 
 
 
 def test_averaged_motion_that_does_not_do_has_no_error(closed_loop_package: Path) -> None:
-    strict = Duty(loads=DUTY.loads, end=DUTY.end, settling=DUTY.settling, band=1e-5)
+    strict = Duty(loads=DUTY.loads, end=DUTY.end, settling=DUTY.settling, band=1e-8)
     design, _ = run_loop(closed_loop_package, HOSTS[0], strict)
     assert predicted_errors(closed_loop_package, design, strict) == [None]
 
