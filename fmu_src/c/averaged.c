@@ -215,7 +215,8 @@ TheoryRange theory_range(const Law *law) {
         range.velocity = fast_velocity(device, force);
     }
     double mu = law->bristle.coefficient;
-    double drag = law->friction->averaged->drag(&law->bristle, range.velocity);
+    double fastest = fmax(range.velocity, fabs(device->initial_velocity));
+    double drag = law->friction->averaged->drag(&law->bristle, fastest);
     double normal = device->normal_preload + device->normal_amplitude;
     range.drag = drag != 0.0 ? drag / mu : 0.0;
     range.strongest = TAU * normal * (1.0 + device->friction_faces * (mu + drag));

@@ -19,7 +19,8 @@ typedef struct {
 } Averaged;
 
 /* Numbers that are all finite where averaged theory stays in the range of floating point: the fast
- * velocity [m/s], its drag over mu, and a bound on integrals of load and friction [N]. */
+ * velocity [m/s]; the drag of that or of the start, whichever is faster, over mu; and a bound on
+ * integrals of load and friction [N]. */
 typedef struct {
     double velocity, drag, strongest;
 } TheoryRange;

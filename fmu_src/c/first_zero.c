@@ -53,17 +53,18 @@ typedef struct {
     double time, slope;
 } Candidate;
 
-/* The downward zero near `expected` if Newton's method finds one soon. */
-static Candidate zero_near(const Watch *watch, double start, double expected) {
+/* The downward zero near `expected` if Newton's method finds one soon, before `limit`: beyond it the
+ * signal may not have its bound. */
+static Candidate zero_near(const Watch *watch, double start, double limit, double expected) {
     double resolved = resolution(watch);
-    for (int i = 0; i < MAX_EXPECTING_STEPS && expected > start; i++) {
+    for (int i = 0; i < MAX_EXPECTING_STEPS && expected > start && expected < limit; i++) {
         Signal at = watch->signal(watch->motion, expected);
         if (!(at.slope < 0.0)) {
             break;
         }
         double step = -at.value / at.slope;
         expected += step;
-        if (is_last(at, step, resolved)) {
+        if (is_last(at, step, resolved) && expected < limit) {
             return (Candidate){expected, at.slope};
         }
     }
@@ -82,11 +83,8 @@ static bool is_first(Candidate candidate, const Watch *watch, double t, Signal a
 double first_zero_near(const Watch *watch, double limit, double start, double expected) {
     double noise = watch->noise, horizon = watch->horizon;
     double t = start, shortest = 1e-7 / watch->fastest;
-    Candidate candidate = {NO_ZERO, 0.0};
+    Candidate candidate = zero_near(watch, start, limit, expected);
     int evaluations = 0;
-    if (expected > start && expected < limit) {
-        candidate = zero_near(watch, start, expected);
-    }
     while (t < limit) {
         Signal at = watch->signal(watch->motion, t);
         double square = at.slope * at.slope, value = at.value;
@@ -106,7 +104,7 @@ double first_zero_near(const Watch *watch, double limit, double start, double ex
         }
         double step = sure_ahead(value, at);
         if (is_first(candidate, watch, t, at, step)) {
-            return candidate.time < limit ? candidate.time : NO_ZERO;
+            return candidate.time;
         }
         if (evaluations % FLOOR_DOUBLING == 0) {
             shortest *= 2.0;

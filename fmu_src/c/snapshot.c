@@ -6,11 +6,13 @@
 #include <string.h>
 
 #include "refusal_texts.h"
+#include "state.h"
 #include "state_bytes.h"
 #include "values.h"
 
-/* What a number must be: finite, finite or infinite, or an integer, by the type that keeps it. */
-typedef enum { FINITE, FINITE_OR_INFINITE, INTEGER, FLAG, LIFECYCLE } Kind;
+/* What a number must be: finite, finite or infinite, a phase within a turn, or an integer, by the type
+ * that keeps it. */
+typedef enum { FINITE, FINITE_OR_INFINITE, PHASE, INTEGER, FLAG, LIFECYCLE } Kind;
 
 /* `minimum` and `maximum` bound integers. */
 typedef struct {
@@ -34,8 +36,8 @@ static const Field FIELDS[] = {
     FIELD(moment.state.displacement, FINITE, 0, 0),
     FIELD(moment.state.rate, FINITE, 0, 0),
     FIELD(moment.position, FINITE, 0, 0),
-    FIELD(moment.theta, FINITE, 0, 0),
-    FIELD(moment.psi, FINITE, 0, 0),
+    FIELD(moment.theta, PHASE, 0, 0),
+    FIELD(moment.psi, PHASE, 0, 0),
     FIELD(moment.mode, INTEGER, BACKWARD, LIFTED),
     FIELD(moment.counts.sliding, INTEGER, BACKWARD, FORWARD),
     FIELD(moment.counts.reversals, FINITE, 0, 0),
@@ -99,6 +101,7 @@ static double field_number(const Snapshot *snapshot, const Field *field) {
         return *(const Lifecycle *)place;
     case FINITE:
     case FINITE_OR_INFINITE:
+    case PHASE:
         break;
     }
     return *(const double *)place;
@@ -118,6 +121,7 @@ static void set_field(Snapshot *snapshot, const Field *field, double number) {
         break;
     case FINITE:
     case FINITE_OR_INFINITE:
+    case PHASE:
         *(double *)place = number;
         break;
     }
@@ -129,6 +133,11 @@ static bool field_check(const Field *field, double number, Refusal *refusal) {
         bool may_be_infinite = field->kind == FINITE_OR_INFINITE && number > 0.0;
         return isfinite(number) || (may_be_infinite && isinf(number))
                || refuse_infinite_in_state(refusal, field->name, number_text(number, text));
+    }
+    if (field->kind == PHASE) {
+        /* A turn where rounding takes a phase below 0 up to it. */
+        return (number >= 0.0 && number <= TAU)
+               || refuse_phase_in_state(refusal, field->name, number_text(number, text));
     }
     int maximum = field->kind == LIFECYCLE ? FMI.states - 1 : field->maximum;
     return (number >= field->minimum && number <= maximum && number == floor(number))

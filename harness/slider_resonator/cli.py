@@ -29,6 +29,7 @@ COMMANDS = (
     "bench",
     "blocking",
     "build",
+    "campaign",
     "choose",
     "closed-loop",
     "extremes",

@@ -115,6 +115,8 @@ def test_values_that_do_not_fit_each_other(instantiate: Instantiate, fidelity: i
         ("friction_coefficient", 1.7976931348623157e308, {"friction_law": 1}),
         ("friction_coefficient", 5e-324, {"friction_law": 1}),
         ("bristle_damping", 1e308, {"friction_law": 1}),
+        *(("initial_velocity", 1e308, {"friction_law": 1, "fidelity": n}) for n in range(3)),
+        ("initial_velocity", -1e308, {"friction_law": 1, "bristle_damping": 1e10}),
         ("normal_preload", 1.7e308, {"normal_amplitude": 1.7e308, "friction_coefficient": 1e-200}),
     ],
 )
@@ -127,17 +129,10 @@ def test_forces_that_leave_the_range_of_numbers(
         instance.slave.exitInitializationMode()
 
 
-@pytest.mark.parametrize(
-    "values",
-    [
-        {"initial_velocity": 1e308, "bristle_damping": 1e10},
-        {"bristle_stiffness": 1e308, "initial_bristle_deflection": 1e10},
-    ],
-)
-def test_output_that_leaves_the_range_of_numbers(
-    instantiate: Callable[[], Instance], values: dict[str, float]
-) -> None:
-    instance = instantiate().initialize(friction_law=1, **values)
+def test_output_that_leaves_the_range_of_numbers(instantiate: Callable[[], Instance]) -> None:
+    instance = instantiate().initialize(
+        friction_law=1, bristle_stiffness=1e308, initial_bristle_deflection=1e10
+    )
     with instance.refuses("friction_force = ", "the output leaves the range of floating point"):
         instance.get("position", "friction_force")
     assert instance.get("position", "normal_force") == (0.0, 1.0)

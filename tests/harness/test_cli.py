@@ -18,6 +18,7 @@ from tests.harness.public_json import assert_public_keys
 COMMANDS = (
     *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
     *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "paper", "build"),
+    "campaign",
 )
 
 

@@ -10,7 +10,7 @@ import pytest
 from fmu_src.building.c_sources import UNBUILT_GUID, slider_sources, write_sources
 from fmu_src.controller.variables import VARIABLES
 from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
-from tests.native.toolchain import PROGRAMS, Binary, program, run, unpacked_binary
+from tests.native.toolchain import COUNTS, PROGRAMS, Binary, program, run, unpacked_binary
 
 CALLS = 300_000
 
@@ -45,7 +45,7 @@ def test_no_call_crashes_hangs_or_is_refused_in_silence(
 def test_no_state_with_a_valid_seal_does_harm(product: Binary, tmp_path: Path) -> None:
     """States of any content: what is restored is stepped and read, in at most 2 s a call."""
     states = program(PROGRAMS / "states.c", tmp_path)
-    done = run([states, product.library, product.guid, 5, 4_000, 2.0])
+    done = run([states, product.library, product.guid, *COUNTS, 5, 4_000, 2.0])
     assert done.returncode == 0, done.stdout + done.stderr
     found = re.match(r"4000 states: (\d+) restored, (\d+) steps, (\d+) values", done.stdout)
     assert found is not None

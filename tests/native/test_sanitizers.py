@@ -9,6 +9,7 @@ import pytest
 from slider_resonator.trials.hosts.compiler import SOURCES
 from tests.native.scripts import CHOICES, devices, script
 from tests.native.toolchain import (
+    COUNTS,
     FAULT,
     PROGRAMS,
     Binary,
@@ -81,7 +82,7 @@ def test_no_device_makes_undefined_behaviour(
 
 @pytest.mark.parametrize(
     ("source", "arguments"),
-    [("fuzz.c", (7, 200_000)), ("instances.c", (600,)), ("states.c", (1, 2_000, 30))],
+    [("fuzz.c", (7, 200_000)), ("instances.c", (600,)), ("states.c", (*COUNTS, 1, 2_000, 30))],
 )
 def test_no_call_makes_undefined_behaviour_or_leaves_memory(
     memory_checked: Binary, tmp_path: Path, source: str, arguments: tuple[int, ...]

@@ -13,11 +13,14 @@ from pathlib import Path
 import pytest
 
 from fmu_src.building.c_sources import UNBUILT_GUID, slider_sources, write_sources
+from fmu_src.python.slider_component.variables import VARIABLES
 from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
 from slider_resonator.trials.hosts.driver_host import BINARY
 from slider_resonator.trials.hosts.job import describe
 
 PROGRAMS = Path(__file__).parent / "c"
+COUNTS = (sum(v.causality != "output" for v in VARIABLES), len(VARIABLES))
+"""How many variables can be set, and how many there are."""
 FAULT = 99
 """Exit code by which a tool says that it has found something."""
 

@@ -42,7 +42,8 @@ NO_VIBRATION = Averaged(0.0, 0.0, False)
 def theory_range(device: Device) -> tuple[float, ...]:
     """Return numbers that are all finite where `averaged` stays in the range of floating point.
 
-    The fast velocity [m/s], its drag over mu, and a bound on integrals of load and friction [N].
+    The fast velocity [m/s]; the drag of that or of the start, whichever is faster, over mu; and a
+    bound on integrals of load and friction [N].
     """
     try:
         force = equivalent_force(device)
@@ -50,7 +51,8 @@ def theory_range(device: Device) -> tuple[float, ...]:
         force = 0j
     velocity = abs(force) / (device.total_mass * device.drive_frequency)
     mu = device.friction_coefficient
-    drag = friction_law_of(device.friction_law).averaged.drag(bristle_of(device), velocity)
+    fastest = max(velocity, abs(device.initial_velocity))
+    drag = friction_law_of(device.friction_law).averaged.drag(bristle_of(device), fastest)
     normal = device.normal_preload + device.normal_amplitude
     strongest = tau * normal * (1.0 + device.friction_faces * (mu + drag))
     return velocity, drag / mu if drag else 0.0, strongest

@@ -57,7 +57,7 @@ def first_zero(
     shortest = 1e-7 / fastest
     zero, steepness = None, 0.0
     if expected is not None and start < expected < limit:
-        zero, steepness = _zero_near(watch, start, expected)
+        zero, steepness = _zero_near(watch, start, limit, expected)
     evaluations = 0
     while t < limit:
         value, slope, bound = signal(t)
@@ -83,7 +83,7 @@ def first_zero(
             and bound * (zero - t) < SURE * (bound * step - 2.0 * steepness)
             and steepness * steepness > 16.0 * noise * bound
         ):
-            return zero if zero < limit else None
+            return zero
         if evaluations % FLOOR_DOUBLING == 0:
             shortest *= 2.0
         if step < shortest:
@@ -106,8 +106,11 @@ def exceeds_noise(watch: Watch, t: float) -> bool:
     return watch.signal(0.5 * t)[0] > watch.noise
 
 
-def _zero_near(watch: Watch, start: float, t: float) -> tuple[float | None, float]:
-    """The downward zero near `t`, if Newton's method finds one soon, and the slope there."""
+def _zero_near(watch: Watch, start: float, limit: float, t: float) -> tuple[float | None, float]:
+    """The downward zero near `t`, if Newton's method finds one soon, and the slope there.
+
+    Beyond `limit` the signal may not have its bound: a zero there is none.
+    """
     signal, resolution = watch.signal, 1e-16 / watch.fastest
     for _ in range(MAX_EXPECTING_STEPS):
         value, slope, bound = signal(t)
@@ -115,7 +118,7 @@ def _zero_near(watch: Watch, start: float, t: float) -> tuple[float | None, floa
             break
         step = -value / slope
         t += step
-        if not t > start:
+        if not start < t < limit:
             break
         # The next step would be below the resolution.
         if bound * step * step <= -slope * resolution:

@@ -144,6 +144,11 @@ def out_of_range_in_state(name: str, value: object, minimum: int, maximum: int) 
     return f"FMU state refused: {name} = {value!r}; must be an integer from {minimum} to {maximum}"
 
 
+def phase_in_state(name: str, value: object) -> str:
+    """Refuse a phase in an FMU state that is not within a turn."""
+    return f"FMU state refused: {name} = {value!r}; must be a phase from 0 to 2 pi"
+
+
 def state_without_motion() -> str:
     """Refuse an FMU state after initialization that holds no motion."""
     return "FMU state refused: it holds no motion; must be one after initialization"

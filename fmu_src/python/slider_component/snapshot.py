@@ -24,7 +24,7 @@ from .orbit_state import (
 from .period import PeriodMeans
 from .refusal import Refusal
 from .stops import Stops
-from .values import flag, integer, integer_within, number
+from .values import flag, integer, integer_within, number, phase
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
@@ -57,8 +57,8 @@ def moment_from_plain(plain: Mapping[str, Any]) -> Moment:
     return Moment(
         State(**{key: number(f"state.{key}", value) for key, value in state.items()}),
         number("position", plain["position"]),
-        number("theta", plain["theta"]),
-        number("psi", plain["psi"]),
+        phase("theta", plain["theta"]),
+        phase("psi", plain["psi"]),
         integer_within("mode", plain["mode"], BACKWARD, LIFTED),
         Counts(
             integer_within("counts.sliding", counts["sliding"], BACKWARD, FORWARD),

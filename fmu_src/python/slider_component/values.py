@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import isfinite, tau
 from typing import TypeGuard
 
 from . import refusal_texts
@@ -34,6 +34,14 @@ def number(name: str, value: object) -> float:
     if not _is_finite_number(value):
         raise Refusal(refusal_texts.infinite_in_state(name, value))
     return float(value)
+
+
+def phase(name: str, value: object) -> float:
+    """Return a phase [rad] of a stored state within a turn. Raises Refusal for anything else."""
+    angle = number(name, value)
+    if not 0.0 <= angle <= tau:  # a turn where rounding takes a phase below 0 up to it
+        raise Refusal(refusal_texts.phase_in_state(name, value))
+    return angle
 
 
 def integer(name: str, value: object) -> int:

@@ -113,6 +113,8 @@ def fits(path: Path, value: object) -> bool:
         except Refusal:
             return False
     number = path[-1] in NUMBERS and value in (1.5, -7)
+    if path[-1] in ("theta", "psi"):
+        return value == 1.5
     return number or (path[-1] in ("reversals", "sticks") and value == -7)
 
 

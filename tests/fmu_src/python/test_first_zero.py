@@ -135,3 +135,16 @@ def test_a_zero_where_it_is_expected_costs_few_evaluations() -> None:
 def test_a_motion_within_rounding_does_not_exceed_it(height: float, expected: bool) -> None:
     signal = sine_sum(0.0, [(height, 1.0, 0.0)])
     assert exceeds_noise(watch(signal), math.pi) is expected
+
+
+@pytest.mark.parametrize("expected", [0.97, 0.98, 0.99])
+def test_a_zero_expected_beyond_the_limit_does_not_hide_the_first(expected: float) -> None:
+    """The bound of the curvature holds up to the limit; beyond it the signal falls steeply."""
+    smooth = sine_sum(0.5, [(1.0, math.tau / 0.96, math.pi / 2)])
+
+    def signal(t: float) -> tuple[float, float, float]:
+        value, slope, bound = smooth(min(t, 1.0))
+        return value - 1e4 * max(0.0, t - 1.0), slope - 1e4 * (t > 1.0), bound
+
+    zero = first_zero(watch(signal), 1.0, 0.0, expected)
+    assert zero == pytest.approx(0.32, abs=1e-15)

@@ -12,28 +12,28 @@ enum { ROOM = 64 };
 static uint64_t random_state = 1;
 
 /* xorshift64* */
-static uint32_t random_bits(void) {
+static inline uint32_t random_bits(void) {
     random_state ^= random_state >> 12;
     random_state ^= random_state << 25;
     random_state ^= random_state >> 27;
     return (uint32_t)((random_state * UINT64_C(2685821657736338717)) >> 32);
 }
 
-static uint32_t below(uint32_t limit) {
+static inline uint32_t below(uint32_t limit) {
     return random_bits() % limit;
 }
 
-static int one_in(uint32_t odds) {
+static inline int one_in(uint32_t odds) {
     return below(odds) == 0;
 }
 
-static double random_share(void) {
+static inline double random_share(void) {
     return random_bits() / 4294967296.0;
 }
 
 /* Up to 3500 in size, or beyond all that is possible: frequencies between these would be carried out,
  * at a cost in proportion to them. */
-static double random_real(void) {
+static inline double random_real(void) {
     static const double special[] = {0.0,    -0.0,   1.0,     -1.0,   0.5,    2.0,   3.0,    3500.0,
                                      -3500.0, 1e-12, -1e-12,  5e-324, 1e-300, 1e300, -1e300, 1.7e308};
     if (one_in(12)) return one_in(3) ? NAN : one_in(2) ? INFINITY : -INFINITY;
@@ -43,23 +43,23 @@ static double random_real(void) {
 }
 
 /* Seldom above a millisecond, never above 20: the work of a step is in proportion to it. */
-static double random_step(void) {
+static inline double random_step(void) {
     double any = random_real();
     if (one_in(20) && !(any > 0.02 && any <= 1e308)) return any;
     return one_in(50) ? 0.02 * random_share() : 1e-3 * random_share() * random_share();
 }
 
-static int random_integer(void) {
+static inline int random_integer(void) {
     static const int special[] = {0, 1, 2, -1, 3, 7, 2147483647, -2147483647 - 1};
     return special[below(one_in(4) ? 8 : 3)];
 }
 
-static unsigned random_reference(void) {
+static inline unsigned random_reference(void) {
     static const unsigned wrong[] = {38, 39, 63, 1000, 0x7fffffffu, 0x80000000u, 0xffffffffu};
     return one_in(40) ? wrong[below(7)] : below(38);
 }
 
-static size_t random_count(void) {
+static inline size_t random_count(void) {
     static const size_t absurd[] = {65, 1000, (size_t)-1, (size_t)-1 / 8 + 1, (size_t)-1 / 4 + 1};
     if (one_in(20)) return absurd[below(5)];
     return one_in(10) ? below(ROOM + 1) : 1 + below(3);

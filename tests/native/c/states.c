@@ -1,7 +1,8 @@
 /* Restores states of any content with a valid seal, then steps and reads everything.
  *
- *     states LIBRARY GUID SEED CASES SECONDS
+ *     states LIBRARY GUID SETTABLE VARIABLES SEED CASES SECONDS
  *
+ * SETTABLE of the VARIABLES can be set, and end a state; the numbers before them are its fields.
  * Each case takes the state of some device in motion, changes a few of its numbers, seals it anew and
  * restores it; what is refused is left, what is accepted is stepped, read and stored again. Fails (1)
  * when an output that is read with fmi2OK is not finite, when an accepted state cannot be stored, or
@@ -13,12 +14,13 @@
 #include "fmu_library.h"
 #include "random_values.h"
 
-enum { HEADER = 48, NUMBER = 8, FIELDS = 27, SETTABLE = 24, VARIABLES = 38, MOST_BYTES = 8192 };
+enum { HEADER = 48, NUMBER = 8, MOST_BYTES = 8192 };
 enum { FRICTION_LAW = 14, FIDELITY = 17, FACES = 13, RATIO = 2, STEPS = 3 };
 enum { DRIVE_FREQUENCY = 10, RESONATOR_FREQUENCY = 5, SLIDER_MASS = 3, RESONATOR_MASS = 4 };
 
 static FmuLibrary fmu;
 static double longest = 0.0, seconds;
+static int fields = 0, settable, variables;
 static long restored = 0, stepped = 0, read_out = 0;
 
 static void log_message(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
@@ -47,7 +49,7 @@ static void seal(fmi2Byte *bytes, size_t size) {
 static void fail(const char *what, long number, const fmi2Byte *bytes) {
     int i;
     printf("case %ld: %s\n", number, what);
-    for (i = 0; i < FIELDS + SETTABLE; i++) printf("%d %.17g\n", i, number_at(bytes, i));
+    for (i = 0; i < fields + settable; i++) printf("%d %.17g\n", i, number_at(bytes, i));
     exit(1);
 }
 
@@ -66,7 +68,7 @@ static double odd_number(double before) {
 
 /* Some turns of the fastest frequency that was asked for, so that work does not grow with it. */
 static double step_size(const fmi2Byte *bytes) {
-    const int at = FIELDS;
+    const int at = fields;
     double drive = number_at(bytes, at + DRIVE_FREQUENCY), fastest = drive;
     double free = sqrt(1.0 + number_at(bytes, at + RESONATOR_MASS)
                                  / number_at(bytes, at + SLIDER_MASS));
@@ -116,7 +118,7 @@ static int restore(fmi2Component c, const fmi2Byte *bytes, size_t size) {
 
 static void read_all(fmi2Component c, long number, const fmi2Byte *bytes) {
     fmi2ValueReference reference;
-    for (reference = 0; reference < VARIABLES; reference++) {
+    for (reference = 0; reference < (fmi2ValueReference)variables; reference++) {
         fmi2Real value = 0.0;
         clock_t began = clock();
         if (reference == FRICTION_LAW || reference == FIDELITY || reference == FACES) continue;
@@ -135,8 +137,9 @@ static void try_case(fmi2Component c, long number) {
     start(c);
     size = stored(c, bytes);
     if (size == 0) fail("a state could not be stored", number, bytes);
+    fields = (int)((size - HEADER) / NUMBER) - 1 - settable;
     for (changes = 1 + (int)below(4); changes > 0; changes--) {
-        int index = (int)below(FIELDS + SETTABLE);
+        int index = (int)below((unsigned)(fields + settable));
         put(bytes, index, odd_number(number_at(bytes, index)));
     }
     seal(bytes, size);
@@ -159,10 +162,12 @@ int main(int count, char **arguments) {
     static const fmi2CallbackFunctions callbacks = {log_message, calloc, free, NULL, NULL};
     fmi2Component c;
     long number, cases;
-    if (count != 6 || !load_fmu_library(&fmu, arguments[1])) return 2;
-    random_state = 2 * strtoull(arguments[3], NULL, 10) + 1;
-    cases = strtol(arguments[4], NULL, 10);
-    seconds = strtod(arguments[5], NULL);
+    if (count != 8 || !load_fmu_library(&fmu, arguments[1])) return 2;
+    settable = (int)strtol(arguments[3], NULL, 10);
+    variables = (int)strtol(arguments[4], NULL, 10);
+    random_state = 2 * strtoull(arguments[5], NULL, 10) + 1;
+    cases = strtol(arguments[6], NULL, 10);
+    seconds = strtod(arguments[7], NULL);
     c = fmu.Instantiate("states", fmi2CoSimulation, arguments[2], "file:///nowhere", &callbacks,
                         fmi2False, fmi2False);
     if (!c) return 2;

@@ -27,8 +27,8 @@ def slow_trajectory(
         (0.0, velocity),
         method="DOP853" if np.isfinite(max_step) else "LSODA",
         t_eval=times,
-        rtol=1e-10 if np.isfinite(max_step) else 1e-8,
-        atol=1e-10,
+        rtol=1e-11,
+        atol=1e-12,
         max_step=max_step,
     )
     if not solution.success:

@@ -21,6 +21,7 @@ FAR = {
     "normal_preload": (1e308,),
     "bristle_stiffness": (1e300,),
     "drive_frequency": (1e200,),
+    "initial_velocity": (1e308,),
 }
 """Values of parameters that leave the range of numbers: to be refused, or carried out finitely."""
 

@@ -97,13 +97,23 @@ def _compare_with_reference(cell: MatrixCell, seen: Observation) -> BoundCheck:
             return averaged_reference.compare(
                 cell, seen, held, times, allowed_deviation(cell, seen)
             )
+        motion = _resolved(cell, held, times)
+    except (RuntimeError, ValueError, ArithmeticError) as error:
+        return BoundCheck(NO_REFERENCE, 0.0, f"the reference gave up: {error}", is_deviation=False)
+    return _compare(REFERENCE, cell, seen, motion)
+
+
+def _resolved(cell: MatrixCell, held: Sequence[HeldInputs], times: Array) -> list[Array]:
+    """Return the four signals; ArithmeticError where they leave the range of numbers."""
+    with np.errstate(over="ignore", invalid="ignore"):
         if cell.device.friction_law == 0:
             motion: Trajectory | LugreTrajectory = simulate(cell.device, held, times)
         else:
             motion = simulate_lugre(cell.device, held, times)
-    except (RuntimeError, ValueError, ArithmeticError) as error:
-        return BoundCheck(NO_REFERENCE, 0.0, f"the reference gave up: {error}", is_deviation=False)
-    return _compare(REFERENCE, cell, seen, [getattr(motion, name) for name in SIGNALS])
+    signals = [getattr(motion, name) for name in SIGNALS]
+    if not np.isfinite(signals).all():
+        raise ArithmeticError("its motion leaves the range of floating point numbers")
+    return signals
 
 
 def _compare_last(name: str, cell: MatrixCell, seen: Observation, other: Array) -> BoundCheck:

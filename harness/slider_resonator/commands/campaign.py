@@ -1,0 +1,119 @@
+"""`campaign`: random devices and schedules against the references."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+import click
+
+from slider_resonator.commands.options import Target, default_fmus, fmus_argument, json_option
+from slider_resonator.commands.results import print_result
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.output.atomic import write_text
+from slider_resonator.output.console import noting_on_interrupt, progress_bar
+from slider_resonator.output.json_output import to_json
+from slider_resonator.output.terminal import one_line
+from slider_resonator.trials.campaign.campaign_run import TIME_LIMIT, Campaign, run_campaign
+from slider_resonator.trials.campaign.listing import as_plain, sentences
+from slider_resonator.trials.campaign.random_case import random_case
+
+
+@click.command("campaign")
+@fmus_argument
+@click.option(
+    "--cases",
+    type=click.IntRange(min=1),
+    default=1000,
+    show_default=True,
+    help="Number of cases. Each takes about half a second.",
+)
+@click.option(
+    "--first",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    envvar="CAMPAIGN_FIRST",
+    show_envvar=True,
+    help="Number of the first case.",
+)
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=1,
+    show_default=True,
+    envvar="CAMPAIGN_SEED",
+    show_envvar=True,
+    help="Seed of the campaign: the same cases everywhere.",
+)
+@click.option(
+    "--case",
+    "number",
+    type=click.IntRange(min=0),
+    help="Run only the case of this number, and print its values.",
+)
+@click.option(
+    "--time-limit",
+    type=click.FloatRange(min=0.0, min_open=True),
+    default=TIME_LIMIT,
+    show_default=True,
+    help="Time limit in s for a case; one that hangs fails.",
+)
+@click.option("--out", type=Target((".json",)), help="Write the result as JSON, too.")
+@json_option
+@click.pass_context
+def campaign_command(
+    context: click.Context,
+    fmus: tuple[Path, ...],
+    cases: int,
+    first: int,
+    seed: int,
+    number: int | None,
+    time_limit: float,
+    out: Path | None,
+    as_json: bool,
+) -> None:
+    """Run FMUs with random devices and schedules, and compare them with the references.
+
+    Devices lie over decades; inputs, tunable parameters and step sizes change in the run; both
+    friction laws and fidelities 0 (averages of first order), 1 and 2 come in turn. Each case is
+    judged by the errors that its numerics state. Without FMUS: those in dist. Exit code: 0 when no
+    case fails, 1 when one does, 2 when an FMU could not run. What is finished when the command is
+    interrupted is written to --out.
+
+    \b
+    Examples:
+      slider-resonator campaign --cases 10000 --out campaign.json
+      slider-resonator campaign my.fmu --seed 1 --case 44
+    """
+    chosen = fmus or default_fmus()
+    for path in chosen:
+        with open_fmu(path):  # before any campaign runs: one takes minutes
+            pass
+    numbers = range(first, first + cases) if number is None else (number,)
+    random_cases = [random_case(seed, one) for one in numbers]
+    finished: list[Campaign] = []
+
+    def keep(campaign: Campaign) -> None:
+        finished.append(campaign)
+        if out is not None:
+            write_text(out, to_json(as_plain(finished)))
+
+    with noting_on_interrupt(partial(_kept, finished, out)), progress_bar() as progress:
+        for fmu in chosen:
+            keep(run_campaign(fmu, random_cases, progress, time_limit, keep))
+    lines = [
+        sentences(campaign, random_cases if number is not None else ()) for campaign in finished
+    ]
+    if out is not None:
+        lines.append(f"written {one_line(str(out))}")
+    print_result(as_plain(finished), "\n".join(lines), as_json=as_json)
+    context.exit(0 if all(campaign.passed for campaign in finished) else 1)
+
+
+def _kept(finished: Sequence[Campaign], out: Path | None) -> str:
+    if not finished or out is None:
+        return "nothing is kept; --out FILE keeps what is finished"
+    ran = sum(len(campaign.verdicts) for campaign in finished)
+    return f"the verdicts of {ran} cases are kept in {out}; the same command runs all cases again"

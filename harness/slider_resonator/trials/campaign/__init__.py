@@ -1,0 +1,1 @@
+"""Random devices and schedules in an FMU, against the references."""

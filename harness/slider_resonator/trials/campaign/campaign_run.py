@@ -1,0 +1,120 @@
+"""Running and judging the cases of a campaign in an FMU, which runs in a process of its own."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from slider_resonator.arrays import Array
+from slider_resonator.errors import FmuError, Refusal
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.fmu.isolation.tasks import run_tasks
+from slider_resonator.fmu.run import run
+from slider_resonator.trials.campaign.expected import AVERAGED, RESOLVED
+from slider_resonator.trials.campaign.random_case import RandomCase
+from slider_resonator.trials.campaign.verdict import FAILED, PASSED, REFUSED, CaseVerdict, judge
+
+TIME_LIMIT = 60.0
+"""Time limit of a case, s."""
+MAX_REFUSED = 0.02
+"""Share of the cases that an FMU may refuse: their values are those of devices."""
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """The verdicts on an FMU, one for each case that ran; `wall_time` in s."""
+
+    fmu: str
+    seed: int
+    verdicts: tuple[CaseVerdict, ...]
+    wall_time: float
+    not_run: int = 0
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Verdict to count."""
+        return dict(Counter(one.verdict for one in self.verdicts))
+
+    @property
+    def worst(self) -> dict[str, CaseVerdict]:
+        """For each model the passed case that is nearest to its bound."""
+        passed = sorted(
+            (v for v in self.verdicts if v.verdict == PASSED), key=lambda one: one.found
+        )
+        return {one.model: one for one in passed}
+
+    @property
+    def passed(self) -> bool:
+        """Whether all cases ran, none failed and next to none was refused."""
+        refused = self.counts.get(REFUSED, 0)
+        too_many = refused > max(1.0, MAX_REFUSED * len(self.verdicts))
+        return not (self.counts.get(FAILED, 0) or too_many or self.not_run)
+
+
+def run_campaign(
+    fmu: Path,
+    cases: Sequence[RandomCase],
+    progress: Callable[[str, float], None],
+    time_limit: float = TIME_LIMIT,
+    keep: Callable[[Campaign], None] = lambda campaign: None,
+) -> Campaign:
+    """Run and judge the cases; FmuError when the FMU cannot be run at all.
+
+    A crash or a missed `time_limit` (s) fails its case only. `keep` is called with what there is
+    when the run is interrupted or stopped by an error.
+    """
+    began = time.perf_counter()
+    verdicts: list[CaseVerdict] = []
+
+    def report(case: RandomCase) -> None:
+        done = len(verdicts)
+        seconds = time.perf_counter() - began
+        left = f", {seconds / done * (len(cases) - done):.0f} s left" if done else ""
+        progress(f"{fmu.name}: case {case.number}{left}", done / len(cases))
+
+    def campaign() -> Campaign:
+        seconds, seed = time.perf_counter() - began, cases[0].seed if cases else 0
+        return Campaign(str(fmu), seed, tuple(verdicts), seconds, len(cases) - len(verdicts))
+
+    tasks = [(case, partial(_outputs, case=case)) for case in cases]
+    try:
+        finished = run_tasks(
+            fmu,
+            tasks,
+            time_limit,
+            name=lambda case: str(case.number),
+            meanwhile=report,
+            max_crashes=None,
+        )
+        with closing(finished):
+            for one in finished:
+                if one.item is None:
+                    raise one.error or FmuError(f"{fmu}: cannot be run")
+                if one.error is None:
+                    verdicts.append(judge(one.item, one.result))
+                elif isinstance(one.error, FmuDied | Refusal):
+                    verdict = REFUSED if isinstance(one.error, Refusal) else FAILED
+                    reason = str(one.error)
+                    verdicts.append(
+                        CaseVerdict(one.item.number, one.item.model, verdict, reason=reason)
+                    )
+                else:
+                    raise one.error
+    except BaseException:
+        if verdicts:
+            keep(campaign())
+        raise
+    return campaign()
+
+
+def _outputs(instance: Instance, case: RandomCase) -> dict[str, Array]:
+    """Run a case; what is raised is what `run` does."""
+    names = AVERAGED if case.device.fidelity == 0 else RESOLVED
+    record = run(instance, case.parameters, case.schedule, outputs=names)
+    return dict(record.outputs)

@@ -1,0 +1,158 @@
+"""The cases of a campaign: devices over decades, with schedules of all inputs and tunables.
+
+A case depends on seed and number alone, by the generator of the standard library, which is the same
+on all platforms and versions of Python.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import tau
+from random import Random
+
+import numpy as np
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.schedule import Schedule, Signal
+from slider_resonator.references.closed_forms import equivalent_force
+
+MODELS = ((2, 0), (1, 0), (0, 0), (2, 1), (1, 1), (0, 1))
+"""Fidelity and friction law, in turn."""
+RESOLVED_PERIODS = (0.3, 30.0)
+AVERAGED_PERIODS = (3.0, 3000.0)
+"""Shortest and longest run, in drive periods."""
+MAX_LUGRE_RELAXATIONS = 20.0
+"""Longest averaged run with LuGre friction, in times in which friction stops the fast velocity."""
+TUNABLES = (
+    *("normal_preload", "normal_amplitude", "base_amplitude"),
+    *("tangential_force", "friction_coefficient"),
+)
+"""Parameters that are tuned by up to a factor of two; the drive frequency by up to a tenth."""
+RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 0.5, 1.5, 1.01, 0.97, 0.003)
+START_TIMES = (0.0, 0.0, 0.0, 1e-3, -5.0, 12.5, 1e4)
+
+
+@dataclass(frozen=True)
+class RandomCase:
+    """A run: `parameters` at the start, and the `schedule` of inputs and tunables."""
+
+    seed: int
+    number: int
+    parameters: Mapping[str, float]
+    schedule: Schedule
+
+    @property
+    def device(self) -> Device:
+        """The device at the start."""
+        return Device.from_mapping(self.parameters)
+
+    @property
+    def model(self) -> str:
+        """Fidelity and friction law in words."""
+        law = "LuGre" if self.parameters["friction_law"] else "Coulomb"
+        return f"{law}, fidelity {self.parameters['fidelity']:g}"
+
+
+def random_case(seed: int, number: int) -> RandomCase:
+    """Return a case of a campaign; `number` counts from 0."""
+    random = Random(f"{seed} {number}")
+    fidelity, law = MODELS[number % len(MODELS)]
+    parameters = _device(random) | {"fidelity": fidelity, "friction_law": law}
+    if fidelity == 0:
+        parameters["averaging_order"] = 1
+    if law == 1:
+        parameters |= _bristles(random, parameters)
+    return RandomCase(seed, number, parameters, _schedule(random, parameters))
+
+
+def _decades(random: Random, low: float, high: float) -> float:
+    return float(10.0 ** random.uniform(low, high))
+
+
+def _device(random: Random) -> dict[str, float]:
+    w, mass = _decades(random, 1.0, 5.0), _decades(random, -3.0, 2.0)
+    values: dict[str, float] = {
+        "drive_frequency": w,
+        "slider_mass": mass,
+        "resonator_mass": mass * _decades(random, -3.0, 0.5),
+        "resonator_frequency": w * _decades(random, -0.7, 0.7),
+        "damping_ratio": random.choice((0.05, _decades(random, -3.0, 0.3))),
+        "base_amplitude": _decades(random, -7.0, -2.0),
+        "friction_coefficient": _decades(random, -2.0, 1.0),
+        "friction_faces": random.choice((1, 2)),
+    }
+    drive = values["resonator_mass"] * values["base_amplitude"] * w * w
+    friction = drive * _decades(random, -3.0, 0.5)
+    preload = friction / (values["friction_faces"] * values["friction_coefficient"])
+    share = random.choice((random.uniform(0.0, 1.0), random.uniform(1.0, 3.0), 1.0, 0.0))
+    values |= {
+        "normal_preload": preload,
+        "normal_amplitude": preload * share,
+        "tangential_force": random.choice((0.0, 0.0, drive * random.uniform(-1.0, 1.0))),
+    }
+    if random.random() < 0.3:
+        swing = values["base_amplitude"]
+        values |= {
+            "initial_position": random.uniform(-1.0, 1.0),
+            "initial_velocity": swing * w * random.uniform(-0.3, 0.3),
+            "initial_resonator_displacement": swing * random.uniform(-3.0, 3.0),
+            "initial_resonator_velocity": swing * w * random.uniform(-3.0, 3.0),
+        }
+    return values
+
+
+def _bristles(random: Random, values: Mapping[str, float]) -> dict[str, float]:
+    """Bristles from soft to hard, as the fast motion sees them."""
+    device = Device.from_mapping(values)
+    fast = equivalent_force(device).velocity_amplitude
+    mu, w = device.friction_coefficient, device.drive_frequency
+    stiffness = mu * w / fast * _decades(random, -1.0, 3.0)
+    return {
+        "bristle_stiffness": stiffness,
+        "bristle_damping": mu / fast * _decades(random, -3.0, -0.3),
+        "initial_bristle_deflection": random.choice(
+            (0.0, random.uniform(-1.0, 1.0) * mu / stiffness)
+        ),
+        "tolerance": _decades(random, -11.0, -6.0),
+    }
+
+
+def _schedule(random: Random, values: Mapping[str, float]) -> Schedule:
+    device = Device.from_mapping(values)
+    period = tau / device.drive_frequency
+    low, high = AVERAGED_PERIODS if device.fidelity == 0 else RESOLVED_PERIODS
+    duration = period * _decades(random, float(np.log10(low)), float(np.log10(high)))
+    if device.fidelity == 0 and device.friction_law == 1:
+        fast = equivalent_force(device).velocity_amplitude
+        duration = min(
+            duration, MAX_LUGRE_RELAXATIONS * device.total_mass * fast / device.mean_friction
+        )
+    count = random.randint(1, 60)
+    inside = sorted(random.uniform(0.0, 1.0) for _ in range(count - 1))
+    if random.random() < 0.5:  # equal steps, the last one a part of them
+        inside = [i / (count - random.uniform(0.1, 1.0)) for i in range(1, count)]
+    times = np.unique(duration * np.array([0.0, *(t for t in inside if t < 1.0), 1.0]))
+    jumps = sorted({0, *(random.randrange(len(times)) for _ in range(random.randint(0, 4)))})
+    starts = [float(times[i]) for i in jumps if i < len(times) - 1]
+    load = device.mean_friction * random.choice((0.0, 0.3, 1.2))
+    ratio = random.choice((*RATIOS, random.uniform(-3.0, 5.0)))
+
+    def over(draw: list[float]) -> Signal:
+        return Signal(tuple(starts), tuple(draw))
+
+    tuning: dict[str, Signal] = {}
+    if len(starts) > 1 and random.random() < 0.5:
+        for name in random.sample((*TUNABLES, "drive_frequency"), random.randint(1, 6)):
+            width = 0.04 if name == "drive_frequency" else 0.3
+            first = float(getattr(device, name))
+            later = [first * _decades(random, -width, width) for _ in starts[1:]]
+            tuning[name] = over([first, *later])
+    return Schedule(
+        times,
+        over([random.uniform(-10.0, 10.0) for _ in starts]),
+        over([load * random.uniform(-1.0, 1.0) for _ in starts]),
+        over([ratio if random.random() < 0.7 else random.choice(RATIOS) for _ in starts]),
+        tuning=tuning,
+        start_time=random.choice(START_TIMES),
+    )

@@ -1,0 +1,105 @@
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from slider_resonator.arrays import Array
+from slider_resonator.fmu.opening import Fmu
+from slider_resonator.output.json_output import to_json
+from slider_resonator.trials.campaign.campaign_run import Campaign, run_campaign
+from slider_resonator.trials.campaign.expected import expected
+from slider_resonator.trials.campaign.listing import as_plain, sentences
+from slider_resonator.trials.campaign.random_case import MODELS, random_case
+from slider_resonator.trials.campaign.verdict import (
+    FAILED,
+    NO_REFERENCE,
+    PASSED,
+    REFUSED,
+    CaseVerdict,
+    judge,
+)
+from tests.fmus import both_fmus
+from tests.harness.public_json import assert_public_keys
+
+CASES = 12
+"""Two of each model, in about three seconds."""
+
+
+@both_fmus
+def test_the_first_cases_pass(fmu: Fmu) -> None:
+    labels: list[str] = []
+    cases = [random_case(7, number) for number in range(CASES)]
+    campaign = run_campaign(fmu.path, cases, lambda label, share: labels.append(label))
+    assert campaign.passed, sentences(campaign)
+    assert len(labels) == CASES
+    assert "s left" in labels[-1]
+    assert all(verdict.found <= 1.0 for verdict in campaign.verdicts)
+
+
+def test_a_case_depends_on_seed_and_number_alone() -> None:
+    one, same, other = random_case(3, 8), random_case(3, 8), random_case(4, 8)
+    assert one.parameters == same.parameters
+    assert np.array_equal(one.schedule.times, same.schedule.times)
+    assert one.parameters != other.parameters
+
+
+def test_cases_cover_what_they_should() -> None:
+    cases = [random_case(0, number) for number in range(600)]
+    assert Counter(case.model for case in cases).most_common()[-1][1] == 600 // len(MODELS)
+    drives = [case.device.drive_frequency for case in cases]
+    assert max(drives) / min(drives) > 1e3
+    tuned = {name for case in cases for name in case.schedule.tuning}
+    assert len(tuned) == 6
+    assert any(case.device.normal_amplitude > case.device.normal_preload for case in cases)
+    assert any(case.schedule.start_time for case in cases)
+    steps = [np.diff(case.schedule.times) for case in cases]
+    assert all((size > 0.0).all() for size in steps)
+    assert sum(len(size) > 1 and np.ptp(size) > 1e-3 * size.max() for size in steps) > 300
+
+
+@pytest.mark.parametrize("number", range(len(MODELS)))
+def test_an_error_above_the_bound_fails(number: int) -> None:
+    case = random_case(7, number)
+    wanted = expected(case)
+    record: dict[str, Array] = {name: signal.copy() for name, signal in wanted.signals.items()}
+    assert judge(case, record).verdict == PASSED
+    for name, allowed in wanted.allowed.items():
+        off = record | {name: record[name] + 0.5 * allowed}
+        assert judge(case, off).found == pytest.approx(0.5, rel=0.01), name
+        off[name] = record[name] + 1e4 * allowed
+        verdict = judge(case, off)
+        assert verdict.verdict == FAILED, name
+        assert verdict.signal == name
+        off[name] = np.full_like(record[name], np.nan)
+        assert judge(case, off).verdict == FAILED
+
+
+def test_a_device_without_reference_is_not_judged() -> None:
+    case = random_case(7, 2)
+    parameters = dict(case.parameters) | {"damping_ratio": 0.0, "resonator_mass": 0.0}
+    w = parameters["drive_frequency"] = parameters["resonator_frequency"]
+    schedule = replace(case.schedule, tuning={})
+    still = replace(case, parameters=parameters, schedule=schedule)
+    assert w > 0.0
+    assert judge(still, {}).verdict == NO_REFERENCE
+
+
+def test_campaigns_in_words_and_as_data() -> None:
+    good = CaseVerdict(0, "Coulomb, fidelity 2", PASSED, 0.2, "position")
+    bad = CaseVerdict(1, "Coulomb, fidelity 1", FAILED, 7.0, "velocity", "velocity off")
+    refused = CaseVerdict(2, "Coulomb, fidelity 1", REFUSED, reason="load refused")
+    campaign = Campaign("a.fmu", 5, (good, bad, refused), 1.0)
+    assert not campaign.passed
+    assert not Campaign("a.fmu", 5, (good,), 1.0, not_run=1).passed
+    assert not Campaign("a.fmu", 5, (good, refused, refused), 1.0).passed
+    assert Campaign("a.fmu", 5, (good, refused), 1.0).passed
+    text = sentences(campaign, [random_case(5, 1)])
+    assert "seed 5, 3 cases: 1 passed, 1 failed, 1 refused" in text
+    assert "failed: case 1 (Coulomb, fidelity 1): velocity off" in text
+    assert "drive_frequency = " in text
+    plain = as_plain([campaign])
+    assert plain["passed"] is False
+    assert_public_keys("campaign", to_json(plain))
