@@ -231,8 +231,9 @@ static double travel_at_mark(const void *motion, double t) {
     return fabs(t - marks->time[0]) < fabs(t - marks->time[1]) ? marks->travel[0] : marks->travel[1];
 }
 
-/* Go along orbits for `duration` [s]. */
-static bool follow(const Law *law, double duration, Moment *now, Refusal *refusal) {
+/* Go along orbits for `duration` [s], the last part of a step of `step_size` [s]. */
+static bool follow(const Law *law, double duration, double step_size, Moment *now,
+                   Refusal *refusal) {
     OrbitRide ride, *rider = &ride;
     OrbitState *orbit = &now->orbit;
     ride_begin(&ride, law, now, orbit->lead);
@@ -241,6 +242,8 @@ static bool follow(const Law *law, double duration, Moment *now, Refusal *refusa
     double share = device_mass_fraction(&law->device);
     double chi = law->inputs.phase + now->psi, start = now->position, centre = orbit->centre;
     double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
+    double waves = fabs(law->inputs.frequency_ratio);
+    int searches = (int)(MAX_SEARCH_STEPS / (1.0 + waves / SEARCH_WAVES));
     SlowPass plan = {
         .acceleration = ride_acceleration,
         .to_kink = ride_to_kink,
@@ -248,10 +251,10 @@ static bool follow(const Law *law, double duration, Moment *now, Refusal *refusa
         .fast = law->fast.velocity,
         .tolerance = TOLERANCE * law->fast.velocity,
         .step = slow_pass_step(law->fast.velocity, plant->total_mass, full + fabs(plant->load), duration),
-        .duration = duration,
+        .duration = step_size,
         .beat = slow_phase_beat(&ride.slow),
         .may_settle = ride.slow.drift == 0.0 && ride.source != FROM_SEARCH,
-        .most = ride.source == FROM_SEARCH ? MAX_QUADRATURE_STEPS : MAX_SLOW_STEPS,
+        .most = ride.source == FROM_SEARCH ? searches : MAX_SLOW_STEPS,
     };
     Reached reached = {.velocity = orbit->velocity, .step = plan.step};
     double last = period_last_end(now->theta, w, duration);
@@ -319,7 +322,7 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
         return false;
     }
     double left = resolved < duration ? duration - resolved : 0.0;
-    return after->orbit.stage == RESOLVED || !(left * w > 0.0) || follow(law, left, after, refusal);
+    return after->orbit.stage == RESOLVED || !(left * w > 0.0) || follow(law, left, duration, after, refusal);
 }
 
 double orbit_motion_error(const Law *law, const Moment *moment) {

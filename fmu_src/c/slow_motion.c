@@ -9,7 +9,7 @@
 #include "slow_pass.h"
 
 /* Error per step of the slow motion, relative to the fast velocity. */
-#define TOLERANCE 1e-9
+#define TOLERANCE 2e-10
 
 /* Waves of the normal load over a turn that double the cost of a quadrature, and those beyond which
  * the load counts with its mean. */

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from math import floor, inf, remainder, tau
 
 from . import events
-from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
+from .constants import MAX_SEARCH_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN, SEARCH_WAVES
 from .contact import LIFTED, STICK
 from .device import Device, Inputs
 from .dormand_prince import Reached
@@ -104,7 +104,7 @@ class OrbitLaw:
             left = duration - time if time < duration else 0.0
         if now.orbit.stage == Stage.RESOLVED or not left * self.full.plant.drive_frequency > 0.0:
             return now
-        return self._followed(now, left)
+        return self._followed(now, left, duration)
 
     def mode(self, moment: Moment) -> int:
         """See Law."""
@@ -260,8 +260,8 @@ class OrbitLaw:
             u * (cosine - slip.decay * sine) - slip.stiffness * y * sine,
         )
 
-    def _followed(self, now: Moment, duration: float) -> Moment:
-        """Go along orbits for `duration` [s]."""
+    def _followed(self, now: Moment, duration: float, step_size: float) -> Moment:
+        """Go along orbits for `duration` [s], the last part of a step of `step_size` [s]."""
         plant, orbit, fast = self.full.plant, now.orbit, self.fast
         w, q = plant.drive_frequency, plant.normal_frequency
         chi, start = self.full.inputs.phase + now.psi, now.position
@@ -269,13 +269,15 @@ class OrbitLaw:
         drift = ride.slow.drift
         full = friction_share(self.full.device, fast) * plant.total_mass * w * fast.velocity
         step = first_step(fast.velocity, plant.total_mass, full + abs(plant.load), duration)
-        most = MAX_QUADRATURE_STEPS if ride.searches else MAX_SLOW_STEPS
+        waves = abs(self.full.inputs.frequency_ratio)
+        searches = int(MAX_SEARCH_STEPS / (1.0 + waves / SEARCH_WAVES))
+        most = searches if ride.searches else MAX_SLOW_STEPS
         slow_pass = SlowPass(
             ride.acceleration,
             fast.velocity,
             TOLERANCE * fast.velocity,
             step,
-            duration,
+            step_size,
             may_settle=drift == 0.0 and not ride.searches,
             most=most // PYTHON_SLOWDOWN,
             beat=ride.slow.beat,

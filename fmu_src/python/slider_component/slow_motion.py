@@ -28,7 +28,7 @@ from .slow_friction import SlowFriction, slow_friction
 from .slow_motion_error import first_order_error
 from .slow_pass import SlowPass, first_step
 
-TOLERANCE = 1e-9
+TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
 
 WAVES = 10.0

@@ -14,6 +14,7 @@ name = "scene"
 title = "Averaged motion expected of another device"
 [device]
 fidelity = {fidelity}
+averaging_order = 1
 friction_law = 1
 bristle_stiffness = 2e4
 [inputs]

@@ -50,7 +50,7 @@ def test_progress_names_the_scene_at_work(python_fmu: Path, tmp_path: Path) -> N
     reported: list[tuple[str, float]] = []
     path = write(tmp_path, EXPECT.format(0.126667))
     validate([python_fmu], [path], lambda scene, share: reported.append((scene, share)))
-    assert reported == [("mine", 0.0), ("", 1.0)]
+    assert reported == [("1 of 1: mine", 0.0), ("", 1.0)]
 
 
 def test_a_failure_is_worse_than_any_pass() -> None:
