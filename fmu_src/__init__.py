@@ -1,3 +1,3 @@
 """Sources of the FMUs, and the code that generates and builds them."""
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"

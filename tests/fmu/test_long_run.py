@@ -1,4 +1,4 @@
-"""An hour of simulated time, two million drive periods: no drift of phase, no growth of memory."""
+"""An hour of simulated time in the native FMU, ten minutes in the other: no drift, no leak."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.fmu.native_layout import moment_of
 from tests.fmus import both_fmus
 
 TWO_PI = Fraction("6.28318530717958647692528676655900576839433879875021")
-HOUR = 3600
+HOUR, TEN_MINUTES = 3600, 600
 W = 3500
 RATIO = 1.37
 
@@ -36,16 +36,16 @@ def resident_kilobytes() -> int:
 
 @pytest.mark.slow
 @both_fmus
-def test_an_hour(instantiate: Instantiate) -> None:
+def test_a_long_run(instantiate: Instantiate, fmu: Path) -> None:
     instance = instantiate().initialize(frequency_ratio=RATIO)
-    settled = 0
-    for k in range(2 * HOUR):
+    settled, seconds = 0, HOUR if fmu.stem == "SliderResonator" else TEN_MINUTES
+    for k in range(2 * seconds):
         instance.slave.doStep(currentCommunicationPoint=0.5 * k, communicationStepSize=0.5)
         if k == 200:
             settled = resident_kilobytes()
     growth = resident_kilobytes() - settled
-    assert_phases(instance, HOUR, 1e-6)
-    assert growth < 512, f"memory grew by {growth} kB in an hour of simulated time"
+    assert_phases(instance, seconds, 1e-6)
+    assert growth < 512, f"memory grew by {growth} kB in {seconds} s of simulated time"
 
 
 @both_fmus
