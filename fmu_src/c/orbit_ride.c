@@ -11,7 +11,7 @@
 #define MAX_RATE 300.0
 
 /* Waves of the normal load in a turn of the drive up to which orbits are found in some seconds. */
-#define MAX_WAVES 30.0
+#define MAX_ORBIT_WAVES 30.0
 
 static bool is_affordable(const Device *device, double waves) {
     double limit = MAX_RATE * device->drive_frequency, wn = device->resonator_frequency;
@@ -19,11 +19,11 @@ static bool is_affordable(const Device *device, double waves) {
     double damping = 2.0 * device->damping_ratio * wn / free_share;
     bool resonator = wn <= limit * sqrt(free_share) && damping <= limit;
     if (device->friction_law == 0) {
-        return fabs(waves) <= MAX_WAVES && resonator;
+        return fabs(waves) <= MAX_ORBIT_WAVES && resonator;
     }
     double normal = device->normal_preload + device->normal_amplitude;
     double grip = device->friction_faces * normal / device->slider_mass;
-    return fabs(waves) <= MAX_WAVES && resonator && grip * device->bristle_damping <= limit &&
+    return fabs(waves) <= MAX_ORBIT_WAVES && resonator && grip * device->bristle_damping <= limit &&
            grip * device->bristle_stiffness <= limit * limit;
 }
 

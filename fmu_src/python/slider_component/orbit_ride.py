@@ -22,7 +22,7 @@ MAX_RATE = 300.0
 """Rates of the motion over the drive frequency up to which a turn of the drive is resolved often
 enough to find orbits."""
 
-MAX_WAVES = 30.0
+MAX_ORBIT_WAVES = 30.0
 """Waves of the normal load in a turn of the drive up to which orbits are found in some seconds."""
 
 
@@ -43,12 +43,12 @@ def _is_affordable(device: Device, waves: float) -> bool:
     damping = 2.0 * device.damping_ratio * wn / free_share
     resonator = wn <= limit * sqrt(free_share) and damping <= limit
     if device.friction_law == 0:
-        return abs(waves) <= MAX_WAVES and resonator
+        return abs(waves) <= MAX_ORBIT_WAVES and resonator
     normal = device.normal_preload + device.normal_amplitude
     grip = device.friction_faces * normal / device.slider_mass
     bristle = grip * device.bristle_damping <= limit
     bristle = bristle and grip * device.bristle_stiffness <= limit * limit
-    return abs(waves) <= MAX_WAVES and resonator and bristle
+    return abs(waves) <= MAX_ORBIT_WAVES and resonator and bristle
 
 
 class _Search:
