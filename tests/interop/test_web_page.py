@@ -80,9 +80,11 @@ def test_outputs_are_those_of_fmpy(
         step_size=end / STEPS,
     )
     assert record["time"][-1] == pytest.approx(end)
+    # Sines differ in the last digit between platforms; LuGre motion is solved to a tolerance.
+    allowed = 1e-12 if device["friction_law"] == 0 else 1e-10
     for name in record.dtype.names[1:]:
         scale = float(np.abs(record[name]).max())
-        assert abs(found[name] - record[name][-1]) <= 1e-12 * scale, name
+        assert abs(found[name] - record[name][-1]) <= allowed * scale, name
     assert set(OUTPUTS) <= found.keys()
 
 
