@@ -80,9 +80,10 @@ def test_outputs_are_those_of_fmpy(
         step_size=end / STEPS,
     )
     assert record["time"][-1] == pytest.approx(end)
-    # Sines differ in the last digit between platforms; LuGre motion is solved to a tolerance.
-    allowed = 1e-12 if device["friction_law"] == 0 else 1e-10
     for name in record.dtype.names[1:]:
+        # Held orbits of LuGre are iterated to 1e-10: another platform's sine shows below that.
+        is_orbit = device["fidelity"] == 0 or name in ("steady_velocity", "blocking_force")
+        allowed = 1e-10 if is_orbit and device["friction_law"] == 1 else 1e-12
         scale = float(np.abs(record[name]).max())
         assert abs(found[name] - record[name][-1]) <= allowed * scale, name
     assert set(OUTPUTS) <= found.keys()
