@@ -65,6 +65,7 @@ static bool prepare_orbits(Component *component, Law *law, Law *resolved, Refusa
         if (!law_prepare(resolved, &full, &law->inputs, NULL, refusal)) {
             return false;
         }
+        resolved->bending = &component->bending;
         law->resolved = resolved;
         law->orbits = &component->orbits;
     }
@@ -79,6 +80,7 @@ static bool prepare(Component *component, const double values[SETTABLE_COUNT], R
     if (!law_prepare(&component->laws[next], &device, &inputs, &component->table, refusal)) {
         return false;
     }
+    component->laws[next].bending = &component->bending;
     if (!law_is_finite(&component->laws[next])) {
         return refuse_extreme(values, refusal);
     }

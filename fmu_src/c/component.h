@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "bending_kernels.h"
 #include "experiment.h"
 #include "friction_table.h"
 #include "law.h"
@@ -23,6 +24,7 @@ typedef struct {
     Law laws[2], resolved[2];
     FrictionTable table;
     OrbitTables orbits;
+    BendingTables bending;
     Theory theory;
 } Component;
 

@@ -26,6 +26,7 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
     law->table = table;
     law->resolved = NULL;
     law->orbits = NULL;
+    law->bending = NULL;
     law->friction = friction_law_of(device->friction_law);
     if (law->friction == NULL) {
         return refuse(refusal, "friction_law = %d refused: no law has this number",

@@ -18,6 +18,8 @@
  * the law and may be shared by those of one instance; it is filled when averaged motion first needs
  * it.
  *
+ * `bending` is a cache for panels of LuGre friction, kept by the component; NULL where series follow it.
+ *
  * Averages of second order have the law of the full device (`resolved`) and a cache of its orbits, both
  * kept by the component; elsewhere these are NULL. */
 typedef struct Law {
@@ -30,6 +32,7 @@ typedef struct Law {
     const struct FrictionLaw *friction;
     const struct Law *resolved;
     struct OrbitTables *orbits;
+    struct BendingTables *bending;
 } Law;
 
 /* Prepares the law of `device` under `inputs`. Refuses where device and law do not fit; `law` is

@@ -1,6 +1,7 @@
 #include "leg.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "angle.h"
 
@@ -23,8 +24,8 @@ void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int directio
                 now->psi + held->plant.phase, &leg->known, direction);
 }
 
-void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
-                       int direction, double tolerance) {
+static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
+                         int direction, double tolerance) {
     leg->kind = BENDS;
     leg->mode = now->mode;
     leg->direction = direction;
@@ -33,7 +34,33 @@ void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const
                        now->bristle, now->theta, now->psi + held->plant.phase, tolerance);
 }
 
+void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
+                       const Moment *now, int direction, double longest, double tolerance) {
+    BendingPanel *panel = &leg->motion.panel;
+    BendingMotion motion =
+        tables == NULL ? BY_SERIES
+                       : bending_panel_begin(panel, tables, held, bristle, direction, now,
+                                             &leg->known, longest, tolerance);
+    switch (motion) {
+    case BY_SERIES:
+        begin_series(leg, held, bristle, now, direction, tolerance);
+        return;
+    case AS_BENT:
+        leg_begin_slide(leg, held, now, direction);
+        return;
+    case BY_PANEL:
+        leg->kind = BENDS_AND_SLIDES;
+        leg->mode = now->mode;
+        leg->direction = direction;
+        leg->watched_from = panel->length;
+        return;
+    }
+}
+
 bool leg_departs(Leg *leg) {
+    if (leg->kind == BENDS_AND_SLIDES) {
+        return true;
+    }
     if (leg->kind == BENDS) {
         return taylor_slide_departs(&leg->motion.series);
     }
@@ -70,21 +97,38 @@ static bool moves(const Watch *watch, double t) {
     return watch->signal(watch->motion, 0.5 * t).value > watch->noise;
 }
 
+/* The velocity in the direction of sliding, from where it is watched on. */
+static Watch watch_of(Leg *leg) {
+    if (leg->kind == BENDS) {
+        return taylor_slide_watch(&leg->motion.series, leg->t);
+    }
+    return leg->kind == SLIDES ? slide_watch(&leg->motion.slide)
+                               : split_slide_watch(&leg->motion.panel.slide);
+}
+
+/* How long the motion holds [s]. */
+static double reach_of(const Leg *leg) {
+    if (leg->kind == BENDS) {
+        return leg->motion.series.reach;
+    }
+    return leg->kind == BENDS_AND_SLIDES ? leg->motion.panel.reach : INFINITY;
+}
+
 /* Ends sliding at a stop; tells whether it goes in another direction than `before`. */
 static void follow_sliding(Leg *leg, double expected, int before) {
-    Watch watch = leg->kind == BENDS ? taylor_slide_watch(&leg->motion.series, leg->t)
-                                     : slide_watch(&leg->motion.slide);
+    Watch watch = watch_of(leg);
     double zero = first_zero_near(&watch, leg->t, leg->watched_from, expected);
     if (zero >= 0.0) {
         leg->t = zero;
         leg->zero_of = 0;
     }
-    leg->turns = leg->direction != before && moves(&watch, leg->t);
+    leg->turns = leg->direction != before &&
+                 (leg->kind == BENDS_AND_SLIDES || moves(&watch, leg->t));
 }
 
 void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
     double frequency = held->plant.drive_frequency;
-    leg->t = leg->kind == BENDS ? fmin(longest, leg->motion.series.reach) : longest;
+    leg->t = fmin(longest, reach_of(leg));
     leg->zero_of = -1;
     leg->turns = false;
     if (!(leg->t > 0.0)) {
@@ -108,6 +152,8 @@ static double travel_at(const void *motion, double t) {
         return slide_travel(&leg->motion.slide, t);
     case BENDS:
         return taylor_slide_travel(&leg->motion.series, t);
+    case BENDS_AND_SLIDES:
+        return bending_panel_travel(&leg->motion.panel, t);
     }
     return NAN;
 }
@@ -125,6 +171,8 @@ static State end_of(Leg *leg) {
     case BENDS:
         leg->travelled = taylor_slide_travel(&leg->motion.series, leg->t);
         return taylor_slide_state(&leg->motion.series, leg->t);
+    case BENDS_AND_SLIDES:
+        return bending_panel_end(&leg->motion.panel, leg->t, &leg->travelled, &leg->known);
     }
     return state;
 }

@@ -3,6 +3,7 @@
 #ifndef SLIDER_LEG_H
 #define SLIDER_LEG_H
 
+#include "bending_panel.h"
 #include "bristle.h"
 #include "held.h"
 #include "moment.h"
@@ -10,8 +11,9 @@
 #include "stick.h"
 #include "taylor_slide.h"
 
-/* What the motion is: rest, sliding or flight in closed form, or sliding on bending bristles. */
-typedef enum { RESTS, SLIDES, BENDS } LegKind;
+/* What the motion is: rest, sliding or flight in closed form, or sliding on bending bristles, by a series
+ * or by a panel and the slide after it. */
+typedef enum { RESTS, SLIDES, BENDS, BENDS_AND_SLIDES } LegKind;
 
 /* Begun by a friction law: the contact `mode`, and the `direction` of sliding, in which the velocity
  * is watched (0 for none) from `watched_from` [s] on.
@@ -28,6 +30,7 @@ typedef struct {
         Stick stick;
         Slide slide;
         TaylorSlide series;
+        BendingPanel panel;
     } motion;
     double t, travelled;
     int zero_of;
@@ -41,9 +44,10 @@ void leg_begin_rest(Leg *leg, const Held *held, const Moment *now);
 /* Sliding in `direction` under full friction, or flight in contact mode LIFTED. */
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction);
 
-/* Sliding in `direction` while a bristle bends, to `tolerance` [m/s]. */
-void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
-                       int direction, double tolerance);
+/* Sliding in `direction` while a bristle bends, to `tolerance` [m/s], for up to `longest` [s]. By series
+ * alone without tables. */
+void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
+                       const Moment *now, int direction, double longest, double tolerance);
 
 /* Whether a slider at rest begins to move in the direction of the leg, or not at all. */
 bool leg_departs(Leg *leg);

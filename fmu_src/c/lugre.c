@@ -49,25 +49,25 @@ static double velocity_scale(const Plant *plant, const State *state) {
            fabs(state->velocity) + swing;
 }
 
-static void begin(Leg *leg, const Law *law, const Moment *now, int direction) {
+static void begin(Leg *leg, const Law *law, const Moment *now, int direction, double longest) {
     const Held *held = &law->held;
     const Bristle *bristle = &law->bristle;
     double tolerance = TOLERANCE_SHARE * law->device.tolerance;
     double unbent = bristle->coefficient - direction * now->bristle;
     if (now->mode == LIFTED || fabs(unbent) <= tolerance * bristle->coefficient) {
         leg_begin_slide(leg, held, now, direction);
-    } else {
-        double scale = velocity_scale(&held->plant, &now->state);
-        leg_begin_bending(leg, held, bristle, now, direction, tolerance * scale);
+        return;
     }
+    tolerance *= velocity_scale(&held->plant, &now->state);
+    leg_begin_bending(leg, law->bending, held, bristle, now, direction, longest, tolerance);
 }
 
 /* In the direction that the slider has, or at rest takes. */
 static void follow(Leg *leg, const Law *law, Moment *now, double longest, double switching) {
     (void)switching;
-    begin(leg, law, now, now->state.velocity < 0.0 ? BACKWARD : FORWARD);
+    begin(leg, law, now, now->state.velocity < 0.0 ? BACKWARD : FORWARD, longest);
     if (now->state.velocity == 0.0 && !leg_departs(leg)) {
-        begin(leg, law, now, BACKWARD);
+        begin(leg, law, now, BACKWARD, longest);
     }
     leg_follow(leg, &law->held, now, longest);
 }

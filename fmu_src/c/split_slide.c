@@ -51,6 +51,19 @@ double friction_limit_by(const Plant *plant, const Phasors *phasors) {
     return limit > 0.0 ? limit : 0.0;
 }
 
+/* Gives the free oscillation of the resonator its amplitude [m] and returns how large a velocity of the
+ * slider it makes [m/s]. */
+static double swing_freely(SplitSlide *slide, Complex free) {
+    const Plant *plant = slide->plant;
+    Complex turning = complex_mul(plant->slip.eigenvalue, free);
+    slide->resonator_free = free;
+    slide->velocity_free = complex_scale(-plant->mass_fraction, turning);
+    slide->travel_free = complex_scale(-plant->mass_fraction, free);
+    double decaying = plant->resolves_resonator ? complex_abs(slide->velocity_free) : 0.0;
+    slide->free_bound = decaying * plant->slip.stiffness;
+    return decaying;
+}
+
 /* Amplitudes and bounds of a slide whose forced parts are known, from `state` on. */
 static void match_state(SplitSlide *slide, const State *state) {
     const Plant *plant = slide->plant;
@@ -70,15 +83,9 @@ static void match_state(SplitSlide *slide, const State *state) {
         double rate = state->rate + w * ae.im + q * aq.im;
         free = complex_of(displacement, -(rate - eigenvalue.re * displacement) / eigenvalue.im);
     }
-    Complex turning = complex_mul(plant->slip.eigenvalue, free);
-    slide->resonator_free = free;
-    slide->velocity_free = complex_scale(-plant->mass_fraction, turning);
-    slide->travel_free = complex_scale(-plant->mass_fraction, free);
+    double decaying = swing_freely(slide, free), drive = complex_abs(slide->velocity_drive);
     slide->k0 = state->velocity - (forced + slide->velocity_free.re);
-    double drive = complex_abs(slide->velocity_drive);
-    double decaying = plant->resolves_resonator ? complex_abs(slide->velocity_free) : 0.0;
     slide->bound = drive * w * w + normal * q * q;
-    slide->free_bound = decaying * plant->slip.stiffness;
     slide->noise = 2.0 * EPSILON * (fabs(slide->k0) + drive + normal + decaying);
 }
 
@@ -111,6 +118,12 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     slide->constant = (friction + plant->load) / (plant->slider_mass * plant->slip.stiffness);
     slide->k1 = -(friction + plant->load) / plant->total_mass;
     match_state(slide, state);
+}
+
+void split_slide_change(SplitSlide *slide, double momentum, Complex swing) {
+    slide->k0 += momentum;
+    double decaying = swing_freely(slide, complex_add(slide->resonator_free, swing));
+    slide->noise += 2.0 * EPSILON * (fabs(momentum) + decaying);
 }
 
 /* exp(i theta); at the end of a turn, where means over a period are taken, that needs no sine. */

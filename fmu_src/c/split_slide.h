@@ -80,6 +80,10 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
                        const State *state, double theta, double chi, const Phasors *start,
                        int direction);
 
+/* Adds to the motion a constant velocity `momentum` [m/s] and a free oscillation of the resonator from
+ * the start on, of amplitude `swing` [m], with what it does to the slider. */
+void split_slide_change(SplitSlide *slide, double momentum, Complex swing);
+
 /* The velocity in the direction to watch. */
 Watch split_slide_watch(SplitSlide *slide);
 
