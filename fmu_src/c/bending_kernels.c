@@ -1,6 +1,7 @@
 #include "bending_kernels.h"
 
 #include <math.h>
+#include <stddef.h>
 
 /* |z t| below which exp(z t) - 1 - z t is a series, and its terms. */
 #define SOON 0.5
@@ -10,8 +11,13 @@ static Complex complex_exp(Complex z) {
     return complex_rect(exp(z.re), z.im);
 }
 
+static void put(ComplexRow *row, int i, Complex z) {
+    row->re[i] = z.re;
+    row->im[i] = z.im;
+}
+
 /* int (exp(z s) - 1) ds from 0 to t. */
-static Complex grown_less_one(Complex z, double t) {
+static Complex growth(Complex z, double t) {
     Complex angle = complex_scale(t, z);
     if (complex_abs(angle) > SOON) {
         Complex bent = complex_sub(complex_exp(angle), complex_of(1.0 + angle.re, angle.im));
@@ -26,55 +32,71 @@ static Complex grown_less_one(Complex z, double t) {
 }
 
 static void prepare_normal(BendingKernels *kernels, double frequency) {
-    for (int i = 0; i < POINTS; i++) {
+    for (int i = 0; i < kernels->gauss->count + 2; i++) {
         double t = kernels->time[i];
-        kernels->normal_turn[i] = complex_rect(1.0, frequency * t);
-        kernels->normal[i] = grown_less_one(complex_of(0.0, frequency), t);
+        put(&kernels->turn, i, complex_rect(1.0, frequency * t));
+        put(&kernels->normal, i, growth(complex_of(0.0, frequency), t));
     }
     kernels->has_normal = true;
 }
 
+void bending_left(Complex eigenvalue, Complex back, double time, double weight, double even[LEFT],
+                  double late[LEFT]) {
+    Complex turned = complex_scale(weight, complex_mul(eigenvalue, back));
+    even[IMPULSE] = weight;
+    even[LEVER] = weight * time;
+    even[BACK_RE] = weight * back.re;
+    even[BACK_IM] = weight * back.im;
+    late[IMPULSE] = 0.0;
+    late[LEVER] = -weight;
+    late[BACK_RE] = turned.re;
+    late[BACK_IM] = turned.im;
+}
+
 static void prepare(BendingKernels *kernels, const GaussNodes *gauss, const Plant *plant,
-                    int step, double length) {
-    Complex eigenvalue = plant->slip.eigenvalue, turned[POINTS], back[NODES];
+                    double length) {
+    Complex eigenvalue = plant->slip.eigenvalue, turned[MAX_ROW], back[MAX_ROW];
+    double w = plant->drive_frequency;
     double per_mass = 1.0 / plant->total_mass;
     double swing = plant->mass_fraction / (plant->slider_mass * eigenvalue.im);
-    kernels->step = step;
+    int count = gauss->count;
+    kernels->gauss = gauss;
+    kernels->has_normal = false;
     kernels->length = length;
-    for (int i = 0; i < POINTS; i++) {
-        double t = i < NODES ? length * gauss->node[i] : length;
+    for (int i = 0; i < count + 2; i++) {
+        double t = i < count ? length * gauss->node[i] : length;
         Complex angle = complex_scale(t, eigenvalue);
-        kernels->time[i] = t;
-        kernels->drive[i] = grown_less_one(complex_of(0.0, plant->drive_frequency), t);
-        kernels->free[i] = grown_less_one(eigenvalue, t);
         turned[i] = complex_exp(angle);
+        back[i] = complex_exp(complex_scale(-1.0, angle));
+        kernels->time[i] = t;
         kernels->response[i] = per_mass * t + swing * turned[i].im;
-        if (i < NODES) {
-            double weight = length * gauss->weight[i];
-            back[i] = complex_exp(complex_scale(-1.0, angle));
-            kernels->impulse[i] = weight;
-            kernels->lever[i] = weight * t;
-            kernels->back[i] = complex_scale(weight, back[i]);
-        }
+        put(&kernels->drive, i, growth(complex_of(0.0, w), t));
+        put(&kernels->free, i, growth(eigenvalue, t));
+        put(&kernels->back, i, back[i]);
     }
-    for (int i = 0; i < POINTS; i++) {
-        for (int j = 0; j < NODES; j++) {
+    for (int i = 0; i < count + 2; i++) {
+        for (int j = 0; j < count; j++) {
             Complex since = complex_mul(turned[i], back[j]);
-            double weight = length * gauss->integral[i][j];
-            double response =
-                per_mass * (kernels->time[i] - kernels->time[j]) + swing * since.im;
-            kernels->travel[i][j] = weight * response;
-            kernels->speed[i][j] =
-                weight * (per_mass + swing * complex_mul(eigenvalue, since).im);
+            double weight = length * gauss->integral[i < count ? i : count][j];
+            double ago = kernels->time[i] - kernels->time[j];
+            double slope = per_mass + swing * complex_mul(eigenvalue, since).im;
+            kernels->travel[j][i] = weight * (per_mass * ago + swing * since.im);
+            kernels->speed[j][i] = weight * slope;
         }
     }
-    kernels->known = true;
+    for (int j = 0; j < count; j++) {
+        double weight = length * gauss->weight[j];
+        bending_left(eigenvalue, back[j], kernels->time[j], weight, kernels->left_even[j],
+                     kernels->left_late[j]);
+    }
+    kernels->end_drive = complex_rect(1.0, w * length);
+    kernels->end_free = turned[count];
 }
 
 /* Whether the tables are of this plant; normal frequency apart. */
 static bool fit(const BendingTables *tables, const Plant *plant) {
     Complex eigenvalue = plant->slip.eigenvalue;
-    return tables->prepared && tables->slider_mass == plant->slider_mass &&
+    return tables->slider_mass == plant->slider_mass &&
            tables->total_mass == plant->total_mass &&
            tables->mass_fraction == plant->mass_fraction &&
            tables->drive_frequency == plant->drive_frequency &&
@@ -82,48 +104,56 @@ static bool fit(const BendingTables *tables, const Plant *plant) {
 }
 
 static void begin_anew(BendingTables *tables, const Plant *plant) {
-    if (!tables->prepared) {
-        gauss_nodes_prepare(&tables->gauss);
-    }
-    tables->prepared = true;
     tables->slider_mass = plant->slider_mass;
     tables->total_mass = plant->total_mass;
     tables->mass_fraction = plant->mass_fraction;
     tables->drive_frequency = plant->drive_frequency;
     tables->normal_frequency = plant->normal_frequency;
     tables->eigenvalue = plant->slip.eigenvalue;
-    for (int i = 0; i < KEPT_LENGTHS; i++) {
-        tables->kept[i].known = false;
+    for (int i = 0; i < KEPT_KERNELS; i++) {
+        tables->kept[i].gauss = NULL;
     }
 }
 
-/* 2^(k / LENGTHS_PER_OCTAVE) / 2 for k from 1 on. */
+static const GaussNodes *gauss_of(BendingTables *tables, int nodes) {
+    GaussNodes *gauss = &tables->gauss[(nodes - MIN_NODES) / NODES_STEP];
+    if (gauss->count == 0) {
+        gauss_nodes_prepare(gauss, nodes);
+    }
+    return gauss;
+}
+
+/* 2^((k + 1) / LENGTHS_PER_OCTAVE) / 2. */
 static const double OCTAVE[LENGTHS_PER_OCTAVE] = {
-    0.54525386633262884, 0.59460355750136051, 0.64841977732550483, 0.70710678118654757,
-    0.77110541270397037, 0.84089641525371461, 0.91700404320467122, 1.0,
+    0.5452538663326288, 0.5946035575013605, 0.6484197773255048, 0.7071067811865476,
+    0.7711054127039704, 0.8408964152537145, 0.9170040432046712, 1.0,
 };
 
-const BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length) {
+BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length,
+                                   int nodes) {
     if (!fit(tables, plant)) {
         begin_anew(tables, plant);
     }
     if (tables->normal_frequency != plant->normal_frequency) {
         tables->normal_frequency = plant->normal_frequency;
-        for (int i = 0; i < KEPT_LENGTHS; i++) {
+        for (int i = 0; i < KEPT_KERNELS; i++) {
             tables->kept[i].has_normal = false;
         }
     }
     double w = plant->drive_frequency;
-    int exponent, place = 0;
+    int exponent, part = 0;
     double share = frexp(length * w, &exponent);
-    while (place < LENGTHS_PER_OCTAVE - 1 && OCTAVE[place] < share) {
-        place++;
+    while (OCTAVE[part] < share) {
+        part++;
     }
-    int step = LENGTHS_PER_OCTAVE * exponent + place;
-    BendingKernels *kernels = &tables->kept[(unsigned)step % KEPT_LENGTHS];
-    if (!kernels->known || kernels->step != step) {
-        prepare(kernels, &tables->gauss, plant, step, ldexp(OCTAVE[place], exponent) / w);
-        kernels->has_normal = false;
+    int step = LENGTHS_PER_OCTAVE * exponent + part;
+    const GaussNodes *gauss = gauss_of(tables, nodes);
+    /* Neighbouring lengths, and one length with several numbers of nodes, have different places. */
+    unsigned place = (unsigned)(step + 5 * (nodes / NODES_STEP)) % KEPT_KERNELS;
+    BendingKernels *kernels = &tables->kept[place];
+    if (kernels->gauss != gauss || kernels->step != step) {
+        prepare(kernels, gauss, plant, ldexp(OCTAVE[part], exponent) / w);
+        kernels->step = step;
     }
     if (!kernels->has_normal) {
         prepare_normal(kernels, plant->normal_frequency);

@@ -6,9 +6,9 @@
  *
  *   f = s beta L (E + rho E') = a + b',   a = s beta (L - rho L') E,   b = s beta rho L E
  *
- * that dies out after a short path. E at Gauss nodes follows from the path under Coulomb friction and its
+ * that dies out after a short path. E at Gauss nodes follows from the path under full friction and its
  * change by f, which is integrated with E as it was before: each correction leaves an error smaller by
- * about f over the force that moves the slider. After the panel the motion is that of Coulomb friction
+ * about f over the force that moves the slider. After the panel the motion is that under full friction
  * with another momentum and another free oscillation, in closed form up to the next stop.
  *
  * A panel serves where it ends surely before the next stop, and where its estimated error is below the
@@ -19,37 +19,39 @@
 #include <stdbool.h>
 
 #include "bending_kernels.h"
+#include "bending_outlook.h"
 #include "bristle.h"
 #include "held.h"
 #include "moment.h"
 
-/* `slide` is the motion from the end of the panel on, which lasts `length` [s]; it holds for `reach` [s],
- * and is `offset` [m] ahead. Within the panel, `change` [m] are displacements by f, and the amplitudes of
- * the slide are changed by `momentum` [m/s] and `swing` [m]. */
+/* What f has given to the motion up to some time: displacement [m], velocity [m/s] and amplitude of the
+ * resonator [m] of what goes on from the start of the panel. */
+typedef struct {
+    double offset, momentum;
+    Complex swing;
+} Given;
+
+/* `slide` is the motion from the end of the panel on, which lasts `length` [s]; it holds for `reach` [s].
+ * Of f, given in `all`, `even` a [N] and `late` b [N s] are kept at the points, and b at the start. */
 typedef struct {
     SplitSlide slide;
-    const BendingKernels *kernels;
-    const GaussNodes *gauss;
-    double length, reach, offset, momentum;
-    Complex swing;
-    double change[POINTS];
+    BendingKernels *kernels;
+    double length, reach, rate, scale, lag, first;
+    double even[MAX_ROW], late[MAX_ROW];
+    Given all;
 } BendingPanel;
 
-/* How to follow bending bristles: in one panel; as sliding under full friction, where they change the
- * velocity by less than the tolerance; or by series, where neither serves. */
-typedef enum { BY_PANEL, AS_BENT, BY_SERIES } BendingMotion;
-
 /* Motion in contact from `now` on in `direction`, that of its velocity or, from rest, of its
- * acceleration. BY_PANEL, it is set up and its panel ends within `longest` [s]; the error of the velocity
+ * acceleration, for up to `longest` [s]; set up where it goes on BY_PANEL. The error of the velocity
  * is about `tolerance` [m/s]. The tables must outlive the panel, and serve one at a time. */
 BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, const Held *held,
                                   const Bristle *bristle, int direction, const Moment *now,
-                                  KnownPhasors *known, double longest, double tolerance);
+                                  const Phasors *start, double longest, double tolerance);
 
 /* Displacement of the slider after `t` [s], in m. */
 double bending_panel_travel(const BendingPanel *panel, double t);
 
-/* State after `t` [s], at or past the end of the panel; displacement [m] and phasors as of a slide. */
+/* State after `t` [s]; displacement [m] and phasors as of a slide. */
 State bending_panel_end(const BendingPanel *panel, double t, double *travel, KnownPhasors *known);
 
 #endif

@@ -6,73 +6,64 @@
 
 enum { NEWTON_STEPS = 8 };
 
-/* Legendre polynomials P_0 to P_NODES at x in [-1, 1]. */
-static void legendre(double x, double values[NODES + 1]) {
+/* Legendre polynomials P_0 to P_count at x in [-1, 1]. */
+static void legendre(double x, int count, double values[MAX_NODES + 1]) {
     values[0] = 1.0;
     values[1] = x;
-    for (int k = 1; k < NODES; k++) {
+    for (int k = 1; k < count; k++) {
         values[k + 1] = ((2 * k + 1) * x * values[k] - k * values[k - 1]) / (k + 1);
     }
 }
 
-/* P_NODES' at an x inside the interval, from the values of the polynomials there. */
-static double last_slope(double x, const double values[NODES + 1]) {
-    return NODES * (x * values[NODES] - values[NODES - 1]) / (x * x - 1.0);
+/* P_count' at an x inside the interval, from the values of the polynomials there. */
+static double last_slope(double x, int count, const double *values) {
+    return count * (x * values[count] - values[count - 1]) / (x * x - 1.0);
 }
 
-/* The zeros of P_NODES in ascending order, by Newton's method. */
-static void find_nodes(GaussNodes *gauss, double node[NODES]) {
-    for (int i = 0; i < NODES; i++) {
-        double values[NODES + 1], x = -cos(PI * (i + 0.75) / (NODES + 0.5));
+void gauss_nodes_prepare(GaussNodes *gauss, int count) {
+    gauss->count = count;
+    for (int i = 0; i < count; i++) {
+        double values[MAX_NODES + 1], x = -cos(PI * (i + 0.75) / (count + 0.5));
         for (int step = 0; step < NEWTON_STEPS; step++) {
-            legendre(x, values);
-            x -= values[NODES] / last_slope(x, values);
+            legendre(x, count, values);
+            x -= values[count] / last_slope(x, count, values);
         }
-        legendre(x, values);
-        double slope = last_slope(x, values);
-        node[i] = x;
+        legendre(x, count, values);
+        double slope = last_slope(x, count, values);
+        double weight = 1.0 / ((1.0 - x * x) * slope * slope);
         gauss->node[i] = 0.5 * (x + 1.0);
-        gauss->weight[i] = 1.0 / ((1.0 - x * x) * slope * slope);
+        gauss->weight[i] = weight;
+        for (int k = 0; k < count; k++) {
+            gauss->weighed[k][i] = weight * values[k];
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        gauss_nodes_integrate(gauss, gauss->node[i], gauss->integral[i]);
+        gauss->integral[count][i] = gauss->weight[i];
     }
 }
 
-/* The point i of the interval; 0 after the others. */
-static double point(const GaussNodes *gauss, int i) {
-    if (i < NODES) {
-        return gauss->node[i];
+void gauss_nodes_integrate(const GaussNodes *gauss, double end, double integral[MAX_NODES]) {
+    double values[MAX_NODES + 1];
+    int count = gauss->count;
+    legendre(2.0 * end - 1.0, count, values);
+    for (int j = 0; j < count; j++) {
+        integral[j] = gauss->weight[j] * end;
     }
-    return i == NODES ? 1.0 : 0.0;
-}
-
-static void prepare_barycentric(GaussNodes *gauss) {
-    for (int i = 0; i <= POINTS; i++) {
-        double product = 1.0;
-        for (int j = 0; j <= POINTS; j++) {
-            product *= i == j ? 1.0 : 4.0 * (point(gauss, i) - point(gauss, j));
+    for (int k = 1; k < count; k++) {
+        double share = 0.5 * (values[k + 1] - values[k - 1]);
+        for (int j = 0; j < count; j++) {
+            integral[j] += gauss->weighed[k][j] * share;
         }
-        gauss->barycentric[i] = 1.0 / product;
     }
 }
 
-void gauss_nodes_prepare(GaussNodes *gauss) {
-    double node[NODES], at_node[NODES][NODES + 1];
-    find_nodes(gauss, node);
-    for (int j = 0; j < NODES; j++) {
-        legendre(node[j], at_node[j]);
-        for (int i = 0; i < 2; i++) {
-            int k = NODES - 1 - i;
-            gauss->last[i][j] = (2 * k + 1) * gauss->weight[j] * at_node[j][k];
-        }
-        gauss->integral[NODES][j] = gauss->weight[j];
+double gauss_nodes_last(const GaussNodes *gauss, const double *values) {
+    int last = gauss->count - 1;
+    double higher = 0.0, lower = 0.0;
+    for (int j = 0; j <= last; j++) {
+        higher += gauss->weighed[last][j] * values[j];
+        lower += gauss->weighed[last - 1][j] * values[j];
     }
-    for (int i = 0; i < NODES; i++) {
-        for (int j = 0; j < NODES; j++) {
-            double total = 0.5 * (node[i] + 1.0);
-            for (int k = 1; k < NODES; k++) {
-                total += 0.5 * (at_node[i][k + 1] - at_node[i][k - 1]) * at_node[j][k];
-            }
-            gauss->integral[i][j] = gauss->weight[j] * total;
-        }
-    }
-    prepare_barycentric(gauss);
+    return fmax((2 * last + 1) * fabs(higher), (2 * last - 1) * fabs(lower));
 }

@@ -31,16 +31,20 @@ static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, con
     leg->direction = direction;
     leg->watched_from = 0.0;
     taylor_slide_begin(&leg->motion.series, &held->plant, bristle, direction, &now->state,
-                       now->bristle, now->theta, now->psi + held->plant.phase, tolerance);
+                       now->bristle, &leg->known.phasors, tolerance);
 }
 
 void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
                        const Moment *now, int direction, double longest, double tolerance) {
     BendingPanel *panel = &leg->motion.panel;
+    if (!leg->known.known) {
+        double chi = now->psi + held->plant.phase;
+        leg->known = (KnownPhasors){true, phasors_of(&held->plant, now->theta, chi)};
+    }
     BendingMotion motion =
         tables == NULL ? BY_SERIES
                        : bending_panel_begin(panel, tables, held, bristle, direction, now,
-                                             &leg->known, longest, tolerance);
+                                             &leg->known.phasors, longest, tolerance);
     switch (motion) {
     case BY_SERIES:
         begin_series(leg, held, bristle, now, direction, tolerance);

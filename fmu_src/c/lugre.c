@@ -62,12 +62,26 @@ static void begin(Leg *leg, const Law *law, const Moment *now, int direction, do
     leg_begin_bending(leg, law->bending, held, bristle, now, direction, longest, tolerance);
 }
 
+/* The direction that the slider has, or by the force on it at rest takes. */
+static int likely_direction(Leg *leg, const Law *law, const Moment *now) {
+    const Plant *plant = &law->held.plant;
+    if (now->state.velocity != 0.0 || now->mode == LIFTED) {
+        return now->state.velocity < 0.0 ? BACKWARD : FORWARD;
+    }
+    if (!leg->known.known) {
+        leg->known = (KnownPhasors){true, phasors_of(plant, now->theta, now->psi + plant->phase)};
+    }
+    double limit = friction_limit_by(plant, &leg->known.phasors);
+    double resisting = limit * now->bristle / law->bristle.coefficient;
+    return force_by(plant, &now->state, &leg->known.phasors) < resisting ? BACKWARD : FORWARD;
+}
+
 /* In the direction that the slider has, or at rest takes. */
 static void follow(Leg *leg, const Law *law, Moment *now, double longest, double switching) {
     (void)switching;
-    begin(leg, law, now, now->state.velocity < 0.0 ? BACKWARD : FORWARD, longest);
+    begin(leg, law, now, likely_direction(leg, law, now), longest);
     if (now->state.velocity == 0.0 && !leg_departs(leg)) {
-        begin(leg, law, now, BACKWARD, longest);
+        begin(leg, law, now, -leg->direction, longest);
     }
     leg_follow(leg, &law->held, now, longest);
 }

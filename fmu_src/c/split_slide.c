@@ -43,10 +43,19 @@ Phasors phasors_of(const Plant *plant, double theta, double chi) {
     return (Phasors){complex_rect(1.0, theta), complex_rect(1.0, changing)};
 }
 
+Complex normal_phasor(const Plant *plant, const Phasors *phasors) {
+    return plant->normal_frequency == plant->drive_frequency
+               ? complex_mul(phasors->drive, phasors->normal)
+               : phasors->normal;
+}
+
+double force_by(const Plant *plant, const State *state, const Phasors *phasors) {
+    double direct = complex_mul(plant->holding_drive, phasors->drive).im;
+    return plant->spring * state->displacement + plant->damper * state->rate - plant->load + direct;
+}
+
 double friction_limit_by(const Plant *plant, const Phasors *phasors) {
-    double sine = plant->normal_frequency == plant->drive_frequency
-                      ? complex_mul(phasors->drive, phasors->normal).im
-                      : phasors->normal.im;
+    double sine = normal_phasor(plant, phasors).im;
     double limit = plant->friction_preload + plant->friction_amplitude * sine;
     return limit > 0.0 ? limit : 0.0;
 }
@@ -124,6 +133,18 @@ void split_slide_change(SplitSlide *slide, double momentum, Complex swing) {
     slide->k0 += momentum;
     double decaying = swing_freely(slide, complex_add(slide->resonator_free, swing));
     slide->noise += 2.0 * EPSILON * (fabs(momentum) + decaying);
+}
+
+void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex normal, Complex free) {
+    const Phasors *start = &slide->start.phasors;
+    bool resolves = slide->plant->resolves_resonator;
+    slide->anchor.t = t;
+    slide->anchor.phasors.drive = complex_mul(start->drive, drive);
+    slide->anchor.phasors.normal =
+        slide->split->merges ? start->normal : complex_mul(start->normal, normal);
+    slide->anchor.free = resolves ? free : complex_of(1.0, 0.0);
+    slide->anchor.envelope = resolves ? complex_abs(free) : 1.0;
+    slide->anchored = true;
 }
 
 /* exp(i theta); at the end of a turn, where means over a period are taken, that needs no sine. */

@@ -41,6 +41,12 @@ typedef struct {
 
 Phasors phasors_of(const Plant *plant, double theta, double chi);
 
+/* exp(i chi) of the normal load. */
+Complex normal_phasor(const Plant *plant, const Phasors *phasors);
+
+/* Force [N] on the slider without friction. */
+double force_by(const Plant *plant, const State *state, const Phasors *phasors);
+
 /* Friction force [N] of all faces when sliding steadily; 0 in flight. */
 double friction_limit_by(const Plant *plant, const Phasors *phasors);
 
@@ -83,6 +89,10 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
 /* Adds to the motion a constant velocity `momentum` [m/s] and a free oscillation of the resonator from
  * the start on, of amplitude `swing` [m], with what it does to the slider. */
 void split_slide_change(SplitSlide *slide, double momentum, Complex swing);
+
+/* Lets turns that are known after `t` [s] serve close to it: exp(i w t) of the drive, exp(i q t) of the normal
+ * load and exp(lambda t). */
+void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex normal, Complex free);
 
 /* The velocity in the direction to watch. */
 Watch split_slide_watch(SplitSlide *slide);

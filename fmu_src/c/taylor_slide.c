@@ -55,16 +55,17 @@ static double series_reach(const double *coefficients, double tolerance) {
 }
 
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
-                        int direction, const State *state, double friction, double theta,
-                        double chi, double tolerance) {
+                        int direction, const State *state, double friction,
+                        const Phasors *start, double tolerance) {
     double w = plant->drive_frequency, q = plant->normal_frequency, mu = bristle->coefficient;
     double bend = (mu - direction * friction) / mu, share = friction / mu;
     double drag = bristle->damping / mu, rate_factor = -direction * bristle->stiffness / mu;
     double per_mass = 1.0 / plant->slider_mass, spring = plant->spring, damper = plant->damper;
     double stiffness = plant->stick.stiffness, damping = 2.0 * plant->stick.decay;
-    Complex drive = complex_of(sin(theta), -cos(theta)), hold = plant->holding_drive;
-    Complex normal = complex_of(plant->friction_amplitude * sin(chi),
-                                -plant->friction_amplitude * cos(chi));
+    Complex hold = plant->holding_drive, e = complex_of(0.0, -1.0);
+    Complex drive = complex_mul(e, start->drive);
+    Complex normal = complex_scale(plant->friction_amplitude,
+                                   complex_mul(e, normal_phasor(plant, start)));
     double *v = slide->velocity, *y = slide->displacement, *u = slide->rate;
     double limit[TAYLOR_ORDER], decay[TAYLOR_TERMS];
     double passed[TAYLOR_TERMS] = {0.0}, resisting[TAYLOR_TERMS] = {0.0};

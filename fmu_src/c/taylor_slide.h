@@ -16,6 +16,7 @@
 #include "bristle.h"
 #include "first_zero.h"
 #include "plant.h"
+#include "split_slide.h"
 #include "state.h"
 
 /* Terms of the series: near the order at which a digit costs least, whatever the tolerance. */
@@ -32,11 +33,11 @@ typedef struct {
 
 /* Motion in contact from `state` on, in `direction`, until the series no longer holds.
  *
- * `friction` is sigma_0 z at the start. The series is cut off at `reach`, where its last terms are
+ * `friction` is sigma_0 z and `start` are the phasors at the start. The series is cut off at `reach`, where its last terms are
  * `tolerance` [m/s]. */
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
-                        int direction, const State *state, double friction, double theta,
-                        double chi, double tolerance);
+                        int direction, const State *state, double friction,
+                        const Phasors *start, double tolerance);
 
 /* Whether the motion begins in its direction, or stays at rest. */
 bool taylor_slide_departs(const TaylorSlide *slide);
