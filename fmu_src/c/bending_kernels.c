@@ -1,41 +1,45 @@
 #include "bending_kernels.h"
 
 #include <math.h>
-#include <stddef.h>
 
 /* |z t| below which exp(z t) - 1 - z t is a series, and its terms. */
-#define SOON 0.5
-enum { TERMS = 16 };
+#define SOON 0.25
+enum { TERMS = 12 };
 
-static Complex complex_exp(Complex z) {
-    return complex_rect(exp(z.re), z.im);
-}
+static const double INVERSE[TERMS] = {
+    0.0,     1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4,  1.0 / 5,
+    1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10, 1.0 / 11,
+};
 
 static void put(ComplexRow *row, int i, Complex z) {
     row->re[i] = z.re;
     row->im[i] = z.im;
 }
 
-/* int (exp(z s) - 1) ds from 0 to t. */
-static Complex growth(Complex z, double t) {
+/* exp(z t), and int (exp(z s) - 1) ds from 0 to t. */
+static Complex grow(Complex z, double t, Complex *integral) {
     Complex angle = complex_scale(t, z);
     if (complex_abs(angle) > SOON) {
-        Complex bent = complex_sub(complex_exp(angle), complex_of(1.0 + angle.re, angle.im));
-        return complex_div(bent, z);
+        Complex grown = complex_rect(exp(angle.re), angle.im);
+        Complex bent = complex_sub(grown, complex_of(1.0 + angle.re, angle.im));
+        *integral = complex_div(bent, z);
+        return grown;
     }
     Complex term = complex_scale(0.5, angle), total = term;
     for (int n = 3; n < TERMS; n++) {
-        term = complex_scale(1.0 / n, complex_mul(term, angle));
+        term = complex_scale(INVERSE[n], complex_mul(term, angle));
         total = complex_add(total, term);
     }
-    return complex_scale(t, total);
+    *integral = complex_scale(t, total);
+    Complex bent = complex_mul(angle, total);
+    return complex_of(1.0 + angle.re + bent.re, angle.im + bent.im);
 }
 
 static void prepare_normal(BendingKernels *kernels, double frequency) {
     for (int i = 0; i < kernels->gauss->count + 2; i++) {
-        double t = kernels->time[i];
-        put(&kernels->turn, i, complex_rect(1.0, frequency * t));
-        put(&kernels->normal, i, growth(complex_of(0.0, frequency), t));
+        Complex integral;
+        put(&kernels->turn, i, grow(complex_of(0.0, frequency), kernels->time[i], &integral));
+        put(&kernels->normal, i, integral);
     }
     kernels->has_normal = true;
 }
@@ -65,13 +69,14 @@ static void prepare(BendingKernels *kernels, const GaussNodes *gauss, const Plan
     kernels->length = length;
     for (int i = 0; i < count + 2; i++) {
         double t = i < count ? length * gauss->node[i] : length;
-        Complex angle = complex_scale(t, eigenvalue);
-        turned[i] = complex_exp(angle);
-        back[i] = complex_exp(complex_scale(-1.0, angle));
+        Complex integral;
+        kernels->end_drive = grow(complex_of(0.0, w), t, &integral);
+        put(&kernels->drive, i, integral);
+        turned[i] = grow(eigenvalue, t, &integral);
+        put(&kernels->free, i, integral);
+        back[i] = complex_div(complex_of(1.0, 0.0), turned[i]);
         kernels->time[i] = t;
         kernels->response[i] = per_mass * t + swing * turned[i].im;
-        put(&kernels->drive, i, growth(complex_of(0.0, w), t));
-        put(&kernels->free, i, growth(eigenvalue, t));
         put(&kernels->back, i, back[i]);
     }
     for (int i = 0; i < count + 2; i++) {
@@ -89,7 +94,6 @@ static void prepare(BendingKernels *kernels, const GaussNodes *gauss, const Plan
         bending_left(eigenvalue, back[j], kernels->time[j], weight, kernels->left_even[j],
                      kernels->left_late[j]);
     }
-    kernels->end_drive = complex_rect(1.0, w * length);
     kernels->end_free = turned[count];
 }
 
@@ -111,7 +115,7 @@ static void begin_anew(BendingTables *tables, const Plant *plant) {
     tables->normal_frequency = plant->normal_frequency;
     tables->eigenvalue = plant->slip.eigenvalue;
     for (int i = 0; i < KEPT_KERNELS; i++) {
-        tables->kept[i].gauss = NULL;
+        tables->key[i] = 0;
     }
 }
 
@@ -146,15 +150,19 @@ BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, do
     while (OCTAVE[part] < share) {
         part++;
     }
-    int step = LENGTHS_PER_OCTAVE * exponent + part;
-    const GaussNodes *gauss = gauss_of(tables, nodes);
-    /* Neighbouring lengths, and one length with several numbers of nodes, have different places. */
-    unsigned place = (unsigned)(step + 5 * (nodes / NODES_STEP)) % KEPT_KERNELS;
-    BendingKernels *kernels = &tables->kept[place];
-    if (kernels->gauss != gauss || kernels->step != step) {
-        prepare(kernels, gauss, plant, ldexp(OCTAVE[part], exponent) / w);
-        kernels->step = step;
+    int key = (LENGTHS_PER_OCTAVE * exponent + part) * (MAX_NODES + 1) + nodes;
+    int place = 0;
+    while (place < KEPT_KERNELS && tables->key[place] != key) {
+        place++;
     }
+    if (place == KEPT_KERNELS) {
+        place = tables->oldest;
+        tables->oldest = (place + 1) % KEPT_KERNELS;
+        tables->key[place] = key;
+        prepare(&tables->kept[place], gauss_of(tables, nodes), plant,
+                ldexp(OCTAVE[part], exponent) / w);
+    }
+    BendingKernels *kernels = &tables->kept[place];
     if (!kernels->has_normal) {
         prepare_normal(kernels, plant->normal_frequency);
     }

@@ -37,7 +37,6 @@ enum { IMPULSE, LEVER, BACK_RE, BACK_IM, LEFT };
 typedef struct {
     const GaussNodes *gauss;
     bool has_normal;
-    int step;
     double length, time[MAX_ROW], response[MAX_ROW];
     ComplexRow drive, free, normal, turn, back;
     Complex end_drive, end_free;
@@ -45,15 +44,20 @@ typedef struct {
     double left_even[MAX_NODES][LEFT], left_late[MAX_NODES][LEFT];
 } BendingKernels;
 
+/* Longest panel over what is asked for. */
+#define MAX_KERNELS_STEP 1.0906
+
 /* Lengths per octave, and tables that are kept. */
 enum { LENGTHS_PER_OCTAVE = 8, KEPT_KERNELS = 12 };
 
 /* A cache of kernels, for use at one place in memory; zeroed memory holds none. Those of another plant are
- * dropped, with another normal frequency only what depends on it. */
+ * dropped, with another normal frequency only what depends on it. `key` tells length and nodes of those
+ * kept, 0 of none, and `oldest` is replaced next. */
 typedef struct BendingTables {
     GaussNodes gauss[NODE_COUNTS];
     double slider_mass, total_mass, mass_fraction, drive_frequency, normal_frequency;
     Complex eigenvalue;
+    int key[KEPT_KERNELS], oldest;
     BendingKernels kept[KEPT_KERNELS];
 } BendingTables;
 

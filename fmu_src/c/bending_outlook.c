@@ -13,6 +13,9 @@
 /* Largest force of the bristle over what moves the slider otherwise for which panels are tried. */
 #define MAX_CONTRACTION 0.3
 
+/* Largest angle [rad] of drive and normal load by which damping may lag. */
+#define MAX_LAG 1.0
+
 /* Share of its velocity under full friction that a slider must surely have left. */
 #define SURE 0.1
 
@@ -24,60 +27,69 @@
 /* Share of the tolerance for which nodes are chosen. */
 #define NODES_SHARE 0.3
 
+/* Speed [m/s] and acceleration [m/s^2] under full friction, and the derivative of that [m/s^3]. */
+static void look_ahead(BendingOutlook *outlook, const Plant *plant, int direction,
+                       const State *state, const Phasors *phasors) {
+    double w = plant->drive_frequency, q = plant->normal_frequency;
+    double friction = direction * friction_limit_by(plant, phasors);
+    double changing = direction * plant->friction_amplitude * q * normal_phasor(plant, phasors).re;
+    double acceleration = (force_by(plant, state, phasors) - friction) / plant->slider_mass;
+    double swing = plant->base_acceleration * phasors->drive.im - acceleration -
+                   2.0 * plant->stick.decay * state->rate -
+                   plant->stick.stiffness * state->displacement;
+    double direct = w * complex_mul(plant->holding_drive, phasors->drive).re;
+    double jerk = plant->spring * state->rate + plant->damper * swing + direct - changing;
+    outlook->speed = fabs(state->velocity);
+    outlook->acceleration = direction * acceleration;
+    outlook->jerk = direction * jerk / plant->slider_mass;
+}
+
+/* Time [s] for `path` [m]: by speed and acceleration, then corrected by the jerk. NAN if it is not
+ * travelled. */
+static double time_for(const BendingOutlook *outlook, double path) {
+    double speed = outlook->speed, half = 0.5 * outlook->acceleration;
+    double t = 2.0 * path / (speed + sqrt(speed * speed + 4.0 * half * path));
+    double ahead = t * (speed + t * (half + t * outlook->jerk / 6.0)) - path;
+    double reached = speed + t * (outlook->acceleration + 0.5 * t * outlook->jerk);
+    return reached > 0.0 ? t - ahead / reached : NAN;
+}
+
 BendingMotion bending_outlook(BendingOutlook *outlook, const Held *held, const Bristle *bristle,
                               int direction, const Moment *now, const Phasors *phasors,
-                              double tolerance) {
+                              double longest, double tolerance) {
     const Plant *plant = &held->plant;
-    double mu = bristle->coefficient, speed = fabs(now->state.velocity);
-    double moving = direction * force_by(plant, &now->state, phasors) -
-                    friction_limit_by(plant, phasors);
+    double mu = bristle->coefficient;
     double limit = plant->friction_preload + plant->friction_amplitude;
+    look_ahead(outlook, plant, direction, &now->state, phasors);
+    double speed = outlook->speed;
     outlook->rate = bristle->stiffness / mu;
-    outlook->lag = bristle->damping / bristle->stiffness;
     outlook->bend = (mu - direction * now->bristle) / mu;
     outlook->push = outlook->bend * limit / plant->slider_mass;
-    outlook->speed = speed;
-    outlook->acceleration = moving / plant->slider_mass;
     double drive = outlook->acceleration + 0.5 * outlook->rate * speed * speed;
-    outlook->contraction = outlook->push / drive;
-    if (!(outlook->bend > 0.0 && outlook->bend <= 2.0 && drive > 0.0 &&
-          outlook->contraction < MAX_CONTRACTION)) {
+    if (!(outlook->bend > 0.0 && outlook->bend <= 2.0 &&
+          outlook->push < MAX_CONTRACTION * drive)) {
         return BY_SERIES;
     }
     double path = GUESSED_EXPONENT / outlook->rate;
     double square = speed * speed + 2.0 * outlook->acceleration * path;
-    if (!(square > 0.25 * speed * speed)) {
+    double guessed = sqrt(square);
+    if (!(square > 0.25 * speed * speed && path < longest * (speed + guessed))) {
         return BY_SERIES;
     }
-    double time = 1.0 / (outlook->rate * sqrt(square)) + outlook->lag;
+    outlook->lag = bristle->damping / bristle->stiffness;
+    double time = 1.0 / (outlook->rate * guessed) + outlook->lag;
     outlook->exponent = log(outlook->push * time / tolerance);
-    return outlook->exponent > 0.0 ? BY_PANEL : AS_BENT;
-}
-
-double bending_time(const BendingOutlook *outlook) {
-    double speed = outlook->speed, path = outlook->exponent / outlook->rate;
-    return 2.0 * path / (speed + sqrt(speed * speed + 2.0 * outlook->acceleration * path));
-}
-
-/* Derivative of the acceleration at the start of a slide [m/s^3]. */
-static double jerk_of(const SplitSlide *slide) {
-    const Plant *plant = slide->plant;
-    const Phasors *start = &slide->start.phasors;
-    double w = plant->drive_frequency, q = plant->normal_frequency;
-    Complex eigenvalue = plant->slip.eigenvalue;
-    double jerk = -w * w * complex_mul(slide->velocity_drive, start->drive).re;
-    if (!slide->split->merges) {
-        jerk -= q * q * complex_mul(slide->velocity_normal, start->normal).re;
+    if (outlook->exponent <= 0.0) {
+        return AS_BENT;
     }
-    return jerk + complex_mul(complex_mul(eigenvalue, eigenvalue), slide->velocity_free).re;
-}
-
-double bending_time_along(const BendingOutlook *outlook, const SplitSlide *slide, double time) {
-    double half_jerk = 0.5 * slide->direction * jerk_of(slide);
-    double half = 0.5 * outlook->acceleration, path = outlook->exponent / outlook->rate;
-    double ahead = time * (outlook->speed + time * (half + time * half_jerk / 3.0)) - path;
-    double speed = outlook->speed + time * (outlook->acceleration + time * half_jerk);
-    return speed > 0.0 ? LONGER * (time - ahead / speed) : NAN;
+    double fastest = fmax(plant->drive_frequency, fabs(plant->normal_frequency));
+    if (outlook->lag * fastest > MAX_LAG) {
+        return BY_SERIES;
+    }
+    outlook->contraction = outlook->push / drive;
+    outlook->starts_slow = 2.0 * speed < guessed;
+    outlook->length = LONGER * time_for(outlook, outlook->exponent / outlook->rate);
+    return outlook->length < longest ? BY_PANEL : BY_SERIES;
 }
 
 double bending_weight(const BendingOutlook *outlook, double length) {
@@ -90,7 +102,7 @@ int bending_nodes(const BendingOutlook *outlook, double length, bool ends_within
     if (ends_within) {
         missed = fmax(missed, WITHIN * weight);
     }
-    double width = 1.15 * outlook->exponent + (outlook->speed > 0.0 ? 3.0 : 6.0);
+    double width = 1.15 * outlook->exponent + (outlook->starts_slow ? 6.0 : 3.0);
     double places = missed > 1.0 ? sqrt(width * log(missed)) : 0.0;
     if (!(places < MAX_NODES - 1)) {
         return 0;

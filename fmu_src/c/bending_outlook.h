@@ -10,11 +10,13 @@
 #include "moment.h"
 
 /* `rate` k [1/m] of E = exp(-k |x - x_r|), `lag` rho [s], `bend` beta; `push` bounds the acceleration by
- * the force f of the bristle [m/s^2]; `speed` [m/s] and `acceleration` under full friction [m/s^2] are
- * counted in the direction of sliding, and `contraction` is f over what moves the slider otherwise. Once
- * E = exp(-`exponent`), what f still gives to the velocity is below the tolerance. */
+ * the force f of the bristle [m/s^2]; `speed` [m/s], `acceleration` [m/s^2] and `jerk` [m/s^3] under full
+ * friction are counted in the direction of sliding, and `contraction` is f over what moves the slider
+ * otherwise. Once E = exp(-`exponent`), after about `length` [s], what f still gives to the velocity is
+ * below the tolerance. A path that `starts_slow` is rather parabolic than linear in time. */
 typedef struct {
-    double rate, lag, bend, push, speed, acceleration, contraction, exponent;
+    double rate, lag, bend, push, speed, acceleration, jerk, contraction, exponent, length;
+    bool starts_slow;
 } BendingOutlook;
 
 /* How to follow bending bristles: in one panel; as sliding under full friction, where they change the
@@ -22,16 +24,10 @@ typedef struct {
 typedef enum { BY_PANEL, AS_BENT, BY_SERIES } BendingMotion;
 
 /* Motion in contact from `now` on in `direction`, that of its velocity or, from rest, of its acceleration;
- * `tolerance` in m/s. */
+ * BY_PANEL if that is at most `longest` [s] long, `tolerance` in m/s. */
 BendingMotion bending_outlook(BendingOutlook *outlook, const Held *held, const Bristle *bristle,
                               int direction, const Moment *now, const Phasors *phasors,
-                              double tolerance);
-
-/* Time [s] until bristles are bent, roughly; NAN if the slider stops before. */
-double bending_time(const BendingOutlook *outlook);
-
-/* The same, a little longer, by the slide under full friction. */
-double bending_time_along(const BendingOutlook *outlook, const SplitSlide *slide, double time);
+                              double longest, double tolerance);
 
 /* Bound on how f, over its length [s], changes the velocity [m/s]. */
 double bending_weight(const BendingOutlook *outlook, double length);

@@ -190,37 +190,32 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
                                   const Bristle *bristle, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance) {
     const Plant *plant = &held->plant;
-    double chi = now->psi + plant->phase, longest_panel = MAX_ARC / held->split.fastest;
+    double chi = now->psi + plant->phase;
     if (!held->splits || !(bristle->stiffness > 0.0)) {
         return BY_SERIES;
     }
     BendingOutlook outlook;
-    BendingMotion motion =
-        bending_outlook(&outlook, held, bristle, direction, now, start, tolerance);
+    double longest_panel = fmin(MAX_ARC / held->split.fastest, longest / MIN_WITHIN);
+    BendingMotion motion = bending_outlook(&outlook, held, bristle, direction, now, start,
+                                           longest_panel, tolerance);
     if (motion != BY_PANEL) {
         return motion;
     }
-    double length = bending_time(&outlook);
-    if (!(length < longest_panel && MIN_WITHIN * length < longest)) {
-        return BY_SERIES;
-    }
-    int nodes = bending_nodes(&outlook, length, length > longest, tolerance);
+    double length = outlook.length;
+    bool ends_within = MAX_KERNELS_STEP * length > longest;
+    int nodes = bending_nodes(&outlook, length, ends_within, tolerance);
     if (nodes == 0) {
         return BY_SERIES;
     }
     SplitSlide *slide = &panel->slide;
-    split_slide_begin(slide, &held->split, plant, direction, &now->state, now->theta, chi,
-                      start, direction);
-    length = bending_time_along(&outlook, slide, length);
-    if (!(length < longest_panel && MIN_WITHIN * length < longest)) {
+    split_slide_begin(slide, &held->split, plant, direction, &now->state, now->theta, chi, start,
+                      direction);
+    if (!bending_goes_on(&outlook, slide, MAX_KERNELS_STEP * length)) {
         return BY_SERIES;
     }
     BendingKernels *kernels = bending_kernels_of(tables, plant, length, nodes);
     panel->kernels = kernels;
     length = panel->length = kernels->length;
-    if (!bending_goes_on(&outlook, slide, length)) {
-        return BY_SERIES;
-    }
     panel->rate = outlook.rate;
     panel->scale = direction * outlook.bend;
     panel->lag = outlook.lag;

@@ -43,8 +43,8 @@ static double force(const Law *law, const Moment *moment, int mode) {
 static double velocity_scale(const Plant *plant, const State *state) {
     double w = plant->drive_frequency;
     double forces = plant->friction_preload + plant->friction_amplitude + fabs(plant->load);
-    double swing =
-        plant->mass_fraction * hypot(state->rate, plant->stick.frequency * state->displacement);
+    double swing = plant->mass_fraction *
+                   complex_abs(complex_of(state->rate, plant->stick.frequency * state->displacement));
     return complex_abs(plant->drive) / w + forces / (plant->total_mass * w) +
            fabs(state->velocity) + swing;
 }

@@ -42,16 +42,40 @@ static double value(const double *coefficients, double t) {
 #define LEAST 1e-200
 enum { MAX_SHRINKS = 4 };
 
-/* How far a series holds [s]: where its last two terms are `tolerance`. */
-static double series_reach(const double *coefficients, double tolerance) {
-    double reach = INFINITY;
-    for (int k = TAYLOR_ORDER - 1; k <= TAYLOR_ORDER; k++) {
-        double size = fabs(coefficients[k]);
-        if (size > 0.0) {
-            reach = fmin(reach, pow(tolerance / size, INVERSE[k]));
-        }
+/* Two last terms of series, by the tolerance over their coefficients: how far they let the series hold [s]
+ * is a root of these, of order TAYLOR_ORDER - 1 and TAYLOR_ORDER. */
+typedef struct {
+    double lower, higher;
+} LastTerms;
+
+static double tolerance_over(double tolerance, double coefficient) {
+    double size = fabs(coefficient);
+    return size > 0.0 ? tolerance / size : INFINITY;
+}
+
+static LastTerms last_terms(const double *coefficients, double tolerance) {
+    return (LastTerms){tolerance_over(tolerance, coefficients[TAYLOR_ORDER - 1]),
+                       tolerance_over(tolerance, coefficients[TAYLOR_ORDER])};
+}
+
+/* x^(TAYLOR_ORDER - 1). */
+static double power_lower(double x) {
+    double x2 = x * x, x4 = x2 * x2, x5 = x4 * x, x10 = x5 * x5;
+    return x10 * x10 * x;
+}
+
+/* How far series hold [s]: where one of these terms is its tolerance. A root is an expensive function, so
+ * the smaller one is found by powers first. */
+static double series_reach(LastTerms terms) {
+    double lower = terms.lower, higher = terms.higher;
+    double smaller = lower * power_lower(lower / higher);
+    if (smaller > 0.0 && smaller < 1.0) {
+        return pow(lower, INVERSE[TAYLOR_ORDER - 1]);
     }
-    return reach;
+    if (smaller > 1.0 && smaller < INFINITY) {
+        return pow(higher, INVERSE[TAYLOR_ORDER]);
+    }
+    return fmin(pow(lower, INVERSE[TAYLOR_ORDER - 1]), pow(higher, INVERSE[TAYLOR_ORDER]));
 }
 
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
@@ -106,11 +130,14 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
         drive = turned(drive, w * step);
     }
     slide->bound = 0.0;
-    slide->reach = series_reach(v, tolerance);
+    LastTerms last = last_terms(v, tolerance);
     if (slide->resonates) {
         double weight = plant->mass_fraction > 0.0 ? plant->mass_fraction : 1.0;
-        slide->reach = fmin(slide->reach, series_reach(u, tolerance / weight));
+        LastTerms resonator = last_terms(u, tolerance / weight);
+        last.lower = fmin(last.lower, resonator.lower);
+        last.higher = fmin(last.higher, resonator.higher);
     }
+    slide->reach = series_reach(last);
     /* Of a motion far below the tolerance the last terms would be the larger part, and its first zero
      * hard to find. */
     for (int i = 0; i < MAX_SHRINKS && slide->reach < INFINITY; i++) {
@@ -118,7 +145,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
         if (!(small > LEAST && small < tolerance)) {
             break;
         }
-        slide->reach = fmin(slide->reach, series_reach(v, small));
+        slide->reach = fmin(slide->reach, series_reach(last_terms(v, small)));
     }
 }
 
