@@ -16,6 +16,15 @@
 /* Largest angle [rad] of drive and normal load by which damping may lag. */
 #define MAX_LAG 1.0
 
+/* Largest angle [rad] of the fastest oscillation in a panel. */
+#define MAX_ARC 2.0
+
+/* Exponent of E that must be passed, and share of a panel that must be used, for series not to be as cheap;
+ * the exponent at once where the fastest oscillation turns by less than MIN_SLIDE [rad]. */
+#define MIN_SHARE 0.5
+#define MIN_SLIDE 1.0
+#define MIN_EXPONENT 5.0
+
 /* Share of its velocity under full friction that a slider must surely have left. */
 #define SURE 0.1
 
@@ -27,21 +36,17 @@
 /* Share of the tolerance for which nodes are chosen. */
 #define NODES_SHARE 0.3
 
-/* Speed [m/s] and acceleration [m/s^2] under full friction, and the derivative of that [m/s^3]. */
-static void look_ahead(BendingOutlook *outlook, const Plant *plant, int direction,
-                       const State *state, const Phasors *phasors) {
+/* Derivative of the acceleration under full friction [m/s^3]. */
+static double jerk_of(const Plant *plant, int direction, double acceleration, const State *state,
+                      const Phasors *phasors) {
     double w = plant->drive_frequency, q = plant->normal_frequency;
-    double friction = direction * friction_limit_by(plant, phasors);
     double changing = direction * plant->friction_amplitude * q * normal_phasor(plant, phasors).re;
-    double acceleration = (force_by(plant, state, phasors) - friction) / plant->slider_mass;
     double swing = plant->base_acceleration * phasors->drive.im - acceleration -
                    2.0 * plant->stick.decay * state->rate -
                    plant->stick.stiffness * state->displacement;
     double direct = w * complex_mul(plant->holding_drive, phasors->drive).re;
     double jerk = plant->spring * state->rate + plant->damper * swing + direct - changing;
-    outlook->speed = fabs(state->velocity);
-    outlook->acceleration = direction * acceleration;
-    outlook->jerk = direction * jerk / plant->slider_mass;
+    return jerk / plant->slider_mass;
 }
 
 /* Time [s] for `path` [m]: by speed and acceleration, then corrected by the jerk. NAN if it is not
@@ -58,11 +63,19 @@ BendingMotion bending_outlook(BendingOutlook *outlook, const Held *held, const B
                               int direction, const Moment *now, const Phasors *phasors,
                               double longest, double tolerance) {
     const Plant *plant = &held->plant;
-    double mu = bristle->coefficient;
+    const State *state = &now->state;
+    double mu = bristle->coefficient, speed = fabs(state->velocity);
+    double resisting = direction * friction_limit_by(plant, phasors);
+    double acceleration = (force_by(plant, state, phasors) - resisting) / plant->slider_mass;
     double limit = plant->friction_preload + plant->friction_amplitude;
-    look_ahead(outlook, plant, direction, &now->state, phasors);
-    double speed = outlook->speed;
+    double reach = MAX_ARC / held->split.fastest, slide = MIN_SLIDE / held->split.fastest;
+    double first = longest < slide ? longest : reach;
+    outlook->speed = speed;
+    outlook->acceleration = direction * acceleration;
     outlook->rate = bristle->stiffness / mu;
+    if (!(outlook->rate * first * (speed + 0.5 * outlook->acceleration * first) > MIN_EXPONENT)) {
+        return BY_SERIES;
+    }
     outlook->bend = (mu - direction * now->bristle) / mu;
     outlook->push = outlook->bend * limit / plant->slider_mass;
     double drive = outlook->acceleration + 0.5 * outlook->rate * speed * speed;
@@ -73,7 +86,7 @@ BendingMotion bending_outlook(BendingOutlook *outlook, const Held *held, const B
     double path = GUESSED_EXPONENT / outlook->rate;
     double square = speed * speed + 2.0 * outlook->acceleration * path;
     double guessed = sqrt(square);
-    if (!(square > 0.25 * speed * speed && path < longest * (speed + guessed))) {
+    if (!(square > 0.25 * speed * speed && path < reach * (speed + guessed))) {
         return BY_SERIES;
     }
     outlook->lag = bristle->damping / bristle->stiffness;
@@ -88,8 +101,10 @@ BendingMotion bending_outlook(BendingOutlook *outlook, const Held *held, const B
     }
     outlook->contraction = outlook->push / drive;
     outlook->starts_slow = 2.0 * speed < guessed;
+    outlook->jerk = direction * jerk_of(plant, direction, acceleration, state, phasors);
     outlook->length = LONGER * time_for(outlook, outlook->exponent / outlook->rate);
-    return outlook->length < longest ? BY_PANEL : BY_SERIES;
+    bool fits = outlook->length < reach && MIN_SHARE * outlook->length < longest;
+    return fits && (longest > slide || outlook->exponent > MIN_EXPONENT) ? BY_PANEL : BY_SERIES;
 }
 
 double bending_weight(const BendingOutlook *outlook, double length) {

@@ -24,7 +24,7 @@ typedef struct {
 typedef enum { BY_PANEL, AS_BENT, BY_SERIES } BendingMotion;
 
 /* Motion in contact from `now` on in `direction`, that of its velocity or, from rest, of its acceleration;
- * BY_PANEL if that is at most `longest` [s] long, `tolerance` in m/s. */
+ * it goes on for up to `longest` [s]. `tolerance` in m/s. */
 BendingMotion bending_outlook(BendingOutlook *outlook, const Held *held, const Bristle *bristle,
                               int direction, const Moment *now, const Phasors *phasors,
                               double longest, double tolerance);

@@ -4,12 +4,6 @@
 
 #include "decay_row.h"
 
-/* Share of a panel below which a motion that ends within it is left to series. */
-#define MIN_WITHIN 0.5
-
-/* Largest angle [rad] of the fastest oscillation in a panel. */
-#define MAX_ARC 2.0
-
 enum { MAX_CORRECTIONS = 6 };
 
 /* Share of the tolerance that ending the iteration may take. */
@@ -195,9 +189,8 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
         return BY_SERIES;
     }
     BendingOutlook outlook;
-    double longest_panel = fmin(MAX_ARC / held->split.fastest, longest / MIN_WITHIN);
-    BendingMotion motion = bending_outlook(&outlook, held, bristle, direction, now, start,
-                                           longest_panel, tolerance);
+    BendingMotion motion =
+        bending_outlook(&outlook, held, bristle, direction, now, start, longest, tolerance);
     if (motion != BY_PANEL) {
         return motion;
     }
