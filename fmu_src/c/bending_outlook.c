@@ -16,7 +16,8 @@
 /* Largest angle [rad] of drive and normal load by which damping may lag. */
 #define MAX_LAG 1.0
 
-/* Largest angle [rad] of the fastest oscillation in a panel. */
+/* Angles [rad] of the fastest oscillation between which a panel is long. */
+#define MIN_ARC 1e-9
 #define MAX_ARC 2.0
 
 /* Exponent of E that must be passed, and share of a panel that must be used, for series not to be as cheap;
@@ -103,7 +104,9 @@ BendingMotion bending_outlook(BendingOutlook *outlook, const Held *held, const B
     outlook->starts_slow = 2.0 * speed < guessed;
     outlook->jerk = direction * jerk_of(plant, direction, acceleration, state, phasors);
     outlook->length = LONGER * time_for(outlook, outlook->exponent / outlook->rate);
-    bool fits = outlook->length < reach && MIN_SHARE * outlook->length < longest;
+    double shortest = MIN_ARC / held->split.fastest;
+    bool fits = shortest < outlook->length && outlook->length < reach &&
+                MIN_SHARE * outlook->length < longest;
     return fits && (longest > slide || outlook->exponent > MIN_EXPONENT) ? BY_PANEL : BY_SERIES;
 }
 

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "decay_row.h"
+#include "fast_decay.h"
 
 enum { MAX_CORRECTIONS = 6 };
 
@@ -106,24 +106,31 @@ static void displace(const BendingPanel *panel, double change[MAX_ROW]) {
     }
 }
 
-/* Corrects E, and f by it, from the path under full friction on until another correction would change the
- * velocity by less than `tolerance` [m/s]; `weight` [m/s] is the largest that f could bring. Tells how
- * strongly the first one contracts, and E at the end. */
-static bool iterate(BendingPanel *panel, const double *exponent, double weight, double tolerance,
-                    double *contraction, double *left) {
+/* How strongly the first correction contracts, and E at the end; `done` where the iteration converged. */
+typedef struct {
+    bool done;
+    double contraction, left;
+} Iteration;
+
+/* Corrects E, and f by it, from the path under full friction on until another correction would change
+ * the velocity by less than `tolerance` [m/s]; `weight` [m/s] is the largest that f could bring. */
+static Iteration iterate(BendingPanel *panel, const double *exponent, double weight,
+                         double tolerance) {
     int count = panel->kernels->gauss->count;
     double even[MAX_ROW], late[MAX_ROW], bent[MAX_ROW], before[MAX_ROW] = {0.0};
-    double remaining[MAX_ROW], scale = panel->slide.direction * panel->rate, last = 1.0;
+    double remaining[MAX_ROW], scale = panel->slide.direction * panel->rate, next = 1.0;
+    Iteration at = {false, 0.0, 1.0};
     prepare_forces(panel, even, late);
-    for (int correction = 0; correction <= MAX_CORRECTIONS; correction++) {
+    for (int correction = 0; correction <= MAX_CORRECTIONS && at.contraction < 1.0; correction++) {
         for (int i = 0; i < count + 2; i++) {
-            remaining[i] = decay(exponent[i] + before[i]);
+            remaining[i] = fast_decay(exponent[i] + before[i]);
             panel->even[i] = even[i] * remaining[i];
             panel->late[i] = late[i] * remaining[i];
         }
-        *left = remaining[count];
-        if (weight * last <= tolerance) {
-            return true;
+        at.left = remaining[count];
+        if (weight * next <= tolerance) {
+            at.done = true;
+            break;
         }
         double largest = 0.0;
         displace(panel, bent);
@@ -133,13 +140,10 @@ static bool iterate(BendingPanel *panel, const double *exponent, double weight, 
             largest = turned > largest ? turned : largest;
             before[i] = bent[i];
         }
-        *contraction = correction == 0 ? largest : *contraction;
-        last = NEXT * largest * *contraction;
-        if (!(*contraction < 1.0)) {
-            return false;
-        }
+        at.contraction = correction == 0 ? largest : at.contraction;
+        next = NEXT * largest * at.contraction;
     }
-    return false;
+    return at;
 }
 
 /* Adds what impulses b leave that end at `t` [s] with `late` [N s]. */
@@ -180,6 +184,21 @@ static Given given_by(const Plant *plant, const double left[LEFT]) {
     return given;
 }
 
+/* Turns the motion under full friction into that after the panel. */
+static void end_panel(BendingPanel *panel) {
+    BendingKernels *kernels = panel->kernels;
+    int end = kernels->gauss->count;
+    double left[LEFT];
+    sum_up(panel, kernels->left_even, kernels->left_late, left);
+    if (panel->late[end] != 0.0) {
+        add_end(panel->slide.plant, left, panel->length, panel->late[end]);
+    }
+    panel->all = given_by(panel->slide.plant, left);
+    split_slide_change(&panel->slide, panel->all.momentum, panel->all.swing);
+    split_slide_anchor(&panel->slide, panel->length, kernels->end_drive,
+                       complex_of(kernels->turn.re[end], kernels->turn.im[end]), kernels->end_free);
+}
+
 BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, const Held *held,
                                   const Bristle *bristle, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance) {
@@ -212,27 +231,17 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
     panel->rate = outlook.rate;
     panel->scale = direction * outlook.bend;
     panel->lag = outlook.lag;
-    double exponent[MAX_ROW], weight = bending_weight(&outlook, length), contraction, left;
+    double exponent[MAX_ROW], weight = bending_weight(&outlook, length);
     follow_path(panel, &outlook, exponent);
-    if (!iterate(panel, exponent, weight, ITERATION_SHARE * tolerance, &contraction, &left)) {
+    Iteration at = iterate(panel, exponent, weight, ITERATION_SHARE * tolerance);
+    double missed = gauss_nodes_last(kernels->gauss, panel->even);
+    double share = missed / (plant->slider_mass * outlook.push);
+    if (!at.done || !(bending_error(weight, share, at.contraction, nodes, length > longest) <=
+                      tolerance)) {
         return BY_SERIES;
     }
-    double share = gauss_nodes_last(kernels->gauss, panel->even) /
-                   (plant->slider_mass * outlook.push);
-    if (!(bending_error(weight, share, contraction, nodes, length > longest) <= tolerance)) {
-        return BY_SERIES;
-    }
-    panel->reach = left <= exp(-outlook.exponent) ? INFINITY : length;
-    double left_over[LEFT];
-    sum_up(panel, kernels->left_even, kernels->left_late, left_over);
-    if (panel->late[nodes] != 0.0) {
-        add_end(plant, left_over, length, panel->late[nodes]);
-    }
-    panel->all = given_by(plant, left_over);
-    split_slide_change(slide, panel->all.momentum, panel->all.swing);
-    split_slide_anchor(slide, length, kernels->end_drive,
-                       complex_of(kernels->turn.re[nodes], kernels->turn.im[nodes]),
-                       kernels->end_free);
+    panel->reach = at.left <= fast_decay(outlook.exponent) ? INFINITY : length;
+    end_panel(panel);
     return BY_PANEL;
 }
 
@@ -263,7 +272,7 @@ static SplitSlide slide_from(const BendingPanel *panel, double t, double *offset
         Complex normal = normal_phasor(plant, &panel->slide.start.phasors);
         Complex turned = complex_mul(normal, complex_rect(1.0, plant->normal_frequency * t));
         double limit = panel->scale * panel->lag * limit_at(plant, turned).re;
-        add_end(plant, left, t, limit * decay(panel->rate * fabs(travel)));
+        add_end(plant, left, t, limit * fast_decay(panel->rate * fabs(travel)));
         given = given_by(plant, left);
         slide = slide_with(panel, &given);
     }

@@ -1,25 +1,17 @@
-"""The native finder of held orbits, compiled for tests."""
+"""The native finder of held orbits, by its probe."""
 
 from __future__ import annotations
 
 import ctypes
-import re
-import subprocess
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_src.building.c_sources import slider_sources, write_sources
 from fmu_src.python.slider_component.variables import VARIABLES
-from slider_resonator.trials.hosts.compiler import native_compiler
 from tests.fmu_src.orbit_devices import Case
 
-PROBE = Path(__file__).parent / "c" / "orbits.c"
 HELD, STEADY = 0, 1
-FLAGS = ("-std=c99", "-O1", "-ffp-contract=off", "-fPIC", "-shared")
-"""As in the FMU without fused products and sums."""
 
 
 @dataclass(frozen=True)
@@ -76,20 +68,6 @@ class NativeOrbits:
         start = (ctypes.c_double(load), ctypes.c_double(velocity))
         failed = self.library.run_periods(*_device(case), *start, periods, _pointer(states))
         return None if failed else states.T
-
-
-SHELL = re.compile(r"fmi2_(?!version)")
-"""Files of the FMI functions; the numbers need the names of their version only."""
-
-
-def compiled_orbits(folder: Path) -> NativeOrbits:
-    """Compile the library into a folder."""
-    write_sources(slider_sources() | {PROBE.name: PROBE.read_text()}, folder)
-    library = folder / "orbits.so"
-    sources = sorted(str(path) for path in folder.glob("*.c") if not SHELL.match(path.name))
-    command = [*native_compiler(), *FLAGS, *sources, "-o", str(library), "-lm"]
-    subprocess.run(command, check=True)
-    return NativeOrbits(ctypes.CDLL(str(library)))
 
 
 def _device(case: Case) -> tuple[object, ...]:

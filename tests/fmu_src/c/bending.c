@@ -1,0 +1,130 @@
+/* Panels of bending bristles of the native component, for tests: numbers in, numbers out. */
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "bending_panel.h"
+#include "event_search.h"
+#include "fast_decay.h"
+#include "gauss_nodes.h"
+#include "law.h"
+#include "values.h"
+
+enum { STATES = 5 };
+
+static bool law_of(Law *law, const double *values, double tolerance, Refusal *refusal) {
+    Device device = device_of(values);
+    Inputs inputs = inputs_of(values);
+    device.tolerance = tolerance;
+    return law_prepare(law, &device, &inputs, NULL, refusal);
+}
+
+void decays(const double *x, int count, double *found) {
+    for (int i = 0; i < count; i++) {
+        found[i] = fast_decay(x[i]);
+    }
+}
+
+/* Nodes and weights, and the integrals of the unit interval up to `end`. */
+void gauss(int count, double end, double *node, double *weight, double *integral) {
+    static GaussNodes nodes;
+    double row[MAX_NODES];
+    gauss_nodes_prepare(&nodes, count);
+    gauss_nodes_integrate(&nodes, end, row);
+    for (int i = 0; i < count; i++) {
+        node[i] = nodes.node[i];
+        weight[i] = nodes.weight[i];
+        integral[i] = row[i];
+    }
+}
+
+/* Position, velocity, resonator displacement and rate, and bristle after each step, by series alone or also by
+ * panels, from tables that are `warm` or not. Returns 0 if it could be followed. */
+int run_bending(const double *values, double tolerance, int panels, int warm, double step_size, int steps,
+                double *states) {
+    static BendingTables kept;
+    Law law;
+    Moment now, after;
+    Refusal refusal;
+    BendingTables *tables = warm ? &kept : calloc(1, sizeof *tables);
+    bool done = tables != NULL && law_of(&law, values, tolerance, &refusal);
+    if (done) {
+        law.bending = panels ? tables : NULL;
+        now = law_start(&law);
+    }
+    for (int i = 0; done && i < steps; i++) {
+        done = law_advance(&law, &now, step_size, NULL, &after, &refusal);
+        const double state[STATES] = {after.position, after.state.velocity, after.state.displacement,
+                                      after.state.rate, after.bristle};
+        for (int k = 0; k < STATES; k++) {
+            states[STATES * i + k] = state[k];
+        }
+        now = after;
+    }
+    if (!warm) {
+        free(tables);
+    }
+    return done ? 0 : 1;
+}
+
+/* Differences of the velocity [m/s] and the travel [m] of the panel and of series of tolerance 1e-14, `t` [s] after `now`. */
+static bool compare(const Law *series, const BendingPanel *panel, const Moment *now, double t,
+                    double *velocity, double *travelled) {
+    Moment after;
+    Refusal refusal;
+    KnownPhasors known;
+    double travel;
+    State state = bending_panel_end(panel, t, &travel, &known);
+    if (!law_advance(series, now, t, NULL, &after, &refusal)) {
+        return false;
+    }
+    *velocity = fabs(state.velocity - after.state.velocity);
+    *travelled = fabs(travel - (after.position - now->position)) +
+                 fabs(travel - bending_panel_travel(panel, t));
+    return true;
+}
+
+/* The panel after the first reversal past `start` [s], held to `tolerance` [m/s]: errors of velocity [m/s]
+ * and travel [m] at its end, of the velocity once a fifth more has passed, and, of a panel for motion that
+ * ends at a `share` of it, the velocity there, -1 where there is none. Returns its nodes, 0 without it. */
+int panel_errors(const double *values, double start, double tolerance, double share,
+                 double *errors) {
+    static BendingTables tables;
+    static BendingPanel panel;
+    Law law;
+    Moment now, later, reversal;
+    Refusal refusal;
+    if (!law_of(&law, values, 1e-14, &refusal)) {
+        return 0;
+    }
+    const Plant *plant = &law.held.plant;
+    now = law_start(&law);
+    EventSearch search = event_search(0.0);
+    if (!law_advance(&law, &now, start, NULL, &later, &refusal) ||
+        !law_advance(&law, &later, TAU / plant->drive_frequency, &search, &reversal, &refusal) ||
+        !search.found || reversal.mode == LIFTED || reversal.state.velocity != 0.0) {
+        return 0;
+    }
+    double chi = reversal.psi + plant->phase, unused;
+    double switching = time_to_switch(&law.held.window, chi, plant->normal_frequency, false);
+    Phasors phasors = phasors_of(plant, reversal.theta, chi);
+    for (int direction = BACKWARD; direction <= FORWARD; direction += 2) {
+        if (bending_panel_begin(&panel, &tables, &law.held, &law.bristle, direction, &reversal,
+                                &phasors, INFINITY, tolerance) != BY_PANEL ||
+            panel.reach < INFINITY || !(1.2 * panel.length < switching)) {
+            continue;
+        }
+        int nodes = panel.kernels->gauss->count;
+        double part = share * panel.length;
+        bool done = compare(&law, &panel, &reversal, panel.length, &errors[0], &errors[1]) &&
+                    compare(&law, &panel, &reversal, 1.2 * panel.length, &errors[2], &unused);
+        errors[3] = -1.0;
+        if (done && bending_panel_begin(&panel, &tables, &law.held, &law.bristle, direction, &reversal,
+                                        &phasors, part, tolerance) == BY_PANEL) {
+            done = compare(&law, &panel, &reversal, part, &errors[3], &unused);
+        }
+        return done ? nodes : 0;
+    }
+    return 0;
+}

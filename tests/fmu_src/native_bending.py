@@ -1,0 +1,141 @@
+"""Panels of bending bristles of the native component, by their probe."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import random
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_src.python.slider_component.variables import VARIABLES
+
+Values = Mapping[str, float]
+"""Values of variables by name, start values for the others."""
+
+
+@dataclass(frozen=True)
+class PanelErrors:
+    """Errors of one panel: of velocity (m/s) and travel (m) at its end, of the velocity a fifth
+    later, and of that within a panel that is cut short, or None where series cover that."""
+
+    nodes: int
+    velocity: float
+    travel: float
+    later: float
+    within: float | None
+
+
+@dataclass(frozen=True)
+class NativeBending:
+    """The C sources and the probe as a library."""
+
+    library: ctypes.CDLL
+
+    def decay(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        found = np.zeros_like(x)
+        self.library.decays(_pointer(x), len(x), _pointer(found))
+        return found
+
+    def gauss(self, count: int, end: float) -> tuple[NDArray[np.float64], ...]:
+        """Return nodes, weights and the integrals up to `end` per value at the nodes."""
+        rows = [np.zeros(count) for _ in range(3)]
+        self.library.gauss(count, ctypes.c_double(end), *(_pointer(row) for row in rows))
+        return tuple(rows)
+
+    def run(
+        self,
+        values: Values,
+        step: float,
+        steps: int,
+        *,
+        tolerance: float,
+        panels: bool = True,
+        warm: bool = False,
+    ) -> NDArray[np.float64] | None:
+        """Return position, velocity, displacement, rate, bristle, (5, steps); None on failure."""
+        states = np.zeros((steps, 5))
+        start = (_values(values), ctypes.c_double(tolerance), int(panels), int(warm))
+        failed = self.library.run_bending(*start, ctypes.c_double(step), steps, _pointer(states))
+        return None if failed else states.T
+
+    def panel(
+        self, values: Values, start: float, tolerance: float, share: float
+    ) -> PanelErrors | None:
+        """Return the errors of the panel after the first reversal past `start` (s), if there is."""
+        errors = np.zeros(4)
+        given = (ctypes.c_double(number) for number in (start, tolerance, share))
+        nodes = self.library.panel_errors(_values(values), *given, _pointer(errors))
+        if nodes == 0:
+            return None
+        velocity, travel, later, within = errors.tolist()
+        return PanelErrors(nodes, velocity, travel, later, None if within < 0.0 else within)
+
+
+def random_device(seed: int) -> dict[str, float]:
+    """A device with LuGre friction: stiffness 1e2 to 1e14, both fidelities, flight, any ratio."""
+    draw = random.Random(seed)
+
+    def decades(low: float, high: float) -> float:
+        return math.exp(draw.uniform(math.log(low), math.log(high)))
+
+    mass, preload = decades(0.05, 20.0), decades(0.05, 20.0)
+    return {
+        "friction_law": 1,
+        "slider_mass": mass,
+        "resonator_mass": mass * draw.choice([0.0, decades(0.01, 1.0), decades(0.01, 1.0)]),
+        "resonator_frequency": decades(300.0, 30_000.0),
+        "damping_ratio": draw.choice([0.0, decades(1e-3, 0.5)]),
+        "normal_preload": preload,
+        "normal_amplitude": preload * draw.choice([0.0, 0.5, 1.0, 1.8]),
+        "base_amplitude": decades(1e-6, 1e-3),
+        "drive_frequency": decades(500.0, 20_000.0),
+        "tangential_force": draw.choice([0.0, 0.0, draw.uniform(-30.0, 30.0)]),
+        "friction_coefficient": decades(0.02, 5.0),
+        "friction_faces": draw.choice([1, 2]),
+        "bristle_stiffness": decades(1e2, 1e14),
+        "bristle_damping": draw.choice([0.0, decades(0.1, 1000.0)]),
+        "fidelity": draw.choice([1, 2]),
+        "phase": draw.uniform(-3.0, 3.0),
+        "load": draw.choice([0.0, draw.gauss(0.0, 1.0)]),
+        "frequency_ratio": draw.choice([1.0, 1.0, 1.001, 2.0, 0.5, 0.0, draw.uniform(-3.0, 3.0)]),
+        "initial_velocity": draw.choice([0.0, draw.gauss(0.0, 0.3)]),
+    }
+
+
+def sliding_device(seed: int) -> dict[str, float]:
+    """Table 1 with LuGre friction and other bristles, friction and load: slides to and fro."""
+    draw = random.Random(seed)
+
+    def decades(low: float, high: float) -> float:
+        return math.exp(draw.uniform(math.log(low), math.log(high)))
+
+    return {
+        "friction_law": 1,
+        "resonator_frequency": 3500.0 * decades(0.5, 2.0),
+        "damping_ratio": draw.choice([0.0, decades(1e-3, 0.3)]),
+        "normal_amplitude": draw.choice([0.0, 0.5, 1.0, 1.8]),
+        "base_amplitude": decades(5e-5, 1e-3),
+        "friction_coefficient": decades(0.02, 2.0),
+        "bristle_stiffness": decades(1e4, 1e12),
+        "bristle_damping": draw.choice([0.0, decades(0.1, 100.0)]),
+        "fidelity": draw.choice([1, 2]),
+        "phase": draw.uniform(-3.0, 3.0),
+        "frequency_ratio": draw.choice([1.0, 1.0, 1.001, 2.0, 3.0, 0.0, draw.uniform(-3.0, 3.0)]),
+    }
+
+
+def _values(values: Values) -> object:
+    unknown = set(values) - {variable.name for variable in VARIABLES}
+    if unknown:
+        raise ValueError(f"unknown variables: {unknown}")
+    starts = [0.0 if variable.start is None else float(variable.start) for variable in VARIABLES]
+    given = [values.get(v.name, start) for v, start in zip(VARIABLES, starts, strict=True)]
+    return (ctypes.c_double * len(given))(*given)
+
+
+def _pointer(numbers: NDArray[np.float64]) -> object:
+    return numbers.ctypes.data_as(ctypes.POINTER(ctypes.c_double))

@@ -1,0 +1,146 @@
+"""Panels of bending bristles against series and known integrals: approximations to their bounds."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tests.fmu_src.native_bending import NativeBending, random_device, sliding_device
+
+TABLE_1 = {"friction_law": 1.0, "phase": 0.4}
+PERIOD = math.tau / 3500.0
+
+
+def test_decay_is_exponential_to_rounding(native_bending: NativeBending) -> None:
+    x = np.concatenate([np.linspace(0.0, 700.0, 70_001), np.logspace(-300, 0, 301)])
+    np.testing.assert_allclose(native_bending.decay(x), np.exp(-x), rtol=1e-14)
+    assert native_bending.decay(np.array([1e300, np.inf])) == pytest.approx(
+        math.exp(-700.0), rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("count", [8, 12, 16, 20, 24])
+def test_gauss_nodes(native_bending: NativeBending, count: int) -> None:
+    node, weight, _ = native_bending.gauss(count, 1.0)
+    expected, expected_weight = np.polynomial.legendre.leggauss(count)
+    np.testing.assert_allclose(node, 0.5 * (expected + 1.0), rtol=0.0, atol=1e-15)
+    np.testing.assert_allclose(weight, 0.5 * expected_weight, rtol=1e-12)
+
+
+@pytest.mark.parametrize("count", [8, 12, 16, 20, 24])
+@pytest.mark.parametrize("end", [0.0, 0.123, 0.5, 1.0])
+def test_integrals_between_nodes_are_exact_for_polynomials(
+    native_bending: NativeBending, count: int, end: float
+) -> None:
+    node, _, integral = native_bending.gauss(count, end)
+    for power in range(count):
+        exact = end ** (power + 1) / (power + 1)
+        assert integral @ node**power == pytest.approx(exact, rel=1e-12, abs=2e-15)
+
+
+def test_integrals_up_to_the_end_are_exact_for_twice_the_order(
+    native_bending: NativeBending,
+) -> None:
+    node, _, integral = native_bending.gauss(12, 1.0)
+    for power in range(24):
+        assert integral @ node**power == pytest.approx(1.0 / (power + 1), rel=1e-13)
+    assert abs(integral @ node**26 - 1.0 / 27) > 1e-16
+
+
+def test_random_panels_keep_their_tolerance(native_bending: NativeBending) -> None:
+    """At the end, a fifth later and within, against series of tolerance 1e-14."""
+    panels = 0
+    cut_short = 0
+    for seed in range(600):
+        tolerance = 0.3 * 10.0 ** -(6 + seed % 7)
+        values = sliding_device(seed)
+        found = native_bending.panel(values, 3.3 * PERIOD, tolerance, 0.55 + 0.4 * (seed % 11) / 10)
+        if found is None:
+            continue
+        panels += 1
+        # The series have an error, too.
+        allowed = 2.0 * tolerance + 1e-13
+        assert found.velocity <= allowed, (seed, found, tolerance)
+        assert found.later <= allowed, (seed, found, tolerance)
+        assert found.travel <= allowed * PERIOD, (seed, found, tolerance)
+        if found.within is not None:
+            cut_short += 1
+            assert found.within <= allowed, (seed, found, tolerance)
+    assert panels > 250
+    assert cut_short > 80
+
+
+def _largest(states: NDArray[np.float64], reference: NDArray[np.float64]) -> float:
+    """Return the largest error of position and velocity over their peaks."""
+    peak = np.abs(reference[:2]).max(axis=1) + 1e-300
+    return float((np.abs(states[:2] - reference[:2]).max(axis=1) / peak).max())
+
+
+def _compared(native_bending: NativeBending, seeds: range) -> NDArray[np.float64]:
+    """Return tolerance, errors of series and of panels for those devices that panels serve."""
+    rows = []
+    for seed in seeds:
+        values = random_device(10_000 + seed)
+        period = math.tau / values["drive_frequency"]
+        step, tolerance = period * (0.1, 0.37, 1.0, 7.3)[seed % 4], 10.0 ** -(5 + seed % 6)
+        steps = max(2, int(20 * period / step))
+        fine = native_bending.run(values, step, steps, tolerance=1e-13, panels=False)
+        series = native_bending.run(values, step, steps, tolerance=tolerance, panels=False)
+        panels = native_bending.run(values, step, steps, tolerance=tolerance)
+        assert (series is None) == (panels is None)
+        if series is None or panels is None or fine is None or np.array_equal(series, panels):
+            continue
+        rows.append((tolerance, _largest(series, fine), _largest(panels, fine)))
+    return np.array(rows)
+
+
+def _judge(rows: NDArray[np.float64]) -> None:
+    tolerance, series, panels = rows.T
+    assert np.all(panels <= 10.0 * np.maximum(series, 3.0 * tolerance)), rows
+    assert np.median(panels / np.maximum(series, tolerance)) < 1.5
+
+
+def test_random_devices_are_as_exact_as_by_series(native_bending: NativeBending) -> None:
+    rows = _compared(native_bending, range(60))
+    assert len(rows) > 20
+    _judge(rows)
+
+
+@pytest.mark.slow
+def test_more_random_devices_are_as_exact_as_by_series(native_bending: NativeBending) -> None:
+    rows = _compared(native_bending, range(60, 240))
+    assert len(rows) > 80
+    _judge(rows)
+
+
+@pytest.mark.parametrize("stiffness", [1e5, 1e8, 1e14])
+@pytest.mark.parametrize("damping", [0.0, 10.0])
+def test_table_1_keeps_the_tolerance(
+    native_bending: NativeBending, stiffness: float, damping: float
+) -> None:
+    values = TABLE_1 | {"bristle_stiffness": stiffness, "bristle_damping": damping}
+    fine = native_bending.run(values, PERIOD, 200, tolerance=1e-14, panels=False)
+    assert fine is not None
+    errors = []
+    for tolerance in (1e-6, 1e-8, 1e-10):
+        panels = native_bending.run(values, PERIOD, 200, tolerance=tolerance)
+        assert panels is not None
+        errors.append(_largest(panels, fine))
+        assert errors[-1] <= 30.0 * tolerance, errors
+    assert errors[0] > 100.0 * errors[-1], "a tolerance that changes nothing bounds nothing"
+
+
+def test_tables_leave_no_trace(native_bending: NativeBending) -> None:
+    """Kernels that other devices have left, or none: the same numbers to the last bit."""
+    for seed in (1, 2, 3):
+        native_bending.run(random_device(seed), 1e-3, 20, tolerance=1e-7, warm=True)
+        for stiffness in (1e5, 1e8):
+            values = TABLE_1 | {"bristle_stiffness": stiffness, "frequency_ratio": 1.0 + seed}
+            warm = native_bending.run(values, 0.37 * PERIOD, 60, tolerance=1e-8, warm=True)
+            cold = native_bending.run(values, 0.37 * PERIOD, 60, tolerance=1e-8)
+            assert warm is not None
+            assert cold is not None
+            np.testing.assert_array_equal(warm, cold)
