@@ -22,7 +22,7 @@ def project() -> dict[str, object]:
 
 
 def locked(name: str) -> dict[str, set[str]]:
-    """Return the versions of each package in a lock file: several where they depend on the Python."""
+    """Return the versions of each package, several where they depend on the Python."""
     versions: dict[str, set[str]] = {}
     for line in (ROOT / name).read_text(encoding="utf-8").splitlines():
         if line and not line.lstrip().startswith("#"):
@@ -47,7 +47,9 @@ def test_every_requirement_is_locked_at_a_version_that_it_allows(name: str) -> N
             continue
         found = versions.get(normalised(requirement.name), set())
         assert found, f"{name} lacks {requirement.name}: `make lock` writes it anew"
-        refused = [one for one in found if not requirement.specifier.contains(one, prereleases=True)]
+        refused = [
+            one for one in found if not requirement.specifier.contains(one, prereleases=True)
+        ]
         assert not refused, f"{name}: {requirement.name} {refused}: must be {requirement.specifier}"
 
 
