@@ -41,6 +41,10 @@ void law_change(Law *law, double phase, double load) {
     law->inputs.load = law->held.plant.load = load;
 }
 
+void law_ramp(Law *law, double load_rate, double normal_rate, double duration) {
+    held_ramp(&law->held, load_rate, normal_rate, duration);
+}
+
 bool law_follows_orbits(const Law *law) {
     const Device *device = &law->device;
     return is_averaged(device) && device->averaging_order == 2 && has_slow_motion(law);

@@ -41,6 +41,9 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
  * prepared depends. */
 void law_change(Law *law, double phase, double load);
 
+/* Lets load [N/s] and normal frequency [rad/s^2] grow for `duration` [s], from now on. */
+void law_ramp(Law *law, double load_rate, double normal_rate, double duration);
+
 /* Whether the law needs `resolved` and `orbits`: fidelity 0 by averages of second order, where motion
  * becomes slow. */
 bool law_follows_orbits(const Law *law);

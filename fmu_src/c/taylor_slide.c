@@ -69,9 +69,13 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
     double limit[TAYLOR_ORDER], decay[TAYLOR_TERMS];
     double passed[TAYLOR_TERMS] = {0.0}, resisting[TAYLOR_TERMS] = {0.0};
     double load = plant->load, lost = 0.0;
+    Complex passed_normal = complex_of(0.0, 0.0);
     for (int k = 0; k < TAYLOR_ORDER; k++) {
+        Complex next = turned(normal, q * INVERSE[k + 1]);
+        Complex chirped = turned(passed_normal, plant->normal_rate * INVERSE[k + 1]);
         limit[k] = normal.re;
-        normal = turned(normal, q * INVERSE[k + 1]);
+        passed_normal = normal;
+        normal = complex_add(next, chirped);
     }
     limit[0] += plant->friction_preload;
     slide->direction = direction;
@@ -101,7 +105,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
         }
         push_product(passed, v, decay, k + 1);
         lost = -decay[k + 1];
-        load = 0.0;
+        load = k == 0 ? plant->load_rate : 0.0;
         drive = turned(drive, w * step);
     }
     slide->bound = 0.0;
