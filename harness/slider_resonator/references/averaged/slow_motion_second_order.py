@@ -200,9 +200,8 @@ class _Slow:
 
         def slope(time: float, state: Array) -> tuple[float, float]:
             friction, factor = self._friction(time, float(state[1]))
-            return float(state[1]), -factor * (
-                friction + inputs.load + inputs.load_rate * time
-            ) / mass
+            load = inputs.load + inputs.load_rate * time
+            return float(state[1]), -factor * (friction + load) / mass
 
         solution = solve_ivp(
             slope,
