@@ -9,7 +9,7 @@
 #include "vibrating_load.h"
 
 /* Slow phases that one step may pass through. */
-enum { MAX_SLOW_PHASES = 100 };
+enum { MAX_SLOW_PHASES = 1000 };
 
 /* Let inputs grow from their present values for `t` [s]. */
 static void grow(const Snapshot *now, double t, double values[SETTABLE_COUNT]) {
