@@ -188,12 +188,6 @@ bool component_get_derivatives(Component *component, const unsigned *references,
     return true;
 }
 
-static bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
-    double frequency = LONGEST_ARC / law->held.arc;
-    return law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)
-           || refuse_too_many_turns(refusal, step_size, frequency, MAX_TURNS);
-}
-
 /* Time [s] that later times surely differ by from `time` [s], as numbers. */
 static double time_resolution(double time) {
     return 2.0 * (nextafter(fabs(time), INFINITY) - fabs(time));
@@ -221,27 +215,29 @@ static void go_on(Snapshot *now, const Moment *after, double time, double elapse
     derivatives_used(now->derivatives);
 }
 
-/* The law of a step of `duration` [s]; NULL where it is refused. */
-static const Law *law_of_step(Component *component, double duration, bool ramped,
-                              Refusal *refusal) {
-    if (!ramped) {
-        return present_law(component);
+/* The moment after a step; with a `search`, that of the event that it finds. */
+static bool advance(Component *component, double step_size, double duration, EventSearch *search,
+                    Moment *after, Refusal *refusal) {
+    const Snapshot *now = &component->now;
+    const Law *law = present_law(component);
+    if (inputs_vary(now->derivatives)) {
+        return ramped_step(&component->ramped, now, duration, &component->table, &component->orbits,
+                           after, refusal);
     }
-    bool prepared = ramped_step_prepare(&component->ramped, &component->now, duration,
-                                        &component->table, &component->orbits, refusal);
-    return prepared ? &component->ramped.law : NULL;
+    return bounded_work_check(law, step_size, refusal)
+           && law_advance(law, &now->moment, duration, search, after, refusal);
 }
 
-/* Give a component the inputs at the end of a step during which they vary, and the moment their phase. */
-static bool finish_ramp(Component *component, double duration, Moment *after, Refusal *refusal) {
-    const RampedStep *ramped = &component->ramped;
+/* Take over the inputs at the end of a step during which they vary. */
+static bool take_reached_inputs(Component *component, Refusal *refusal) {
+    Snapshot *now = &component->now;
+    const double *reached = component->ramped.reached;
     static const unsigned inputs[INPUT_COUNT] = {VR_PHASE, VR_LOAD, VR_FREQUENCY_RATIO};
-    bool chirped = component->now.derivatives[VR_FREQUENCY_RATIO].value != 0.0;
-    ramped_step_finish(ramped, present_law(component), duration, after);
-    if (!change(component, ramped->reached, inputs, chirped ? INPUT_COUNT : VR_LOAD + 1, refusal)) {
+    size_t count = now->derivatives[VR_FREQUENCY_RATIO].value != 0.0 ? INPUT_COUNT : VR_LOAD + 1;
+    if (!change(component, reached, inputs, count, refusal)) {
         return false;
     }
-    memcpy(component->now.values, ramped->reached, sizeof component->now.values);
+    memcpy(now->values, reached, sizeof now->values);
     return true;
 }
 
@@ -250,15 +246,10 @@ static bool step(Component *component, double time, double step_size, EventSearc
                  Refusal *refusal) {
     Snapshot *now = &component->now;
     double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
-    bool ramped = inputs_vary(now->derivatives);
     Moment after;
     if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
-        || !step_check(now->time, now->stop_time, time, step_size, refusal)) {
-        return false;
-    }
-    const Law *law = law_of_step(component, duration, ramped, refusal);
-    if (law == NULL || !bounded_work_check(law, step_size, refusal)
-        || !law_advance(law, &now->moment, duration, search, &after, refusal)) {
+        || !step_check(now->time, now->stop_time, time, step_size, refusal)
+        || !advance(component, step_size, duration, search, &after, refusal)) {
         return false;
     }
     const double reached[] = {after.position,   after.state.velocity, after.state.displacement,
@@ -267,7 +258,7 @@ static bool step(Component *component, double time, double step_size, EventSearc
     if (!all_finite(reached, sizeof reached / sizeof reached[0])) {
         return refuse_infinite_motion(refusal, step_size);
     }
-    if (ramped && !finish_ramp(component, duration, &after, refusal)) {
+    if (inputs_vary(now->derivatives) && !take_reached_inputs(component, refusal)) {
         return false;
     }
     now->time_carry -= owed;

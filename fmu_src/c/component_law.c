@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "averaged.h"
+#include "constants.h"
 #include "refusal_texts.h"
 #include "state.h"
 #include "values.h"
@@ -81,4 +82,10 @@ bool prepare_law(const double values[SETTABLE_COUNT], FrictionTable *table, Orbi
         return refuse_extreme(values, refusal);
     }
     return prepare_orbits(orbits, law, resolved, refusal);
+}
+
+bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
+    double frequency = LONGEST_ARC / law->held.arc;
+    return law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)
+           || refuse_too_many_turns(refusal, step_size, frequency, MAX_TURNS);
 }

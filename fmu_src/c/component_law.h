@@ -22,4 +22,7 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]);
 bool prepare_law(const double values[SETTABLE_COUNT], FrictionTable *table, OrbitTables *orbits,
                  Law *law, Law *resolved, Refusal *refusal);
 
+/* Refuse a step of `step_size` [s] over too many turns of the fastest oscillation. */
+bool bounded_work_check(const Law *law, double step_size, Refusal *refusal);
+
 #endif

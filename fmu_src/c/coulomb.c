@@ -93,8 +93,7 @@ static void stick(Leg *leg, const Held *held, Moment *now, double longest, doubl
     leg_begin_rest(leg, held, now);
     leg_follow(leg, held, now, longest);
     bool near_switch = switching == longest && switching - leg->t < SAME * held->arc;
-    double turned = (plant->normal_frequency + 0.5 * plant->normal_rate * leg->t) * leg->t;
-    double chi = now->psi + plant->phase + turned;
+    double chi = now->psi + plant->phase + turned_by(plant, leg->t);
     if (leg_released(leg) && near_switch && lifts_first(plant, chi)) {
         leg->t = switching;
         leg->zero_of = -1;

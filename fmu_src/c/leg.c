@@ -154,8 +154,7 @@ void leg_finish(Leg *leg, const Held *held, Moment *now) {
     now->state = end_of(leg);
     Segment segment = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
     now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
-    double turned = (plant->normal_frequency + 0.5 * plant->normal_rate * leg->t) * leg->t;
-    now->psi = within_turn(now->psi + turned);
+    now->psi = within_turn(now->psi + turned_by(plant, leg->t));
     now->position += leg->travelled;
     if (leg->turns) {
         now->counts = counts_slid(now->counts, leg->direction);

@@ -43,6 +43,11 @@ typedef struct {
     Complex resonator_amplitude;
 } Plant;
 
+/* Angle [rad] that the normal load turns by in `t` [s]. */
+static inline double turned_by(const Plant *plant, double t) {
+    return (plant->normal_frequency + 0.5 * plant->normal_rate * t) * t;
+}
+
 /* Whether the load or the normal frequency varies. */
 static inline bool is_ramped(const Plant *plant) {
     return plant->load_rate != 0.0 || plant->normal_rate != 0.0;

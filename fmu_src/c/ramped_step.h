@@ -1,8 +1,8 @@
 /* A step during which inputs vary linearly.
  *
- * A phase that grows is another frequency of the normal load: over the step its rate belongs to psi, and
- * at the end the phase has what psi gained. So such a step is one of a law whose load and normal frequency
- * may grow. */
+ * A phase that grows is another frequency of the normal load: during the step its rate belongs to psi,
+ * and at the end the phase has what psi gained. So such a step is one of a law whose load and normal
+ * frequency may grow. */
 #ifndef RAMPED_STEP_H
 #define RAMPED_STEP_H
 
@@ -17,11 +17,9 @@ typedef struct {
     double reached[SETTABLE_COUNT];
 } RampedStep;
 
-/* The step of `duration` [s] from `now` on. Refuses inputs that leave their bounds. */
-bool ramped_step_prepare(RampedStep *step, const Snapshot *now, double duration,
-                         FrictionTable *table, OrbitTables *orbits, Refusal *refusal);
-
-/* Give the moment at its end the phases of the law that is `held` at its beginning. */
-void ramped_step_finish(const RampedStep *step, const Law *held, double duration, Moment *after);
+/* The moment after a step of `duration` [s] from `now` on. Refuses inputs that leave their bounds, and
+ * what law_advance refuses; `after` is then undefined. */
+bool ramped_step(RampedStep *step, const Snapshot *now, double duration, FrictionTable *table,
+                 OrbitTables *orbits, Moment *after, Refusal *refusal);
 
 #endif

@@ -21,7 +21,7 @@ void stick_begin(Stick *stick, const Plant *plant, const State *state, double th
 static Signal margin(const Stick *stick, double direction, double t) {
     const Plant *plant = stick->plant;
     double w = plant->drive_frequency, q = plant->normal_frequency + plant->normal_rate * t;
-    double turned = (plant->normal_frequency + 0.5 * plant->normal_rate * t) * t;
+    double turned = turned_by(plant, t);
     double needed = -plant->load - plant->load_rate * t, change = -plant->load_rate;
     Signal signal = {0.0, 0.0, stick->fixed_bound};
     Complex drive_turn;
