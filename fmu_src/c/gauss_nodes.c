@@ -4,7 +4,10 @@
 
 #include "state.h"
 
-enum { NEWTON_STEPS = 8 };
+enum { MAX_NEWTON_STEPS = 8 };
+
+/* Step of Newton's method after which another one changes nothing. */
+#define CONVERGED 1e-9
 
 /* Legendre polynomials P_0 to P_count at x in [-1, 1]. */
 static void legendre(double x, int count, double values[MAX_NODES + 1]) {
@@ -24,9 +27,11 @@ void gauss_nodes_prepare(GaussNodes *gauss, int count) {
     gauss->count = count;
     for (int i = 0; i < count; i++) {
         double values[MAX_NODES + 1], x = -cos(PI * (i + 0.75) / (count + 0.5));
-        for (int step = 0; step < NEWTON_STEPS; step++) {
+        double step = 1.0;
+        for (int k = 0; k < MAX_NEWTON_STEPS && fabs(step) > CONVERGED; k++) {
             legendre(x, count, values);
-            x -= values[count] / last_slope(x, count, values);
+            step = values[count] / last_slope(x, count, values);
+            x -= step;
         }
         legendre(x, count, values);
         double slope = last_slope(x, count, values);

@@ -4,6 +4,10 @@
 #include <stddef.h>
 
 #include "angle.h"
+#include "velocity_scale.h"
+
+/* Error of one series in velocity scales: that of rounding. */
+#define SERIES_ROUNDING (2.0 * EPSILON)
 
 void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
     leg->kind = RESTS;
@@ -14,19 +18,41 @@ void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
                 now->psi + held->plant.phase);
 }
 
+void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now) {
+    if (!leg->known.known) {
+        leg->known = (KnownPhasors){true, phasors_of(plant, now->theta, now->psi + plant->phase)};
+    }
+}
+
+/* Sliding or flight under a normal load whose frequency changes. A stiff bristle that is fully bent is
+ * full friction. */
+static void begin_chirped(Leg *leg, const Plant *plant, const Moment *now, int sign) {
+    const Bristle bent = {1.0, 0.0, 0.0};
+    double tolerance = SERIES_ROUNDING * velocity_scale(plant, &now->state);
+    leg->kind = FOLLOWS_SERIES;
+    leg_know_phasors(leg, plant, now);
+    taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign,
+                       &leg->known.phasors, tolerance);
+    leg->motion.series.direction = leg->direction; /* watched in flight, too */
+}
+
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction) {
     int sign = now->mode == LIFTED ? 0 : direction;
-    leg->kind = SLIDES;
     leg->mode = now->mode;
     leg->direction = direction;
     leg->watched_from = 0.0;
+    if (held->plant.normal_rate != 0.0) {
+        begin_chirped(leg, &held->plant, now, sign);
+        return;
+    }
+    leg->kind = SLIDES;
     slide_begin(&leg->motion.slide, held, sign, &now->state, now->theta,
                 now->psi + held->plant.phase, &leg->known, direction);
 }
 
 static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
                          int direction, double tolerance) {
-    leg->kind = BENDS;
+    leg->kind = FOLLOWS_SERIES;
     leg->mode = now->mode;
     leg->direction = direction;
     leg->watched_from = 0.0;
@@ -37,10 +63,7 @@ static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, con
 void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
                        const Moment *now, int direction, double longest, double tolerance) {
     BendingPanel *panel = &leg->motion.panel;
-    if (!leg->known.known) {
-        double chi = now->psi + held->plant.phase;
-        leg->known = (KnownPhasors){true, phasors_of(&held->plant, now->theta, chi)};
-    }
+    leg_know_phasors(leg, &held->plant, now);
     BendingMotion motion =
         tables == NULL ? BY_SERIES
                        : bending_panel_begin(panel, tables, held, bristle, direction, now,
@@ -65,7 +88,7 @@ bool leg_departs(Leg *leg) {
     if (leg->kind == BENDS_AND_SLIDES) {
         return true;
     }
-    if (leg->kind == BENDS) {
+    if (leg->kind == FOLLOWS_SERIES) {
         return taylor_slide_departs(&leg->motion.series);
     }
     Watch watch = slide_watch(&leg->motion.slide);
@@ -76,7 +99,7 @@ bool leg_departs(Leg *leg) {
  * other may come soon. */
 static void follow_rest(Leg *leg, double turn) {
     Watch watches[2];
-    int count = stick_watches(&leg->motion.stick, watches);
+    int count = stick_watches(&leg->motion.stick, leg->t, watches);
     if (count > 0) {
         leg->t = fmin(leg->t, turn);
     }
@@ -103,7 +126,7 @@ static bool moves(const Watch *watch, double t) {
 
 /* The velocity in the direction of sliding, from where it is watched on. */
 static Watch watch_of(Leg *leg) {
-    if (leg->kind == BENDS) {
+    if (leg->kind == FOLLOWS_SERIES) {
         return taylor_slide_watch(&leg->motion.series, leg->t);
     }
     return leg->kind == SLIDES ? slide_watch(&leg->motion.slide)
@@ -112,7 +135,7 @@ static Watch watch_of(Leg *leg) {
 
 /* How long the motion holds [s]. */
 static double reach_of(const Leg *leg) {
-    if (leg->kind == BENDS) {
+    if (leg->kind == FOLLOWS_SERIES) {
         return leg->motion.series.reach;
     }
     return leg->kind == BENDS_AND_SLIDES ? leg->motion.panel.reach : INFINITY;
@@ -154,7 +177,7 @@ static double travel_at(const void *motion, double t) {
         return 0.0;
     case SLIDES:
         return slide_travel(&leg->motion.slide, t);
-    case BENDS:
+    case FOLLOWS_SERIES:
         return taylor_slide_travel(&leg->motion.series, t);
     case BENDS_AND_SLIDES:
         return bending_panel_travel(&leg->motion.panel, t);
@@ -172,7 +195,7 @@ static State end_of(Leg *leg) {
         return stick_state(&leg->motion.stick, leg->t);
     case SLIDES:
         return slide_end(&leg->motion.slide, leg->t, &leg->travelled, &leg->known);
-    case BENDS:
+    case FOLLOWS_SERIES:
         leg->travelled = taylor_slide_travel(&leg->motion.series, leg->t);
         return taylor_slide_state(&leg->motion.series, leg->t);
     case BENDS_AND_SLIDES:
@@ -186,7 +209,7 @@ void leg_finish(Leg *leg, const Held *held, Moment *now) {
     now->state = end_of(leg);
     Segment segment = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
     now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
-    now->psi = within_turn(now->psi + plant->normal_frequency * leg->t);
+    now->psi = within_turn(now->psi + turned_by(plant, leg->t));
     now->position += leg->travelled;
     if (leg->turns) {
         now->counts = counts_slid(now->counts, leg->direction);

@@ -11,9 +11,10 @@
 #include "stick.h"
 #include "taylor_slide.h"
 
-/* What the motion is: rest, sliding or flight in closed form, or sliding on bending bristles, by a series
- * or by a panel and the slide after it. */
-typedef enum { RESTS, SLIDES, BENDS, BENDS_AND_SLIDES } LegKind;
+/* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles,
+ * and under a normal load whose frequency changes; or sliding on bending bristles by a panel, and on after
+ * it. */
+typedef enum { RESTS, SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } LegKind;
 
 /* Begun by a friction law: the contact `mode`, and the `direction` of sliding, in which the velocity
  * is watched (0 for none) from `watched_from` [s] on.
@@ -38,10 +39,14 @@ typedef struct {
     KnownPhasors known;
 } Leg;
 
+/* Computes the phasors at `now`, where the leg begins, unless they are known. */
+void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now);
+
 /* Rest. */
 void leg_begin_rest(Leg *leg, const Held *held, const Moment *now);
 
-/* Sliding in `direction` under full friction, or flight in contact mode LIFTED. */
+/* Sliding in `direction` under full friction, or flight in contact mode LIFTED: in closed form, or by
+ * series while the normal frequency changes. */
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction);
 
 /* Sliding in `direction` while a bristle bends, to `tolerance` [m/s], for up to `longest` [s]. By series

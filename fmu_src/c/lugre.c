@@ -8,6 +8,7 @@
 
 #include "friction_law.h"
 #include "refusal_texts.h"
+#include "velocity_scale.h"
 
 /* Share of the tolerance that one series may use up, and that the bend of the bristle may still be
  * away from full when closed forms take over. */
@@ -39,16 +40,6 @@ static double force(const Law *law, const Moment *moment, int mode) {
     return friction_limit(&law->held.plant, moment->psi) * share;
 }
 
-/* Velocity [m/s] that tolerances refer to: of drive, friction over a turn, and motion. */
-static double velocity_scale(const Plant *plant, const State *state) {
-    double w = plant->drive_frequency;
-    double forces = plant->friction_preload + plant->friction_amplitude + fabs(plant->load);
-    double swing = plant->mass_fraction *
-                   complex_abs(complex_of(state->rate, plant->stick.frequency * state->displacement));
-    return complex_abs(plant->drive) / w + forces / (plant->total_mass * w) +
-           fabs(state->velocity) + swing;
-}
-
 static void begin(Leg *leg, const Law *law, const Moment *now, int direction, double longest) {
     const Held *held = &law->held;
     const Bristle *bristle = &law->bristle;
@@ -68,9 +59,7 @@ static int likely_direction(Leg *leg, const Law *law, const Moment *now) {
     if (now->state.velocity != 0.0 || now->mode == LIFTED) {
         return now->state.velocity < 0.0 ? BACKWARD : FORWARD;
     }
-    if (!leg->known.known) {
-        leg->known = (KnownPhasors){true, phasors_of(plant, now->theta, now->psi + plant->phase)};
-    }
+    leg_know_phasors(leg, plant, now);
     double limit = friction_limit_by(plant, &leg->known.phasors);
     double resisting = limit * now->bristle / law->bristle.coefficient;
     return force_by(plant, &now->state, &leg->known.phasors) < resisting ? BACKWARD : FORWARD;
