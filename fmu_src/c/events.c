@@ -107,7 +107,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
     Leg leg;
     Moment begin;
     *now = *moment;
-    leg.known.known = false;
+    leg_reset(&leg);
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {

@@ -37,7 +37,11 @@ typedef struct {
     int zero_of;
     bool turns, departs;
     KnownPhasors known;
+    TurnMemory backward, forward;
 } Leg;
+
+/* A leg from whose end the next one can be begun, with nothing known yet. */
+void leg_reset(Leg *leg);
 
 /* Computes the phasors at `now`, where the leg begins, unless they are known. */
 void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now);

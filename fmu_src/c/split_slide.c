@@ -1,6 +1,7 @@
 #include "split_slide.h"
 
 #include <math.h>
+#include <stddef.h>
 
 bool split_prepare(Split *split, const Plant *plant) {
     const Oscillator *slip = &plant->slip;
@@ -112,6 +113,7 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     slide->start.free = complex_of(1.0, 0.0);
     slide->start.envelope = 1.0;
     slide->anchored = false;
+    slide->memory = NULL;
     slide->resonator_drive = split->resonator_drive;
     slide->velocity_drive = split->velocity_drive;
     slide->resonator_normal = complex_scale(sign, split->resonator_normal);
@@ -177,6 +179,9 @@ static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
  * rounding. */
 #define SMALL_TURN 0x1p-7
 
+/* How often turns are rotated on from one slide to the next: for rounding not to add up. */
+enum { MAX_USES = 15 };
+
 /* `z` exp(i angle) for a small `angle` [rad]. */
 static inline Complex rotated(Complex z, double angle) {
     double square = angle * angle;
@@ -211,6 +216,64 @@ static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, do
                                 : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
 }
 
+/* An angle [rad] less than a turn and a half, by whole turns next to 0. */
+static inline double nearest(double angle) {
+    return angle > PI ? angle - TAU : angle < -PI ? angle + TAU : angle;
+}
+
+/* Whether past turns can be rotated to phases `theta` and `chi` [rad]. */
+static bool is_close(const SplitSlide *slide, double t, const PastTurns *past, double theta,
+                     double chi) {
+    return past->uses > 0 &&
+           fabs(t - past->turns.t) * slide->split->fastest < SMALL_TURN &&
+           fabs(nearest(theta - past->theta)) < SMALL_TURN &&
+           (slide->split->merges || fabs(nearest(chi - past->chi)) < SMALL_TURN);
+}
+
+/* Rotates past turns to `t` and phases `theta` and `chi` [rad]. */
+static void rotate_past(const SplitSlide *slide, double t, PastTurns *past, double theta,
+                        double chi) {
+    const Plant *plant = slide->plant;
+    Turns *turns = &past->turns;
+    double ahead = t - turns->t;
+    if (plant->resolves_resonator) {
+        Complex eigenvalue = plant->slip.eigenvalue;
+        double growth = grown(eigenvalue.re * ahead);
+        turns->envelope *= growth;
+        turns->free = complex_scale(growth, rotated(turns->free, eigenvalue.im * ahead));
+    }
+    turns->t = t;
+    turns->phasors.drive = rotated(turns->phasors.drive, nearest(theta - past->theta));
+    turns->phasors.normal = slide->split->merges
+                                ? slide->start.phasors.normal
+                                : rotated(turns->phasors.normal, nearest(chi - past->chi));
+    past->theta = theta;
+    past->chi = chi;
+    past->uses--;
+}
+
+/* Turns at `t`, from the past or by sines and cosines. */
+static void find_turns(const SplitSlide *slide, double t, Turns *turns) {
+    TurnMemory *memory = slide->memory;
+    if (memory == NULL) {
+        compute_turns(slide, t, turns);
+        return;
+    }
+    double theta = slide->theta + slide->plant->drive_frequency * t;
+    double chi = slide->chi + slide->plant->normal_frequency * t;
+    for (int i = 0; i < PAST_TURNS; i++) {
+        PastTurns *past = &memory->past[i];
+        if (is_close(slide, t, past, theta, chi)) {
+            rotate_past(slide, t, past, theta, chi);
+            *turns = past->turns;
+            return;
+        }
+    }
+    compute_turns(slide, t, turns);
+    memory->past[memory->oldest] = (PastTurns){MAX_USES, theta, chi, *turns};
+    memory->oldest = (memory->oldest + 1) % PAST_TURNS;
+}
+
 static inline bool is_soon(const SplitSlide *slide, double t) {
     return t * slide->split->fastest < SMALL_TURN;
 }
@@ -230,7 +293,7 @@ static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *pl
         rotate_turns(slide, &slide->anchor, t, place);
         return place;
     }
-    compute_turns(slide, t, fresh);
+    find_turns(slide, t, fresh);
     return fresh;
 }
 

@@ -59,13 +59,31 @@ typedef struct {
     double envelope;
 } Turns;
 
+/* Turns at phases `theta` and `chi` [rad], which after a turn of the drive come back nearly: a few times
+ * they are rotated by the difference, `uses` times more, before sines are computed anew. */
+typedef struct {
+    int uses;
+    double theta, chi;
+    Turns turns;
+} PastTurns;
+
+/* Those for which the last slides in one direction computed sines, `oldest` the next to be replaced: some
+ * two on the way to a stop, and one where a period ends. */
+enum { PAST_TURNS = 3 };
+
+typedef struct {
+    PastTurns past[PAST_TURNS];
+    int oldest;
+} TurnMemory;
+
 /* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad]
  * on. The resonator follows `constant` [m] + `slope` [m/s] t and swings about it. `travel_free` is the integral of the free part of the velocity, vh / lambda [m]; `bound` and
  * `free_bound` [m/s^3] bound the second derivative of the velocity: of its forced part, and of its
  * free part at first. `noise` [m/s] is the rounding error of the velocity.
  *
  * `anchor` is the latest time for which sines and cosines were computed, where `anchored`: close to
- * it, or to the `start`, known turns are rotated by a little. */
+ * it, or to the `start`, known turns are rotated by a little; so are those of a `memory`, unless that is
+ * NULL. */
 typedef struct {
     const Split *split;
     const Plant *plant;
@@ -78,6 +96,7 @@ typedef struct {
     double bound, free_bound, noise;
     Turns start, anchor;
     bool anchored;
+    TurnMemory *memory;
 } SplitSlide;
 
 /* The velocity is watched in `direction`, unless that is 0. `start` are the phasors of `theta` and
