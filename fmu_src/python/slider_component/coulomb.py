@@ -73,14 +73,13 @@ def follow(held: Held, now: Moment, longest: float, switching: float, departs: b
 
 def succeed(held: Held, leg: Leg, now: Moment, switches: bool) -> None:
     """See FrictionLaw."""
-    if leg.zero_of is None and not switches:
-        return
-    if leg.released:
-        now.enter(FORWARD if leg.zero_of == 0 else BACKWARD)
-    elif leg.stopped or leg.mode == LIFTED:
-        now.enter(_mode_in_contact(held.plant, now))
-    else:
-        now.enter(LIFTED)
+    if leg.zero_of is not None:
+        if leg.rests:
+            now.enter(FORWARD if leg.zero_of == 0 else BACKWARD)
+        else:
+            now.enter(_mode_in_contact(held.plant, now))
+    elif switches:
+        now.enter(_mode_in_contact(held.plant, now) if leg.mode == LIFTED else LIFTED)
 
 
 def _needed_force(plant: Plant, moment: Moment) -> float:
@@ -109,7 +108,10 @@ def _mode_in_contact(plant: Plant, moment: Moment) -> int:
     if moment.state.velocity != 0.0:
         return direction_of(moment.state.velocity)
     needed = _needed_force(plant, moment)
-    limit = friction_limit(plant, moment.psi)
+    # Most often the largest limit decides, without a sine.
+    limit = plant.friction_preload + plant.friction_amplitude
+    if -limit <= needed <= limit:
+        limit = friction_limit(plant, moment.psi)
     if needed > limit:
         return FORWARD
     return BACKWARD if needed < -limit else STICK

@@ -22,7 +22,8 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
 
     Raises Refusal where it takes too much work, or time does not get on.
     """
-    plant, arc = held.plant, held.arc
+    plant, arc, window = held.plant, held.arc, held.window
+    most = MAX_STEP_LEGS // PYTHON_SLOWDOWN
     turn = tau / LONGEST_ARC * arc
     clock, remaining = Clock(duration), duration
     legs, all_legs, turn_began = 0, 0, 0.0
@@ -37,14 +38,13 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
             what = "legs in a turn of the fastest oscillation"
             raise too_much_work(duration, clock.elapsed, MAX_LEGS, what)
         all_legs += 1
-        if all_legs > MAX_STEP_LEGS // PYTHON_SLOWDOWN:
-            most = MAX_STEP_LEGS // PYTHON_SLOWDOWN
+        if all_legs > most:
             raise too_much_work(duration, clock.elapsed, most, "legs of motion")
-        switching = inf
-        if held.window is not None:
+        switching, longest = inf, remaining if remaining < arc else arc
+        if window is not None:
             chi, lifted = now.psi + plant.phase, now.mode == LIFTED
-            switching = time_to_switch(held.window, chi, plant.normal_frequency, lifted)
-        longest = min(remaining, switching, arc)
+            switching = time_to_switch(window, chi, plant.normal_frequency, lifted)
+            longest = min(longest, switching)
         leg = friction.follow(held, now, longest, switching, departs)
         leg.finish(held, now)
         friction.succeed(held, leg, now, leg.zero_of is None and leg.t == switching)

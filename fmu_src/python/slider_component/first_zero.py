@@ -57,7 +57,7 @@ def first_zero(
     shortest = 1e-7 / fastest
     zero, steepness = None, 0.0
     if expected is not None and start < expected < limit:
-        zero, steepness = _zero_near(watch, start, limit, expected)
+        zero, steepness = _zero_near(signal, start, limit, expected, 1e-16 / fastest)
     evaluations = 0
     while t < limit:
         value, slope, bound = signal(t)
@@ -98,20 +98,22 @@ def exceeds_noise(watch: Watch, t: float) -> bool:
     A parabola that is below it shows that at once, most often.
     """
     value, slope, bound = watch.signal(0.0)
+    ahead = t if t < watch.horizon else watch.horizon
     if (
-        0.0 < slope < bound * min(t, watch.horizon)
+        0.0 < slope < bound * ahead
         and value + 0.5 * slope * slope / bound > watch.noise
     ):
         return True
     return watch.signal(0.5 * t)[0] > watch.noise
 
 
-def _zero_near(watch: Watch, start: float, limit: float, t: float) -> tuple[float | None, float]:
+def _zero_near(
+    signal: Signal, start: float, limit: float, t: float, resolution: float
+) -> tuple[float | None, float]:
     """The downward zero near `t`, if Newton's method finds one soon, and the slope there.
 
     Beyond `limit` the signal may not have its bound: a zero there is none.
     """
-    signal, resolution = watch.signal, 1e-16 / watch.fastest
     for _ in range(MAX_EXPECTING_STEPS):
         value, slope, bound = signal(t)
         if not slope < 0.0:

@@ -74,10 +74,12 @@ def followed(
     watches = motion.watches(longest) if longest > 0.0 else ()
     if direction != 0:
         expected = now.stops.expected(direction, now.theta, held.plant.drive_frequency)
-    for index, watch in enumerate(watches):
+    index = 0
+    for watch in watches:
         zero = first_zero(watch, t, watched_from, expected)
         if zero is not None:
             t, zero_of = zero, index
+        index += 1  # noqa: SIM113 - enumerate takes longer for the usual single watch
     if watches and direction not in (0, now.counts.sliding):
         turns = exceeds_noise(watches[0], t)
     rests = isinstance(motion, Stick)

@@ -64,13 +64,10 @@ class PeriodMeans(NamedTuple):
             mean = (travel_last - travel_at(last - length)) / length
             fraction = 1.0 if sticks else 0.0
         rest = duration - last
+        if not 0.0 <= fraction <= 1.0:
+            fraction = 0.0 if fraction < 0.0 else 1.0
         means = PeriodMeans(
-            travelled - travel_last,
-            rest,
-            rest if sticks else 0.0,
-            True,
-            mean,
-            min(max(fraction, 0.0), 1.0),
+            travelled - travel_last, rest, rest if sticks else 0.0, True, mean, fraction
         )
         return means, end - tau * ended
 

@@ -117,10 +117,12 @@ class SplitSlide:
         if q == 0.0:
             resisting += sign * plant.friction_amplitude * sin(chi)
         else:
-            normal_turn = rect(float(sign), chi)
-            aq, vq = split.resonator_normal * normal_turn, split.velocity_normal * normal_turn
+            normal_turn = rect(sign, chi)
             if split.merges:
-                ae, ve, aq, vq = ae + aq, ve + vq, 0j, 0j
+                ae += split.resonator_normal * normal_turn
+                ve += split.velocity_normal * normal_turn
+            else:
+                aq, vq = split.resonator_normal * normal_turn, split.velocity_normal * normal_turn
         self._constant = constant = resisting * split.compliance
         if split.resolves_resonator:
             eigenvalue = split.eigenvalue
@@ -140,13 +142,13 @@ class SplitSlide:
         self._turns = (0.0, 1.0 + 0j, 1.0 + 0j, 1.0 + 0j)
         self._watches: tuple[Watch, ...] = ()
         if direction != 0:
-            drive, normal = abs(ve), abs(vq)
-            noise = 2.0 * EPSILON * (abs(k0) + drive + normal + abs(vh))
+            drive, normal, decaying = abs(ve), abs(vq), abs(vh)
+            noise = 2.0 * EPSILON * (abs(k0) + drive + normal + decaying)
             if direction < 0:
                 k0, k1, ve, vq, vh = -k0, -k1, -ve, -vq, -vh
             bound = drive * w * w + normal * q * q
             signal = (
-                _two_frequencies(k0, k1, ve, bound, vh, split)
+                _two_frequencies(k0, k1, ve, bound, vh, decaying, split)
                 if split.merges
                 else _three_frequencies(k0, k1, ve, vq, bound, vh, split)
             )
@@ -197,14 +199,14 @@ class SplitSlide:
 
 
 def _two_frequencies(
-    k0: float, k1: float, ve: complex, bound: float, vh: complex, split: Split
+    k0: float, k1: float, ve: complex, bound: float, vh: complex, decaying: float, split: Split
 ) -> Signal:
     w, eigenvalue = split.plant.drive_frequency, split.eigenvalue
     square, turning = split.plant.slip.stiffness, complex(0.0, w)
     at_start = (
         k0 + (ve + vh).real,
         k1 - w * ve.imag + (eigenvalue * vh).real,
-        bound + square * abs(vh),
+        bound + square * decaying,
     )
 
     def signal(t: float) -> tuple[float, float, float]:
