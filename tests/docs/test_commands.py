@@ -39,7 +39,8 @@ def calls(*programs: str) -> list[object]:
         for line in commands(page.read_text(encoding="utf-8")):
             for program in programs:
                 rest = line.strip().removeprefix(program)
-                is_call = rest != line.strip() and rest[:1] in (" ", ".", "")
+                following = (" ", "", ".") if program.startswith("python -m ") else (" ", "")
+                is_call = rest != line.strip() and rest[:1] in following
                 if is_call and not re.search(r"\[|\.\.\.|COMMAND|<", rest):
                     words = shlex.split(rest, comments=True)
                     found.append(pytest.param(words, id=f"{page.name}: {' '.join(words)}"))

@@ -41,7 +41,8 @@ function drawCells(ctx, places, colours) {
   places.forEach(([x, y], i) => {
     const [[left, right], [top, bottom]] = [columns.get(x), rows.get(y)];
     ctx.fillStyle = colours[i];
-    ctx.fillRect(left, top, Math.ceil(right - left), Math.ceil(bottom - top));
+    const [x0, y0] = [Math.floor(left), Math.floor(top)];
+    ctx.fillRect(x0, y0, Math.ceil(right) - x0, Math.ceil(bottom) - y0);
   });
 }
 
@@ -172,6 +173,20 @@ function scaleOf({ log, range }) {
   return { time: false, ...(log ? { distr: 3 } : {}), ...(range ? { range: () => range } : {}) };
 }
 
+/** Return how a series looks, for the legend: its marker, on its line. */
+function sampleOf({ marker, colour, width, dash }) {
+  const sample = document.createElement("span");
+  sample.className = "sample";
+  sample.style.color = colour;
+  sample.textContent = marker || "\u00a0";
+  if (width > 0) {
+    const line = document.createElement("i");
+    line.style.borderTop = `${Math.max(1.5, width)}px ${dash.length ? "dashed" : "solid"}`;
+    sample.append(line);
+  }
+  return sample;
+}
+
 function draw(box) {
   const spec = JSON.parse(box.querySelector("script").textContent);
   const tip = document.createElement("div");
@@ -182,14 +197,11 @@ function draw(box) {
     scales: { x: scaleOf(spec.x), y: scaleOf(spec.y) },
     axes: [axisOf(spec.x, { size: 34 }), axisOf(spec.y, { size: 64 })],
     cursor: { points: { show: false }, drag: { x: true, y: true, uni: 20 } },
-    legend: { live: false, markers: { show: false } },
-    series: [{}, ...spec.series.map(({ label, marker, colour }) => {
+    legend: { show: !spec.series.every(({ cells }) => cells), live: false, markers: { show: false } },
+    series: [{}, ...spec.series.map((one) => {
       const shown = document.createElement("span");
-      const sample = document.createElement("span");
-      [shown.textContent, sample.textContent] = [` ${label}`, marker || "\u2501"];
-      sample.style.color = colour;
-      shown.prepend(sample);
-      return { label: shown, stroke: colour, paths: () => null, points: { show: false } };
+      shown.append(sampleOf(one), one.label);
+      return { label: shown, stroke: INK, paths: () => null, points: { show: false } };
     })],
     hooks: { draw: [(self) => drawAll(self, spec.series)] },
   }, columnsOf(spec.series), box);
