@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 import pytest
+from _pytest.mark.structures import ParameterSet
 
 import build_fmu
 from slider_resonator.cli import main
@@ -32,7 +33,7 @@ def commands(text: str) -> Iterator[str]:
     yield from re.findall(r"`([^`\n]+)`", prose)
 
 
-def calls(*programs: str) -> list[object]:
+def calls(*programs: str) -> list[ParameterSet]:
     """Return the arguments after one of the programs, without placeholders, by page."""
     found = []
     for page in PAGES:

@@ -13,7 +13,7 @@ TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def script(number: int) -> str:
-    return re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)[number]
+    return str(re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)[number])
 
 
 def printed(code: str, folder: Path, native_fmu: Path) -> list[str]:
