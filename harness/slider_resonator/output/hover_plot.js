@@ -7,9 +7,18 @@ function shortNumber(value) {
   return size === 0 || (size >= 1e-3 && size < 1e5) ? String(+value.toPrecision(6)) : value.toExponential(3).replace(/\.?0+e/, "e");
 }
 
-function axisOf({ label }, extra) {
+const isDecade = (value) => value > 0 && Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
+
+/** Keep the lines at powers of ten where there are more than a few of them. */
+function decadesOf(plot, splits) {
+  const decades = splits.map((value) => (isDecade(value) ? value : null));
+  return decades.filter((value) => value !== null).length > 4 ? decades : splits;
+}
+
+function axisOf({ label, log }, extra) {
   const values = (plot, splits) => splits.map((value) => (value === null ? "" : shortNumber(value)));
-  return { label, values, stroke: INK, grid: { stroke: "#eceff1" }, labelSize: 20, ...extra };
+  const lines = log ? { filter: decadesOf } : {};
+  return { label, values, stroke: INK, grid: { stroke: "#eceff1", ...lines }, ticks: lines, labelSize: 20, ...extra };
 }
 
 /** Return the columns of uPlot: all x in ascending order, and for each series its y or null. */
