@@ -18,7 +18,7 @@ body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72re
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
 th, td { overflow-wrap: normal }
 th, td { text-align: left; padding: .2rem .6rem; border-bottom: 1px solid #ddd }
-.n { text-align: right; white-space: nowrap }
+.n { text-align: right } .n, .lines { white-space: nowrap }
 .pass { color: #1a7f37 } .fail { color: #b3261e; font-weight: 600 } .note { color: #666 }
 .heading { font-weight: 600 }
 .wide { overflow-x: auto; margin: .8rem 0 }
@@ -91,8 +91,8 @@ def _row(row: Sequence[Cell], columns: Sequence[Column]) -> str:
 
 
 def _element(tag: str, cell: Cell, column: Column) -> str:
-    number = ' class="n"' if column.numeric else ""
-    return f"<{tag}{number}>{_text(cell)}</{tag}>"
+    kind = ' class="n"' if column.numeric else ' class="lines"' if "\n" in cell.text else ""
+    return f"<{tag}{kind}>{_text(cell)}</{tag}>"
 
 
 def _text(cell: Cell) -> str:
