@@ -2,7 +2,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from slider_resonator.checks.verdict import sentence, title
+from slider_resonator.checks.compare import AT_LEAST, AT_MOST
+from slider_resonator.checks.verdict import CALLED, called, sentence, title
+from slider_resonator.scenes.vocabulary import REFERENCES
 from tests.harness.verdicts import BOUND, NONE, SIGNAL, SLOWER, WORD
 
 
@@ -36,3 +38,9 @@ def test_the_sentence_of_a_value_that_does_not_exist() -> None:
     without = replace(SLOWER, reference=None, deviation=None, allowed=None)
     assert sentence(without) == "the FMU gives 0.12 m/s, the reference has none"
     assert sentence(WORD) == "the FMU gives 'steady', expected 'stuck'"
+
+
+def test_tables_call_what_is_compared_with_by_words() -> None:
+    assert set(CALLED) == {*REFERENCES, "value", AT_MOST, AT_LEAST}
+    assert called("located_events") == "exact events"
+    assert called("recorded_result") == "recorded result", "of other commands"
