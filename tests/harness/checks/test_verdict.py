@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from slider_resonator.checks.verdict import sentence, title
+from slider_resonator.checks.verdict import measure_of, sentence, title
 from tests.harness.verdicts import BOUND, NONE, SIGNAL, SLOWER, WORD
 
 
@@ -36,3 +36,18 @@ def test_the_sentence_of_a_value_that_does_not_exist() -> None:
     without = replace(SLOWER, reference=None, deviation=None, allowed=None)
     assert sentence(without) == "the FMU gives 0.12 m/s, the reference has none"
     assert sentence(WORD) == "the FMU gives 'steady', expected 'stuck'"
+
+
+def test_a_deviation_is_a_share_or_has_a_unit() -> None:
+    assert measure_of(SLOWER) == "m/s"
+    assert measure_of(SIGNAL) == "of peak"
+    assert measure_of(replace(SIGNAL, scale=SIGNAL.reference)) == "of peak"
+    assert measure_of(replace(SIGNAL, quantity="event_times")) == "periods"
+    assert measure_of(replace(SIGNAL, quantity="contact_mode")) == "of points"
+    assert measure_of(WORD) == ""
+
+
+def test_a_share_of_a_reference_near_zero_names_what_it_counts_as() -> None:
+    near_zero = replace(SIGNAL, reference=0.0, scale=2e-6)
+    assert measure_of(near_zero) == "of scale"
+    assert sentence(near_zero).startswith("off by 0.0003 of its scale, which is 2e-06 m, ")
