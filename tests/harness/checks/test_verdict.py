@@ -41,7 +41,7 @@ def test_the_sentence_of_a_value_that_does_not_exist() -> None:
 def test_a_deviation_is_a_share_or_has_a_unit() -> None:
     assert measure_of(SLOWER) == "m/s"
     assert measure_of(SIGNAL) == "of peak"
-    assert measure_of(replace(SIGNAL, scale=SIGNAL.reference)) == "of peak"
+    assert measure_of(replace(SIGNAL, reference=1e-4, scale=1e-4)) == "of peak"
     assert measure_of(replace(SIGNAL, quantity="event_times")) == "periods"
     assert measure_of(replace(SIGNAL, quantity="contact_mode")) == "of points"
     assert measure_of(WORD) == ""

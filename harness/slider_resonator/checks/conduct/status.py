@@ -7,6 +7,7 @@ from ctypes import byref, c_double, c_int
 
 from fmpy.fmi2 import fmi2LastSuccessfulTime, fmi2OK, fmi2Terminated
 
+from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
 
 RESOLUTION = 1e-9
@@ -18,9 +19,10 @@ def status_faults(instance: Instance) -> Iterator[str]:
 
     An FMU need not answer them, and FMI 3.0 does not have them.
     """
-    if instance.fmu.version != "2.0":
+    slave = instance.slave
+    if isinstance(slave, Fmi3Slave):
         return
-    dll, component = instance.slave.dll, instance.slave.component
+    dll, component = slave.dll, slave.component
     reached, ended = c_double(), c_int()
     if dll.fmi2GetRealStatus(component, fmi2LastSuccessfulTime, byref(reached)) == fmi2OK:
         apart = abs(reached.value - instance.time)
