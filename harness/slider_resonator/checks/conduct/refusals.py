@@ -53,7 +53,7 @@ EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
 """Arguments of fmi2SetupExperiment that must be refused."""
 
 STEP_SIZES = (0.0, -0.0, -1e-3, math.nan, math.inf, -math.inf)
-JUMPS = (-STEP, 1e-5, STEP, 1e9, math.nan, math.inf)
+JUMPS = (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf)
 """Distances (s) from the present time at which a step cannot begin."""
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.overview import Overview
 from slider_resonator.checks.validate import Validation
-from slider_resonator.checks.verdict import title, value_text
+from slider_resonator.checks.verdict import measure_of, title, value_text
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html
 from slider_resonator.output.html_page import escaped, rendered
@@ -23,7 +23,7 @@ MIN_DECADES = 2.0
 COLUMNS = (
     *texts("quantity"),
     *numbers("FMU", "reference", "off by", "allowed"),
-    *texts("", "why"),
+    *texts("in", "", "why"),
 )
 
 
@@ -108,8 +108,8 @@ def _pair(x: Sequence[float], fmu: Sequence[float], reference: Sequence[float]) 
 
 
 def _row(check: Check) -> Row:
-    of_peak = " of peak" if QUANTITIES[check.quantity].relative_to_peak else ""
-    sizes = ["-" if s is None else f"{s:.2g}{of_peak}" for s in (check.deviation, check.allowed)]
+    sizes = ["-" if s is None else f"{s:.2g}" for s in (check.deviation, check.allowed)]
     unit = f" [{check.unit}]" if check.unit not in ("", "1") else ""
     values = [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
-    return (title(check) + unit, *values, *sizes, verdict(check.passed), check.why)
+    cells = (title(check) + unit, *values, *sizes, measure_of(check))
+    return (*cells, verdict(check.passed), check.why)
