@@ -7,6 +7,9 @@
 /* Exponent of E at which its decay is looked at first. */
 #define GUESSED_EXPONENT 16.0
 
+/* Share of the tolerance that may be left of f: it has the same sign at each reversal, and adds up. */
+#define LEFT_OUT 0.2
+
 /* How much longer than the time expected a panel is, to be sure. */
 #define LONGER 1.02
 
@@ -92,7 +95,7 @@ BendingMotion bending_outlook(BendingOutlook *outlook, const Held *held, const B
     }
     outlook->lag = bristle->damping / bristle->stiffness;
     double time = 1.0 / (outlook->rate * guessed) + outlook->lag;
-    outlook->exponent = log(outlook->push * time / tolerance);
+    outlook->exponent = log(outlook->push * time / (LEFT_OUT * tolerance));
     if (outlook->exponent <= 0.0) {
         return AS_BENT;
     }

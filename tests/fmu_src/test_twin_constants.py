@@ -36,7 +36,7 @@ ONLY_IN_C = {
     # Literals of the Python twin.
     *("LEAD_PARTS", "SLOWEST"),
     # Faster ways to the same zeros and series than those of the Python twin.
-    *("MAX_BISECTIONS", "NEGLIGIBLE", "SMALL_TURN"),
+    *("MAX_BISECTIONS", "MAX_USES", "NEGLIGIBLE", "PAST_TURNS", "SMALL_TURN"),
 }
 """C constants without a twin."""
 
