@@ -99,10 +99,7 @@ def exceeds_noise(watch: Watch, t: float) -> bool:
     """
     value, slope, bound = watch.signal(0.0)
     ahead = t if t < watch.horizon else watch.horizon
-    if (
-        0.0 < slope < bound * ahead
-        and value + 0.5 * slope * slope / bound > watch.noise
-    ):
+    if 0.0 < slope < bound * ahead and value + 0.5 * slope * slope / bound > watch.noise:
         return True
     return watch.signal(0.5 * t)[0] > watch.noise
 

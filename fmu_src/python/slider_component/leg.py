@@ -31,11 +31,6 @@ class Leg:
     rests: bool
 
     @property
-    def stopped(self) -> bool:
-        """Whether the leg ends at a stop of the slider."""
-        return self.zero_of is not None and not self.rests
-
-    @property
     def released(self) -> bool:
         """Whether the leg ends at a release of the slider."""
         return self.zero_of is not None and self.rests
