@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -33,9 +34,7 @@ LUGRE = replace(DEVICE, friction_law=1, bristle_stiffness=1e4)
 def cut(inputs: HeldInputs, count: int) -> list[HeldInputs]:
     """Return the same lines in intervals, the first of them shorter."""
     edges = [0.0, *np.linspace(0.1, 1.0, count) * inputs.stop]
-    return [
-        replace(inputs.later(begin), stop=end) for begin, end in zip(edges, edges[1:], strict=False)
-    ]
+    return [replace(inputs.later(begin), stop=end) for begin, end in pairwise(edges)]
 
 
 def staircase(inputs: HeldInputs, count: int) -> list[HeldInputs]:
