@@ -84,6 +84,18 @@ def record(
     return tuple(scene.name for scene in whole), tuple(run_failures)
 
 
+def applicable_scenes(fmu: Path) -> list[Path]:
+    """Return the files of the built-in scenes that the FMU can run; FmuError for no FMU.
+
+    Those with `interpolate` are for FMUs that take derivatives of inputs.
+    """
+    files = list(built_in_scenes().values())
+    with open_fmu(fmu) as opened:
+        if opened.interpolates:
+            return files
+    return [file for file in files if not read_scene(file).interpolates]
+
+
 def check(
     fmu: Path,
     files: Sequence[Path],
