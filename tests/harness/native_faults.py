@@ -91,6 +91,30 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         '"bristle_stiffness", false, true, 10000.0',
         "interface",
     ),
+    "derivatives of inputs are declared and ignored": (
+        "input_derivatives.c",
+        "        if (derivatives[i].value != 0.0) {",
+        "        if (derivatives[i].value != derivatives[i].value) {",
+        "ramp_of_load",
+    ),
+    "a chirp keeps the ratio of its start": (
+        "ramped_step.c",
+        "                  derivatives[VR_FREQUENCY_RATIO].value};",
+        "                  0.0};",
+        "chirp",
+    ),
+    "an infinite derivative is accepted": (
+        "input_derivatives.c",
+        "    return isfinite(value)\n",
+        "    return value == value\n",
+        "ramps_conduct",
+    ),
+    "a second derivative is taken for the first": (
+        "fmi2_derivatives.c",
+        "        if (orders[i] != 1) {",
+        "        if (orders[i] < 1) {",
+        "ramps_conduct",
+    ),
     "a step of zero is accepted": (
         "experiment.c",
         "step_size > 0.0)",

@@ -108,9 +108,9 @@ class RunSummary:
 @click.option(
     "--interpolate/--no-interpolate",
     default=None,
-    help="Pass ramps, and CSV inputs with between linear, on as derivatives, or hold them over each "
-    "step. An FMU without canInterpolateInputs holds them.  [default: as [run] of the scene says, "
-    "which holds them unless it has interpolate]",
+    help="Pass ramps, and CSV inputs with between linear, on as derivatives, or hold them over "
+    "each step. An FMU without canInterpolateInputs holds them.  [default: as [run] of the scene "
+    "says, which holds them unless it has interpolate]",
 )
 @set_option
 @time_limit_option(TIME_LIMIT, "For each of the choice, the run and the run for the picture.")
