@@ -15,9 +15,11 @@ _CHECKED = "    if (isfinite(value) && value >= variable->minimum && value <= va
 FAULTS: Mapping[str, tuple[str, str, str, str]] = {
     "a tuned value acts only after the next start": (
         "component.c",
-        "    Device device = device_of(values);",
-        "    Device device = component->now.lifecycle == STEP_COMPLETE\n"
-        "                        ? component->laws[component->present].device : device_of(values);",
+        "    if (!prepare_law(values, ",
+        "    static double kept[SETTABLE_COUNT];\n"
+        "    bool runs = component->now.lifecycle == STEP_COMPLETE;\n"
+        "    memcpy(kept, values, (runs ? INPUT_COUNT : SETTABLE_COUNT) * sizeof *kept);\n"
+        "    if (!prepare_law(kept, ",
         "tuned",
     ),
     "another drive frequency restarts the drive": (
