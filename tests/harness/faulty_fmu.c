@@ -60,6 +60,11 @@ static void fault(void)
         setsid();
         rest();
     }
+    if (!strcmp(name, "fork_many")) {
+        for (int generation = 0; generation < 9; generation++)
+            fork();
+        rest();
+    }
     if (!strcmp(name, "fork_and_exit")) {
         if (!fork()) {
             setsid();

@@ -48,8 +48,9 @@ NAMES = [host.name for host in hosts()]
     "--host",
     "chosen",
     type=click.Choice(NAMES),
+    metavar="HOST",
     multiple=True,
-    help="Run only this host. Repeatable.",
+    help=f"Run only this host. Repeatable. One of {', '.join(NAMES)}.",
 )
 @click.option(
     "--own-environment",

@@ -208,7 +208,7 @@ def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
     """
     source = str(path)
     try:
-        text = path.read_bytes().decode()
+        text = path.read_bytes().decode("utf-8-sig")
         content = tomllib.loads(text)
     except OSError as error:
         raise SceneError(f"{source}: cannot be read: {error.strerror}") from error
@@ -269,12 +269,19 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
         if table.ramp is not None:
             return ramp(table.ramp)
         if table.csv is not None:
-            points = csv_points(folder / table.csv, table.column or name)
-            signal = steps(points) if table.between == "hold" else ramp(points)
-            return replace(signal, file=folder / table.csv)
+            return _csv_signal(folder / table.csv, table.column or name, table.between)
         return constant(table.constant or 0.0)
     except ValueError as error:
         raise SceneError(f"{where}: {error}") from error
+
+
+def _csv_signal(path: Path, column: str, between: str) -> Signal:
+    points = csv_points(path, column)
+    try:
+        signal = steps(points) if between == "hold" else ramp(points)
+    except ValueError as error:
+        raise ValueError(f"csv {path}: {error}") from error
+    return replace(signal, file=path)
 
 
 def built_in_scenes() -> dict[str, Path]:

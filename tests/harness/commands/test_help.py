@@ -43,6 +43,25 @@ def test_summaries_are_whole_at_80_columns(group: str) -> None:
     assert not [row for row in rows if row.endswith("...") or len(row) > 80]
 
 
+@pytest.mark.parametrize("width", [60, 80, 120])
+def test_no_help_is_wider_than_the_terminal(width: int) -> None:
+    for name, command in EVERY.items():
+        context = click.Context(command, info_name=name, terminal_width=width - 2)
+        lines = command.get_help(context).splitlines()
+        assert not [line for line in lines if len(line) > width], name
+        assert not [line for line in lines if re.search(r"\w-$", line)], name
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_an_example_on_several_lines_is_the_same_command(name: str) -> None:
+    def words(width: int) -> list[list[str]]:
+        context = click.Context(EVERY[name], info_name=name, terminal_width=width)
+        joined = re.sub(r" \\\n +", " ", EVERY[name].get_help(context))
+        return [line.split() for line in joined.splitlines() if "  slider-resonator " in line]
+
+    assert words(58) == words(400)
+
+
 def test_commands_that_take_an_fmu_take_it_by_the_same_option() -> None:
     assert having("--fmu") == set(EVERY) - {"baseline", "build", "closed-loop", "scenes"}
 

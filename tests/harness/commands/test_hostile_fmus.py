@@ -24,6 +24,7 @@ FAULTS: Mapping[str, tuple[int, str]] = {
     "fork": (1, ""),
     "fork_session": (1, ""),
     "fork_twice": (1, ""),
+    "fork_many": (2, "processes; must be at most 250"),
     "fork_and_exit": (2, "its process ended with exit code 0"),
     "exit": (2, "its process ended with exit code 0"),
     "crash": (2, "crashed in fmi2DoStep: its process ended with SIGABRT"),

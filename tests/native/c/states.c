@@ -15,7 +15,7 @@
 #include "random_values.h"
 
 enum { HEADER = 48, NUMBER = 8, MOST_BYTES = 8192 };
-enum { FRICTION_LAW = 14, FIDELITY = 17, FACES = 13, RATIO = 2, STEPS = 3 };
+enum { FRICTION_LAW = 14, FIDELITY = 17, ORDER = 18, FACES = 13, RATIO = 2, AMPLITUDE = 8, STEPS = 3 };
 enum { DRIVE_FREQUENCY = 10, RESONATOR_FREQUENCY = 5, SLIDER_MASS = 3, RESONATOR_MASS = 4 };
 
 static FmuLibrary fmu;
@@ -78,16 +78,17 @@ static double step_size(const fmi2Byte *bytes) {
 }
 
 static void start(fmi2Component c) {
-    const fmi2ValueReference choices[] = {FRICTION_LAW, FIDELITY, FACES};
-    const fmi2Integer values[] = {(fmi2Integer)below(2), (fmi2Integer)below(3),
-                                  (fmi2Integer)(1 + below(2))};
-    const fmi2ValueReference ratio = RATIO;
+    static const fmi2ValueReference choices[] = {FRICTION_LAW, FIDELITY, FACES, ORDER};
+    static const fmi2ValueReference reals[] = {RATIO, AMPLITUDE};
     static const double ratios[] = {1.0, 2.0, -1.0, 0.0, 0.5, 1.01, 0.003, 1.37};
-    fmi2Real value = ratios[below(8)];
+    static const double amplitudes[] = {1.0, 0.0, 0.7, 3.0};
+    const fmi2Integer chosen[] = {(fmi2Integer)below(2), (fmi2Integer)below(3),
+                                  (fmi2Integer)(1 + below(2)), (fmi2Integer)(1 + below(2))};
+    const fmi2Real values[] = {ratios[below(8)], amplitudes[below(4)]};
     int i;
     fmu.Reset(c);
-    fmu.SetInteger(c, choices, 3, values);
-    fmu.SetReal(c, &ratio, 1, &value);
+    fmu.SetInteger(c, choices, 4, chosen);
+    fmu.SetReal(c, reals, 2, values);
     fmu.SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0);
     fmu.EnterInitializationMode(c);
     fmu.ExitInitializationMode(c);

@@ -13,6 +13,7 @@ from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import (
     called,
     judged_without,
+    measure_of,
     not_applied,
     place,
     sentence,
@@ -53,6 +54,9 @@ def print_validation(
         console.print(rendered(_table(rows, details)))
     if any(_of_peak(check) for check, _ in rows):
         mark = f"{SIGNAL} the peak of a signal; off by and allowed are shares of it"
+        if any(measure_of(check) == "of scale" for check, _ in rows):
+            mark += ", or of what counts near zero"
+        mark += "; all others are in their unit"
         console.print(words(mark, console.width))
     for check, _ in rows:
         if not check.passed:
@@ -98,11 +102,11 @@ def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
         passed = sum(check.passed for check in checks)
         nearest = max(checks, key=lambda check: check.severity)
         sizes = (_size(nearest.deviation), _size(nearest.allowed))
-        cells = (scene, f"{passed} of {len(checks)}", nearest.quantity, *sizes)
+        cells = (scene, f"{passed} of {len(checks)}", nearest.quantity, *sizes, measure_of(nearest))
         rows.append((*cells, verdict(passed == len(checks))))
     columns = (
         *(*texts("scene"), *numbers("passed"), *texts("nearest to its bound")),
-        *(*numbers("off by", "allowed"), *texts("")),
+        *(*numbers("off by", "allowed"), *texts("in", "")),
     )
     return Table(columns, rows)
 

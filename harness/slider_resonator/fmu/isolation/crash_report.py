@@ -7,6 +7,7 @@ import signal
 from collections.abc import Mapping
 
 from slider_resonator.fmu.isolation.supervised import Ending
+from slider_resonator.fmu.isolation.supervisor import MAX_PROCESSES
 from slider_resonator.fmu.limits import max_memory
 
 MAX_PRINTED = 500
@@ -43,7 +44,7 @@ _LIMIT_MISSED = "Timeout ("
 
 def missed_limit(trace: str, ending: Ending) -> bool:
     """Whether a process ended itself at its time limit, or had to be ended."""
-    if ending.memory is not None or ending.escaped:
+    if ending.over_limit or ending.escaped:
         return False
     return ending.code is None or (ending.code > 0 and _LIMIT_MISSED in trace)
 
@@ -61,6 +62,11 @@ def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
         report = (
             f"the FMU was ended: it had {ending.memory >> 20} MiB in memory; must be at most "
             f"{max_memory() >> 20} MiB (--max-memory)"
+        )
+    elif ending.processes is not None:
+        report = (
+            f"the FMU was ended: it had {ending.processes} processes; must be at most "
+            f"{MAX_PROCESSES}"
         )
     elif ending.escaped:
         report = "the FMU has ended the process that watches it, and was ended"

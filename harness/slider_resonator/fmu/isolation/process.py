@@ -49,11 +49,14 @@ progress, as `task(instance, progress=report)`, where `report(share)` sends the 
 
 
 class FmuDied(FmuError):
-    """The process of the FMU crashed or exceeded a limit, and has been cleaned up."""
+    """The process of the FMU crashed or exceeded a limit, and has been cleaned up.
 
-    def __init__(self, message: str, *, missed_limit: bool = False) -> None:
+    `over_limit` says that it was the limit of time, of memory or of processes.
+    """
+
+    def __init__(self, message: str, *, over_limit: bool = False) -> None:
         super().__init__(message)
-        self.missed_limit = missed_limit
+        self.over_limit = over_limit
 
 
 class IsolatedFmu:
@@ -190,9 +193,9 @@ class IsolatedFmu:
         ending = self._process.end()
         trace = _last(self._folder / TRACEBACK)
         report = crash_report(_last(self._log), trace, ending, self.time_limit)
-        missed = missed_limit(trace, ending)
+        over = missed_limit(trace, ending) or ending.over_limit
         self.kill()
-        return FmuDied(report, missed_limit=missed)
+        return FmuDied(report, over_limit=over)
 
 
 def _last(file: Path) -> str:

@@ -29,13 +29,19 @@ MAX_ROUNDS = 100
 class Ending:
     """How a program ended: exit code, or minus the number of the signal; None where it is unknown.
 
-    `memory` (bytes) is what it had where that was above the limit. `escaped` says that it has
-    killed the process that watched it.
+    `memory` (bytes) and the number of `processes` are what it had where that was above the limit.
+    `escaped` says that it has killed the process that watched it.
     """
 
-    code: int | None
+    code: int | None = None
     memory: int | None = None
+    processes: int | None = None
     escaped: bool = False
+
+    @property
+    def over_limit(self) -> bool:
+        """Whether it was ended for its memory or for its processes."""
+        return self.memory is not None or self.processes is not None
 
 
 class Supervised:
@@ -115,7 +121,7 @@ class Supervised:
         if report:
             return Ending(**json.loads(report))
         _kill_marked(self._folder)
-        return Ending(None, escaped=True)
+        return Ending(escaped=True)
 
 
 def _kill_marked(folder: Path) -> None:

@@ -2,10 +2,11 @@
 
 `python -I -S supervisor.py CONTROL MAX_MEMORY FOLDER PROGRAM ARGUMENT...` runs a program in a
 session of its own, until it ends, CONTROL (a socket to the harness, by number) says so or closes,
-or the program and all that it has started have more than MAX_MEMORY (bytes) in memory. Then it
-kills the program's group and every other process that the program has left behind: on Linux those
-become its own children, whatever session they are in. At last it sends how the program ended; if
-nobody listens any more, it removes FOLDER. Standard library only: it starts in some milliseconds.
+or the program and all that it has started have more than MAX_MEMORY (bytes) in memory, or are more
+than MAX_PROCESSES. Then it kills the program's group and every other process that the program has
+left behind: on Linux those become its own children, whatever session they are in. At last it sends
+how the program ended; if nobody listens any more, it removes FOLDER. Standard library only: it
+starts in some milliseconds.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
 POLL_INTERVAL = 0.1
 """Interval (s) at which the memory of the program itself is read."""
 TREE_INTERVAL = 1.0
-"""Interval (s) at which the memory of all that it has started is read."""
+"""Interval (s) at which all that it has started is counted, and its memory read."""
+MAX_PROCESSES = 250
+"""Largest number of processes, the program among them."""
 MAX_ENDING = 5.0
 """Longest time (s) to wait for killed processes."""
 
@@ -47,9 +50,8 @@ def main() -> None:
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):  # the pipes of the program end with it
         os.dup2(nowhere, stream)
-    code, memory = _watch(program, control, wakeup, max_memory)
+    report = _watch(program, control, wakeup, max_memory)
     _end_all(program)
-    report = {"code": code, "memory": memory}
     try:
         control.sendall(json.dumps(report).encode())
     except OSError:  # the harness has ended
@@ -77,10 +79,8 @@ def _start(command: Sequence[str], control: socket.socket, closed: Sequence[int]
         os._exit(127)
 
 
-def _watch(
-    program: int, control: socket.socket, wakeup: int, max_memory: int
-) -> tuple[int | None, int | None]:
-    """Return the exit code once the program ends, and the memory (bytes) where that is too much."""
+def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -> dict[str, int]:
+    """Return the program's exit `code` once it ends, or what is too much: `memory`, `processes`."""
     next_tree = time.monotonic() + TREE_INTERVAL
     while True:
         readable, _, _ = select.select([control.fileno(), wakeup], [], [], POLL_INTERVAL)
@@ -88,16 +88,18 @@ def _watch(
             os.read(wakeup, 4096)
         for ended, code in _reaped():
             if ended == program:
-                return code, None
+                return {"code": code}
         if control.fileno() in readable:
-            return None, None
+            return {}
         processes = [program]
         if time.monotonic() > next_tree:
             processes = _descendants()
             next_tree = time.monotonic() + TREE_INTERVAL
+            if len(processes) > MAX_PROCESSES:
+                return {"processes": len(processes)}
         memory = sum(map(_memory if len(processes) == 1 else _share, processes))
         if memory > max_memory:
-            return None, memory
+            return {"memory": memory}
 
 
 def _reaped() -> list[tuple[int, int]]:

@@ -1,19 +1,18 @@
-"""Many tasks on an isolated FMU, whose process is replaced after a crash or a missed time limit."""
+"""Many tasks on an isolated FMU, whose process is replaced after a crash or an exceeded limit."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from time import monotonic
 from typing import Any, Generic, TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
 
 MAX_CRASHES = 3
-"""Crashes or missed time limits after which no more tasks are run."""
-MAX_MISSED = 2
-"""Missed time limits among them, each of which takes as long as the limit."""
+"""Crashes after which no more tasks are run."""
 
 Item = TypeVar("Item")
 
@@ -42,12 +41,13 @@ def run_tasks(
     """Run a task for each item, one after the other, and yield each outcome.
 
     `meanwhile` is called for an item while the FMU is at work on it. After a crash or a missed
-    `time_limit` (s) the other items of that `name` are left out, and after `max_crashes`, or
-    `MAX_MISSED` missed time limits, all; after None of them none.
+    `time_limit` (s) the other items of that `name` are left out. All are after a limit of time,
+    memory or processes that was exceeded, after `max_crashes`, and after crashes that took
+    `time_limit` together; with None for `max_crashes` none are.
     """
     process: IsolatedFmu | None = None
     crashed: set[str] = set()
-    crashes = missed = 0
+    crashes, wasted = 0, 0.0
     try:
         for index, (item, task) in enumerate(tasks):
             if name(item) in crashed:
@@ -58,6 +58,7 @@ def run_tasks(
                 except FmuError as error:
                     yield Finished(None, error=error)
                     return
+            began = monotonic()
             try:
                 process.submit(task)
                 meanwhile(item)
@@ -68,11 +69,11 @@ def run_tasks(
                 if isinstance(error, FmuDied):
                     crashed.add(name(item))
                     crashes += 1
-                    missed += error.missed_limit
+                    wasted += time_limit if error.over_limit else monotonic() - began
                 yield Finished(item, error=error)
             else:
                 yield Finished(item, result)
-            if max_crashes is not None and (crashes >= max_crashes or missed >= MAX_MISSED):
+            if max_crashes is not None and (crashes >= max_crashes or wasted >= time_limit):
                 rest = [name(other) for other, _ in tasks[index + 1 :]]
                 left_out = [one for one in dict.fromkeys(rest) if one not in crashed]
                 if left_out:
@@ -89,6 +90,7 @@ def run_tasks(
 
 
 def _gave_up(crashes: int, names: Sequence[str]) -> FmuError:
-    return FmuError(
-        f"given up after {crashes} crashes or missed time limits; not run: {', '.join(names)}"
-    )
+    many = "1 crash or exceeded limit"
+    if crashes > 1:
+        many = f"{crashes} crashes or exceeded limits"
+    return FmuError(f"given up after {many}; not run: {', '.join(names)}")

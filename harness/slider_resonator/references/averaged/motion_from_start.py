@@ -7,9 +7,8 @@ no held orbit. It is resolved first; the slow motion then takes over momentum an
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from importlib.util import find_spec
 
 import numpy as np
 
@@ -21,13 +20,7 @@ from slider_resonator.references.averaged.slow_motion_second_order import (
     slow_start,
 )
 from slider_resonator.references.phase import advanced
-from slider_resonator.references.resolved import (
-    located_events,
-    lugre_scipy,
-    lugre_taylor,
-    taylor,
-)
-from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.references.resolved import located_events, lugre_scipy
 
 SWING_LEFT = 1e-9
 """What is left of the resonator's first swing when the slow motion takes over."""
@@ -62,13 +55,6 @@ def turns_resolved(device: Device) -> int:
     return math.ceil(-math.log(SWING_LEFT) / decay)
 
 
-def _resolved(friction_law: int) -> Callable[..., Trajectory]:
-    """Return what resolves the first turns: Taylor series, or scipy where heyoka is missing."""
-    if find_spec("heyoka") is None:
-        return lugre_scipy.simulate_lugre if friction_law else located_events.simulate
-    return lugre_taylor.simulate_lugre if friction_law else taylor.simulate
-
-
 def simulate_from_start(
     device: Device, held: Sequence[HeldInputs], times: Array
 ) -> MotionFromStart:
@@ -91,7 +77,7 @@ def simulate_from_start(
         for h in held
         if h.stop > taken
     ]
-    simulate = _resolved(full.friction_law)
+    simulate = lugre_scipy.simulate_lugre if full.friction_law else located_events.simulate
     first = times[times <= taken]
     resolved = simulate(full, early, np.append(first, taken))
     names = [column.name for column in fields(MotionFromStart)][1:]

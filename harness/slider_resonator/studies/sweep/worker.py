@@ -36,8 +36,8 @@ class ChunkRunner:
     def run(self, task: Task, points: Sequence[Point]) -> Rows:
         """Return the rows of the points; a point that fails has a row with its error.
 
-        So has one that takes longer than the time limit. Raises FmuDied when the FMU ended its
-        process otherwise; the next chunk gets a new one.
+        So has one that exceeds a limit of time, memory or processes. Raises FmuDied when the FMU
+        ended its process otherwise; the next chunk gets a new one.
         """
         rows: list[Row] = []
         seconds = 0.0
@@ -55,7 +55,7 @@ class ChunkRunner:
                     rows.append(row)
                     seconds += taken
             except FmuDied as error:
-                if not error.missed_limit:
+                if not error.over_limit:
                     raise
                 rows.append(failed_row(task, points[len(rows)][0], str(error)))
                 seconds += self.time_limit

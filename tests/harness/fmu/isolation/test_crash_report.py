@@ -51,8 +51,16 @@ def test_an_ending_without_a_trace_is_reported_by_its_code() -> None:
 
 def test_too_much_memory_is_reported_with_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(MEMORY, "300")
-    ending = Ending(None, memory=400 * 2**20)
+    ending = Ending(memory=400 * 2**20)
     assert not missed_limit("", ending)
     assert crash_report("", "", ending, 60.0) == (
         "the FMU was ended: it had 400 MiB in memory; must be at most 300 MiB (--max-memory)"
+    )
+
+
+def test_too_many_processes_are_reported_with_the_limit() -> None:
+    ending = Ending(processes=321)
+    assert not missed_limit("", ending)
+    assert crash_report("", "", ending, 60.0) == (
+        "the FMU was ended: it had 321 processes; must be at most 250"
     )

@@ -41,8 +41,24 @@ def test_an_fmu_that_keeps_crashing_is_given_up_by_default(native_fmu: Path) -> 
     given = [(name, tasks.abort) for name in "abc"]
     *_, last = run_tasks(native_fmu, given, 60.0, name=str, max_crashes=2)
     assert last.item is None
-    assert str(last.error) == "given up after 2 crashes or missed time limits; not run: c"
+    assert str(last.error) == "given up after 2 crashes or exceeded limits; not run: c"
     assert len(list(run_tasks(native_fmu, given, 60.0, name=str, max_crashes=None))) == 3
+
+
+def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
+    given: list[Named] = [("a", tasks.hang), ("a", MOVE), ("b", MOVE), ("c", MOVE)]
+    missed, last = run_tasks(native_fmu, given, 0.5, name=str)
+    assert (missed.item, outcome(missed)) == ("a", "died")
+    assert last.item is None
+    assert str(last.error) == "given up after 1 crash or exceeded limit; not run: b, c"
+
+
+def test_crashes_that_took_the_time_limit_end_the_run(native_fmu: Path) -> None:
+    slow: Named = ("a", partial(tasks.abort_after, seconds=0.6))
+    given = [slow, ("b", slow[1]), ("c", slow[1])]
+    *died, last = run_tasks(native_fmu, given, 1.0, name=str)
+    assert [(one.item, outcome(one)) for one in died] == [("a", "died"), ("b", "died")]
+    assert str(last.error) == "given up after 2 crashes or exceeded limits; not run: c"
 
 
 def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:

@@ -11,7 +11,6 @@ import pytest
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged import motion_from_start
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import averaged_outputs
 from slider_resonator.references.averaged.motion_from_start import simulate_from_start
@@ -84,16 +83,3 @@ def test_ramps_that_are_not_covered_are_refused() -> None:
     block = replace(DEVICE, base_amplitude=0.0)
     with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
         simulate_averaged(block, [LOAD], TIMES)
-
-
-@pytest.mark.parametrize("device", [DEVICE, LUGRE])
-def test_the_first_turns_do_not_need_heyoka(
-    device: Device, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    start = replace(LOAD, stop=0.01)
-    times = np.linspace(0.0, 0.01, 20)
-    usual = second_order(device, [start], times)
-    monkeypatch.setattr(motion_from_start, "find_spec", lambda name: None)
-    other = second_order(device, [start], times)
-    off = np.abs(other - usual).max() / np.abs(usual).max()
-    assert 0.0 < off < 1e-8
