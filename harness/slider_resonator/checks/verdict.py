@@ -13,17 +13,17 @@ TITLE = "Slider-resonator validation"
 """Default title of a report."""
 DIGITS = 9
 CALLED: Mapping[str, str] = {
-    "located_events": "exact events",
-    "taylor": "Taylor series",
-    "bristle_state": "bristle state",
+    "located_events": "exact",
+    "taylor": "Taylor",
+    "bristle_state": "bristles",
     "averaged": "averages",
-    "held_orbits": "held orbits",
-    "closed_form": "the paper",
-    "value": "the scene",
-    AT_MOST: "upper bound",
-    AT_LEAST: "lower bound",
+    "held_orbits": "orbits",
+    "closed_form": "paper",
+    "value": "scene",
+    AT_MOST: AT_MOST,
+    AT_LEAST: AT_LEAST,
 }
-"""What checks compare with, by what tables call it."""
+"""What checks compare with, by what a narrow column calls it: at most eight letters."""
 
 
 def called(against: str) -> str:
