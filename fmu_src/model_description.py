@@ -29,7 +29,6 @@ LOG_CATEGORIES: dict[str, str] = {
 _CAPABILITIES: dict[str, bool] = {
     "needsExecutionTool": False,
     "canHandleVariableCommunicationStepSize": True,
-    "canInterpolateInputs": False,
     "canRunAsynchronuously": False,
     "canBeInstantiatedOnlyOncePerProcess": False,
     "canGetAndSetFMUstate": True,
@@ -45,6 +44,7 @@ def model_description(
     generation_tool: str,
     generated: str,
     host_manages_memory: bool,
+    takes_derivatives: bool = False,
     source_files: Sequence[str] = (),
     about: str = DESCRIPTION,
     variables: Sequence[Variable] = VARIABLES,
@@ -53,8 +53,9 @@ def model_description(
 
     `model` names both the model and its binaries, `generated` is the date and time of the build
     (ISO 8601, UTC), `about` describes the model in a sentence. `host_manages_memory` is True for an
-    FMU that takes its memory from the host; `source_files` are the files to compile in its folder
-    `sources`. The value reference of a variable is its position in `variables`.
+    FMU that takes its memory from the host, `takes_derivatives` for one that takes first
+    derivatives of inputs and gives those of outputs; `source_files` are the files to compile in its
+    folder `sources`. The value reference of a variable is its position in `variables`.
 
     Raises ValueError for a unit that `fmu_src.units` lacks, and for a dependency on a variable that
     FMI 2.0 section 2.2.8 does not count as known.
@@ -74,7 +75,7 @@ def model_description(
             "variableNamingConvention": "flat",
         },
     )
-    _add_co_simulation(root, model, host_manages_memory, source_files)
+    _add_co_simulation(root, model, host_manages_memory, takes_derivatives, source_files)
     add_units(root, variables)
     categories = ET.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
@@ -90,14 +91,20 @@ def model_description(
 
 
 def _add_co_simulation(
-    root: ET.Element, model: str, host_manages_memory: bool, source_files: Sequence[str]
+    root: ET.Element,
+    model: str,
+    host_manages_memory: bool,
+    takes_derivatives: bool,
+    source_files: Sequence[str],
 ) -> None:
     capabilities = {
         "canNotUseMemoryManagementFunctions": not host_manages_memory,
+        "canInterpolateInputs": takes_derivatives,
         **_CAPABILITIES,
     }
     attributes = {"modelIdentifier": model} | {k: str(v).lower() for k, v in capabilities.items()}
-    element = ET.SubElement(root, "CoSimulation", attributes | {"maxOutputDerivativeOrder": "0"})
+    attributes["maxOutputDerivativeOrder"] = "1" if takes_derivatives else "0"
+    element = ET.SubElement(root, "CoSimulation", attributes)
     if source_files:
         files = ET.SubElement(element, "SourceFiles")
         for name in source_files:

@@ -12,6 +12,23 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 TITLE = "Slider-resonator validation"
 """Default title of a report."""
 DIGITS = 9
+CALLED: Mapping[str, str] = {
+    "located_events": "exact events",
+    "taylor": "Taylor series",
+    "bristle_state": "bristle as a state",
+    "averaged": "averaged theory",
+    "held_orbits": "held orbits",
+    "closed_form": "paper's formula",
+    "value": "value in the scene",
+    AT_MOST: "upper bound",
+    AT_LEAST: "lower bound",
+}
+"""What checks compare with, by what tables call it."""
+
+
+def called(against: str) -> str:
+    """Return what a check compares with, in words for a table."""
+    return CALLED.get(against, against.replace("_", " "))
 
 
 def title(check: Check) -> str:

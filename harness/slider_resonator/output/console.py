@@ -80,6 +80,13 @@ def counted(label: str, done: int, total: int) -> str:
     return f"{min(done + 1, total)} of {total}: {label}"
 
 
+def part_of(
+    progress: Callable[[str, float], None], index: int, count: int
+) -> Callable[[str, float], None]:
+    """Return what reports the progress of part `index` of `count` equal parts of the work."""
+    return lambda label, share: progress(label, (index + share) / count)
+
+
 def time_left(elapsed: float, share: float) -> str:
     """Return the time that is left after `elapsed` (s), as if all work were as fast."""
     if not share >= MIN_SHARE:

@@ -134,7 +134,9 @@ class Scene:
                 "scenes shows which can"
             )
         assert self.run is not None
-        plan = schedule(self.stop_time, self._steps, self.tuning, **self.signals)
+        plan = schedule(
+            self.stop_time, self._steps, self.tuning, self.run.interpolate, **self.signals
+        )
         return replace(plan, start_time=self.start_time, reads_twice=self.run.read_twice)
 
     def check_plain(self, command: str) -> None:
@@ -168,6 +170,12 @@ class Scene:
         assert self.run is not None
         step = {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
         return replace(self, run=self.run.model_copy(update=step))
+
+    def interpolating(self, interpolate: bool) -> Scene:
+        """Return the scene with straight lines of inputs passed on as derivatives, or held."""
+        if self.run is None:
+            return self
+        return replace(self, run=self.run.model_copy(update={"interpolate": interpolate}))
 
     def points(self) -> tuple[ScenePoint, ...]:
         """Return the points of the sweep, or without a sweep the scene as its only point."""

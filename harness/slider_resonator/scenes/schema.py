@@ -33,6 +33,9 @@ class RunTable(KeyTable):
         "Exactly one of `stop_time` and `drive_periods`.",
         "Exactly one of `step_size`, `steps_per_period` and `step_sizes`.",
         "A run has at most 3 000 000 steps.",
+        "Without `interpolate` inputs are sampled at each communication point and held until the "
+        "next, in any FMU. With it their corners are communication points, too; what is expected "
+        "of the run does not apply to an FMU without `canInterpolateInputs`.",
         "Without [run] only quantities of the steady motion can be expected.",
     )
 
@@ -53,6 +56,12 @@ class RunTable(KeyTable):
     )
     read_twice: Annotated[bool, Field(strict=True)] = key(
         "also read outputs after values change, before the step, and compare both",
+        True,
+        default=False,
+    )
+
+    interpolate: Annotated[bool, Field(strict=True)] = key(
+        "pass straight lines of inputs on, as derivatives: `ramp`, and `csv` with `between` linear",
         True,
         default=False,
     )

@@ -2,7 +2,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from slider_resonator.checks.verdict import measure_of, sentence, title
+from slider_resonator.checks.compare import AT_LEAST, AT_MOST
+from slider_resonator.checks.verdict import CALLED, called, measure_of, sentence, title
+from slider_resonator.scenes.vocabulary import REFERENCES
 from tests.harness.verdicts import BOUND, NONE, SIGNAL, SLOWER, WORD
 
 
@@ -51,3 +53,9 @@ def test_a_share_of_a_reference_near_zero_names_what_it_counts_as() -> None:
     near_zero = replace(SIGNAL, reference=0.0, scale=2e-6)
     assert measure_of(near_zero) == "of scale"
     assert sentence(near_zero).startswith("off by 0.0003 of its scale, which is 2e-06 m, ")
+
+
+def test_tables_call_what_is_compared_with_by_words() -> None:
+    assert set(CALLED) == {*REFERENCES, "value", AT_MOST, AT_LEAST}
+    assert called("located_events") == "exact events"
+    assert called("recorded_result") == "recorded result", "of other commands"

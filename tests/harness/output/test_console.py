@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.output.console import counted, output, progress_bar, time_left
+from slider_resonator.output.console import counted, output, part_of, progress_bar, time_left
 from slider_resonator.output.readable import readable
 
 
@@ -31,6 +31,12 @@ def test_other_numbers_keep_their_digits_and_sign() -> None:
 def test_a_task_has_its_number() -> None:
     assert counted("table_1", 0, 33) == "1 of 33: table_1"
     assert counted("table_1", 33, 33) == "33 of 33: table_1"
+
+
+def test_a_part_reports_its_share_of_all_work() -> None:
+    reported: list[tuple[str, float]] = []
+    part_of(lambda label, share: reported.append((label, share)), 1, 4)("second of four", 0.5)
+    assert reported == [("second of four", 0.375)]
 
 
 @pytest.mark.parametrize(

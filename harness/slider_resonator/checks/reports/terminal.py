@@ -11,6 +11,7 @@ from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.headline import headline
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import (
+    called,
     judged_without,
     measure_of,
     not_applied,
@@ -126,7 +127,7 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
             rows.append([Cell(f"{scene}, {points} points" if points > 1 else scene, Style.HEADING)])
         cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
         cells += [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
-        cells.append(check.against.split("_")[0])
+        cells.append(called(check.against))
         cells += [_size(check.deviation), _size(check.allowed)]
         rows.append((*cells, verdict(check.passed)))
         if details:
