@@ -66,28 +66,44 @@ def model_description(
             "fmiVersion": "2.0",
             "modelName": model,
             "guid": guid,
-            "description": about,
-            "author": "slider-resonator contributors",
-            "version": __version__,
-            "license": "MIT",
-            "generationTool": generation_tool,
-            "generationDateAndTime": generated,
-            "variableNamingConvention": "flat",
+            **origin(about, generation_tool, generated),
         },
     )
     _add_co_simulation(root, model, host_manages_memory, takes_derivatives, source_files)
-    add_units(root, variables)
-    categories = ET.SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
-        ET.SubElement(categories, "Category", {"name": name, "description": text})
-    ET.SubElement(
-        root, "DefaultExperiment", {"startTime": "0.0", "stopTime": "0.2", "stepSize": "0.001"}
-    )
+    add_definitions(root, variables, "fmi2")
     model_variables = ET.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(variables):
         _add_variable(model_variables, reference, variable)
     _add_structure(root, variables)
     return xml_bytes(root)
+
+
+def origin(about: str, generation_tool: str, generated: str) -> dict[str, str]:
+    """Return the attributes of a description that say what it describes, and where it is from."""
+    return {
+        "description": about,
+        "author": "slider-resonator contributors",
+        "version": __version__,
+        "license": "MIT",
+        "generationTool": generation_tool,
+        "generationDateAndTime": generated,
+        "variableNamingConvention": "flat",
+    }
+
+
+def add_definitions(root: ET.Element, variables: Sequence[Variable], version: str) -> None:
+    """Add units, log categories and the default experiment; ValueError as `add_units`.
+
+    `version`, "fmi2" or "fmi3", is how names of the standard begin.
+    """
+    add_units(root, variables)
+    categories = ET.SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        described = text.replace("fmi2", version)
+        ET.SubElement(categories, "Category", {"name": name, "description": described})
+    ET.SubElement(
+        root, "DefaultExperiment", {"startTime": "0.0", "stopTime": "0.2", "stepSize": "0.001"}
+    )
 
 
 def _add_co_simulation(
@@ -133,7 +149,8 @@ def add_units(root: ET.Element, variables: Sequence[Variable]) -> None:
                 ET.SubElement(element, "DisplayUnit", {"name": display, "factor": repr(factor)})
 
 
-def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> None:
+def identity(reference: int, variable: Variable) -> dict[str, str]:
+    """Return the attributes of a variable that are the same for each type."""
     attributes = {
         "name": variable.name,
         "valueReference": str(reference),
@@ -144,7 +161,11 @@ def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> Non
     # FMI 2.0 table on page 49: an input has no `initial`.
     if variable.causality != "input":
         attributes["initial"] = "calculated" if variable.causality == "output" else "exact"
-    element = ET.SubElement(parent, "ScalarVariable", attributes)
+    return attributes
+
+
+def numbers(variable: Variable) -> dict[str, str]:
+    """Return the attributes of a variable that are units and values."""
     number = int if variable.type == "Integer" else float
     values = {
         "min": variable.minimum,
@@ -155,7 +176,12 @@ def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> Non
     details = {"unit": variable.unit, "displayUnit": variable.display_unit}
     # repr gives the shortest text that reads back as the same number.
     details |= {k: None if x is None else repr(number(x)) for k, x in values.items()}
-    ET.SubElement(element, variable.type, {k: x for k, x in details.items() if x is not None})
+    return {k: x for k, x in details.items() if x is not None}
+
+
+def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> None:
+    element = ET.SubElement(parent, "ScalarVariable", identity(reference, variable))
+    ET.SubElement(element, variable.type, numbers(variable))
 
 
 def _add_structure(root: ET.Element, variables: Sequence[Variable]) -> None:

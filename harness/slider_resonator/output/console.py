@@ -97,6 +97,21 @@ def time_left(elapsed: float, share: float) -> str:
     return f"{hours}:{minutes:02}:{seconds:02} left" if hours else f"{minutes}:{seconds:02} left"
 
 
+BAR = 10
+"""Columns of the bar."""
+MIN_WIDTH_FOR_BAR = 80
+TIMES = len("0:00:00 00:00:00 left") + 4
+"""Columns of the times beside a label, with those between."""
+
+
+def shortened(label: str, room: int) -> str:
+    """Return a label that stays on its line: in the middle of one that is longer stand dots."""
+    if len(label) <= room:
+        return label
+    end = room // 2
+    return f"{label[: room - end - 1]}\N{HORIZONTAL ELLIPSIS}{label[len(label) - end :]}"
+
+
 class _TimeLeftColumn(ProgressColumn):
     """The time left, by the share that is done: tasks are few and long."""
 
@@ -111,14 +126,17 @@ def progress_bar() -> Iterator[Callable[[str, float], None]]:
     if not sys.stderr.isatty():
         yield lambda label, share: None
         return
+    console = Console(stderr=True)
+    bar = BarColumn(bar_width=BAR) if console.width >= MIN_WIDTH_FOR_BAR else TextColumn("")
     columns = (
         TextColumn("{task.description}", markup=False),
-        BarColumn(bar_width=10),
+        bar,
         TimeElapsedColumn(),
         _TimeLeftColumn(),
     )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+    room = console.width - TIMES - (BAR if isinstance(bar, BarColumn) else 0)
+    with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task("", total=1.0)
         yield lambda label, share: progress.update(
-            task, description=one_line(label), completed=share
+            task, description=shortened(one_line(label), room), completed=share
         )

@@ -7,9 +7,18 @@ function shortNumber(value) {
   return size === 0 || (size >= 1e-3 && size < 1e5) ? String(+value.toPrecision(6)) : value.toExponential(3).replace(/\.?0+e/, "e");
 }
 
-function axisOf({ label }, extra) {
+const isDecade = (value) => value > 0 && Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
+
+/** Keep the lines at powers of ten where there are more than a few of them. */
+function decadesOf(plot, splits) {
+  const decades = splits.map((value) => (isDecade(value) ? value : null));
+  return decades.filter((value) => value !== null).length > 4 ? decades : splits;
+}
+
+function axisOf({ label, log }, extra) {
   const values = (plot, splits) => splits.map((value) => (value === null ? "" : shortNumber(value)));
-  return { label, values, stroke: INK, grid: { stroke: "#eceff1" }, labelSize: 20, ...extra };
+  const lines = log ? { filter: decadesOf } : {};
+  return { label, values, stroke: INK, grid: { stroke: "#eceff1", ...lines }, ticks: lines, labelSize: 20, ...extra };
 }
 
 /** Return the columns of uPlot: all x in ascending order, and for each series its y or null. */
@@ -41,7 +50,8 @@ function drawCells(ctx, places, colours) {
   places.forEach(([x, y], i) => {
     const [[left, right], [top, bottom]] = [columns.get(x), rows.get(y)];
     ctx.fillStyle = colours[i];
-    ctx.fillRect(left, top, Math.ceil(right - left), Math.ceil(bottom - top));
+    const [x0, y0] = [Math.floor(left), Math.floor(top)];
+    ctx.fillRect(x0, y0, Math.ceil(right) - x0, Math.ceil(bottom) - y0);
   });
 }
 
@@ -172,6 +182,20 @@ function scaleOf({ log, range }) {
   return { time: false, ...(log ? { distr: 3 } : {}), ...(range ? { range: () => range } : {}) };
 }
 
+/** Return how a series looks, for the legend: its marker, on its line. */
+function sampleOf({ marker, colour, width, dash }) {
+  const sample = document.createElement("span");
+  sample.className = "sample";
+  sample.style.color = colour;
+  sample.textContent = marker || "\u00a0";
+  if (width > 0) {
+    const line = document.createElement("i");
+    line.style.borderTop = `${Math.max(1.5, width)}px ${dash.length ? "dashed" : "solid"}`;
+    sample.append(line);
+  }
+  return sample;
+}
+
 function draw(box) {
   const spec = JSON.parse(box.querySelector("script").textContent);
   const tip = document.createElement("div");
@@ -182,14 +206,11 @@ function draw(box) {
     scales: { x: scaleOf(spec.x), y: scaleOf(spec.y) },
     axes: [axisOf(spec.x, { size: 34 }), axisOf(spec.y, { size: 64 })],
     cursor: { points: { show: false }, drag: { x: true, y: true, uni: 20 } },
-    legend: { live: false, markers: { show: false } },
-    series: [{}, ...spec.series.map(({ label, marker, colour }) => {
+    legend: { show: !spec.series.every(({ cells }) => cells), live: false, markers: { show: false } },
+    series: [{}, ...spec.series.map((one) => {
       const shown = document.createElement("span");
-      const sample = document.createElement("span");
-      [shown.textContent, sample.textContent] = [` ${label}`, marker || "\u2501"];
-      sample.style.color = colour;
-      shown.prepend(sample);
-      return { label: shown, stroke: colour, paths: () => null, points: { show: false } };
+      shown.append(sampleOf(one), one.label);
+      return { label: shown, stroke: INK, paths: () => null, points: { show: false } };
     })],
     hooks: { draw: [(self) => drawAll(self, spec.series)] },
   }, columnsOf(spec.series), box);

@@ -40,6 +40,12 @@ def test_the_sentence_of_a_value_that_does_not_exist() -> None:
     assert sentence(WORD) == "the FMU gives 'steady', expected 'stuck'"
 
 
+def test_tables_call_what_is_compared_with_by_words() -> None:
+    assert set(CALLED) == {*REFERENCES, "value", AT_MOST, AT_LEAST}
+    assert called("located_events") == "exact events"
+    assert called("recorded_result") == "recorded result", "of other commands"
+
+
 def test_a_deviation_is_a_share_or_has_a_unit() -> None:
     assert measure_of(SLOWER) == "m/s"
     assert measure_of(SIGNAL) == "of peak"
@@ -53,9 +59,3 @@ def test_a_share_of_a_reference_near_zero_names_what_it_counts_as() -> None:
     near_zero = replace(SIGNAL, reference=0.0, scale=2e-6)
     assert measure_of(near_zero) == "of scale"
     assert sentence(near_zero).startswith("off by 0.0003 of its scale, which is 2e-06 m, ")
-
-
-def test_tables_call_what_is_compared_with_by_words() -> None:
-    assert set(CALLED) == {*REFERENCES, "value", AT_MOST, AT_LEAST}
-    assert called("located_events") == "exact events"
-    assert called("recorded_result") == "recorded result", "of other commands"

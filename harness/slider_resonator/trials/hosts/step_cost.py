@@ -41,7 +41,7 @@ LONG_STEP = f"the same, {_PERIODS} drive periods"
 
 STEPS = (
     Step("resolved Coulomb, 1 ms", {"fidelity": 2}, 1e-3, 20_000, _ALL_MOTION),
-    Step("the same, averaged theory read too", {"fidelity": 2}, 1e-3, 20_000, _FEED_FORWARD),
+    Step("the same, steady velocity read too", {"fidelity": 2}, 1e-3, 20_000, _FEED_FORWARD),
     Step("averaged Coulomb, 10 ms", {"fidelity": 0}, 1e-2, 20_000, _ALL_MOTION),
     Step("the same at 35 000 rad/s", {"fidelity": 0, **_FAST}, 1e-2, 20_000, _ALL_MOTION),
     Step("averaged LuGre, 10 ms", {"fidelity": 0, "friction_law": 1}, 1e-2, 20_000, _ALL_MOTION),
