@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from ctypes import byref, c_double, c_int
 
-from fmpy.fmi2 import fmi2OK, fmi2ValueReference
+from fmpy.fmi2 import FMU2Slave, fmi2OK, fmi2ValueReference
 
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
@@ -32,7 +32,8 @@ def derivative_faults(instance: Instance, state: SavedState, frequency: float) -
     if isinstance(slave, Fmi3Slave) or offered < 1:
         return []
     step = SHORT * 6.283185307179586 / frequency
-    told = {name: _derivative(instance, name) for name in OUTPUTS}
+    references = {name: instance.fmu.variables[name].valueReference for name in OUTPUTS}
+    told = {name: _derivative(slave, reference) for name, reference in references.items()}
     rows = [instance.read((*OUTPUTS, *COUNTS))]
     for _ in range(2):
         instance.step_by(step)
@@ -50,12 +51,10 @@ def derivative_faults(instance: Instance, state: SavedState, frequency: float) -
     return faults
 
 
-def _derivative(instance: Instance, name: str) -> float | None:
+def _derivative(slave: FMU2Slave, reference: int) -> float | None:
     """Return the first derivative of an output, None where the FMU has none."""
-    reference = fmi2ValueReference(instance.fmu.variables[name].valueReference)
     value, order = c_double(), c_int(1)
-    slave = instance.slave
     status = slave.dll.fmi2GetRealOutputDerivatives(
-        slave.component, byref(reference), 1, byref(order), byref(value)
+        slave.component, byref(fmi2ValueReference(reference)), 1, byref(order), byref(value)
     )
     return value.value if status == fmi2OK else None
