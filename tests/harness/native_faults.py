@@ -15,11 +15,8 @@ _CHECKED = "    if (isfinite(value) && value >= variable->minimum && value <= va
 FAULTS: Mapping[str, tuple[str, str, str, str]] = {
     "a tuned value acts only after the next start": (
         "component.c",
-        "    if (!prepare_law(values, ",
-        "    static double kept[SETTABLE_COUNT];\n"
-        "    bool runs = component->now.lifecycle == STEP_COMPLETE;\n"
-        "    memcpy(kept, values, (runs ? INPUT_COUNT : SETTABLE_COUNT) * sizeof *kept);\n"
-        "    if (!prepare_law(kept, ",
+        "    component->present = next;\n",
+        "    component->present = component->now.lifecycle == STEP_COMPLETE ? 1 - next : next;\n",
         "tuned",
     ),
     "another drive frequency restarts the drive": (
@@ -104,30 +101,6 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         '"bristle_stiffness", false, true, 100000.0',
         '"bristle_stiffness", false, true, 10000.0',
         "interface",
-    ),
-    "derivatives of inputs are declared and ignored": (
-        "input_derivatives.c",
-        "        if (derivatives[i].value != 0.0) {",
-        "        if (derivatives[i].value != derivatives[i].value) {",
-        "ramp_of_load",
-    ),
-    "a chirp keeps the ratio of its start": (
-        "ramped_step.c",
-        "                  derivatives[VR_FREQUENCY_RATIO].value};",
-        "                  0.0};",
-        "chirp",
-    ),
-    "an infinite derivative is accepted": (
-        "input_derivatives.c",
-        "    return isfinite(value)\n",
-        "    return value == value\n",
-        "ramps_conduct",
-    ),
-    "a second derivative is taken for the first": (
-        "fmi2_derivatives.c",
-        "        if (orders[i] != 1) {",
-        "        if (orders[i] < 1) {",
-        "ramps_conduct",
     ),
     "a step of zero is accepted": (
         "experiment.c",
