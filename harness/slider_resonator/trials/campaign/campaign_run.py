@@ -18,6 +18,7 @@ from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.fmu.run import run
 from slider_resonator.trials.campaign.expected import AVERAGED, RESOLVED
 from slider_resonator.trials.campaign.random_case import RandomCase
+from slider_resonator.trials.campaign.second_order import OUTPUTS
 from slider_resonator.trials.campaign.verdict import FAILED, PASSED, REFUSED, CaseVerdict, judge
 
 TIME_LIMIT = 60.0
@@ -115,6 +116,8 @@ def run_campaign(
 
 def _outputs(instance: Instance, case: RandomCase) -> dict[str, Array]:
     """Run a case; what is raised is what `run` does."""
-    names = AVERAGED if case.device.fidelity == 0 else RESOLVED
+    names: tuple[str, ...] = AVERAGED if case.device.fidelity == 0 else RESOLVED
+    if case.second_order:
+        names = OUTPUTS
     record = run(instance, case.parameters, case.schedule, outputs=names)
     return dict(record.outputs)
