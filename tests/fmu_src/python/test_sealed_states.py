@@ -56,7 +56,7 @@ def odd_value(random: Random, before: object) -> object:
         return random.choice(ODD)
     if isinstance(before, bool) or not isinstance(before, int | float):
         return random.choice(SPECIAL) if random.random() < 0.5 else before
-    if random.random() < 0.3:
+    if random.random() < 0.3 and abs(before) < 1e300:
         return before * random.choice(POWERS)
     if random.random() < 0.2:
         return -before
