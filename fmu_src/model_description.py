@@ -29,7 +29,6 @@ LOG_CATEGORIES: dict[str, str] = {
 _CAPABILITIES: dict[str, bool] = {
     "needsExecutionTool": False,
     "canHandleVariableCommunicationStepSize": True,
-    "canInterpolateInputs": False,
     "canRunAsynchronuously": False,
     "canBeInstantiatedOnlyOncePerProcess": False,
     "canGetAndSetFMUstate": True,
@@ -45,6 +44,7 @@ def model_description(
     generation_tool: str,
     generated: str,
     host_manages_memory: bool,
+    takes_derivatives: bool = False,
     source_files: Sequence[str] = (),
     about: str = DESCRIPTION,
     variables: Sequence[Variable] = VARIABLES,
@@ -53,8 +53,9 @@ def model_description(
 
     `model` names both the model and its binaries, `generated` is the date and time of the build
     (ISO 8601, UTC), `about` describes the model in a sentence. `host_manages_memory` is True for an
-    FMU that takes its memory from the host; `source_files` are the files to compile in its folder
-    `sources`. The value reference of a variable is its position in `variables`.
+    FMU that takes its memory from the host, `takes_derivatives` for one that takes first
+    derivatives of inputs and gives those of outputs; `source_files` are the files to compile in its
+    folder `sources`. The value reference of a variable is its position in `variables`.
 
     Raises ValueError for a unit that `fmu_src.units` lacks, and for a dependency on a variable that
     FMI 2.0 section 2.2.8 does not count as known.
@@ -65,23 +66,11 @@ def model_description(
             "fmiVersion": "2.0",
             "modelName": model,
             "guid": guid,
-            "description": about,
-            "author": "slider-resonator contributors",
-            "version": __version__,
-            "license": "MIT",
-            "generationTool": generation_tool,
-            "generationDateAndTime": generated,
-            "variableNamingConvention": "flat",
+            **origin(about, generation_tool, generated),
         },
     )
-    _add_co_simulation(root, model, host_manages_memory, source_files)
-    add_units(root, variables)
-    categories = ET.SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
-        ET.SubElement(categories, "Category", {"name": name, "description": text})
-    ET.SubElement(
-        root, "DefaultExperiment", {"startTime": "0.0", "stopTime": "0.2", "stepSize": "0.001"}
-    )
+    _add_co_simulation(root, model, host_manages_memory, takes_derivatives, source_files)
+    add_definitions(root, variables, "fmi2")
     model_variables = ET.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(variables):
         _add_variable(model_variables, reference, variable)
@@ -89,15 +78,49 @@ def model_description(
     return xml_bytes(root)
 
 
+def origin(about: str, generation_tool: str, generated: str) -> dict[str, str]:
+    """Return the attributes of a description that say what it describes, and where it is from."""
+    return {
+        "description": about,
+        "author": "slider-resonator contributors",
+        "version": __version__,
+        "license": "MIT",
+        "generationTool": generation_tool,
+        "generationDateAndTime": generated,
+        "variableNamingConvention": "flat",
+    }
+
+
+def add_definitions(root: ET.Element, variables: Sequence[Variable], version: str) -> None:
+    """Add units, log categories and the default experiment; ValueError as `add_units`.
+
+    `version`, "fmi2" or "fmi3", is how names of the standard begin.
+    """
+    add_units(root, variables)
+    categories = ET.SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        described = text.replace("fmi2", version)
+        ET.SubElement(categories, "Category", {"name": name, "description": described})
+    ET.SubElement(
+        root, "DefaultExperiment", {"startTime": "0.0", "stopTime": "0.2", "stepSize": "0.001"}
+    )
+
+
 def _add_co_simulation(
-    root: ET.Element, model: str, host_manages_memory: bool, source_files: Sequence[str]
+    root: ET.Element,
+    model: str,
+    host_manages_memory: bool,
+    takes_derivatives: bool,
+    source_files: Sequence[str],
 ) -> None:
     capabilities = {
         "canNotUseMemoryManagementFunctions": not host_manages_memory,
+        "canInterpolateInputs": takes_derivatives,
         **_CAPABILITIES,
     }
     attributes = {"modelIdentifier": model} | {k: str(v).lower() for k, v in capabilities.items()}
-    element = ET.SubElement(root, "CoSimulation", attributes | {"maxOutputDerivativeOrder": "0"})
+    attributes["maxOutputDerivativeOrder"] = "1" if takes_derivatives else "0"
+    element = ET.SubElement(root, "CoSimulation", attributes)
     if source_files:
         files = ET.SubElement(element, "SourceFiles")
         for name in source_files:
@@ -126,7 +149,8 @@ def add_units(root: ET.Element, variables: Sequence[Variable]) -> None:
                 ET.SubElement(element, "DisplayUnit", {"name": display, "factor": repr(factor)})
 
 
-def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> None:
+def identity(reference: int, variable: Variable) -> dict[str, str]:
+    """Return the attributes of a variable that are the same for each type."""
     attributes = {
         "name": variable.name,
         "valueReference": str(reference),
@@ -137,7 +161,11 @@ def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> Non
     # FMI 2.0 table on page 49: an input has no `initial`.
     if variable.causality != "input":
         attributes["initial"] = "calculated" if variable.causality == "output" else "exact"
-    element = ET.SubElement(parent, "ScalarVariable", attributes)
+    return attributes
+
+
+def numbers(variable: Variable) -> dict[str, str]:
+    """Return the attributes of a variable that are units and values."""
     number = int if variable.type == "Integer" else float
     values = {
         "min": variable.minimum,
@@ -148,7 +176,12 @@ def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> Non
     details = {"unit": variable.unit, "displayUnit": variable.display_unit}
     # repr gives the shortest text that reads back as the same number.
     details |= {k: None if x is None else repr(number(x)) for k, x in values.items()}
-    ET.SubElement(element, variable.type, {k: x for k, x in details.items() if x is not None})
+    return {k: x for k, x in details.items() if x is not None}
+
+
+def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> None:
+    element = ET.SubElement(parent, "ScalarVariable", identity(reference, variable))
+    ET.SubElement(element, variable.type, numbers(variable))
 
 
 def _add_structure(root: ET.Element, variables: Sequence[Variable]) -> None:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from xml.etree import ElementTree as ET
 
-from fmu_src import __version__
 from fmu_src.model_description import (
     DESCRIPTION,
-    LOG_CATEGORIES,
-    add_units,
+    add_definitions,
     checked_dependencies,
+    identity,
+    numbers,
+    origin,
 )
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
@@ -58,25 +59,12 @@ def model_description_3(
             "fmiVersion": "3.0",
             "modelName": model,
             "instantiationToken": guid,
-            "description": about,
-            "author": "slider-resonator contributors",
-            "version": __version__,
-            "license": "MIT",
-            "generationTool": generation_tool,
-            "generationDateAndTime": generated,
-            "variableNamingConvention": "flat",
+            **origin(about, generation_tool, generated),
         },
     )
     capabilities = {name: str(value).lower() for name, value in _CAPABILITIES.items()}
     ET.SubElement(root, "CoSimulation", {"modelIdentifier": model, **capabilities})
-    add_units(root, variables)
-    categories = ET.SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
-        described = text.replace("fmi2", "fmi3")
-        ET.SubElement(categories, "Category", {"name": name, "description": described})
-    ET.SubElement(
-        root, "DefaultExperiment", {"startTime": "0.0", "stopTime": "0.2", "stepSize": "0.001"}
-    )
+    add_definitions(root, variables, "fmi3")
     model_variables = ET.SubElement(root, "ModelVariables")
     ET.SubElement(
         model_variables,
@@ -91,33 +79,10 @@ def model_description_3(
         },
     )
     for reference, variable in enumerate(variables, start=REFERENCE_OFFSET):
-        _add_variable(model_variables, reference, variable)
+        attributes = identity(reference, variable) | numbers(variable)
+        ET.SubElement(model_variables, TYPES[variable.type], attributes)
     _add_structure(root, variables)
     return xml_bytes(root)
-
-
-def _add_variable(parent: ET.Element, reference: int, variable: Variable) -> None:
-    attributes = {
-        "name": variable.name,
-        "valueReference": str(reference),
-        "description": variable.description,
-        "causality": variable.causality,
-        "variability": variable.variability,
-    }
-    if variable.causality != "input":
-        attributes["initial"] = "calculated" if variable.causality == "output" else "exact"
-    number = int if variable.type == "Integer" else float
-    values = {
-        "min": variable.minimum,
-        "max": variable.maximum,
-        "nominal": variable.nominal,
-        "start": variable.start,
-    }
-    details = {"unit": variable.unit, "displayUnit": variable.display_unit}
-    # repr gives the shortest text that reads back as the same number.
-    details |= {k: None if x is None else repr(number(x)) for k, x in values.items()}
-    given = {k: x for k, x in details.items() if x is not None}
-    ET.SubElement(parent, TYPES[variable.type], attributes | given)
 
 
 def _add_structure(root: ET.Element, variables: Sequence[Variable]) -> None:

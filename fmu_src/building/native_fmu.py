@@ -39,7 +39,8 @@ class NativeModel:
 
     `code` is its C sources: name in the folder `sources` -> text. `details` are arguments of both
     the model description and the documentation page, `page` of the page alone. `version` is that of
-    FMI. `runs_in_browser` adds the page that runs the component.
+    FMI. `takes_derivatives` is for one of FMI 2.0 that takes derivatives of inputs.
+    `runs_in_browser` adds the page that runs the component.
     """
 
     name: str
@@ -47,6 +48,7 @@ class NativeModel:
     details: Mapping[str, Any]
     page: str
     version: FmiVersion = "2.0"
+    takes_derivatives: bool = False
     runs_in_browser: bool = False
 
 
@@ -60,7 +62,14 @@ def build_native(
 ) -> Path:
     """Build the native slider, from other C sources if `code` is given; see `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
-    model = NativeModel(MODEL, code or slider_sources(), about, "page.html", runs_in_browser=True)
+    model = NativeModel(
+        MODEL,
+        code or slider_sources(),
+        about,
+        "page.html",
+        takes_derivatives=True,
+        runs_in_browser=True,
+    )
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
 
@@ -73,7 +82,9 @@ def build_native_3(
 ) -> Path:
     """Build the native slider for FMI 3.0; see `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
-    model = NativeModel(MODEL_3, slider_sources("3.0"), about, "page.html", "3.0", True)
+    model = NativeModel(
+        MODEL_3, slider_sources("3.0"), about, "page.html", "3.0", runs_in_browser=True
+    )
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
 
@@ -148,6 +159,7 @@ def _description(model: NativeModel, tool: str, guid: str, generated: datetime) 
     return model_description(
         generated=date_text(generated),
         host_manages_memory=True,
+        takes_derivatives=model.takes_derivatives,
         source_files=_source_files(model),
         **about,
     )

@@ -3,86 +3,18 @@
 #include <math.h>
 #include <string.h>
 
+#include "component_law.h"
 #include "constants.h"
+#include "output_derivatives.h"
 #include "refusal_texts.h"
 #include "state.h"
 #include "values.h"
 
-static bool all_finite(const double *numbers, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        if (!isfinite(numbers[i])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static bool law_is_finite(const Law *law) {
-    const TheoryRange theory = theory_range(law);
-    const Plant *plant = &law->held.plant;
-    const double coefficients[] = {
-        plant->total_mass,      plant->mass_fraction,     plant->normal_frequency,
-        plant->slip.decay,      plant->slip.stiffness,    plant->stick.decay,
-        plant->stick.stiffness, plant->drive.re,          plant->drive.im,
-        plant->relative_drive,  plant->base_acceleration, plant->holding_drive.re,
-        plant->spring,          plant->damper,            plant->holding_drive.im,
-        theory.velocity,        theory.drag,              theory.strongest,
-    };
-    return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
-}
-
-/* Refuse values that together leave the range of floating point numbers; the text names the one that
- * is most decades away from its start. */
-static bool refuse_extreme(const double values[SETTABLE_COUNT], Refusal *refusal) {
-    size_t furthest = 0;
-    double largest = -1.0;
-    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
-        double start = VARIABLES[i].start != 0.0 ? VARIABLES[i].start : 1.0;
-        double distance = values[i] != 0.0 ? fabs(log10(fabs(values[i])) - log10(start)) : 0.0;
-        if (distance > largest) {
-            largest = distance;
-            furthest = i;
-        }
-    }
-    char value[NUMBER_SIZE], start[NUMBER_SIZE];
-    const Variable *variable = &VARIABLES[furthest];
-    return refuse_extreme_value(refusal, variable->name,
-                                value_text(variable, values[furthest], value),
-                                value_text(variable, variable->start, start));
-}
-
-static Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
-    Inputs inputs = inputs_of(values);
-    inputs.phase = remainder(inputs.phase, TAU);
-    return inputs;
-}
-
-/* Give a law what averages of second order need; the law of the full device goes to `resolved`. */
-static bool prepare_orbits(Component *component, Law *law, Law *resolved, Refusal *refusal) {
-    if (law_follows_orbits(law)) {
-        Device full = law->device;
-        full.fidelity = 2;
-        if (!law_prepare(resolved, &full, &law->inputs, NULL, refusal)) {
-            return false;
-        }
-        law->resolved = resolved;
-        law->orbits = &component->orbits;
-    }
-    return true;
-}
-
 /* Prepare the law of `values` beside the present one, which it replaces unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
-    Device device = device_of(values);
-    Inputs inputs = reduced_inputs(values);
-    if (!law_prepare(&component->laws[next], &device, &inputs, &component->table, refusal)) {
-        return false;
-    }
-    if (!law_is_finite(&component->laws[next])) {
-        return refuse_extreme(values, refusal);
-    }
-    if (!prepare_orbits(component, &component->laws[next], &component->resolved[next], refusal)) {
+    if (!prepare_law(values, &component->table, &component->orbits, &component->laws[next],
+                     &component->resolved[next], refusal)) {
         return false;
     }
     component->present = next;
@@ -172,15 +104,26 @@ bool component_set(Component *component, const unsigned *references, const doubl
     for (size_t i = 0; i < count; i++) {
         same = same && values[i] == component->now.values[references[i]];
     }
-    if (same) {
-        return true;
-    }
     bool running = is_running(component->now.lifecycle);
-    if (running && !change(component, changed, references, count, refusal)) {
+    if (!same) {
+        if (running && !change(component, changed, references, count, refusal)) {
+            return false;
+        }
+        component->prepared = running;
+        memcpy(component->now.values, changed, sizeof changed);
+    }
+    hold_inputs(component->now.derivatives, references, count);
+    return true;
+}
+
+bool component_set_derivatives(Component *component, const unsigned *references,
+                               const double *values, size_t count, Refusal *refusal) {
+    InputDerivative changed[INPUT_COUNT];
+    memcpy(changed, component->now.derivatives, sizeof changed);
+    if (!change_derivatives(changed, component->now.lifecycle, references, values, count, refusal)) {
         return false;
     }
-    component->prepared = running;
-    memcpy(component->now.values, changed, sizeof changed);
+    memcpy(component->now.derivatives, changed, sizeof changed);
     return true;
 }
 
@@ -224,10 +167,25 @@ bool component_get(Component *component, const unsigned *references, double *val
     return true;
 }
 
-static bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
-    double frequency = LONGEST_ARC / law->held.arc;
-    return law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)
-           || refuse_too_many_turns(refusal, step_size, frequency, MAX_TURNS);
+bool component_get_derivatives(Component *component, const unsigned *references, double *values,
+                               size_t count, Refusal *refusal) {
+    double found[VARIABLE_COUNT];
+    Moment first;
+    const Moment *moment = NULL;
+    for (size_t i = 0; i < count; i++) {
+        if ((!moment && !moment_to_read(component, references[i], &first, &moment, refusal))
+            || !output_derivative(references[i], present_law(component), moment,
+                                  component->now.derivatives[VR_PHASE].value, &found[i], refusal)) {
+            return false;
+        }
+        if (!isfinite(found[i])) {
+            return refuse_infinite_output(refusal, VARIABLES[references[i]].name, found[i]);
+        }
+    }
+    if (count > 0) {
+        memcpy(values, found, count * sizeof *values);
+    }
+    return true;
 }
 
 /* Time [s] that later times surely differ by from `time` [s], as numbers. */
@@ -254,19 +212,44 @@ static void go_on(Snapshot *now, const Moment *after, double time, double elapse
     }
     now->moment = *after;
     now->time = time + elapsed;
+    derivatives_used(now->derivatives);
+}
+
+/* The moment after a step; with a `search`, that of the event that it finds. */
+static bool advance(Component *component, double step_size, double duration, EventSearch *search,
+                    Moment *after, Refusal *refusal) {
+    const Snapshot *now = &component->now;
+    const Law *law = present_law(component);
+    if (inputs_vary(now->derivatives)) {
+        return ramped_step(&component->ramped, now, duration, &component->table, &component->orbits,
+                           after, refusal);
+    }
+    return bounded_work_check(law, step_size, refusal)
+           && law_advance(law, &now->moment, duration, search, after, refusal);
+}
+
+/* Take over the inputs at the end of a step during which they vary. */
+static bool take_reached_inputs(Component *component, Refusal *refusal) {
+    Snapshot *now = &component->now;
+    const double *reached = component->ramped.reached;
+    static const unsigned inputs[INPUT_COUNT] = {VR_PHASE, VR_LOAD, VR_FREQUENCY_RATIO};
+    size_t count = now->derivatives[VR_FREQUENCY_RATIO].value != 0.0 ? INPUT_COUNT : VR_LOAD + 1;
+    if (!change(component, reached, inputs, count, refusal)) {
+        return false;
+    }
+    memcpy(now->values, reached, sizeof now->values);
+    return true;
 }
 
 /* Take a step; with a `search`, only to the event that it finds. */
 static bool step(Component *component, double time, double step_size, EventSearch *search,
                  Refusal *refusal) {
     Snapshot *now = &component->now;
-    const Law *law = present_law(component);
     double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
     Moment after;
     if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
         || !step_check(now->time, now->stop_time, time, step_size, refusal)
-        || !bounded_work_check(law, step_size, refusal)
-        || !law_advance(law, &now->moment, duration, search, &after, refusal)) {
+        || !advance(component, step_size, duration, search, &after, refusal)) {
         return false;
     }
     const double reached[] = {after.position,   after.state.velocity, after.state.displacement,
@@ -274,6 +257,9 @@ static bool step(Component *component, double time, double step_size, EventSearc
                               time + step_size};
     if (!all_finite(reached, sizeof reached / sizeof reached[0])) {
         return refuse_infinite_motion(refusal, step_size);
+    }
+    if (inputs_vary(now->derivatives) && !take_reached_inputs(component, refusal)) {
+        return false;
     }
     now->time_carry -= owed;
     if (search == NULL) {

@@ -10,17 +10,21 @@
 #include "law.h"
 #include "orbit_tables.h"
 #include "outputs.h"
+#include "ramped_step.h"
 #include "refusal.h"
 #include "snapshot.h"
 
 /* A slider-resonator. `now` is its complete state; the rest is a cache of what follows from it:
  * laws[present] is the law of the present values where `prepared`, the other place serves to try the
- * next one; `resolved` are the laws of the full device where averages of second order need them. A component must not move in memory: its laws point to its table. */
+ * next one; `resolved` are the laws of the full device where averages of second order need them; `ramped`
+ * is the step made last under inputs that vary. A component must not move in memory: its laws point to its
+ * table. */
 typedef struct {
     Snapshot now;
     bool prepared;
     int present;
     Law laws[2], resolved[2];
+    RampedStep ramped;
     FrictionTable table;
     OrbitTables orbits;
     Theory theory;
@@ -32,6 +36,15 @@ typedef struct {
  * start, with `event` true; the present time then tells when. */
 bool component_step_to_event(Component *component, double time, double step_size, bool *event,
                              Refusal *refusal);
+
+/* Set the first derivatives of inputs by reference, per s: all of them or, if one is refused, none. A
+ * derivative holds until it is set again, or until its input is set after a step without it. */
+bool component_set_derivatives(Component *component, const unsigned *references,
+                               const double *values, size_t count, Refusal *refusal);
+
+/* Get the first derivatives of outputs by reference, per s: all or none; from initialization mode on. */
+bool component_get_derivatives(Component *component, const unsigned *references, double *values,
+                               size_t count, Refusal *refusal);
 
 /* Event mode of FMI 3.0: values may be set, time stands still. */
 bool component_enter_event_mode(Component *component, Refusal *refusal);

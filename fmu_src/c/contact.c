@@ -51,6 +51,22 @@ double time_to_switch(const FlightWindow *window, double chi, double frequency, 
     return TAU - ahead < REACHED ? 0.0 : ahead / fabs(frequency);
 }
 
+double time_to_switch_chirped(const FlightWindow *window, double chi, double frequency, double rate,
+                              bool lifted) {
+    if (rate == 0.0) {
+        return time_to_switch(window, chi, frequency, lifted);
+    }
+    double going = frequency != 0.0 ? frequency : rate;
+    /* At a frequency of 1 rad/s the time is the angle. */
+    double angle = time_to_switch(window, chi, copysign(1.0, going), lifted);
+    if (!(angle > 0.0 && angle < INFINITY)) {
+        return angle;
+    }
+    double speed = fabs(frequency), gain = going > 0.0 ? rate : -rate;
+    double square = speed * speed + 2.0 * gain * angle;
+    return square >= 0.0 ? 2.0 * angle / (speed + sqrt(square)) : INFINITY;
+}
+
 int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velocity, double psi) {
     if (is_lifted(window, psi + plant->phase, plant->normal_frequency)) {
         return LIFTED;

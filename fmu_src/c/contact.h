@@ -33,6 +33,10 @@ bool is_lifted(const FlightWindow *window, double chi, double frequency);
  * [rad/s] is that of the normal load and may be negative. */
 double time_to_switch(const FlightWindow *window, double chi, double frequency, bool lifted);
 
+/* The same while the frequency grows by `rate` [rad/s^2], up to the time at which it changes its sign. */
+double time_to_switch_chirped(const FlightWindow *window, double chi, double frequency, double rate,
+                              bool lifted);
+
 /* Contact mode by what can be seen: lifted, or the direction of sliding; STICK only at rest. */
 int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velocity, double psi);
 

@@ -93,7 +93,7 @@ static void stick(Leg *leg, const Held *held, Moment *now, double longest, doubl
     leg_begin_rest(leg, held, now);
     leg_follow(leg, held, now, longest);
     bool near_switch = switching == longest && switching - leg->t < SAME * held->arc;
-    double chi = now->psi + plant->phase + plant->normal_frequency * leg->t;
+    double chi = now->psi + plant->phase + turned_by(plant, leg->t);
     if (leg_released(leg) && near_switch && lifts_first(plant, chi)) {
         leg->t = switching;
         leg->zero_of = -1;

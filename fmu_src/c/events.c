@@ -73,8 +73,31 @@ static void end_at_event(const Leg *leg, const Law *law, Moment *now) {
     }
 }
 
-bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+/* The sign change [s] of a normal frequency ahead; infinite without one. */
+static double time_to_turn(const Plant *plant) {
+    if (plant->normal_rate == 0.0) {
+        return INFINITY;
+    }
+    double t = -plant->normal_frequency / plant->normal_rate;
+    return t > 0.0 ? t : INFINITY;
+}
+
+/* What inputs that vary have become `elapsed` [s] after `begin`, at the end of a leg; `turned` where the
+ * normal frequency changes its sign there. */
+static void ramp_to(Plant *plant, const Plant *begin, double elapsed, bool turned) {
+    plant->load = begin->load + begin->load_rate * elapsed;
+    plant->normal_frequency =
+        turned ? 0.0 : begin->normal_frequency + begin->normal_rate * elapsed;
+}
+
+bool events_advance(const Law *start, const Moment *moment, double duration, EventSearch *search,
                     Moment *now, Refusal *refusal) {
+    Law moving;
+    const Law *law = start;
+    if (is_ramped(&start->held.plant)) {
+        moving = *start;
+        law = &moving;
+    }
     const FrictionLaw *friction = law->friction;
     const Held *held = &law->held;
     const Plant *plant = &held->plant;
@@ -91,14 +114,19 @@ bool events_advance(const Law *law, const Moment *moment, double duration, Event
         if (!work_count(&work, clock.elapsed, duration, refusal)) {
             return false;
         }
-        double switching = time_to_switch(&held->window, now->psi + plant->phase,
-                                          plant->normal_frequency, now->mode == LIFTED);
-        double longest = fmin(fmin(remaining, switching), held->arc);
+        double switching =
+            time_to_switch_chirped(&held->window, now->psi + plant->phase, plant->normal_frequency,
+                                   plant->normal_rate, now->mode == LIFTED);
+        double turning = time_to_turn(plant);
+        double longest = fmin(fmin(fmin(remaining, switching), held->arc), turning);
         if (search != NULL) {
             begin = *now;
         }
         friction->follow(&leg, law, now, longest, switching);
         leg_finish(&leg, held, now);
+        if (law == &moving) {
+            ramp_to(&moving.held.plant, &start->held.plant, clock.elapsed + leg.t, leg.t == turning);
+        }
         if (found_reversal(search, &clock, &leg, &begin, now)) {
             break;
         }

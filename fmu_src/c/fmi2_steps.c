@@ -21,22 +21,6 @@ fmi2Status fmi2CancelStep(fmi2Component c) {
     return report(c, fmi2Error, "fmi2CancelStep refused: no step is ever pending");
 }
 
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                                       const fmi2Integer order[], const fmi2Real value[]) {
-    (void)vr, (void)nvr, (void)order, (void)value;
-    return report(c, fmi2Error,
-                  "fmi2SetRealInputDerivatives refused: inputs are held over a step "
-                  "(canInterpolateInputs is false)");
-}
-
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                                        const fmi2Integer order[], fmi2Real value[]) {
-    (void)vr, (void)nvr, (void)order, (void)value;
-    return report(c, fmi2Error,
-                  "fmi2GetRealOutputDerivatives refused: there are none "
-                  "(maxOutputDerivativeOrder is 0)");
-}
-
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference vUnknown_ref[],
                                         size_t nUnknown, const fmi2ValueReference vKnown_ref[],
                                         size_t nKnown, const fmi2Real dvKnown[],

@@ -51,6 +51,15 @@ static bool places_of(const fmi3ValueReference *references, size_t count, ValueT
                      (unsigned long)*place_count, VARIABLE_COUNT);
 }
 
+/* Check a call and translate its references; refuse what does not fit. */
+static bool call_check(const Instance *own, const char *call,
+                       const fmi3ValueReference *references, size_t count, const void *values,
+                       size_t value_count, ValueType type, unsigned *places, size_t *place_count,
+                       Refusal *refusal) {
+    return own != NULL && count_check(call, references, count, values, value_count, refusal)
+           && places_of(references, count, type, places, place_count, refusal);
+}
+
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                           size_t nValueReferences, fmi3Float64 values[], size_t nValues) {
     Instance *own = instance;
@@ -58,10 +67,8 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
     unsigned places[VARIABLE_COUNT + 1];
     double found[VARIABLE_COUNT + 1];
     size_t count = 0;
-    bool done = own != NULL
-                && count_check("fmi3GetFloat64", valueReferences, nValueReferences, values, nValues,
-                               &refusal)
-                && places_of(valueReferences, nValueReferences, REAL_TYPE, places, &count, &refusal)
+    bool done = call_check(own, "fmi3GetFloat64", valueReferences, nValueReferences, values,
+                           nValues, REAL_TYPE, places, &count, &refusal)
                 && component_get(&own->component, places, found, count, &refusal);
     const double *next = found;
     for (size_t i = 0; done && i < nValueReferences; i++) {
@@ -78,11 +85,8 @@ fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueRef
     unsigned places[VARIABLE_COUNT + 1];
     double found[VARIABLE_COUNT + 1];
     size_t count = 0;
-    bool done = own != NULL
-                && count_check("fmi3GetInt32", valueReferences, nValueReferences, values, nValues,
-                               &refusal)
-                && places_of(valueReferences, nValueReferences, INTEGER_TYPE, places, &count,
-                             &refusal)
+    bool done = call_check(own, "fmi3GetInt32", valueReferences, nValueReferences, values, nValues,
+                           INTEGER_TYPE, places, &count, &refusal)
                 && component_get(&own->component, places, found, count, &refusal);
     for (size_t i = 0; done && i < count; i++) {
         values[i] = (fmi3Int32)found[i];
@@ -96,11 +100,8 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
     Refusal refusal;
     unsigned places[VARIABLE_COUNT + 1];
     size_t count = 0;
-    bool done = own != NULL
-                && count_check("fmi3SetFloat64", valueReferences, nValueReferences, values, nValues,
-                               &refusal)
-                && places_of(valueReferences, nValueReferences, REAL_TYPE, places, &count,
-                             &refusal);
+    bool done = call_check(own, "fmi3SetFloat64", valueReferences, nValueReferences, values,
+                           nValues, REAL_TYPE, places, &count, &refusal);
     if (done && count < nValueReferences) {
         done = refuse(&refusal, "time (valueReference = %d) refused: it is the independent variable "
                       "and cannot be set", TIME_REFERENCE);
@@ -116,11 +117,8 @@ fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference valueRef
     unsigned places[VARIABLE_COUNT + 1];
     double changes[VARIABLE_COUNT + 1];
     size_t count = 0;
-    bool done = own != NULL
-                && count_check("fmi3SetInt32", valueReferences, nValueReferences, values, nValues,
-                               &refusal)
-                && places_of(valueReferences, nValueReferences, INTEGER_TYPE, places, &count,
-                             &refusal);
+    bool done = call_check(own, "fmi3SetInt32", valueReferences, nValueReferences, values, nValues,
+                           INTEGER_TYPE, places, &count, &refusal);
     for (size_t i = 0; done && i < count; i++) {
         changes[i] = values[i];
     }
@@ -135,9 +133,8 @@ static fmi3Status other_type(fmi3Instance instance, const char *call,
     Refusal refusal;
     unsigned places[VARIABLE_COUNT + 1];
     size_t found = 0;
-    bool done = instance != NULL
-                && count_check(call, references, count, values, value_count, &refusal)
-                && places_of(references, count, type, places, &found, &refusal);
+    bool done = call_check(instance, call, references, count, values, value_count, type, places,
+                           &found, &refusal);
     return answer(instance, done, &refusal);
 }
 

@@ -18,8 +18,8 @@ static Following how_to_follow(const Oscillator *oscillator, double frequency, b
 }
 
 void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscillator,
-                             double constant, const Forcing *forcing, int forcings, double y0,
-                             double u0, double fastest) {
+                             double constant, double slope, const Forcing *forcing, int forcings,
+                             double y0, double u0, double fastest) {
     bool slow = fmax(oscillator->frequency, oscillator->decay) < SLOW * fastest;
     double highest = oscillator->frequency;
     motion->oscillator = oscillator;
@@ -45,12 +45,14 @@ void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscilla
         motion->following[i] = following;
     }
     motion->constant = constant;
+    motion->slope = slope;
+    motion->longest = LONGEST_ARC / fastest;
     motion->free_displacement = y0;
     motion->free_rate = u0;
     motion->horizon = motion->from_rest ? AHEAD / highest : INFINITY;
 }
 
-/* Motion without forcing but the constant one; `free` is the free response of the oscillator. */
+/* Motion without forcing but the linear one; `free` is the free response of the oscillator. */
 static Response free_motion(const ForcedOscillator *motion, double t, Response free) {
     const Oscillator *oscillator = motion->oscillator;
     double y0 = motion->free_displacement, u0 = motion->free_rate;
@@ -62,6 +64,11 @@ static Response free_motion(const ForcedOscillator *motion, double t, Response f
         Response step = step_response(oscillator, t, free);
         response.displacement += motion->constant * step.displacement;
         response.rate += motion->constant * step.rate;
+    }
+    if (motion->slope != 0.0) {
+        Response ramp = ramp_response(oscillator, t, free);
+        response.displacement += motion->slope * ramp.displacement;
+        response.rate += motion->slope * ramp.rate;
     }
     return response;
 }
@@ -106,15 +113,16 @@ Sample forced_oscillator_sample(const ForcedOscillator *motion, double t) {
     double decay = oscillator->decay, stiffness = oscillator->stiffness;
     double frequency = oscillator->frequency;
     Response free = free_response(oscillator, t), moved = free_motion(motion, t, free);
-    double free_acceleration =
-        motion->constant - 2.0 * decay * moved.rate - stiffness * moved.displacement;
-    double applied = motion->constant;
+    double applied = motion->constant + motion->slope * t, even_rate = motion->slope / stiffness;
+    double free_acceleration = applied - 2.0 * decay * moved.rate - stiffness * moved.displacement;
     Sample sample;
     turns_of(motion->forcing, motion->forcings, t, sample.turn);
-    sample.jerk_bound = hypot(2.0 * decay * free_acceleration + stiffness * moved.rate,
-                              frequency * free_acceleration);
+    sample.jerk_bound =
+        hypot(2.0 * decay * free_acceleration + stiffness * moved.rate - motion->slope,
+              frequency * free_acceleration);
     sample.acceleration_bound = sample.jerk_bound / frequency;
-    sample.rate_bound = hypot(moved.rate, free_acceleration / frequency);
+    sample.rate_bound =
+        hypot(moved.rate - even_rate, free_acceleration / frequency) + fabs(even_rate);
     for (int i = 0; i < motion->forcings; i++) {
         if (motion->following[i] == AS_CONSTANT) {
             continue;
@@ -157,6 +165,13 @@ Response forced_oscillator_reach(const ForcedOscillator *motion) {
     double offset = motion->constant / motion->oscillator->stiffness;
     reach.rate = hypot(motion->free_rate, frequency * (motion->free_displacement - offset));
     reach.displacement = reach.rate / frequency + fabs(offset);
+    if (motion->slope != 0.0) {
+        /* The rate under a ramp is the displacement after a step: at most twice the steady one. */
+        double stiffness = motion->oscillator->stiffness, longest = motion->longest;
+        double ramped = fabs(motion->slope) * fmin(2.0 / stiffness, 0.5 * longest * longest);
+        reach.rate += ramped;
+        reach.displacement += ramped * longest;
+    }
     for (int i = 0; i < motion->forcings; i++) {
         if (motion->following[i] == STEADY) {
             reach.displacement += motion->size[i];

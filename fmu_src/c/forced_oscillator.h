@@ -1,7 +1,7 @@
-/* A damped oscillator under a constant and sinusoidal forcing, from any state, regular everywhere.
+/* A damped oscillator under a linear and sinusoidal forcing, from any state, regular everywhere.
  *
  * The steady responses are split off where they are of moderate size. What is left is a free motion
- * plus responses from rest: to the constant, to forcing that resonates, and to slow forcing of a
+ * plus responses from rest: to the linear forcing, to forcing that resonates, and to slow forcing of a
  * slow oscillator. */
 #ifndef SLIDER_FORCED_OSCILLATOR_H
 #define SLIDER_FORCED_OSCILLATOR_H
@@ -20,12 +20,12 @@ typedef struct {
 /* How the response to a forcing is followed: as part of the constant, steady, or from rest. */
 typedef enum { AS_CONSTANT, STEADY, RESONANT_FROM_REST, SLOW_FROM_REST } Following;
 
-/* y'' + 2 decay y' + stiffness y = constant + sum of the forcings. `steady` are the complex
+/* y'' + 2 decay y' + stiffness y = constant + slope t + sum of the forcings. `steady` are the complex
  * amplitudes of steady responses [m], `size` their absolute values; the free motion starts at
- * displacement `free_displacement` [m] and `free_rate` [m/s]. */
+ * displacement `free_displacement` [m] and `free_rate` [m/s]. Samples are taken up to `longest` [s]. */
 typedef struct {
     const Oscillator *oscillator;
-    double constant;
+    double constant, slope;
     int forcings;
     Forcing forcing[FORCINGS];
     Following following[FORCINGS];
@@ -33,7 +33,7 @@ typedef struct {
     double size[FORCINGS];
     double free_displacement, free_rate;
     bool from_rest;
-    double horizon;
+    double horizon, longest;
 } ForcedOscillator;
 
 /* Displacement y [m] and derivatives, with bounds on |y'|, |y''| and |y'''| over the horizon.
@@ -56,11 +56,11 @@ static inline void turns_of(const Forcing *forcing, int count, double t, Complex
  * forcings.
  *
  * Slow forcing of a slow oscillator, both by the measure of `fastest` [rad/s], is followed from
- * rest too; samples are then good for times up to 60 / fastest. `oscillator` must outlive the
+ * rest too. Samples are good for times up to LONGEST_ARC / fastest. `oscillator` must outlive the
  * motion. */
 void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscillator,
-                             double constant, const Forcing *forcing, int forcings, double y0,
-                             double u0, double fastest);
+                             double constant, double slope, const Forcing *forcing, int forcings,
+                             double y0, double u0, double fastest);
 
 /* Displacement and rate at `t` >= 0 [s]; `turn` as in a Sample. */
 Response forced_oscillator_response(const ForcedOscillator *motion, double t, const Complex *turn);
@@ -68,7 +68,7 @@ Response forced_oscillator_response(const ForcedOscillator *motion, double t, co
 /* Motion at `t` >= 0 [s]. The free part loses energy, so its present energy bounds it. */
 Sample forced_oscillator_sample(const ForcedOscillator *motion, double t);
 
-/* Bounds on |displacement| and |rate| for all time; infinite without a steady response. */
+/* Bounds on |displacement| and |rate| while samples are taken; infinite without a steady response. */
 Response forced_oscillator_reach(const ForcedOscillator *motion);
 
 #endif

@@ -18,11 +18,11 @@ typedef struct {
     double arc;
 } Held;
 
-/* Angle [rad] of the fastest oscillation after which a motion is anchored anew: keeps the rounding
- * of large arguments of sine and cosine out. */
-#define LONGEST_ARC 60.0
-
 /* Prepares motion of `device` under `inputs`. Refuses as plant_prepare does. */
 bool held_prepare(Held *held, const Device *device, const Inputs *inputs, Refusal *refusal);
+
+/* Let the load grow by `load_rate` [N/s] and the normal frequency by `normal_rate` [rad/s^2] for
+ * `duration` [s]. */
+void held_ramp(Held *held, double load_rate, double normal_rate, double duration);
 
 #endif

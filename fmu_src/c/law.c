@@ -22,6 +22,7 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
                  Refusal *refusal) {
     law->device = *device;
     law->inputs = *inputs;
+    law->middle_ratio = inputs->frequency_ratio;
     law->bristle = bristle_of(device);
     law->table = table;
     law->resolved = NULL;
@@ -39,6 +40,30 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
 void law_change(Law *law, double phase, double load) {
     law->inputs.phase = law->held.plant.phase = phase;
     law->inputs.load = law->held.plant.load = load;
+}
+
+void law_ramp(Law *law, const Ramp *ramp, double duration) {
+    double w = law->held.plant.drive_frequency;
+    law->inputs.frequency_ratio = ramp->ratio;
+    law->held.plant.normal_frequency = ramp->ratio * w;
+    held_ramp(&law->held, ramp->load_rate, ramp->ratio_rate * w, duration);
+}
+
+Law law_after(const Law *law, double t) {
+    Law later = *law;
+    Plant *plant = &later.held.plant;
+    plant->normal_frequency += plant->normal_rate * t;
+    later.inputs.frequency_ratio += plant->normal_rate / plant->drive_frequency * t;
+    later.inputs.load += plant->load_rate * t;
+    plant->load = later.inputs.load;
+    return later;
+}
+
+SlowPhase law_slow_phase(const Law *law) {
+    double chirp = law->held.plant.normal_rate;
+    return chirp != 0.0 ? slow_phase_chirped(&law->device, law->inputs.frequency_ratio,
+                                             law->middle_ratio, chirp)
+                        : slow_phase_of(&law->device, law->inputs.frequency_ratio);
 }
 
 bool law_follows_orbits(const Law *law) {

@@ -13,16 +13,20 @@
 #include "held.h"
 #include "moment.h"
 #include "refusal.h"
+#include "slow_phase.h"
 
 /* `friction` is the row of its friction law, see friction_law.h. `table` is a cache that outlives
  * the law and may be shared by those of one instance; it is filled when averaged motion first needs
  * it.
+ *
+ * `middle_ratio` is the frequency ratio in the middle of a step in which it grows.
  *
  * Averages of second order have the law of the full device (`resolved`) and a cache of its orbits, both
  * kept by the component; elsewhere these are NULL. */
 typedef struct Law {
     Device device;
     Inputs inputs;
+    double middle_ratio;
     Held held;
     Bristle bristle;
     FastVibration fast;
@@ -41,6 +45,21 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionT
  * prepared depends. */
 void law_change(Law *law, double phase, double load);
 
+/* Inputs that grow, per s, from a frequency ratio on. */
+typedef struct {
+    double ratio, load_rate, ratio_rate;
+} Ramp;
+
+/* Lets inputs grow for `duration` [s], from now on. The law was prepared with the frequency ratio in the
+ * middle of that time. */
+void law_ramp(Law *law, const Ramp *ramp, double duration);
+
+/* The law `t` [s] later. */
+Law law_after(const Law *law, double t);
+
+/* The slow phase of the normal load. */
+SlowPhase law_slow_phase(const Law *law);
+
 /* Whether the law needs `resolved` and `orbits`: fidelity 0 by averages of second order, where motion
  * becomes slow. */
 bool law_follows_orbits(const Law *law);
@@ -48,8 +67,8 @@ bool law_follows_orbits(const Law *law);
 /* The first moment, at drive and normal phase 0, from the initial values of the device. */
 Moment law_start(const Law *law);
 
-/* The moment `duration` > 0 [s] later, another than `moment`, inputs held, or that of the event that a
- * `search` finds before; NULL searches for none, and averaged motion has none. Refuses, with `after`
+/* The moment `duration` > 0 [s] later, another than `moment`, or that of the event that a `search`
+ * finds before; NULL searches for none, and averaged motion has none. Refuses, with `after`
  * undefined, where time does not get on or averaged motion needs too many steps. Numbers that leave
  * the range of floating point show as non-finite entries of `after`, never as an endless loop. */
 bool law_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,

@@ -3,6 +3,10 @@
 #include <math.h>
 
 #include "angle.h"
+#include "velocity_scale.h"
+
+/* Error of one series in velocity scales: that of rounding. */
+#define SERIES_ROUNDING (2.0 * EPSILON)
 
 void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
     leg->kind = RESTS;
@@ -13,19 +17,35 @@ void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
                 now->psi + held->plant.phase);
 }
 
+/* Sliding or flight under a normal load whose frequency changes. A stiff bristle that is fully bent is
+ * full friction. */
+static void begin_chirped(Leg *leg, const Plant *plant, const Moment *now, int sign) {
+    const Bristle bent = {1.0, 0.0, 0.0};
+    double tolerance = SERIES_ROUNDING * velocity_scale(plant, &now->state);
+    leg->kind = FOLLOWS_SERIES;
+    leg->known.known = false;
+    taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign, now->theta,
+                       now->psi + plant->phase, tolerance);
+    leg->motion.series.direction = leg->direction; /* watched in flight, too */
+}
+
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction) {
     int sign = now->mode == LIFTED ? 0 : direction;
-    leg->kind = SLIDES;
     leg->mode = now->mode;
     leg->direction = direction;
     leg->watched_from = 0.0;
+    if (held->plant.normal_rate != 0.0) {
+        begin_chirped(leg, &held->plant, now, sign);
+        return;
+    }
+    leg->kind = SLIDES;
     slide_begin(&leg->motion.slide, held, sign, &now->state, now->theta,
                 now->psi + held->plant.phase, &leg->known, direction);
 }
 
 void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
                        int direction, double tolerance) {
-    leg->kind = BENDS;
+    leg->kind = FOLLOWS_SERIES;
     leg->mode = now->mode;
     leg->direction = direction;
     leg->watched_from = 0.0;
@@ -34,7 +54,7 @@ void leg_begin_bending(Leg *leg, const Held *held, const Bristle *bristle, const
 }
 
 bool leg_departs(Leg *leg) {
-    if (leg->kind == BENDS) {
+    if (leg->kind == FOLLOWS_SERIES) {
         return taylor_slide_departs(&leg->motion.series);
     }
     Watch watch = slide_watch(&leg->motion.slide);
@@ -45,7 +65,7 @@ bool leg_departs(Leg *leg) {
  * other may come soon. */
 static void follow_rest(Leg *leg, double turn) {
     Watch watches[2];
-    int count = stick_watches(&leg->motion.stick, watches);
+    int count = stick_watches(&leg->motion.stick, leg->t, watches);
     if (count > 0) {
         leg->t = fmin(leg->t, turn);
     }
@@ -72,7 +92,7 @@ static bool moves(const Watch *watch, double t) {
 
 /* Ends sliding at a stop; tells whether it goes in another direction than `before`. */
 static void follow_sliding(Leg *leg, double expected, int before) {
-    Watch watch = leg->kind == BENDS ? taylor_slide_watch(&leg->motion.series, leg->t)
+    Watch watch = leg->kind == FOLLOWS_SERIES ? taylor_slide_watch(&leg->motion.series, leg->t)
                                      : slide_watch(&leg->motion.slide);
     double zero = first_zero_near(&watch, leg->t, leg->watched_from, expected);
     if (zero >= 0.0) {
@@ -84,7 +104,7 @@ static void follow_sliding(Leg *leg, double expected, int before) {
 
 void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
     double frequency = held->plant.drive_frequency;
-    leg->t = leg->kind == BENDS ? fmin(longest, leg->motion.series.reach) : longest;
+    leg->t = leg->kind == FOLLOWS_SERIES ? fmin(longest, leg->motion.series.reach) : longest;
     leg->zero_of = -1;
     leg->turns = false;
     if (!(leg->t > 0.0)) {
@@ -106,7 +126,7 @@ static double travel_at(const void *motion, double t) {
         return 0.0;
     case SLIDES:
         return slide_travel(&leg->motion.slide, t);
-    case BENDS:
+    case FOLLOWS_SERIES:
         return taylor_slide_travel(&leg->motion.series, t);
     }
     return NAN;
@@ -122,7 +142,7 @@ static State end_of(Leg *leg) {
         return stick_state(&leg->motion.stick, leg->t);
     case SLIDES:
         return slide_end(&leg->motion.slide, leg->t, &leg->travelled, &leg->known);
-    case BENDS:
+    case FOLLOWS_SERIES:
         leg->travelled = taylor_slide_travel(&leg->motion.series, leg->t);
         return taylor_slide_state(&leg->motion.series, leg->t);
     }
@@ -134,7 +154,7 @@ void leg_finish(Leg *leg, const Held *held, Moment *now) {
     now->state = end_of(leg);
     Segment segment = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
     now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
-    now->psi = within_turn(now->psi + plant->normal_frequency * leg->t);
+    now->psi = within_turn(now->psi + turned_by(plant, leg->t));
     now->position += leg->travelled;
     if (leg->turns) {
         now->counts = counts_slid(now->counts, leg->direction);

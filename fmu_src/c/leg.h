@@ -10,8 +10,9 @@
 #include "stick.h"
 #include "taylor_slide.h"
 
-/* What the motion is: rest, sliding or flight in closed form, or sliding on bending bristles. */
-typedef enum { RESTS, SLIDES, BENDS } LegKind;
+/* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles,
+ * and under a normal load whose frequency changes. */
+typedef enum { RESTS, SLIDES, FOLLOWS_SERIES } LegKind;
 
 /* Begun by a friction law: the contact `mode`, and the `direction` of sliding, in which the velocity
  * is watched (0 for none) from `watched_from` [s] on.
@@ -38,7 +39,8 @@ typedef struct {
 /* Rest. */
 void leg_begin_rest(Leg *leg, const Held *held, const Moment *now);
 
-/* Sliding in `direction` under full friction, or flight in contact mode LIFTED. */
+/* Sliding in `direction` under full friction, or flight in contact mode LIFTED: in closed form, or by
+ * series while the normal frequency changes. */
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction);
 
 /* Sliding in `direction` while a bristle bends, to `tolerance` [m/s]. */

@@ -8,6 +8,7 @@
 
 #include "friction_law.h"
 #include "refusal_texts.h"
+#include "velocity_scale.h"
 
 /* Share of the tolerance that one series may use up, and that the bend of the bristle may still be
  * away from full when closed forms take over. */
@@ -37,16 +38,6 @@ static double force(const Law *law, const Moment *moment, int mode) {
     double drag = velocity - fabs(velocity) * bent / bristle->coefficient;
     double share = (bent + bristle->damping * drag) / bristle->coefficient;
     return friction_limit(&law->held.plant, moment->psi) * share;
-}
-
-/* Velocity [m/s] that tolerances refer to: of drive, friction over a turn, and motion. */
-static double velocity_scale(const Plant *plant, const State *state) {
-    double w = plant->drive_frequency;
-    double forces = plant->friction_preload + plant->friction_amplitude + fabs(plant->load);
-    double swing =
-        plant->mass_fraction * hypot(state->rate, plant->stick.frequency * state->displacement);
-    return complex_abs(plant->drive) / w + forces / (plant->total_mass * w) +
-           fabs(state->velocity) + swing;
 }
 
 static void begin(Leg *leg, const Law *law, const Moment *now, int direction) {

@@ -27,9 +27,7 @@ enum { MAX_TAKING = 40 };
 #define SEPARATION 1.0
 
 bool has_slow_motion(const Law *law) {
-    const Device *device = &law->device;
-    if (!(law->fast.velocity > 0.0) ||
-        orbit_phase_of(device, law->inputs.frequency_ratio).turns == 0) {
+    if (!(law->fast.velocity > 0.0) || orbit_phase_of(law).turns == 0) {
         return false;
     }
     double slow = 4.0 * friction_share(law);
@@ -41,7 +39,7 @@ static OrbitValues values_of(const Law *law) {
     return (OrbitValues){
         .phase = law->inputs.phase,
         .load = law->inputs.load,
-        .waves = orbit_phase_of(device, law->inputs.frequency_ratio).waves,
+        .waves = orbit_phase_of(law).waves,
         .preload = device->normal_preload,
         .amplitude = device->normal_amplitude,
         .coefficient = device->friction_coefficient,
@@ -58,7 +56,7 @@ OrbitState orbit_motion_start(const Law *law, const Moment *first) {
 
 /* The lead [rad] at drive phase 0 of the turn in which it is least, rounded. */
 static double lead_of(const Law *law, const Moment *moment) {
-    const SlowPhase slow = orbit_phase_of(&law->device, law->inputs.frequency_ratio);
+    const SlowPhase slow = orbit_phase_of(law);
     double least = INFINITY, chi = law->inputs.phase + moment->psi;
     if (law->device.normal_amplitude == 0.0) {
         return 0.0;
@@ -136,6 +134,26 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     return true;
 }
 
+/* What rounding leaves between an input that has grown and the value that a host then sets: angle [rad],
+ * and share of a load. */
+#define SAME_INPUT 1e-12
+
+/* Whether the lead has another phase or rate than at the end of the last step. */
+static bool is_led(const OrbitState *orbit, const OrbitValues *present, bool drifts) {
+    double turned = remainder(present->phase - orbit->under.phase, TAU);
+    if (present->waves != orbit->under.waves || (orbit->varied == VARIED_LEAD && !drifts)) {
+        return true;
+    }
+    return orbit->varied == HELD_INPUTS ? present->phase != orbit->under.phase
+                                        : fabs(turned) > SAME_INPUT;
+}
+
+static bool is_loaded(const OrbitState *orbit, const OrbitValues *present) {
+    double before = orbit->under.load, tolerance = SAME_INPUT * fabs(before);
+    return orbit->varied == HELD_INPUTS ? present->load != before
+                                        : fabs(present->load - before) > tolerance;
+}
+
 /* Take note of values that changed since the last step. */
 static bool adapt(const Law *law, Moment *now) {
     OrbitState *orbit = &now->orbit;
@@ -145,8 +163,11 @@ static bool adapt(const Law *law, Moment *now) {
                   present.force != before.force || orbit->stage == AVERAGED;
     bool tuned = present.preload != before.preload || present.amplitude != before.amplitude ||
                  present.coefficient != before.coefficient;
-    bool led = present.phase != before.phase || present.waves != before.waves;
+    const SlowPhase slow = orbit_phase_of(law);
+    bool led = is_led(orbit, &present, slow_phase_drifts(&slow));
+    bool loaded = is_loaded(orbit, &present);
     orbit->under = present;
+    orbit->varied = HELD_INPUTS;
     if ((shaken || tuned) && orbit->tunings < MAX_TUNINGS) {
         orbit->tunings++;
     }
@@ -155,7 +176,7 @@ static bool adapt(const Law *law, Moment *now) {
         orbit->stage = RESOLVED;
         return true;
     }
-    if (orbit->stage == RESOLVED || !(tuned || led || present.load != before.load)) {
+    if (orbit->stage == RESOLVED || !(tuned || led || loaded)) {
         return true;
     }
     if (tuned || led) {
@@ -238,11 +259,13 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     OrbitState *orbit = &now->orbit;
     ride_begin(&ride, law, now, orbit->lead);
     const Plant *plant = &law->held.plant;
-    double w = plant->drive_frequency, q = plant->normal_frequency, length = TAU / w;
+    double w = plant->drive_frequency, length = TAU / w;
     double share = device_mass_fraction(&law->device);
     double chi = law->inputs.phase + now->psi, start = now->position, centre = orbit->centre;
     double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
     double waves = fabs(law->inputs.frequency_ratio);
+    double highest_load =
+        fmax(fabs(plant->load), fabs(plant->load + plant->load_rate * duration));
     int searches = (int)(MAX_SEARCH_STEPS / (1.0 + waves / SEARCH_WAVES));
     SlowPass plan = {
         .acceleration = ride_acceleration,
@@ -250,10 +273,11 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         .motion = &rider,
         .fast = law->fast.velocity,
         .tolerance = TOLERANCE * law->fast.velocity,
-        .step = slow_pass_step(law->fast.velocity, plant->total_mass, full + fabs(plant->load), duration),
+        .step = slow_pass_step(law->fast.velocity, plant->total_mass, full + highest_load, duration),
         .duration = step_size,
         .beat = slow_phase_beat(&ride.slow),
-        .may_settle = ride.slow.drift == 0.0 && ride.source != FROM_SEARCH,
+        .may_settle = !slow_phase_drifts(&ride.slow) && plant->load_rate == 0.0 &&
+                      ride.source != FROM_SEARCH,
         .most = ride.source == FROM_SEARCH ? searches : MAX_SLOW_STEPS,
     };
     Reached reached = {.velocity = orbit->velocity, .step = plan.step};
@@ -270,7 +294,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
             return false;
         }
         reached.step = fmax(reached.step, step);
-        double theta = orbit_theta(&ride, reached.t, 0.0, chi + q * reached.t);
+        double theta = orbit_theta(&ride, reached.t, 0.0, chi + turned_by(plant, reached.t));
         if (!ride_moment(&ride, reached.t, theta, reached.velocity, centre + reached.moved, &there,
                          &point)) {
             return refuse_infinite_motion(refusal, duration);
@@ -283,7 +307,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         return false;
     }
     double theta = within_turn(now->theta + w * duration);
-    double there_theta = orbit_theta(&ride, duration, theta, chi + q * duration);
+    double there_theta = orbit_theta(&ride, duration, theta, chi + turned_by(plant, duration));
     if (!ride_moment(&ride, duration, there_theta, reached.velocity, centre + reached.moved, &there,
                      &point)) {
         return refuse_infinite_motion(refusal, duration);
@@ -293,7 +317,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     Segment segment = {duration, there.position - start, there.state.velocity, false,
                        travel_at_mark, &marks};
     now->theta = period_advance(&now->means, &segment, now->theta, w);
-    now->psi = within_turn(now->psi + q * duration);
+    now->psi = within_turn(now->psi + turned_by(plant, duration));
     now->position = there.position;
     now->state = there.state;
     now->bristle = there.bristle;
@@ -305,7 +329,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     orbit->swing = swing;
     orbit->grazed = orbit->grazed || point.beyond;
     orbit->lead = ride_lead(&ride, duration);
-    if (ride.slow.drift != 0.0) {
+    if (slow_phase_drifts(&ride.slow)) {
         orbit->lead = within_turn(orbit->lead);
     }
     return true;
@@ -322,7 +346,14 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
         return false;
     }
     double left = resolved < duration ? duration - resolved : 0.0;
-    return after->orbit.stage == RESOLVED || !(left * w > 0.0) || follow(law, left, duration, after, refusal);
+    if (after->orbit.stage == RESOLVED || !(left * w > 0.0)) {
+        return true;
+    }
+    if (!is_ramped(&law->held.plant)) {
+        return follow(law, left, duration, after, refusal);
+    }
+    Law later = law_after(law, resolved);
+    return follow(&later, left, duration, after, refusal);
 }
 
 double orbit_motion_error(const Law *law, const Moment *moment) {

@@ -7,7 +7,8 @@
  *
  * with the mean friction F2 of the orbit and the added mass kappa_m of friction. The resonator's own swing
  * is no slow motion: after a start and where the drive is tuned the motion is resolved until it has
- * decayed. A load leaves V as it is; another phase, preload or amplitude leaves W. */
+ * decayed. A load leaves V as it is; another phase, preload or amplitude leaves W. Inputs that grow
+ * change load and lead as time goes on. */
 #ifndef SLIDER_ORBIT_MOTION_H
 #define SLIDER_ORBIT_MOTION_H
 
@@ -23,8 +24,8 @@ bool has_slow_motion(const Law *law);
 /* What the first moment carries on. */
 OrbitState orbit_motion_start(const Law *law, const Moment *first);
 
-/* The moment `duration` > 0 [s] later, another than `moment`, inputs held, or that of an event that a
- * `search` finds before in resolved motion. Refuses as law_advance does. */
+/* The moment `duration` > 0 [s] later, another than `moment`, or that of an event that a `search`
+ * finds before in resolved motion. Refuses as law_advance does. */
 bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
                           EventSearch *search, Moment *after, Refusal *refusal);
 

@@ -27,10 +27,11 @@ static bool is_affordable(const Device *device, double waves) {
            grip * device->bristle_stiffness <= limit * limit;
 }
 
-SlowPhase orbit_phase_of(const Device *device, double ratio) {
+SlowPhase orbit_phase_of(const Law *law) {
+    const Device *device = &law->device;
     SlowPhase slow = {.turns = 1, .waves = 1.0};
     if (device->normal_amplitude > 0.0) {
-        slow = slow_phase_of(device, ratio);
+        slow = law_slow_phase(law);
     }
     if (!is_affordable(device, slow.waves)) {
         slow.turns = 0;
@@ -38,23 +39,23 @@ SlowPhase orbit_phase_of(const Device *device, double ratio) {
     return slow;
 }
 
-static OrbitSource source_of(const OrbitState *orbit, const Device *device, double drift) {
+static OrbitSource source_of(const OrbitState *orbit, const Device *device, bool drifts) {
     bool lifts = device->normal_amplitude > device->normal_preload;
-    bool many = drift != 0.0 || orbit->leads.count > MAX_LEADS;
+    bool many = drifts || orbit->leads.count > MAX_LEADS;
     if (orbit->tunings >= MAX_TUNINGS || (many && lifts)) {
         return FROM_SEARCH;
     }
-    return drift != 0.0 ? FROM_SERIES : FROM_CURVE;
+    return drifts ? FROM_SERIES : FROM_CURVE;
 }
 
 void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead) {
     const Device *device = &law->resolved->device;
     const OrbitState *orbit = &moment->orbit;
     ride->law = law;
-    ride->slow = orbit_phase_of(device, law->inputs.frequency_ratio);
+    ride->slow = orbit_phase_of(law);
     ride->map = orbit_map_of(law->orbits, device, &ride->slow);
     ride->lead = lead;
-    ride->source = source_of(orbit, device, ride->slow.drift);
+    ride->source = source_of(orbit, device, slow_phase_drifts(&ride->slow));
     ride->first = slow_friction_of(law, moment->theta, moment->psi);
     ride->searched = false;
     if (ride->source == FROM_CURVE) {
@@ -66,7 +67,7 @@ void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double le
 }
 
 double ride_lead(const OrbitRide *ride, double t) {
-    return ride->lead + ride->slow.drift * t;
+    return ride->lead + slow_phase_gain(&ride->slow, t);
 }
 
 /* Searches from the orbit found last, then without. */
@@ -113,7 +114,8 @@ double ride_acceleration(const void *rider, double t, double velocity) {
         friction = slow_friction_at(&ride->first, t, velocity);
         factor = 1.0;
     }
-    return -factor * (friction + plant->load) / plant->total_mass;
+    double load = plant->load + plant->load_rate * t;
+    return -factor * (friction + load) / plant->total_mass;
 }
 
 double ride_to_kink(const void *rider, double t) {

@@ -29,7 +29,7 @@ typedef struct {
 
 /* The slow phase that counts for orbits: that of a load that does not vibrate stands still. `turns` is 0,
  * too, where a turn of the drive holds far faster motion. */
-SlowPhase orbit_phase_of(const Device *device, double ratio);
+SlowPhase orbit_phase_of(const Law *law);
 
 /* Begin a ride at `lead` [rad] with the phases of a moment. */
 void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead);

@@ -10,6 +10,9 @@ typedef enum { AVERAGED, RESOLVED, ON_ORBIT } Stage;
 /* Leads and tunings up to which each new one gets a table of its own. */
 enum { MAX_LEADS = 4, MAX_TUNINGS = 4 };
 
+/* How inputs varied during a step: not at all, only the load, or so that the lead did. */
+typedef enum { HELD_INPUTS, VARIED_LOAD, VARIED_LEAD } Varied;
+
 /* What a held orbit depends on and what may change from one step to the next: input phase [rad], load
  * [N], `waves` of the normal load in a turn of the drive, and the tunable parameters. */
 typedef struct {
@@ -25,7 +28,8 @@ typedef struct {
 /* `to_go` is the drive angle [rad] that is still to be resolved. On an orbit: slow velocity V [m/s],
  * slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by
  * which it differs from the orbit. The step was made `under` these values; `tunings`
- * counts, up to MAX_TUNINGS, how often a parameter changed the orbits. `grazed` is 1 once the slider went
+ * counts, up to MAX_TUNINGS, how often a parameter changed the orbits; `varied` is how inputs did during
+ * it. `grazed` is 1 once the slider went
  * so fast that it did not turn back, else 0. */
 typedef struct {
     int stage;
@@ -33,7 +37,7 @@ typedef struct {
     Response swing;
     OrbitValues under;
     VisitedLeads leads;
-    int tunings, grazed;
+    int tunings, varied, grazed;
 } OrbitState;
 
 #endif

@@ -111,6 +111,57 @@ Response step_response(const Oscillator *oscillator, double t, Response free) {
     return response;
 }
 
+/* (exp(-x) - 1 + x) / x^2 for x >= 0, regular at 0. */
+static double second_exponential(double x) {
+    if (x > SOON) {
+        return (expm1(-x) + x) / (x * x);
+    }
+    double term = 0.5, total = term;
+    for (int n = 3; n < 16; n++) {
+        term *= -x / n;
+        total += term;
+    }
+    return total;
+}
+
+/* Displacement in response to t from rest, by its power series. */
+static double early_ramp(const Oscillator *oscillator, double t) {
+    double damping = 2.0 * oscillator->decay * t, stiffness = oscillator->stiffness * t * t;
+    double before = 0.0, term = t * t * t / 6.0, total = term;
+    for (int n = 4; n < TERMS; n++) {
+        double next = -(damping * (n - 1) * term + stiffness * before) / (n * (n - 1));
+        before = term;
+        term = next;
+        total += term;
+        if (fabs(before) + fabs(term) <= NEGLIGIBLE * fabs(total)) {
+            break;
+        }
+    }
+    return total;
+}
+
+Response ramp_response(const Oscillator *oscillator, double t, Response free) {
+    double decay = oscillator->decay, stiffness = oscillator->stiffness;
+    double frequency = oscillator->frequency;
+    Response step = step_response(oscillator, t, free);
+    Response response = {0.0, step.displacement};
+    if (fmax(decay, frequency) * t < SOON) {
+        response.displacement = early_ramp(oscillator, t);
+        return response;
+    }
+    if (decay > frequency) {
+        double spread = sqrt(decay * decay - stiffness);
+        double slow = stiffness / (decay + spread), fast = decay + spread;
+        if (spread > 0.1 * decay) {
+            double apart = second_exponential(slow * t) - second_exponential(fast * t);
+            response.displacement = t * t * apart / (fast - slow);
+            return response;
+        }
+    }
+    response.displacement = (t - free.rate - 2.0 * decay * step.displacement) / stiffness;
+    return response;
+}
+
 static double size_of(Complex a) {
     return fabs(a.re) + fabs(a.im);
 }

@@ -13,6 +13,10 @@
  * response would be far larger than what it reaches between two reversals. */
 #define SLOW 0.02
 
+/* Angle [rad] of the fastest oscillation after which a motion is anchored anew: keeps the rounding
+ * of large arguments of sine and cosine out. */
+#define LONGEST_ARC 60.0
+
 /* `decay` [1/s] and `stiffness` [1/s^2]; what follows from them is kept beside: `frequency`
  * [rad/s], undamped, and the `eigenvalue` [1/s] of positive imaginary part where `oscillatory`. */
 typedef struct {
@@ -50,6 +54,9 @@ ComplexResponse response_from_rest(const Oscillator *oscillator, double frequenc
 
 /* Response to 1 from rest, free of cancellation for soft oscillators; `free` as above. */
 Response step_response(const Oscillator *oscillator, double t, Response free);
+
+/* Response to t from rest, likewise. */
+Response ramp_response(const Oscillator *oscillator, double t, Response free);
 
 /* Response to exp(i frequency t) from rest while little of any period has passed, by series. */
 ComplexResponse slow_response_from_rest(const Oscillator *oscillator, double frequency, double t);

@@ -78,6 +78,7 @@ bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Ref
     plant->normal_frequency = inputs->frequency_ratio * w;
     plant->phase = inputs->phase;
     plant->load = inputs->load;
+    plant->load_rate = plant->normal_rate = 0.0;
     plant->friction_preload = faces_mu * device->normal_preload;
     plant->friction_amplitude = faces_mu * device->normal_amplitude;
     plant->preload_share = preload_share(device);

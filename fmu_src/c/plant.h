@@ -24,11 +24,15 @@
  * for the resonator then acts by its steady force only; `resonator_amplitude` holds its steady
  * displacement [m], and `resolves_resonator` is false. `preload_share` is N0 / dN: below 1 the contact
  * lifts, and -1 stands for no normal load at all. `holding_drive` is the part of the force on a held
- * slider that follows the drive directly [N], `drive` that on the pair per total mass [m/s^2]. */
+ * slider that follows the drive directly [N], `drive` that on the pair per total mass [m/s^2].
+ *
+ * While inputs vary, the load grows by `load_rate` [N/s] and the normal frequency by `normal_rate`
+ * [rad/s^2]; both are 0 under held inputs. */
 typedef struct {
     double slider_mass, total_mass, mass_fraction;
     double drive_frequency, normal_frequency;
     double phase, load;
+    double load_rate, normal_rate;
     double friction_preload, friction_amplitude, preload_share;
     Oscillator slip, stick;
     Complex drive;
@@ -38,6 +42,16 @@ typedef struct {
     bool resolves_resonator;
     Complex resonator_amplitude;
 } Plant;
+
+/* Angle [rad] that the normal load turns by in `t` [s]. */
+static inline double turned_by(const Plant *plant, double t) {
+    return (plant->normal_frequency + 0.5 * plant->normal_rate * t) * t;
+}
+
+/* Whether the load or the normal frequency varies. */
+static inline bool is_ramped(const Plant *plant) {
+    return plant->load_rate != 0.0 || plant->normal_rate != 0.0;
+}
 
 /* Steady displacement of the resonator, complex amplitude of e [m] (eqs 31-32), a direct drive
  * included. Refuses where it is unbounded. */

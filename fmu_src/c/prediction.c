@@ -35,7 +35,7 @@ static OrbitStatus find_steady(const Law *law, const PeriodMap *map, double lead
 Averaged prediction_of(const Law *law, double normal_lead) {
     const Device *device = &law->device;
     Averaged prediction = averaged(law, normal_lead);
-    SlowPhase slow = orbit_phase_of(device, law->inputs.frequency_ratio);
+    SlowPhase slow = orbit_phase_of(law);
     bool repeats = turns_to_repeat(device, law->inputs.frequency_ratio, EXACT) > 0;
     if (device->averaging_order == 2 && device->fidelity == 0 && law->resolved == NULL) {
         prediction.valid = false;

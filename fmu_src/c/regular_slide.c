@@ -18,19 +18,23 @@ void regular_slide_begin(RegularSlide *slide, const Plant *plant, int sign, cons
     slide->direction = direction;
     slide->start = *state;
     slide->deceleration = resisting / plant->total_mass;
+    slide->deceleration_rate = plant->load_rate / plant->total_mass;
     slide->pair[0] = (Forcing){w, complex_mul(plant->drive, drive_turn)};
     slide->pair[1] = (Forcing){q, complex_scale(-1.0 / plant->total_mass, friction)};
     slide->pair_bound = complex_abs(slide->pair[0].amplitude) * w +
-                        complex_abs(slide->pair[1].amplitude) * fabs(q);
+                        complex_abs(slide->pair[1].amplitude) * fabs(q) +
+                        fabs(slide->deceleration_rate);
     slide->own_bound = (complex_abs(plant->holding_drive) * w +
-                        plant->friction_amplitude * fabs(q)) / plant->slider_mass;
+                        plant->friction_amplitude * fabs(q) + fabs(plant->load_rate)) /
+                       plant->slider_mass;
     forced_oscillator_begin(&slide->resonator, &plant->slip, resisting / plant->slider_mass,
-                            forcing, FORCINGS, state->displacement, state->rate,
-                            fmax(w, fabs(q)));
+                            plant->load_rate / plant->slider_mass, forcing, FORCINGS,
+                            state->displacement, state->rate, fmax(w, fabs(q)));
 }
 
 static double velocity_at(const RegularSlide *slide, double t, double rate, const Complex *turn) {
-    double velocity = slide->start.velocity - slide->deceleration * t;
+    double velocity =
+        slide->start.velocity - (slide->deceleration + 0.5 * slide->deceleration_rate * t) * t;
     for (int i = 0; i < FORCINGS; i++) {
         Complex integral = exponential_integral(slide->pair[i].frequency, t, turn[i]);
         velocity += complex_mul(slide->pair[i].amplitude, integral).re;
@@ -52,7 +56,8 @@ static double bound_of(const RegularSlide *slide, const Sample *sample) {
 static Signal velocity_ahead(void *motion, double t) {
     const RegularSlide *slide = motion;
     double fraction = slide->plant->mass_fraction;
-    double acceleration = -slide->deceleration, bound = slide->pair_bound, rate = 0.0;
+    double acceleration = -slide->deceleration - slide->deceleration_rate * t;
+    double bound = slide->pair_bound, rate = 0.0;
     Sample sample;
     if (fraction != 0.0) {
         sample = forced_oscillator_sample(&slide->resonator, t);
@@ -91,7 +96,8 @@ Watch regular_slide_watch(RegularSlide *slide) {
 
 static double travel_by(const RegularSlide *slide, double t, const Response *resonator) {
     const State *start = &slide->start;
-    double travel = start->velocity * t - 0.5 * slide->deceleration * t * t;
+    double mean = 0.5 * slide->deceleration + slide->deceleration_rate * t / 6.0;
+    double travel = start->velocity * t - mean * t * t;
     for (int i = 0; i < FORCINGS; i++) {
         Complex integral = exponential_double_integral(slide->pair[i].frequency, t);
         travel += complex_mul(slide->pair[i].amplitude, integral).re;

@@ -27,7 +27,7 @@ static SlowForm form_of(const Law *law, const AveragedFriction *friction, int tu
 
 SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     const Device *device = &law->device;
-    SlowPhase phase = slow_phase_of(device, law->inputs.frequency_ratio);
+    SlowPhase phase = law_slow_phase(law);
     double n = phase.waves;
     SlowFriction slow = {.law = law, .friction = law->friction->averaged};
     if (law->fast.velocity == 0.0) {
@@ -37,7 +37,7 @@ SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     slow.form = form_of(law, slow.friction, phase.turns, n);
     slow.fast = (FastMotion){law->fast.velocity, device->drive_frequency};
     slow.waves = n;
-    slow.drift = phase.drift;
+    slow.slow = phase;
     slow.beat = slow_phase_beat(&phase);
     slow.stands = n == 0.0;
     slow.phase = law->inputs.phase + psi - n * theta + n * law->fast.lag;
@@ -68,9 +68,10 @@ static double under_sine(const SlowFriction *slow, double t, double turning) {
     const Device *device = &slow->law->device;
     FrictionMeans means = means_at(slow, turning);
     double sine = slow->sine, cosine = slow->cosine;
-    if (slow->drift != 0.0) {
-        sine = sin(slow->phase + slow->drift * t);
-        cosine = cos(slow->phase + slow->drift * t);
+    if (slow_phase_drifts(&slow->slow)) {
+        double phase = slow->phase + slow_phase_gain(&slow->slow, t);
+        sine = sin(phase);
+        cosine = cos(phase);
     }
     return device->normal_preload * means.plain +
            device->normal_amplitude * (cosine * means.sine + sine * means.cosine);
@@ -79,8 +80,8 @@ static double under_sine(const SlowFriction *slow, double t, double turning) {
 /* The same under a load of any shape. */
 static double under_load(const SlowFriction *slow, double t, double turning) {
     VibratingLoad load = slow->load;
-    if (slow->drift != 0.0) {
-        double phase = slow->phase + slow->drift * t;
+    if (slow_phase_drifts(&slow->slow)) {
+        double phase = slow->phase + slow_phase_gain(&slow->slow, t);
         load = vibrating_load_of(&slow->law->device, slow->waves, phase);
     }
     if (slow->form == UNDER_MEAN_LOAD) {
@@ -94,8 +95,10 @@ double slow_friction_to_kink(const SlowFriction *slow, double t) {
         return INFINITY;
     }
     const FlightWindow *window = &slow->law->held.window;
-    double chi = slow->phase + slow->drift * t;
-    return time_to_switch(window, chi, slow->drift, is_lifted(window, chi, slow->drift));
+    double chi = slow->phase + slow_phase_gain(&slow->slow, t);
+    double chirp = slow->slow.chirp, drift = slow->slow.drift + chirp * t;
+    double going = drift != 0.0 ? drift : chirp;
+    return time_to_switch_chirped(window, chi, drift, chirp, is_lifted(window, chi, going));
 }
 
 double slow_friction_at(const SlowFriction *slow, double t, double velocity) {

@@ -12,8 +12,7 @@
  * with its mean, or as the mean under a load of any shape. */
 typedef enum { UNDER_SINE, UNDER_MEAN_LOAD, UNDER_ANY_LOAD } SlowForm;
 
-/* `waves` of the normal load over a turn of the drive, its `phase` [rad] now, the `drift` [rad/s] of
- * that, and the `table` of means where they are expensive. Under a sine `sine` and `cosine` of the
+/* `waves` of the normal load over a turn of the drive, its `phase` [rad] now, how that drifts, and the `table` of means where they are expensive. Under a sine `sine` and `cosine` of the
  * phase now, else the `load` of now. The phase repeats after `beat` [s]; `stands` where the load
  * itself is slow. */
 typedef struct {
@@ -21,7 +20,8 @@ typedef struct {
     const AveragedFriction *friction;
     SlowForm form;
     FastMotion fast;
-    double waves, phase, drift, beat;
+    double waves, phase, beat;
+    SlowPhase slow;
     bool stands;
     const TabulatedMeans *table;
     double sine, cosine;

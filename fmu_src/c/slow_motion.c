@@ -46,10 +46,59 @@ static Reached block_after(double velocity, double friction, double load, double
     return reached;
 }
 
+/* Legs of a block under a load that grows: it stops, sticks and sets out at most twice. */
+enum { MAX_BLOCK_LEGS = 8 };
+
+/* Time [s] until a velocity u >= 0 with acceleration a + j t is 0 again; infinite if it never is. */
+static double time_to_stop(double u, double a, double j) {
+    double square = a * a - 2.0 * j * u;
+    if (square < 0.0) {
+        return INFINITY;
+    }
+    if (a < 0.0) {
+        return 2.0 * u / (sqrt(square) - a);
+    }
+    return j < 0.0 ? (a + sqrt(square)) / -j : INFINITY;
+}
+
+/* Where a block at rest sets out under a load that grows by `rate` [N/s]: 0 while friction holds it. */
+static int block_sets_out(double friction, double load, double rate) {
+    if (fabs(load) > friction || (fabs(load) == friction && load * rate > 0.0)) {
+        return load > 0.0 ? BACKWARD : FORWARD;
+    }
+    return STICK;
+}
+
+/* The same under a load that grows by `rate` [N/s]. */
+static Reached block_ramped(double velocity, double friction, double load, double rate, double mass,
+                            double duration) {
+    Reached reached = {.t = duration, .velocity = velocity};
+    double left = duration;
+    for (int leg = 0; leg < MAX_BLOCK_LEGS && left > 0.0; leg++) {
+        int direction = direction_of(reached.velocity);
+        if (direction == STICK) {
+            direction = block_sets_out(friction, load, rate);
+        }
+        double a = -(direction * friction + load) / mass, j = -rate / mass;
+        double end = direction == STICK ? (copysign(friction, rate) - load) / rate
+                                        : time_to_stop(direction * reached.velocity, direction * a,
+                                                       direction * j);
+        double t = fmin(left, end);
+        if (direction != STICK) {
+            reached.moved += (reached.velocity + (0.5 * a + j * t / 6.0) * t) * t;
+            reached.velocity = end <= left ? 0.0 : reached.velocity + (a + 0.5 * j * t) * t;
+        }
+        load = direction == STICK && end <= left ? copysign(friction, rate) : load + rate * t;
+        left -= t;
+    }
+    return reached;
+}
+
 static double slow_acceleration(const void *motion, double t, double velocity) {
     const SlowFriction *friction = motion;
     const Plant *plant = &friction->law->held.plant;
-    return -(slow_friction_at(friction, t, velocity) + plant->load) / plant->total_mass;
+    double load = plant->load + plant->load_rate * t;
+    return -(slow_friction_at(friction, t, velocity) + load) / plant->total_mass;
 }
 
 static double time_to_kink(const void *motion, double t) {
@@ -66,10 +115,13 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Reached
         return refuse_work(refusal, duration, MAX_SLOW_STEPS * longest, MAX_SLOW_STEPS,
                            "steps of averaged motion");
     }
-    double moved = 0.0;
+    double moved = 0.0, rate = plant->load_rate, mass = plant->total_mass;
     for (double k = 0.0; k < pieces; k += 1.0) {
         double resisting = slow_friction_at(friction, (k + 0.5) * piece, INFINITY);
-        *reached = block_after(reached->velocity, resisting, plant->load, plant->total_mass, piece);
+        double load = plant->load + rate * (k * piece);
+        *reached = rate == 0.0
+                       ? block_after(reached->velocity, resisting, load, mass, piece)
+                       : block_ramped(reached->velocity, resisting, load, rate, mass, piece);
         moved += reached->moved;
     }
     reached->moved = moved;
@@ -100,7 +152,9 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
     if (fast == 0.0) {
         return pass_unshaken(friction, duration, reached, refusal);
     }
-    double strongest = strongest_friction(&friction->law->device) + fabs(plant->load);
+    double last_load = plant->load + plant->load_rate * duration;
+    double strongest = strongest_friction(&friction->law->device) +
+                       fmax(fabs(plant->load), fabs(last_load));
     SlowPass plan = {
         .acceleration = slow_acceleration,
         .to_kink = time_to_kink,
@@ -110,7 +164,7 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
         .step = slow_pass_step(fast, plant->total_mass, strongest, duration),
         .duration = duration,
         .beat = friction->beat,
-        .may_settle = friction->drift == 0.0,
+        .may_settle = !slow_phase_drifts(&friction->slow) && plant->load_rate == 0.0,
         .most = max_steps(friction),
     };
     Reached now = {.velocity = reached->velocity, .step = plan.step};
@@ -145,7 +199,7 @@ bool slow_advance(const Law *law, const Moment *moment, double duration, Moment 
         return false;
     }
     theta = within_turn(theta + w * duration);
-    psi = within_turn(psi + plant->normal_frequency * duration);
+    psi = within_turn(psi + turned_by(plant, duration));
     Response swing = steady_swing(law->fast.resonator, theta, w);
     state.velocity = reached.velocity - drive * cos(theta) - share * swing.rate;
     state.displacement = swing.displacement;

@@ -13,7 +13,7 @@
 
 #include "law.h"
 
-/* The moment `duration` > 0 [s] later, inputs held. Refuses, with `after` undefined, where that
+/* The moment `duration` > 0 [s] later. Refuses, with `after` undefined, where that
  * takes too many steps; `after` may be `moment`. At the start the velocities fix the momentum of the
  * pair, not the vibration. */
 bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,

@@ -15,10 +15,34 @@ SlowPhase slow_phase_of(const Device *device, double ratio) {
         slow.waves = nearbyint(slow.turns * ratio) / slow.turns;
     }
     slow.drift = (ratio - slow.waves) * device->drive_frequency;
+    slow.fastest = fabs(slow.drift);
     return slow;
 }
 
+SlowPhase slow_phase_chirped(const Device *device, double ratio, double middle, double chirp) {
+    SlowPhase slow = slow_phase_of(device, middle);
+    double last = middle + (middle - ratio), w = device->drive_frequency;
+    slow.waves = slow.turns > 0 ? slow.waves : ratio;
+    slow.drift = (ratio - slow.waves) * w;
+    slow.fastest = fmax(fabs(slow.drift), fabs((last - slow.waves) * w));
+    slow.chirp = chirp;
+    return slow;
+}
+
+double next_slow_boundary(const Device *device, double ratio, double direction) {
+    double next = INFINITY, from = direction * ratio;
+    for (int turns = 1; turns <= max_turns_to_repeat(device); turns++) {
+        double near = NEAR / turns, waves = turns * from;
+        for (int side = -1; side <= 1; side += 2) {
+            double offset = side * near;
+            double boundary = (floor(waves - offset) + 1.0 + offset) / turns;
+            next = fmin(next, boundary);
+        }
+    }
+    return direction * next;
+}
+
 double slow_phase_beat(const SlowPhase *slow) {
-    return slow->drift != 0.0 ? TAU / ((slow->turns > 0 ? slow->turns : 1) * fabs(slow->drift))
-                              : INFINITY;
+    return slow->fastest != 0.0 ? TAU / ((slow->turns > 0 ? slow->turns : 1) * slow->fastest)
+                                : INFINITY;
 }

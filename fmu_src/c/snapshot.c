@@ -31,6 +31,12 @@ static const Field FIELDS[] = {
     FIELD(time_carry, FINITE, 0, 0),
     FIELD(stop_time, FINITE_OR_INFINITE, 0, 0),
     FIELD(last_event_time, FINITE, 0, 0),
+    FIELD(derivatives[0].value, FINITE, 0, 0),
+    FIELD(derivatives[0].is_new, FLAG, 0, 1),
+    FIELD(derivatives[1].value, FINITE, 0, 0),
+    FIELD(derivatives[1].is_new, FLAG, 0, 1),
+    FIELD(derivatives[2].value, FINITE, 0, 0),
+    FIELD(derivatives[2].is_new, FLAG, 0, 1),
     FIELD(moving, FLAG, 0, 1),
     FIELD(moment.state.velocity, FINITE, 0, 0),
     FIELD(moment.state.displacement, FINITE, 0, 0),
@@ -76,6 +82,7 @@ static const Field FIELDS[] = {
     FIELD(moment.orbit.leads.lead[2], FINITE, 0, 0),
     FIELD(moment.orbit.leads.lead[3], FINITE, 0, 0),
     FIELD(moment.orbit.tunings, INTEGER, 0, MAX_TUNINGS),
+    FIELD(moment.orbit.varied, INTEGER, HELD_INPUTS, VARIED_LEAD),
     FIELD(moment.orbit.grazed, INTEGER, 0, 1),
 };
 

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "input_derivatives.h"
 #include "lifecycle.h"
 #include "moment.h"
 #include "refusal.h"
@@ -17,6 +18,7 @@ typedef struct {
     Lifecycle lifecycle;
     double time, time_carry, stop_time, last_event_time;
     double values[SETTABLE_COUNT];
+    InputDerivative derivatives[INPUT_COUNT];
     bool moving;
     Moment moment;
 } Snapshot;

@@ -67,7 +67,7 @@ static void match_state(SplitSlide *slide, const State *state) {
     if (plant->resolves_resonator) {
         Complex eigenvalue = plant->slip.eigenvalue;
         double displacement = state->displacement - slide->constant - (ae.re + aq.re);
-        double rate = state->rate + w * ae.im + q * aq.im;
+        double rate = state->rate + w * ae.im + q * aq.im - slide->slope;
         free = complex_of(displacement, -(rate - eigenvalue.re * displacement) / eigenvalue.im);
     }
     Complex turning = complex_mul(plant->slip.eigenvalue, free);
@@ -77,7 +77,7 @@ static void match_state(SplitSlide *slide, const State *state) {
     slide->k0 = state->velocity - (forced + slide->velocity_free.re);
     double drive = complex_abs(slide->velocity_drive);
     double decaying = plant->resolves_resonator ? complex_abs(slide->velocity_free) : 0.0;
-    slide->bound = drive * w * w + normal * q * q;
+    slide->bound = drive * w * w + normal * q * q + 2.0 * fabs(slide->k2);
     slide->free_bound = decaying * plant->slip.stiffness;
     slide->noise = 2.0 * EPSILON * (fabs(slide->k0) + drive + normal + decaying);
 }
@@ -108,8 +108,11 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
         slide->resonator_drive = complex_add(slide->resonator_drive, resonator);
         slide->velocity_drive = complex_add(slide->velocity_drive, velocity);
     }
-    slide->constant = (friction + plant->load) / (plant->slider_mass * plant->slip.stiffness);
+    slide->slope = plant->load_rate / (plant->slider_mass * plant->slip.stiffness);
+    slide->constant = (friction + plant->load) / (plant->slider_mass * plant->slip.stiffness) -
+                      2.0 * plant->slip.decay / plant->slip.stiffness * slide->slope;
     slide->k1 = -(friction + plant->load) / plant->total_mass;
+    slide->k2 = -0.5 * plant->load_rate / plant->total_mass;
     match_state(slide, state);
 }
 
@@ -207,9 +210,9 @@ static Signal velocity_ahead(void *motion, double t) {
     slide->anchored = slide->anchored || turns == &slide->anchor;
     Complex e = complex_mul(slide->velocity_drive, turns->phasors.drive);
     Complex h = complex_mul(slide->velocity_free, turns->free);
-    double velocity = slide->k0 + slide->k1 * t + e.re + h.re;
-    double acceleration = slide->k1 - plant->drive_frequency * e.im + eigenvalue.re * h.re -
-                          eigenvalue.im * h.im;
+    double velocity = slide->k0 + (slide->k1 + slide->k2 * t) * t + e.re + h.re;
+    double acceleration = slide->k1 + 2.0 * slide->k2 * t - plant->drive_frequency * e.im +
+                          eigenvalue.re * h.re - eigenvalue.im * h.im;
     if (!slide->split->merges) {
         Complex n = complex_mul(slide->velocity_normal, turns->phasors.normal);
         velocity += n.re;
@@ -239,7 +242,7 @@ static inline double travel_by(const SplitSlide *slide, double t, const Turns *t
         travel += swing_travel(slide->velocity_normal, plant->normal_frequency, start->normal,
                                end->normal);
     }
-    return (slide->k0 + 0.5 * slide->k1 * t) * t + travel;
+    return (slide->k0 + (0.5 * slide->k1 + slide->k2 * t / 3.0) * t) * t + travel;
 }
 
 static inline State state_by(const SplitSlide *slide, double t, const Turns *turns) {
@@ -248,11 +251,12 @@ static inline State state_by(const SplitSlide *slide, double t, const Turns *tur
     Complex ae = complex_mul(slide->resonator_drive, turns->phasors.drive);
     Complex ah = complex_mul(slide->resonator_free, turns->free);
     State state;
-    state.velocity = slide->k0 + slide->k1 * t +
+    state.velocity = slide->k0 + (slide->k1 + slide->k2 * t) * t +
                      complex_mul(slide->velocity_drive, turns->phasors.drive).re +
                      complex_mul(slide->velocity_free, turns->free).re;
-    state.displacement = slide->constant + ae.re + ah.re;
-    state.rate = eigenvalue.re * ah.re - eigenvalue.im * ah.im - plant->drive_frequency * ae.im;
+    state.displacement = slide->constant + slide->slope * t + ae.re + ah.re;
+    state.rate = eigenvalue.re * ah.re - eigenvalue.im * ah.im - plant->drive_frequency * ae.im +
+                 slide->slope;
     if (!slide->split->merges) {
         Complex aq = complex_mul(slide->resonator_normal, turns->phasors.normal);
         state.velocity += complex_mul(slide->velocity_normal, turns->phasors.normal).re;

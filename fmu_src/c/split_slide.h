@@ -1,6 +1,6 @@
 /* Sliding or flight as a sum of exponentials: the fast form, for most devices.
  *
- * Velocity is v(t) = k0 + k1 t + Re(ve exp(i w t) + vq exp(i q t) + vh exp(lambda t)): the
+ * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t) + vh exp(lambda t)): the
  * particular solutions at drive and normal frequency are split off from the free oscillation. That
  * loses digits near resonance and for slow normal loads; `split_prepare` answers false there and
  * RegularSlide serves. */
@@ -54,7 +54,7 @@ typedef struct {
 } Turns;
 
 /* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad]
- * on. `travel_free` is the integral of the free part of the velocity, vh / lambda [m]; `bound` and
+ * on. The resonator follows `constant` [m] + `slope` [m/s] t and swings about it. `travel_free` is the integral of the free part of the velocity, vh / lambda [m]; `bound` and
  * `free_bound` [m/s^3] bound the second derivative of the velocity: of its forced part, and of its
  * free part at first. `noise` [m/s] is the rounding error of the velocity.
  *
@@ -65,7 +65,7 @@ typedef struct {
     const Plant *plant;
     int direction;
     double theta, chi;
-    double constant, k0, k1;
+    double constant, slope, k0, k1, k2;
     Complex resonator_drive, resonator_normal, resonator_free;
     Complex velocity_drive, velocity_normal, velocity_free;
     Complex travel_free;

@@ -10,16 +10,19 @@ void stick_begin(Stick *stick, const Plant *plant, const State *state, double th
     stick->direct = complex_mul(plant->holding_drive, drive_turn);
     stick->normal =
         complex_scale(plant->friction_amplitude, complex_of(sin(chi), -cos(chi)));
-    stick->fixed_bound =
-        complex_abs(stick->normal) * q * q + complex_abs(stick->direct) * w * w;
-    forced_oscillator_begin(&stick->resonator, &plant->stick, 0.0, &forcing, 1,
+    double fastest = fabs(q) + fabs(plant->normal_rate) * LONGEST_ARC / fmax(w, fabs(q));
+    double swing = complex_abs(stick->normal);
+    stick->fixed_bound = swing * fastest * fastest + swing * fabs(plant->normal_rate) +
+                         complex_abs(stick->direct) * w * w;
+    forced_oscillator_begin(&stick->resonator, &plant->stick, 0.0, 0.0, &forcing, 1,
                             state->displacement, state->rate, fmax(w, fabs(q)));
 }
 
 static Signal margin(const Stick *stick, double direction, double t) {
     const Plant *plant = stick->plant;
-    double w = plant->drive_frequency, q = plant->normal_frequency;
-    double needed = -plant->load, change = 0.0;
+    double w = plant->drive_frequency, q = plant->normal_frequency + plant->normal_rate * t;
+    double turned = turned_by(plant, t);
+    double needed = -plant->load - plant->load_rate * t, change = -plant->load_rate;
     Signal signal = {0.0, 0.0, stick->fixed_bound};
     Complex drive_turn;
     if (plant->spring != 0.0) {
@@ -33,7 +36,8 @@ static Signal margin(const Stick *stick, double direction, double t) {
         drive_turn = complex_rect(1.0, w * t);
     }
     Complex held = complex_mul(stick->direct, drive_turn);
-    Complex limit = complex_mul(stick->normal, q == w ? drive_turn : complex_rect(1.0, q * t));
+    Complex turn = turned == w * t ? drive_turn : complex_rect(1.0, turned);
+    Complex limit = complex_mul(stick->normal, turn);
     needed += held.re;
     change -= w * held.im;
     signal.value = plant->friction_preload + limit.re - direction * needed;
@@ -49,9 +53,9 @@ static Signal backward_margin(void *stick, double t) {
     return margin(stick, -1.0, t);
 }
 
-int stick_watches(Stick *stick, Watch watches[2]) {
+int stick_watches(Stick *stick, double longest, Watch watches[2]) {
     const Plant *plant = stick->plant;
-    double reach = fabs(plant->load) + complex_abs(stick->direct);
+    double reach = fabs(plant->load) + fabs(plant->load_rate) * longest + complex_abs(stick->direct);
     double fastest = fmax(plant->drive_frequency, fabs(plant->normal_frequency));
     double horizon = INFINITY;
     if (plant->spring != 0.0) {

@@ -21,9 +21,10 @@ typedef struct {
 /* `plant` must outlive the stick. */
 void stick_begin(Stick *stick, const Plant *plant, const State *state, double theta, double chi);
 
-/* Forward margin (limit - needed force), then backward margin (limit + needed force); returns how
- * many: none when no force is needed, or never one that reaches the least limit. */
-int stick_watches(Stick *stick, Watch watches[2]);
+/* Forward margin (limit - needed force), then backward margin (limit + needed force), for up to
+ * `longest` [s]; returns how many: none when no force is needed, or never one that reaches the least
+ * limit. */
+int stick_watches(Stick *stick, double longest, Watch watches[2]);
 
 /* State after `t` [s]. */
 State stick_state(const Stick *stick, double t);

@@ -54,6 +54,21 @@ static double series_reach(const double *coefficients, double tolerance) {
     return reach;
 }
 
+/* Coefficients of what the normal load adds to the limit of friction, from its amplitude `normal` on: c[k +
+ * 1] = i (q c[k] + chirp c[k - 1]) / (k + 1). */
+static void expand_normal(Complex normal, double q, double chirp, double limit[TAYLOR_ORDER]) {
+    Complex before = complex_of(0.0, 0.0);
+    for (int k = 0; k < TAYLOR_ORDER; k++) {
+        Complex next = turned(normal, q * INVERSE[k + 1]);
+        limit[k] = normal.re;
+        if (chirp != 0.0) {
+            next = complex_add(next, turned(before, chirp * INVERSE[k + 1]));
+            before = normal;
+        }
+        normal = next;
+    }
+}
+
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
                         int direction, const State *state, double friction, double theta,
                         double chi, double tolerance) {
@@ -69,10 +84,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
     double limit[TAYLOR_ORDER], decay[TAYLOR_TERMS];
     double passed[TAYLOR_TERMS] = {0.0}, resisting[TAYLOR_TERMS] = {0.0};
     double load = plant->load, lost = 0.0;
-    for (int k = 0; k < TAYLOR_ORDER; k++) {
-        limit[k] = normal.re;
-        normal = turned(normal, q * INVERSE[k + 1]);
-    }
+    expand_normal(normal, q, plant->normal_rate, limit);
     limit[0] += plant->friction_preload;
     slide->direction = direction;
     slide->resonates = plant->resolves_resonator;
@@ -101,7 +113,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
         }
         push_product(passed, v, decay, k + 1);
         lost = -decay[k + 1];
-        load = 0.0;
+        load = k == 0 ? plant->load_rate : 0.0;
         drive = turned(drive, w * step);
     }
     slide->bound = 0.0;

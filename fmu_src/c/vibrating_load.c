@@ -21,8 +21,12 @@ static double in_contact(const VibratingLoad *load, double chi) {
     return normal > 0.0 ? normal : 0.0;
 }
 
+int max_turns_to_repeat(const Device *device) {
+    return device->normal_amplitude > device->normal_preload ? MAX_TURNS_TO_REPEAT : 1;
+}
+
 int turns_to_repeat(const Device *device, double ratio, double tolerance) {
-    int most = device->normal_amplitude > device->normal_preload ? MAX_TURNS_TO_REPEAT : 1;
+    int most = max_turns_to_repeat(device);
     for (int turns = 1; turns <= most; turns++) {
         if (fabs(turns * ratio - nearbyint(turns * ratio)) <= tolerance / turns) {
             return turns;

@@ -19,6 +19,9 @@ enum { MAX_TURNS_TO_REPEAT = 4 };
  * and only integers count: over several turns it would average out. */
 int turns_to_repeat(const Device *device, double ratio, double tolerance);
 
+/* The most turns that count. */
+int max_turns_to_repeat(const Device *device);
+
 /* N(n tau + delta) with lift-off, in N, averaged over the `turns` of the drive after which it
  * repeats; where it never does its mean instead (`is_constant`). The contact is in touch from
  * -`dip` to pi + `dip` of the phase of N, and `per_turn` is the integral of N over that. */

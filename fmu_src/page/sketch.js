@@ -44,7 +44,8 @@ class Sketch {
       modes: closeUp.contact_mode,
     };
     const slowed = SHOWN_PERIOD / period;
-    const text = `${slowed.toPrecision(2).replace(/e\+?/, "e")} times slower`;
+    const factor = slowed < 1e5 ? String(Number(slowed.toPrecision(2))) : slowed.toExponential(1).replace("e+", "e");
+    const text = `${factor} times slower`;
     document.getElementById("slowed").textContent = text;
     this.#draw();
     this.#nextFrame();

@@ -131,11 +131,15 @@ def validate(
     *fmus: str | Path,
     scenes: Sequence[str | Path] = (),
     time_limit: float = TIME_LIMIT,
+    jobs: int | None = None,
 ) -> tuple[Validation, ...]:
-    """Compare FMUs with the references; scenes are names, files or folders, by default all."""
+    """Compare FMUs with the references; scenes are names, files or folders, by default all.
+
+    `jobs` processes compute the references, by default one for each core.
+    """
     files = files_of_scenes([str(scene) for scene in scenes])
     paths = [Path(fmu) for fmu in fmus] or [fmu_path("native")]
-    return validate_scenes(paths, files, time_limit=time_limit)
+    return validate_scenes(paths, files, time_limit=time_limit, jobs=jobs or available_cores())
 
 
 def choose(scene: SceneLike, fmu: str | Path | None = None, **values: float) -> Choice:

@@ -18,6 +18,7 @@ from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.limits import DEFAULTS, MEMORY, UNPACKED
 from slider_resonator.output.console import exit_with, open_closed_streams
+from slider_resonator.output.fitting_help import FittingHelp
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.terminal import escaped, indented
 
@@ -46,6 +47,10 @@ COMMANDS = (
 """Each is `<name>_command` in `slider_resonator.commands.<name>`, with _ for -.
 
 A command is loaded when it is called: loading all takes longer than running most."""
+
+
+click.Context.formatter_class = FittingHelp
+"""Of every command: click takes it from the class."""
 
 
 class HarnessGroup(click.Group):

@@ -11,7 +11,9 @@ from fmu_src.python.slider_component.variables import VARIABLES
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]
 FIELDS = (
-    *("lifecycle", "time", "time_carry", "stop_time", "last_event_time", "moving"),
+    *("lifecycle", "time", "time_carry", "stop_time", "last_event_time"),
+    *("phase_derivative", "phase_is_new", "load_derivative", "load_is_new"),
+    *("ratio_derivative", "ratio_is_new", "moving"),
     *("velocity", "displacement", "rate", "position", "theta", "psi", "mode"),
     *("sliding", "reversals", "sticks", "event_age"),
     *("travel", "elapsed", "sticking", "complete", "mean_velocity", "stick_fraction", "bristle"),

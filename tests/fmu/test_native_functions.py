@@ -37,8 +37,6 @@ NOT_OFFERED = (
     "GetContinuousStates",
     "GetNominalsOfContinuousStates",
     "CancelStep",
-    "SetRealInputDerivatives",
-    "GetRealOutputDerivatives",
     "GetDirectionalDerivative",
 )
 

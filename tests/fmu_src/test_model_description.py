@@ -136,20 +136,23 @@ def test_unknowns_are_the_outputs_with_their_dependencies(
 
 
 @pytest.mark.parametrize("host_manages_memory", [True, False])
-def test_capabilities(host_manages_memory: bool) -> None:
-    described = ET.fromstring(describe(host_manages_memory=host_manages_memory))
+@pytest.mark.parametrize("takes_derivatives", [True, False])
+def test_capabilities(host_manages_memory: bool, takes_derivatives: bool) -> None:
+    described = ET.fromstring(
+        describe(host_manages_memory=host_manages_memory, takes_derivatives=takes_derivatives)
+    )
     assert found(described, "CoSimulation").attrib == {
         "modelIdentifier": "SliderResonatorPy",
         "needsExecutionTool": "false",
         "canHandleVariableCommunicationStepSize": "true",
-        "canInterpolateInputs": "false",
+        "canInterpolateInputs": "true" if takes_derivatives else "false",
         "canRunAsynchronuously": "false",
         "canBeInstantiatedOnlyOncePerProcess": "false",
         "canNotUseMemoryManagementFunctions": "false" if host_manages_memory else "true",
         "canGetAndSetFMUstate": "true",
         "canSerializeFMUstate": "true",
         "providesDirectionalDerivative": "false",
-        "maxOutputDerivativeOrder": "0",
+        "maxOutputDerivativeOrder": "1" if takes_derivatives else "0",
     }
 
 

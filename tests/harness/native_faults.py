@@ -67,6 +67,18 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         "values[i] == VARIABLES[references[i]].start;",
         "tuned",
     ),
+    "predictions are kept when the load is set alone": (
+        "component.c",
+        "inputs.phase, inputs.load);\n    component->theory.known = false;",
+        "inputs.phase, inputs.load);",
+        "predictions_at_once",
+    ),
+    "the last successful time is that of the start": (
+        "fmi2_steps.c",
+        "*value = ((const Instance *)c)->component.now.time;",
+        "*value = 0.0;",
+        "tuned",
+    ),
     "a serialised state lacks the bristle": (
         "snapshot.c",
         "    FIELD(moment.bristle, FINITE, 0, 0),\n",

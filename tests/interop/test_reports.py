@@ -5,12 +5,26 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from selenium.webdriver import ActionChains, Chrome
+from selenium.webdriver import ActionChains, Chrome, Keys
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
+from selenium.webdriver.common.actions.interaction import POINTER_TOUCH
+from selenium.webdriver.common.actions.pointer_input import PointerInput
+from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.wait import WebDriverWait
 
 from slider_resonator.checks.reports.html_report import write_html
 from slider_resonator.checks.validate import validate
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.output.hover_plot import (
+    Axis,
+    HoverPlot,
+    Series,
+    hover_scripts,
+    hover_style,
+    plot_html,
+)
+from slider_resonator.output.html_page import write_page
 from slider_resonator.scenes.scene import find_scene
 from slider_resonator.studies.sweep.grid import grid_from
 from slider_resonator.studies.sweep.page import write_sweep_page
@@ -43,19 +57,56 @@ def opened(browser: Chrome, page: Path) -> int:
     return len(plots)
 
 
-def hovered(browser: Chrome) -> str:
-    """What the first plot says of a point near the pointer, which is moved until it is near one."""
+def told(browser: Chrome) -> list[str]:
+    """Return what the plots say of their points at present."""
+    return [
+        str(tip) for tip in browser.execute_script(f"return {TIPS}.map((tip) => tip.textContent)")
+    ]
+
+
+def first_plot(browser: Chrome) -> WebElement:
     over = browser.find_elements("css selector", ".u-over")[0]
     browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", over)
+    return over
+
+
+def hovered(browser: Chrome) -> str:
+    """What the first plot says of a point near the pointer, which is moved until it is near one."""
+    over = first_plot(browser)
     width, height = over.size["width"], over.size["height"]
     for across in range(-9, 10):
         for down in range(-9, 10, 2):
             place = (int(across * width / 20), int(down * height / 20))
             ActionChains(browser, duration=0).move_to_element_with_offset(over, *place).perform()
-            tips = browser.execute_script(f"return {TIPS}.map((tip) => tip.textContent)")
-            if tips:
-                return str(tips[0])
+            if tips := told(browser):
+                return tips[0]
     return ""
+
+
+def test_keys_and_fingers_lead_from_point_to_point(browser: Chrome, tmp_path: Path) -> None:
+    page = tmp_path / "index.html"
+    lines = [
+        Series("first", [1.0, 3.0, 2.0], [1.0, 3.0, 2.0], "#123456", notes=["a", "c", "b"]),
+        Series("second", [1.0, 3.0], [5.0, 6.0], "#654321", notes=["d", "e"]),
+    ]
+    plot = HoverPlot("A plot", Axis("time [s]"), Axis("way [m]"), lines)
+    body = [plot_html(plot), provenance_html(PROVENANCE)]
+    write_page(page, "Plots", body, scripts=hover_scripts(), style=hover_style())
+    assert opened(browser, page) == 1
+    over = first_plot(browser)
+    browser.execute_script("arguments[0].focus()", over)
+    notes = []
+    for key in (*[Keys.ARROW_RIGHT] * 4, Keys.ARROW_DOWN, Keys.ARROW_LEFT, Keys.ARROW_UP):
+        ActionChains(browser).send_keys(key).perform()
+        notes += [text.splitlines()[-1] for text in told(browser)]
+    assert notes == ["a", "b", "c", "c", "e", "d", "a"]
+    ActionChains(browser).send_keys(Keys.ESCAPE).perform()
+    assert told(browser) == []
+    width, height = over.size["width"], over.size["height"]
+    touch = ActionBuilder(browser, mouse=PointerInput(POINTER_TOUCH, "finger"))
+    touch.pointer_action.move_to(over, 4 - width // 2, height // 2 - 4).pointer_down().pointer_up()
+    touch.perform()
+    assert told(browser) == ["first\ntime [s]: 1\nway [m]: 1\na"]
 
 
 def test_validation(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path) -> None:

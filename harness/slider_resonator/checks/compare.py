@@ -28,9 +28,10 @@ AT_LEAST = "at least"
 class Check:
     """One comparison with its verdict.
 
-    For a signal, `fmu` and `reference` are peaks, and `deviation` and `allowed` shares of the
-    reference's peak; for a number, and for times of events, they carry its unit. `against` is the
-    name of the reference, "value", or for a bound `AT_MOST` or `AT_LEAST`. `at` is what a sweep
+    For a signal, `fmu` and `reference` are peaks, and `deviation` and `allowed` shares of `scale`,
+    in its unit: the reference's peak, or what a reference near zero counts as. For a number, and
+    for times of events, they carry a unit and `scale` is None. `against` is the name of the
+    reference, "value", or for a bound `AT_MOST` or `AT_LEAST`. `at` is what a sweep
     varies. A signal that fails is beyond what is allowed from `first_time` (s) on and farthest at
     `worst_time` (s). A deviation is counted from the edge of a tube, where there is one; `tube` is
     its half width in drive periods.
@@ -51,6 +52,7 @@ class Check:
     first_time: float | None = None
     worst_time: float | None = None
     tube: float | None = None
+    scale: float | None = None
 
     @property
     def severity(self) -> float:
@@ -91,6 +93,7 @@ class _Difference:
     passed: bool
     first_time: float | None = None
     worst_time: float | None = None
+    scale: float | None = None
 
 
 def compare(
@@ -146,7 +149,7 @@ def _difference_of_signals(
     tube = expected if isinstance(expected, Tube) else no_tube(expected)
     outside = tube.outside(measured.value)
     size = peak(tube.middle)
-    allowed = tolerance.relative
+    allowed, scale = tolerance.relative, None
     if quantity.exact:
         deviation, limit = mismatch_share(outside), 0.5
     elif quantity.in_periods:
@@ -160,7 +163,8 @@ def _difference_of_signals(
     first = worst = None
     if not passed and measured.times is not None:
         first, worst = _places(outside, limit, measured.times)
-    return _Difference(peak(measured.value), size, deviation, allowed, passed, first, worst)
+    fmu = peak(measured.value)
+    return _Difference(fmu, size, deviation, allowed, passed, first, worst, scale)
 
 
 def _places(error: Array, limit: float, times: Array) -> tuple[float, float]:

@@ -18,13 +18,14 @@ from slider_resonator.checks.conduct.replays import (
     reading_differences,
     reset_differences,
     restored_differences,
+    separate_differences,
     transferred_differences,
 )
 from slider_resonator.checks.conduct.starts import start_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
-from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.checks.measures.slow import slow_displacement, travelled_velocity
 from slider_resonator.checks.measures.slow_error import centre_velocity, slow_error_share
 from slider_resonator.errors import NotApplicable, SceneError
 from slider_resonator.fmu.interface_check import description_faults
@@ -116,6 +117,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     ),
     "mean_velocity": _final("mean_velocity"),
     "mean_velocity_in_run": _output("mean_velocity"),
+    "travelled_velocity": lambda fmu: travelled_velocity(fmu.record.times, fmu.record["position"]),
     "centre_velocity": lambda fmu: centre_velocity(fmu.record, fmu.scene.device.mass_ratio),
     "slow_motion_error": _final("slow_motion_error"),
     "slow_error_share": slow_error_share,
@@ -141,6 +143,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "transferred_differences": transferred_differences,
     "beside_differences": beside_differences,
     "overwritten_differences": overwritten_differences,
+    "separate_differences": separate_differences,
     "reading_differences": reading_differences,
     "refusal_faults": refusal_faults,
     "start_faults": start_faults,

@@ -49,6 +49,7 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "predicted_velocity_in_run": _velocity,
     "mean_velocity": _velocity,
     "mean_velocity_in_run": _velocity,
+    "travelled_velocity": _velocity,
     "velocity": _velocity,
     "centre_velocity": _velocity,
     "blocking_force": _full_friction,

@@ -225,14 +225,16 @@ class ReferenceSide:
         return self._under(self.scene.schedule().held())
 
     def _under(self, held: Sequence[HeldInputs]) -> ReferenceSide:
-        """Return the references for the last of held inputs.
+        """Return the references for inputs as they are at the end of the last of these.
 
         The phase (rad) includes the lead of the normal force from earlier frequency ratios.
         """
-        now = held[-1]
+        now = held[-1].later(held[-1].stop - held[-1].start)
         ratio = now.frequency_ratio
         lead = sum(
-            (h.frequency_ratio - ratio) * _drive_frequency(h, self.device) * (h.stop - h.start)
+            (h.frequency_ratio + 0.5 * h.ratio_rate * (h.stop - h.start) - ratio)
+            * _drive_frequency(h, self.device)
+            * (h.stop - h.start)
             for h in held
         )
         inputs = {"phase": now.phase + lead, "load": now.load, "frequency_ratio": ratio}
@@ -241,6 +243,8 @@ class ReferenceSide:
     def predictions(self, name: str) -> Array:
         """Return a prediction over the run, by its name, shape (n,); m/s or N."""
         held = self.scene.schedule().held()
+        if any(inputs.vary for inputs in held):
+            raise ValueError("inputs change between communication points; must be held")
         values = np.array([getattr(self._under(held[: i + 1]), name) for i in range(len(held))])
         starts = np.array([inputs.start for inputs in held[1:]])
         return np.asarray(values[np.searchsorted(starts, self.times, side="left")])

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
-from itertools import count
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Check, Comparison, compare
-from slider_resonator.checks.expecting import expected_value
+from slider_resonator.checks.expected_values import ExpectedValues
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measures.tube import Tube
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.overview import Overview, overview_of
-from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.isolation.tasks import Finished
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
 from slider_resonator.output.console import counted
@@ -105,25 +105,40 @@ def validate(
     progress: Callable[[str, float], None] = lambda scene, share: None,
     *,
     time_limit: float = TIME_LIMIT,
+    jobs: int = 1,
 ) -> tuple[Validation, ...]:
     """Compare each FMU with the references in every scene and at every point of its sweep.
 
-    Expected values are computed once for all FMUs; their time counts for the first. `progress`
-    gets the scene at work and the share of all the work that is done. An FMU that does not answer
-    within `time_limit` (s) for a point is stopped. Raises SceneError for a faulty scene file; what
-    is wrong with an FMU is among the run failures of its validation.
+    Expected values are computed once for all FMUs, while they run: by `jobs` processes, or with 1
+    by this one. The verdicts and their order are those with 1. `progress` gets the scene at work
+    and the share of all the work that is done. An FMU that does not answer within `time_limit` (s)
+    for a point is stopped. Raises SceneError for a faulty scene file; what is wrong with an FMU is
+    among the run failures of its validation.
     """
     points = [point for file in scene_files for point in points_to_check(read_scene(file))]
-    expected = ExpectedValues()
-    validations = []
-    for number, path in enumerate(fmu_paths):
-
-        def report(name: str, share: float, number: int = number) -> None:
-            progress(name, (number + share) / len(fmu_paths))
-
-        validations.append(_validation(path, points, expected, time_limit, report))
+    work = _Work(progress, len(points) * len(fmu_paths))
+    with ExpectedValues(points, jobs) as expected:
+        judgings = [_Judging(path, expected, work) for path in fmu_paths]
+        for judging in judgings:
+            judging.measure(points, time_limit)
+        validations = tuple(judging.finish() for judging in judgings)
     progress("", 1.0)
-    return tuple(validations)
+    return validations
+
+
+@dataclass
+class _Work:
+    """How many of `points` on all FMUs are measured and judged; the two count as equal work."""
+
+    progress: Callable[[str, float], None]
+    points: int
+    measured: int = 0
+    judged: int = 0
+
+    def begin(self, point: ScenePoint, done: int) -> None:
+        """Report a point at work, where `done` of this kind of work are finished before."""
+        share = (self.measured + self.judged) / (2 * self.points)
+        self.progress(counted(point.scene.name, done, self.points), share)
 
 
 def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
@@ -135,79 +150,80 @@ def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
     return scene.points()
 
 
-class ExpectedValues:
-    """The expected values of scenes at their points, each computed once."""
+class _Judging:
+    """The verdicts on an FMU, point by point, as soon as the expected values are there."""
 
-    def __init__(self) -> None:
-        self._values: dict[ScenePoint, list[Any]] = {}
+    def __init__(self, path: Path, expected: ExpectedValues, work: _Work) -> None:
+        self._path = path
+        self._expected = expected
+        self._work = work
+        self._waiting: deque[Finished[ScenePoint]] = deque()
+        self._checks: list[Check] = []
+        self._run_failures: list[RunFailure] = []
+        self._curves: list[Curves | None] = []
+        self._not_applied: list[NotApplied] = []
+        self._overviews: dict[str, Overview | None] = {}
 
-    def at(self, point: ScenePoint) -> list[Any]:
-        """Return a value for each expectation, or the SceneError where there is none."""
-        if point not in self._values:
-            references = ReferenceSide(point.scene)
-            values: list[Any] = []
-            for expect in point.scene.expect:
-                try:
-                    values.append(expected_value(expect, references))
-                except SceneError as error:
-                    values.append(error)
-            self._values[point] = values
-        return self._values[point]
+    def measure(self, points: Sequence[ScenePoint], time_limit: float) -> None:
+        """Run the points, and judge those at the head whose expected values are there by then."""
+        self._began = perf_counter()
+        self._identity = identity_of(self._path)
 
+        def meanwhile(point: ScenePoint) -> None:
+            self._work.begin(point, self._work.measured)
+            self._expected.prepare(point)
 
-def _validation(
-    path: Path,
-    points: Sequence[ScenePoint],
-    expected: ExpectedValues,
-    time_limit: float,
-    report: Callable[[str, float], None],
-) -> Validation:
-    """Run the points on one FMU and judge; expected values are computed while it runs."""
-    began = perf_counter()
-    identity = identity_of(path)
-    number = count()
+        runs = measure_points(self._path, points, measure_all, time_limit, meanwhile)
+        with closing(runs) as finished:
+            for one in finished:
+                self._work.measured += 1
+                self._waiting.append(one)
+                while self._waiting and self._ready(self._waiting[0]):
+                    self._judge(self._waiting.popleft())
 
-    def meanwhile(point: ScenePoint) -> None:
-        done = next(number)
-        report(counted(point.scene.name, done, len(points)), done / len(points))
-        expected.at(point)
+    def finish(self) -> Validation:
+        """Judge the rest, in order, and return all verdicts."""
+        while self._waiting:
+            one = self._waiting.popleft()
+            if one.item is not None:
+                self._work.begin(one.item, self._work.judged)
+            self._judge(one)
+        return Validation(
+            str(self._path),
+            tuple(self._checks),
+            perf_counter() - self._began,
+            tuple(self._run_failures),
+            tuple(curve for curve in self._curves if curve is not None),
+            lacking(self._path),
+            tuple(self._not_applied),
+            self._identity,
+            tuple(overview for overview in self._overviews.values() if overview is not None),
+        )
 
-    checks: list[Check] = []
-    run_failures: list[RunFailure] = []
-    curves: list[Curves | None] = []
-    not_applied: list[NotApplied] = []
-    overviews: dict[str, Overview | None] = {}
-    with closing(measure_points(path, points, measure_all, time_limit, meanwhile)) as finished:
-        for one in finished:
-            point = one.item
-            if one.error is not None or point is None:
-                run_failures.append(RunFailure.of(path, point, one.error))
-                continue
-            values = expected.at(point)
-            judged: list[tuple[Check, Measurement, object]] = []
-            for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
-                if not measured.applicable:
-                    place = (point.scene.name, expect.quantity, measured.note, point.at)
-                    not_applied.append(NotApplied(*place))
-                elif isinstance(value, SceneError):
-                    run_failures.append(RunFailure.of(path, point, value))
-                else:
-                    checks.append(compare(Comparison.of(expect), measured, value, point))
-                    curves.append(curves_of(checks[-1], measured, value))
-                    judged.append((checks[-1], measured, value))
-            if point.scene.name not in overviews:
-                overviews[point.scene.name] = overview_of(judged)
-    return Validation(
-        str(path),
-        tuple(checks),
-        perf_counter() - began,
-        tuple(run_failures),
-        tuple(curve for curve in curves if curve is not None),
-        lacking(path),
-        tuple(not_applied),
-        identity,
-        tuple(overview for overview in overviews.values() if overview is not None),
-    )
+    def _ready(self, one: Finished[ScenePoint]) -> bool:
+        return one.error is not None or one.item is None or self._expected.ready(one.item)
+
+    def _judge(self, one: Finished[ScenePoint]) -> None:
+        point = one.item
+        self._work.judged += 1
+        if one.error is not None or point is None:
+            self._run_failures.append(RunFailure.of(self._path, point, one.error))
+            return
+        values = self._expected.at(point)
+        judged: list[tuple[Check, Measurement, object]] = []
+        for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
+            if not measured.applicable:
+                place = (point.scene.name, expect.quantity, measured.note, point.at)
+                self._not_applied.append(NotApplied(*place))
+            elif isinstance(value, SceneError):
+                self._run_failures.append(RunFailure.of(self._path, point, value))
+            else:
+                check = compare(Comparison.of(expect), measured, value, point)
+                self._checks.append(check)
+                self._curves.append(curves_of(check, measured, value))
+                judged.append((check, measured, value))
+        if point.scene.name not in self._overviews:
+            self._overviews[point.scene.name] = overview_of(judged)
 
 
 def provenance_of_all(validations: Sequence[Validation]) -> Provenance:

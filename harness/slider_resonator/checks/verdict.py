@@ -12,12 +12,46 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 TITLE = "Slider-resonator validation"
 """Default title of a report."""
 DIGITS = 9
+CALLED: Mapping[str, str] = {
+    "located_events": "exact events",
+    "taylor": "Taylor series",
+    "bristle_state": "bristle as a state",
+    "averaged": "averaged theory",
+    "held_orbits": "held orbits",
+    "closed_form": "paper's formula",
+    "value": "value in the scene",
+    AT_MOST: "upper bound",
+    AT_LEAST: "lower bound",
+}
+"""What checks compare with, by what tables call it."""
+
+
+def called(against: str) -> str:
+    """Return what a check compares with, in words for a table."""
+    return CALLED.get(against, against.replace("_", " "))
 
 
 def title(check: Check) -> str:
     """Return the quantity, its reference, the tube and the point of the sweep."""
     tube = "" if check.tube is None else f" in a tube of {check.tube:g} periods"
     return f"{check.quantity} against {check.against}{tube}{place(check.at, ' at ')}"
+
+
+def measure_of(check: Check) -> str:
+    """Return what `deviation` and `allowed` of a check are counted in: a unit, or a share."""
+    quantity = QUANTITIES[check.quantity]
+    if quantity.kind != "signal":
+        return check.unit if check.deviation is not None else ""
+    if quantity.exact:
+        return "of points"
+    if quantity.in_periods:
+        return "periods"
+    return "of scale" if _near_zero(check) else "of peak"
+
+
+def _near_zero(check: Check) -> bool:
+    """Return whether the peak of a reference counts as larger than it is."""
+    return check.scale is not None and check.scale != check.reference
 
 
 def judged_without(validation: Validation) -> str:
@@ -84,7 +118,10 @@ def _signal_sentence(check: Check, unit: str) -> str:
     else:
         tube = f"a tube of {check.tube:g} drive periods to each side " if check.tube else ""
         size = "outside " + tube if tube else "off "
-        size += f"by {check.deviation:.2g} of the peak, which is {_value(check.reference, unit)}"
+        near_zero = _near_zero(check)
+        what = "its scale" if near_zero else "the peak"
+        which = check.scale if near_zero else check.reference
+        size += f"by {check.deviation:.2g} of {what}, which is {_value(which, unit)}"
     text = f"{size}, {_times(check)}"
     if check.first_time is None or check.worst_time is None:
         return text

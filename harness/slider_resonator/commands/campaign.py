@@ -8,11 +8,17 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import Target, default_fmus, fmus_argument, json_option
+from slider_resonator.commands.options import (
+    Target,
+    default_fmus,
+    fmus_argument,
+    json_option,
+    time_limit_option,
+)
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.atomic import write_text
-from slider_resonator.output.console import noting_on_interrupt, progress_bar
+from slider_resonator.output.console import noting_on_interrupt, part_of, progress_bar
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.campaign.campaign_run import TIME_LIMIT, Campaign, run_campaign
@@ -53,13 +59,7 @@ from slider_resonator.trials.campaign.random_case import random_case
     type=click.IntRange(min=0),
     help="Run only the case of this number, and print its values.",
 )
-@click.option(
-    "--time-limit",
-    type=click.FloatRange(min=0.0, min_open=True),
-    default=TIME_LIMIT,
-    show_default=True,
-    help="Time limit in s for a case; one that hangs fails.",
-)
+@time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.")
 @click.option("--out", type=Target((".json",)), help="Write the result as JSON, too.")
 @json_option
 @click.pass_context
@@ -79,9 +79,9 @@ def campaign_command(
     Devices lie over decades; inputs, tunable parameters and step sizes change in the run; both
     friction laws and fidelities 0 (averages of both orders), 1 and 2 come in turn. Each case is
     judged by the errors that its numerics state, and averages of second order, against resolved
-    motion, by what they may lag behind it and slow_motion_error, too. Without FMUS: those in dist. Exit code: 0 when no
-    case fails, 1 when one does, 2 when an FMU could not run. What is finished when the command is
-    interrupted is written to --out.
+    motion, by what they may lag behind it and slow_motion_error, too. Without FMUS: those in dist.
+    Exit code: 0 when no case fails, 1 when one does, 2 when an FMU could not run. What is finished
+    when the command is interrupted is written to --out.
 
     \b
     Examples:
@@ -102,8 +102,9 @@ def campaign_command(
             write_text(out, to_json(as_plain(finished)))
 
     with noting_on_interrupt(partial(_kept, finished, out)), progress_bar() as progress:
-        for fmu in chosen:
-            keep(run_campaign(fmu, random_cases, progress, time_limit, keep))
+        for index, fmu in enumerate(chosen):
+            part = part_of(progress, index, len(chosen))
+            keep(run_campaign(fmu, random_cases, part, time_limit, keep))
     lines = [
         sentences(campaign, random_cases if number is not None else ()) for campaign in finished
     ]

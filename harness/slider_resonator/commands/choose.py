@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import isfinite
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.console import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene import find_scene, read_scene
 from slider_resonator.studies.choose import Choice, choose
@@ -73,7 +75,8 @@ def choose_command(
     read = read_scene(find_scene(scene), settings)
     path = default_fmu(fmu)
     provenance = provenance_of(path)
-    choice = choose(read, path, time_limit)
+    with progress_bar() as progress:
+        choice = choose(read, path, time_limit, partial(progress, f"choosing for {read.name}"))
     if as_json:
         print_json(choice, provenance)
     else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
@@ -17,7 +17,7 @@ from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import replacing
-from slider_resonator.output.console import progress_bar
+from slider_resonator.output.console import counted, part_of, progress_bar
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
@@ -93,7 +93,8 @@ def closed_loop_command(
     hosts = [host for host in HOSTS if host.name in (chosen or NAMES[:1])]
     with progress_bar() as progress:
         for index, host in enumerate(hosts):
-            share = partial(_shared, progress, host.name, index, len(hosts))
+            part = part_of(progress, index, len(hosts))
+            share = partial(part, counted(host.name, index, len(hosts)))
             share(0.0)
             design, proof = run_loop(package, host, duty, time_limit)
             records += [design, proof]
@@ -112,13 +113,6 @@ def closed_loop_command(
         _print(held, agreements)
         print_text(f"written  {one_line(f'{out}/closed_loop.png, {out}/closed_loop.csv')}")
     context.exit(0 if passed else 1)
-
-
-def _shared(
-    progress: Callable[[str, float], None], label: str, index: int, count: int, share: float
-) -> None:
-    """Report the progress of one host among `count`."""
-    progress(label, (index + share) / count)
 
 
 def _write_csv(path: Path, records: Sequence[LoopRecord], duty: Duty) -> None:

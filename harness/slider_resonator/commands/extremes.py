@@ -18,7 +18,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt, progress_bar
+from slider_resonator.output.console import noting_on_interrupt, part_of, progress_bar
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.extremes.listing import as_plain, write_matrices
@@ -74,8 +74,9 @@ def extremes_command(
         write_matrices(matrices, out, provenance)
 
     with noting_on_interrupt(partial(_kept, matrices, out)), progress_bar() as progress:
-        for fmu in chosen:
-            keep(run_matrix(fmu, cells, progress, time_limit, keep))
+        for index, fmu in enumerate(chosen):
+            part = part_of(progress, index, len(chosen))
+            keep(run_matrix(fmu, cells, part, time_limit, keep))
     lines = [*map(_sentences, matrices), f"written {one_line(str(out))}"]
     text = "\n".join(lines)
     print_result(as_plain(matrices), text, as_json=as_json, provenance=provenance)

@@ -7,12 +7,17 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import Target, json_option, time_limit_option
+from slider_resonator.commands.options import (
+    Target,
+    json_option,
+    other_fmu_argument,
+    time_limit_option,
+)
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import progress_bar
+from slider_resonator.output.console import counted, progress_bar
 from slider_resonator.output.table import Table, texts, verdict
 from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
 from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
@@ -24,9 +29,7 @@ NAMES = [host.name for host in hosts()]
 
 
 @click.command("hosts", short_help="Run table 1 in other simulators; compare with fmpy.")
-@click.argument(
-    "native", type=click.Path(path_type=Path, exists=True, dir_okay=False), default=NATIVE
-)
+@other_fmu_argument(str(NATIVE))
 @click.option(
     "--python-fmu",
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
@@ -39,14 +42,15 @@ NAMES = [host.name for host in hosts()]
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
     default=NATIVE_3,
     show_default=True,
-    help="FMU of FMI 3.0, for the hosts that load it; it is compared with NATIVE.",
+    help="FMU of FMI 3.0, for the hosts that load it; it is compared with FMU.",
 )
 @click.option(
     "--host",
     "chosen",
     type=click.Choice(NAMES),
+    metavar="HOST",
     multiple=True,
-    help="Run only this host. Repeatable.",
+    help=f"Run only this host. Repeatable. One of {', '.join(NAMES)}.",
 )
 @click.option(
     "--own-environment",
@@ -66,7 +70,7 @@ NAMES = [host.name for host in hosts()]
 @click.pass_context
 def hosts_command(
     context: click.Context,
-    native: Path,
+    fmu: Path | None,
     python_fmu: Path,
     fmi3_fmu: Path,
     chosen: Sequence[str],
@@ -77,11 +81,11 @@ def hosts_command(
 ) -> None:
     """Run table 1 in other simulators and compare with fmpy.
 
-    Each fidelity runs with each friction law for 40 steps of 1 ms in which all inputs change. All
-    outputs are compared after every step; deviations are relative to each signal's peak. Exit code:
-    0 when all agree, 1 when one does not, 2 when the FMUs do not run in fmpy. Hosts that are not
-    installed are listed and left out (`make hosts` installs them); one that --host names, or any
-    with --out, ends the command with 2.
+    FMU is one that runs without Python. Each fidelity runs with each friction law for 40 steps of
+    1 ms in which all inputs change. All outputs are compared after every step; deviations are
+    relative to each signal's peak. Exit code: 0 when all agree, 1 when one does not, 2 when the
+    FMUs do not run in fmpy. Hosts that are not installed are listed and left out (`make hosts`
+    installs them); one that --host names, or any with --out, ends the command with 2.
 
     \b
     Examples:
@@ -89,6 +93,7 @@ def hosts_command(
       slider-resonator hosts my.fmu --host "C driver" --json
       slider-resonator hosts --out README.md
     """
+    native = fmu or NATIVE
     everyone = hosts(own_environment)
     selected = [host for host in everyone if host.name in (chosen or NAMES)]
     missing = _missing([everyone[0], *selected])
@@ -101,7 +106,7 @@ def hosts_command(
     results: list[HostResult] = []
     with progress_bar() as progress:
         for index, host in enumerate(selected):
-            progress(host.name, index / len(selected))
+            progress(counted(host.name, index, len(selected)), index / len(selected))
             results += run_host(host, everyone[0], native, python_fmu, fmi3_fmu, time_limit)
     for host, reason in missing.items():
         print_text(f"not run: {host.name}: {reason}", err=True)

@@ -81,7 +81,8 @@ MIN_NATIVE_RATE = 0.97
     "kinds",
     multiple=True,
     type=click.Choice(list(KINDS)),
-    help="Only mutants of this kind. Repeatable.",
+    metavar="KIND",
+    help=f"Only mutants of this kind. Repeatable. One of {', '.join(KINDS)}.",
 )
 @scenes_option("all built-in")
 @click.option(

@@ -26,8 +26,9 @@ from slider_resonator.studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome,
 @click.option(
     "--only",
     type=click.Choice(NAMES),
+    metavar="NAME",
     multiple=True,
-    help="Make only this. Repeatable.",
+    help=f"Make only this. Repeatable. One of {', '.join(NAMES)}.",
 )
 @fmu_option
 @time_limit_option(TIME_LIMIT, "For each figure, table and group of claims.")

@@ -8,6 +8,7 @@ import click
 
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.output.console import output
+from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Table
 from slider_resonator.output.terminal import escaped, rendered
@@ -29,8 +30,11 @@ def print_json(result: Any, provenance: Provenance | None = None) -> None:
 
 
 def print_text(text: str, *, err: bool = False) -> None:
-    """Print text that may hold foreign parts, on standard error with `err`."""
-    click.echo(escaped(text), err=err)
+    """Print text that may hold foreign parts, on standard error with `err`.
+
+    A terminal gets lines that fit it, a file or another program gets them as they are.
+    """
+    click.echo(fitting(escaped(text), terminal_width(err=err)), err=err)
 
 
 def print_table(table: Table) -> None:

@@ -146,7 +146,8 @@ def run_command(
             )
 
             read.schedule()
-            choice = isolated.run(partial(choose_with, scene=read))
+            report = partial(progress, f"choosing for {read.name}")
+            choice = isolated.run(partial(choose_with, scene=read), report)
             if not choice.meets:
                 text = "\n".join(choice.sentences())
                 print_result(choice, text, as_json=as_json, provenance=provenance)

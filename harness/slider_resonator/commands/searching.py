@@ -47,7 +47,7 @@ def _sentences(outcome: SearchResult, what: str, value: float | None, unit: str)
     lines = [
         f"{what:<17}{found}",
         f"status           {outcome.status}: {one_line(outcome.reason)}",
-        f"averaged theory  {readable(outcome.predicted, 10)} {unit} (the FMU's own output)",
+        f"FMU's output     {readable(outcome.predicted, 10)} {unit} (read without a run)",
     ]
     if outcome.common_period is not None:
         lines.append(

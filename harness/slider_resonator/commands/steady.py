@@ -11,6 +11,7 @@ from slider_resonator.commands.options import SettingsCommand
 from slider_resonator.commands.searching import print_search_result, search_arguments
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.console import progress_bar
 from slider_resonator.steady.steady_velocity import find_steady
 
 
@@ -46,7 +47,8 @@ def steady_command(
     """
     provenance = provenance_of(fmu)
     search = partial(find_steady, values=settings, max_denominator=max_denominator)
-    with IsolatedFmu(fmu, time_limit) as isolated:
+    with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
+        progress("searching the steady velocity", 0.0)
         motion = isolated.run(search)
     found = motion.steady_velocity
     code = print_search_result(motion, "steady velocity", found, "m/s", as_json, provenance)

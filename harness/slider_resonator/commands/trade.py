@@ -19,7 +19,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt, progress_bar
+from slider_resonator.output.console import noting_on_interrupt, part_of, progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
 from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import find_scene, read_scene
@@ -120,10 +120,9 @@ def trade_command(
             instances[build if build not in instances else f"{build} {path.name}"] = fmu
         make_folder(out)
         stack.enter_context(noting_on_interrupt(partial(_kept, trades, problems, out)))
-        for problem in problems:
-            trades.append(
-                measure_trade(problem, instances, progress, repeats=repeats, budget=budget)
-            )
+        for index, problem in enumerate(problems):
+            part = part_of(progress, index, len(problems))
+            trades.append(measure_trade(problem, instances, part, repeats=repeats, budget=budget))
             # After each scene, so that a later failure does not lose minutes of measurement.
             write_rows(out / "trade.csv", trades)
             write_omissions(out / "omissions.csv", trades)

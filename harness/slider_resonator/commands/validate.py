@@ -11,6 +11,7 @@ from slider_resonator.checks.verdict import TITLE
 from slider_resonator.commands.options import (
     default_fmus,
     fmus_argument,
+    jobs_option,
     scenes_option,
     time_limit_option,
 )
@@ -19,6 +20,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import progress_bar
 from slider_resonator.scenes.scene import files_of_scenes
+from slider_resonator.studies.sweep.local import available_cores
 
 
 @click.command("validate", short_help="Compare FMUs with the references, scene by scene.")
@@ -29,6 +31,7 @@ from slider_resonator.scenes.scene import files_of_scenes
     is_flag=True,
     help="Show every check of many scenes, every point of a sweep, and why it is expected.",
 )
+@jobs_option
 @time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
 @report_options
 @click.pass_context
@@ -37,6 +40,7 @@ def validate_command(
     fmus: tuple[Path, ...],
     scenes: tuple[str, ...],
     details: bool,
+    jobs: int | None,
     time_limit: float,
     junit: Path | None,
     html: Path | None,
@@ -44,11 +48,12 @@ def validate_command(
 ) -> None:
     """Compare FMUs with the references, scene by scene.
 
-    Without FMUS: those in dist, the native one first. Exit code: 0 when every check passes, 1 when
-    one fails, 2 when something could not run: an FMU that is corrupt, lacks a variable or gives it
-    another unit, has no binary for this platform, cannot be instantiated, refuses a scene, crashes
-    or exceeds the time limit. The reports are written in each case, and a table is appended to the
-    file that GITHUB_STEP_SUMMARY names.
+    Without FMUS: those in dist, the native one first. Each FMU runs in a process of its own while
+    --jobs others compute the references, once for all FMUs. Exit code: 0 when every check passes,
+    1 when one fails, 2 when something could not run: an FMU that is corrupt, lacks a variable or
+    gives it another unit, has no binary for this platform, cannot be instantiated, refuses a scene,
+    crashes or exceeds the time limit. The reports are written in each case, and a table is appended
+    to the file that GITHUB_STEP_SUMMARY names.
 
     \b
     Examples:
@@ -64,7 +69,9 @@ def validate_command(
         files = files_of_scenes(scenes)
         paths = fmus or default_fmus()
         with progress_bar() as progress:
-            validations = validate(paths, files, progress, time_limit=time_limit)
+            validations = validate(
+                paths, files, progress, time_limit=time_limit, jobs=jobs or available_cores()
+            )
     except HarnessError as error:
         reports.write([], str(error))
         raise

@@ -1,26 +1,63 @@
-"""Inputs held constant over an interval, as an FMU holds them over a communication step."""
+"""Inputs over an interval: held, or straight lines, as an FMU has them in a communication step."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 
+RATES = ("phase_rate", "load_rate", "ratio_rate")
+"""The rates of inputs, in rad/s, N/s and 1/s."""
+
 
 @dataclass(frozen=True)
 class HeldInputs:
-    """Inputs constant over ``[start, stop]`` (s): phase (rad), load (N), frequency_ratio (1)."""
+    """Inputs over ``[start, stop]`` (s): phase (rad), load (N), frequency_ratio (1).
+
+    They are the values at ``start``, which stay, or change at constant rates per second.
+    """
 
     start: float
     stop: float
     phase: float = 0.0
     load: float = 0.0
     frequency_ratio: float = 1.0
+    phase_rate: float = 0.0
+    load_rate: float = 0.0
+    ratio_rate: float = 0.0
+
+    @property
+    def vary(self) -> bool:
+        """Whether an input changes within the interval."""
+        return any((self.phase_rate, self.load_rate, self.ratio_rate))
+
+    def later(self, elapsed: float) -> Self:
+        """Return the same inputs from ``elapsed`` (s) after the start on."""
+        return replace(
+            self,
+            start=self.start + elapsed,
+            phase=self.phase + self.phase_rate * elapsed,
+            load=self.load + self.load_rate * elapsed,
+            frequency_ratio=self.frequency_ratio + self.ratio_rate * elapsed,
+        )
+
+    def turned(self, duration: float, frequency: float) -> float:
+        """Return the angle (rad) by which psi grows in ``duration`` (s) at a drive frequency."""
+        ratio = self.frequency_ratio + 0.5 * self.ratio_rate * duration
+        return ratio * frequency * duration
+
+    def without_phase_rate(self, frequency: float) -> Self:
+        """Return inputs of the same normal load whose phase stays: its rate shifts the ratio.
+
+        ``frequency`` (rad/s) is that of the drive.
+        """
+        ratio = self.frequency_ratio + self.phase_rate / frequency
+        return replace(self, frequency_ratio=ratio, phase_rate=0.0)
 
     def tuned_device(self, device: Device) -> Device:
         """Return the device of a run as it is over these inputs."""
@@ -39,11 +76,32 @@ class TunedInputs(HeldInputs):
         return replace(device, **values)
 
 
-def check_contiguous(held: Sequence[HeldInputs]) -> None:
-    """Raise ValueError unless ``held`` is a gapless sequence of intervals of positive length."""
+def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldInputs]:
+    """Return inputs of the same normal load over time, none of whose phases has a rate.
+
+    A ramp of the phase is a constant shift of the normal frequency: psi takes over what it adds.
+    """
+    steady: list[HeldInputs] = []
+    gained = 0.0
+    for inputs in held:
+        moved = inputs.without_phase_rate(inputs.tuned_device(device).drive_frequency)
+        steady.append(replace(moved, phase=inputs.phase - gained))
+        gained += inputs.phase_rate * (inputs.stop - inputs.start)
+    return steady
+
+
+def check_contiguous(held: Sequence[HeldInputs], *, rates: Sequence[str] = ()) -> None:
+    """Raise ValueError unless ``held`` is a gapless sequence of intervals of positive length.
+
+    ``rates`` are those of the inputs that may differ from 0.
+    """
     if not held:
         raise ValueError("held inputs: at least one interval is needed, got none")
     for index, inputs in enumerate(held):
+        for name in RATES:
+            rate = getattr(inputs, name)
+            if rate and name not in rates:
+                raise ValueError(f"held inputs {index}: {name} = {rate!r}: must be 0")
         if not inputs.stop > inputs.start:
             raise ValueError(
                 f"held inputs {index}: stop = {inputs.stop!r} s must be greater than "
@@ -65,4 +123,15 @@ def check_times(times: Array, held: Sequence[HeldInputs]) -> None:
         raise ValueError(
             f"times from {float(times[0])!r} to {float(times[-1])!r} s must lie within the held "
             f"inputs, {start!r} to {stop!r} s"
+        )
+
+
+def check_turns_on(inputs: HeldInputs) -> None:
+    """Raise ValueError where the angle of the normal load turns back within the inputs."""
+    first = inputs.frequency_ratio
+    last = first + inputs.ratio_rate * (inputs.stop - inputs.start)
+    if inputs.ratio_rate and not first * last > 0.0:
+        raise ValueError(
+            f"frequency_ratio from {first!r} to {last!r} between {inputs.start!r} and "
+            f"{inputs.stop!r} s: must keep its sign between communication points"
         )

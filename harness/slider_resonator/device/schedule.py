@@ -165,6 +165,9 @@ class Schedule:
     Inputs are sampled at each communication point and held until the next, and so is the `tuning`
     of tunable parameters, by name. `start_time` (s) is what the FMU gets as time 0. With
     `reads_twice` outputs are read where values change, both before and after they are set.
+
+    With `interpolates` inputs are straight lines between the communication points, and the FMU gets
+    their derivatives; tuning is held all the same.
     """
 
     times: Array
@@ -178,11 +181,32 @@ class Schedule:
     tuning: Mapping[str, Signal] = field(default_factory=dict)
     start_time: float = 0.0
     reads_twice: bool = False
+    interpolates: bool = False
+
+    @property
+    def _signals(self) -> tuple[Signal, Signal, Signal]:
+        return self.phase, self.load, self.frequency_ratio
 
     def sampled(self) -> Array:
         """Return phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
-        signals = (self.phase, self.load, self.frequency_ratio)
-        return np.column_stack([signal.over(self.times) for signal in signals])
+        return np.column_stack([signal.over(self.times) for signal in self._signals])
+
+    def rates(self) -> Array:
+        """Return the derivatives of the inputs from each communication point on, (n, 3); per s.
+
+        Those of inputs that are held, and at the last point, are 0.
+        """
+        sampled, rates = self.sampled(), np.zeros((len(self.times), 3))
+        if self.interpolates:
+            ramped = [not signal.hold and len(signal.times) > 1 for signal in self._signals]
+            slopes = np.diff(sampled, axis=0) / np.diff(self.times)[:, None]
+            rates[:-1] = np.where(ramped, slopes, 0.0)
+        return rates
+
+    @property
+    def ramps(self) -> bool:
+        """Whether an input has a derivative anywhere."""
+        return bool(self.rates().any())
 
     def tuned(self) -> Array:
         """Return the parameters of `tuning` at each communication point, (n, k)."""
@@ -194,7 +218,7 @@ class Schedule:
 
         Nothing is set at the last point.
         """
-        values = np.column_stack([self.sampled(), self.tuned()])[:-1]
+        values = np.column_stack([self.sampled(), self.rates(), self.tuned()])[:-1]
         return np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
 
     def readings(self) -> Array:
@@ -236,11 +260,12 @@ class Schedule:
         """Return a signal as it is held between the points of this schedule."""
         if len(signal.times) == 1:
             return signal
-        return Signal(tuple(self.times.tolist()), tuple(signal.over(self.times).tolist()))
+        held = signal.hold or not self.interpolates
+        return Signal(tuple(self.times.tolist()), tuple(signal.over(self.times).tolist()), held)
 
     def held(self) -> list[HeldInputs]:
         """Return the inputs as the FMU sees them, equal neighbours merged into one interval."""
-        sampled, tuned = self.sampled(), self.tuned()
+        sampled, tuned = np.column_stack([self.sampled(), self.rates()]), self.tuned()
         changes = self.changes().tolist()
         starts = [0, *changes]
         stops = [*changes, len(sampled) - 1]
@@ -258,16 +283,24 @@ class Schedule:
 
 
 def schedule(
-    stop: float, step: Steps, tuning: Mapping[str, Signal] | None = None, /, **signals: Signal
+    stop: float,
+    step: Steps,
+    tuning: Mapping[str, Signal] | None = None,
+    interpolates: bool = False,
+    /,
+    **signals: Signal,
 ) -> Schedule:
     """Return the schedule over [0, stop] (s) with a step (s) and all jumps as points.
 
-    `signals` are the inputs by name, `tuning` the tunable parameters that change.
+    `signals` are the inputs by name, `tuning` the tunable parameters that change. A schedule that
+    `interpolates` has the corners of inputs as points, too.
     """
     tuning = tuning or {}
-    jumps = [time for signal in (*signals.values(), *tuning.values()) for time in signal.jumps]
-    times = communication_points(stop, step, jumps)
-    return Schedule(times, *in_order(signals), tuning=tuning)
+    points = [time for signal in (*signals.values(), *tuning.values()) for time in signal.jumps]
+    if interpolates:
+        points += [time for signal in signals.values() for time in signal.times]
+    times = communication_points(stop, step, points)
+    return Schedule(times, *in_order(signals), tuning=tuning, interpolates=interpolates)
 
 
 def in_order(signals: Mapping[str, Signal]) -> tuple[Signal, Signal, Signal]:

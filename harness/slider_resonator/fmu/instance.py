@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2ValueReference, fmi2Warning
+from fmpy.fmi2 import FMU2Slave, fmi2Integer, fmi2ValueReference, fmi2Warning
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelVariable
 
@@ -58,6 +58,22 @@ class Block:
     def write(self, values: Sequence[float]) -> None:
         """Set the variables."""
         self.values[:] = list(values)
+        self._set()
+
+
+class Derivatives:
+    """First derivatives of a fixed set of inputs, written many times without allocation."""
+
+    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
+        size = len(references)
+        self._values = (c_double * size)()
+        orders = (fmi2Integer * size)(*[1] * size)
+        arguments = (fmi2ValueReference * size)(*references), size, orders, self._values
+        self._set = partial(call, slave, "fmi2SetRealInputDerivatives", *arguments)
+
+    def write(self, values: Sequence[float]) -> None:
+        """Set the derivatives."""
+        self._values[:] = list(values)
         self._set()
 
 
@@ -137,6 +153,7 @@ class Instance:
         self._settable: dict[tuple[str, ...], _Plan] = {}
         self._readable: dict[tuple[str, ...], _Plan] = {}
         self._inputs = self.block(list(INPUTS))
+        self._rates: Derivatives | None = None
 
     def block(self, names: Sequence[str]) -> Block:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
@@ -213,6 +230,17 @@ class Instance:
     def set_inputs(self, values: Sequence[float]) -> None:
         """Set phase (rad), load (N), frequency_ratio."""
         self._inputs.write(values)
+
+    def set_input_rates(self, values: Sequence[float]) -> None:
+        """Set the derivatives of phase (rad/s), load (N/s), frequency_ratio (1/s).
+
+        Raises NotApplicable for an FMU that takes none.
+        """
+        if self._rates is None:
+            self.fmu.require("canInterpolateInputs")
+            references = [self._variable(name).valueReference for name in INPUTS]
+            self._rates = Derivatives(self.slave, references)
+        self._rates.write(values)
 
     def step_to(self, target: float) -> None:
         """Advance to `target` (s)."""

@@ -51,6 +51,11 @@ class Fmu:
         """Whether all communication steps of a run must have one size, by the FMU's description."""
         return not self.description.coSimulation.canHandleVariableCommunicationStepSize
 
+    @property
+    def interpolates(self) -> bool:
+        """Whether it takes derivatives of inputs, by its description; FMI 3.0 has none."""
+        return bool(self.description.coSimulation.canInterpolateInputs)
+
     def settable(self, name: str) -> ModelVariable:
         """Return the parameter or input called `name`; FmuError names the nearest if none is."""
         allowed = [*PARAMETERS, *INPUTS]

@@ -13,8 +13,8 @@ HEADING = "Provenance"
 
 def provenance_html(provenance: Provenance) -> str:
     """Return a section of a page."""
-    tables = "".join(f"<p></p>{html_page.rendered(one)}" for one in _tables(provenance))
-    return f'<section class="wide" id="provenance"><h2>{HEADING}</h2>{tables}</section>'
+    tables = "".join(html_page.rendered(one) for one in _tables(provenance))
+    return f'<section id="provenance"><h2>{HEADING}</h2>{tables}</section>'
 
 
 def provenance_markdown(provenance: Provenance) -> str:

@@ -12,8 +12,8 @@ from slider_resonator.arrays import Array
 class Record:
     """The inputs and outputs of an FMU at the readings of a schedule, `times` (s), shape (n,).
 
-    `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as held
-    from each point on. `wall_time` (s) covers initialisation and stepping, `start_cpu` and
+    `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as set
+    at each point. `wall_time` (s) covers initialisation and stepping, `start_cpu` and
     `step_cpu` (s) are the CPU times of each.
     """
 

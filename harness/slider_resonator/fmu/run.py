@@ -26,7 +26,8 @@ def run(
 
     Without `outputs` all that the FMU has are read. Parameters that the schedule tunes start as it
     says. `progress` is called about a hundred times with the share of the points that is done.
-    Raises FmuError and Refusal as `Instance.start` and `Instance.check_steps` do.
+    Raises FmuError and Refusal as `Instance.start` and `Instance.check_steps` do, NotApplicable as
+    `Running` does.
     """
     began, began_cpu = time.perf_counter(), time.process_time()
     running = Running(instance, schedule, outputs)
@@ -54,7 +55,8 @@ def run(
 class Running:
     """A run of a schedule on an instance, step by step; `rows` are the outputs read so far.
 
-    `first` are the inputs and tuned parameters with which the instance must be started.
+    `first` are the inputs and tuned parameters with which the instance must be started. Raises
+    NotApplicable for a schedule with ramps that it interpolates, on an FMU that cannot.
     """
 
     def __init__(
@@ -64,6 +66,10 @@ class Running:
         self.outputs = instance.fmu.outputs if outputs is None else tuple(outputs)
         self.rows: list[list[float]] = []
         self.inputs: Array = schedule.sampled()
+        self._rates = schedule.rates()
+        self._ramps = schedule.ramps
+        if self._ramps:
+            instance.fmu.require("canInterpolateInputs")
         self._tuned = schedule.tuned()
         self._schedule = schedule
         self._times = schedule.times.tolist()
@@ -108,6 +114,8 @@ class Running:
             self._set_values(step)
             if self._schedule.reads_twice:
                 self.read()
+        elif step == 0 and self._ramps:
+            self.instance.set_input_rates(self._rates[0].tolist())
         if before is not None:
             before()
         start, target = self._schedule.start_time, self._times[step + 1]
@@ -120,6 +128,8 @@ class Running:
 
     def _set_values(self, step: int) -> None:
         self.instance.set_inputs(self.inputs[step].tolist())
+        if self._ramps:
+            self.instance.set_input_rates(self._rates[step].tolist())
         if self._schedule.tuning:
             if self._tunables is None:
                 self._tunables = self.instance.block(list(self._schedule.tuning))

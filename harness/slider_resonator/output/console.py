@@ -80,6 +80,13 @@ def counted(label: str, done: int, total: int) -> str:
     return f"{min(done + 1, total)} of {total}: {label}"
 
 
+def part_of(
+    progress: Callable[[str, float], None], index: int, count: int
+) -> Callable[[str, float], None]:
+    """Return what reports the progress of part `index` of `count` equal parts of the work."""
+    return lambda label, share: progress(label, (index + share) / count)
+
+
 def time_left(elapsed: float, share: float) -> str:
     """Return the time that is left after `elapsed` (s), as if all work were as fast."""
     if not share >= MIN_SHARE:
@@ -88,6 +95,21 @@ def time_left(elapsed: float, share: float) -> str:
     minutes, seconds = divmod(seconds, 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02}:{seconds:02} left" if hours else f"{minutes}:{seconds:02} left"
+
+
+BAR = 10
+"""Columns of the bar."""
+MIN_WIDTH_FOR_BAR = 80
+TIMES = len("0:00:00 00:00:00 left") + 4
+"""Columns of the times beside a label, with those between."""
+
+
+def shortened(label: str, room: int) -> str:
+    """Return a label that stays on its line: in the middle of one that is longer stand dots."""
+    if len(label) <= room:
+        return label
+    end = room // 2
+    return f"{label[: room - end - 1]}\N{HORIZONTAL ELLIPSIS}{label[len(label) - end :]}"
 
 
 class _TimeLeftColumn(ProgressColumn):
@@ -104,14 +126,17 @@ def progress_bar() -> Iterator[Callable[[str, float], None]]:
     if not sys.stderr.isatty():
         yield lambda label, share: None
         return
+    console = Console(stderr=True)
+    bar = BarColumn(bar_width=BAR) if console.width >= MIN_WIDTH_FOR_BAR else TextColumn("")
     columns = (
         TextColumn("{task.description}", markup=False),
-        BarColumn(bar_width=10),
+        bar,
         TimeElapsedColumn(),
         _TimeLeftColumn(),
     )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+    room = console.width - TIMES - (BAR if isinstance(bar, BarColumn) else 0)
+    with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task("", total=1.0)
         yield lambda label, share: progress.update(
-            task, description=one_line(label), completed=share
+            task, description=shortened(one_line(label), room), completed=share
         )

@@ -1,15 +1,24 @@
 "use strict";
 const INK = "#546e7a";
-const MAX_DISTANCE = 30;  // px from the pointer within which a point is shown
+const MAX_DISTANCE = 30;  // px from pointer or finger within which a point is shown
 
 function shortNumber(value) {
   const size = Math.abs(value);
   return size === 0 || (size >= 1e-3 && size < 1e5) ? String(+value.toPrecision(6)) : value.toExponential(3).replace(/\.?0+e/, "e");
 }
 
-function axisOf({ label }, extra) {
+const isDecade = (value) => value > 0 && Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
+
+/** Keep the lines at powers of ten where there are more than a few of them. */
+function decadesOf(plot, splits) {
+  const decades = splits.map((value) => (isDecade(value) ? value : null));
+  return decades.filter((value) => value !== null).length > 4 ? decades : splits;
+}
+
+function axisOf({ label, log }, extra) {
   const values = (plot, splits) => splits.map((value) => (value === null ? "" : shortNumber(value)));
-  return { label, values, stroke: INK, grid: { stroke: "#eceff1" }, labelSize: 20, ...extra };
+  const lines = log ? { filter: decadesOf } : {};
+  return { label, values, stroke: INK, grid: { stroke: "#eceff1", ...lines }, ticks: lines, labelSize: 20, ...extra };
 }
 
 /** Return the columns of uPlot: all x in ascending order, and for each series its y or null. */
@@ -41,7 +50,8 @@ function drawCells(ctx, places, colours) {
   places.forEach(([x, y], i) => {
     const [[left, right], [top, bottom]] = [columns.get(x), rows.get(y)];
     ctx.fillStyle = colours[i];
-    ctx.fillRect(left, top, Math.ceil(right - left), Math.ceil(bottom - top));
+    const [x0, y0] = [Math.floor(left), Math.floor(top)];
+    ctx.fillRect(x0, y0, Math.ceil(right) - x0, Math.ceil(bottom) - y0);
   });
 }
 
@@ -80,15 +90,20 @@ function drawAll(plot, series) {
   ctx.restore();
 }
 
-/** Return series and index of the point nearest to the pointer, null where none is near. */
-function nearest(plot, series) {
-  const { left, top } = plot.cursor;
+/** Return the place of a point in CSS pixels from the corner of the plot. */
+function placeInPlot(plot, one, i) {
+  const [x, y] = placeOf(plot, one, i);
+  return [(x - plot.bbox.left) / uPlot.pxRatio, (y - plot.bbox.top) / uPlot.pxRatio];
+}
+
+/** Return series and index of the point nearest to a place, null where none is near. */
+function nearest(plot, series, left, top) {
   let [found, best] = [null, series.some(({ cells }) => cells) ? Infinity : MAX_DISTANCE];
   series.forEach((one, column) => {
-    if (!plot.series[column + 1].show || left < 0) return;
+    if (!plot.series[column + 1].show) return;
     one.x.forEach((_, i) => {
-      const [x, y] = placeOf(plot, one, i);
-      const distance = Math.hypot((x - plot.bbox.left) / uPlot.pxRatio - left, (y - plot.bbox.top) / uPlot.pxRatio - top);
+      const [x, y] = placeInPlot(plot, one, i);
+      const distance = Math.hypot(x - left, y - top);
       if (distance < best) [found, best] = [[one, i], distance];
     });
   });
@@ -100,19 +115,85 @@ function describe({ x, y }, [one, i]) {
   return [one.label, value(x, one.x[i]), value(y, one.y[i]), one.notes[i]].filter(Boolean).join("\n");
 }
 
-function showTip(plot, spec, tip) {
-  const found = nearest(plot, spec.series);
+/** Show what a point, series and index, says beside it; null hides the text. */
+function showTip(plot, spec, tip, found) {
   tip.hidden = found === null;
   if (found === null) return;
   tip.textContent = describe(spec, found);
-  const { left, top } = plot.cursor;
+  const [left, top] = placeInPlot(plot, ...found);
   const { clientWidth, clientHeight } = plot.over;
-  tip.style.left = `${Math.max(0, left + 14 + tip.offsetWidth > clientWidth ? left - tip.offsetWidth - 14 : left + 14)}px`;
+  const beside = left + 14 + tip.offsetWidth > clientWidth ? left - tip.offsetWidth - 14 : left + 14;
+  tip.style.left = `${Math.max(0, Math.min(beside, clientWidth - tip.offsetWidth))}px`;
   tip.style.top = `${Math.max(0, Math.min(top, clientHeight - tip.offsetHeight))}px`;
+}
+
+const KEYS = { ArrowLeft: ["x", -1], ArrowRight: ["x", 1], ArrowUp: ["y", 1], ArrowDown: ["y", -1] };
+
+/** Return the indices of a series as an arrow passes them: in the row or column of a cell. */
+function passed({ x, y, cells }, axis, i) {
+  const [along, across] = axis === "x" ? [x, y] : [y, x];
+  const all = x.map((_, index) => index).filter((index) => !cells || across[index] === across[i]);
+  return all.sort((one, other) => along[one] - along[other]);
+}
+
+/** Return the point that a key leads to: along the series, or to the next series. */
+function next(plot, series, found, key) {
+  const shown = series.filter((one, i) => plot.series[i + 1].show && one.x.length > 0);
+  if (shown.length === 0) return null;
+  if (found === null || !shown.includes(found[0])) return [shown[0], passed(shown[0], "x", 0)[0]];
+  const [one, i] = found;
+  const [axis, step] = KEYS[key];
+  if (axis === "x" || one.cells) {
+    const order = passed(one, axis, i);
+    return [one, order[Math.max(0, Math.min(order.indexOf(i) + step, order.length - 1))]];
+  }
+  const other = shown[(shown.indexOf(one) - step + shown.length) % shown.length];
+  const distances = other.x.map((x) => Math.abs(plot.valToPos(x, "x") - plot.valToPos(one.x[i], "x")));
+  return [other, distances.indexOf(Math.min(...distances))];
+}
+
+/** Let a mouse, a finger and the arrow keys lead from point to point. */
+function tellPoints(plot, spec, tip) {
+  const { over } = plot;
+  let found = null;
+  const show = (point) => showTip(plot, spec, tip, found = point);
+  const follow = ({ clientX, clientY }) => {
+    const { left, top } = over.getBoundingClientRect();
+    show(nearest(plot, spec.series, clientX - left, clientY - top));
+  };
+  over.addEventListener("pointerdown", follow);
+  over.addEventListener("pointermove", follow);
+  over.addEventListener("pointerleave", ({ pointerType }) => pointerType === "mouse" && show(null));
+  over.addEventListener("blur", () => show(null));
+  over.addEventListener("keydown", (event) => {
+    if (event.key in KEYS) show(next(plot, spec.series, found, event.key));
+    else if (event.key === "Escape") show(null);
+    else return;
+    event.preventDefault();
+  });
+  over.tabIndex = 0;
+  over.setAttribute("role", "application");
+  over.setAttribute("aria-label", `${spec.title}: ${spec.y.label} over ${spec.x.label}; arrow keys tell its points`);
+  tip.setAttribute("role", "status");
+  over.append(tip);
 }
 
 function scaleOf({ log, range }) {
   return { time: false, ...(log ? { distr: 3 } : {}), ...(range ? { range: () => range } : {}) };
+}
+
+/** Return how a series looks, for the legend: its marker, on its line. */
+function sampleOf({ marker, colour, width, dash }) {
+  const sample = document.createElement("span");
+  sample.className = "sample";
+  sample.style.color = colour;
+  sample.textContent = marker || "\u00a0";
+  if (width > 0) {
+    const line = document.createElement("i");
+    line.style.borderTop = `${Math.max(1.5, width)}px ${dash.length ? "dashed" : "solid"}`;
+    sample.append(line);
+  }
+  return sample;
 }
 
 function draw(box) {
@@ -125,18 +206,15 @@ function draw(box) {
     scales: { x: scaleOf(spec.x), y: scaleOf(spec.y) },
     axes: [axisOf(spec.x, { size: 34 }), axisOf(spec.y, { size: 64 })],
     cursor: { points: { show: false }, drag: { x: true, y: true, uni: 20 } },
-    legend: { live: false, markers: { show: false } },
-    series: [{}, ...spec.series.map(({ label, marker, colour }) => {
+    legend: { show: !spec.series.every(({ cells }) => cells), live: false, markers: { show: false } },
+    series: [{}, ...spec.series.map((one) => {
       const shown = document.createElement("span");
-      const sample = document.createElement("span");
-      [shown.textContent, sample.textContent] = [` ${label}`, marker || "\u2501"];
-      sample.style.color = colour;
-      shown.prepend(sample);
-      return { label: shown, stroke: colour, paths: () => null, points: { show: false } };
+      shown.append(sampleOf(one), one.label);
+      return { label: shown, stroke: INK, paths: () => null, points: { show: false } };
     })],
-    hooks: { draw: [(self) => drawAll(self, spec.series)], setCursor: [(self) => showTip(self, spec, tip)] },
+    hooks: { draw: [(self) => drawAll(self, spec.series)] },
   }, columnsOf(spec.series), box);
-  plot.over.append(tip);
+  tellPoints(plot, spec, tip);
   box.dataset.drawn = "true";
   window.addEventListener("resize", () => plot.setSize({ width: width(), height: spec.height }));
 }

@@ -1,4 +1,7 @@
-"""Plots in HTML pages whose points can be hovered, drawn by uPlot from data in the page."""
+"""Plots in HTML pages whose points say what they are, drawn by uPlot from data in the page.
+
+A mouse or a finger near a point, or the arrow keys on a plot in focus, show its text.
+"""
 
 from __future__ import annotations
 
@@ -108,7 +111,11 @@ def _printable(value: object) -> object:
 
 _STYLE = """
 figure { margin: 1rem 0 } figcaption { font-weight: 600 } .plot { min-height: 12rem }
-.u-legend { font-size: 12px; text-align: left }
+.u-legend { font-size: 12px; text-align: left } .u-legend .u-label { font-weight: 400; color: #222 }
+.sample { position: relative; display: inline-block; min-width: 2em; text-align: center;
+  margin-right: .4em }
+.sample i { position: absolute; left: 0; right: 0; top: 50%; transform: translateY(-50%) }
+.u-over { touch-action: pan-y pinch-zoom } .u-over:focus-visible { outline: 2px solid #1f5f8b }
 .tip { position: absolute; z-index: 2; pointer-events: none; white-space: pre-line;
   max-width: 26rem; padding: .3rem .5rem; font-size: 12px; background: #fffffff0;
   border: 1px solid #90a4ae }

@@ -14,13 +14,16 @@ from slider_resonator.output.table import Cell, Column, Style, Table
 
 _STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
-  color: #222 }
+  color: #222; overflow-wrap: break-word }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
+th, td { overflow-wrap: normal }
 th, td { text-align: left; padding: .2rem .6rem; border-bottom: 1px solid #ddd }
-.n { text-align: right; white-space: nowrap }
+.n { text-align: right } .n, .lines { white-space: nowrap }
 .pass { color: #1a7f37 } .fail { color: #b3261e; font-weight: 600 } .note { color: #666 }
 .heading { font-weight: 600 }
-.wide { overflow-x: auto } .wide table { width: 100% }
+.wide { overflow-x: auto; margin: .8rem 0 }
+@media (max-width: 50rem) {
+  td:not(.n) { min-width: 7rem } td:last-child:not(.n) { min-width: 14rem } }
 img { max-width: 100% } summary { cursor: pointer; margin: 1rem 0 }
 pre { background: #f6f6f6; padding: .6rem; overflow-x: auto; font-size: 12px }
 """
@@ -32,15 +35,16 @@ def escaped(text: str) -> str:
 
 
 def rendered(table: Table) -> str:
-    """Return the table as HTML."""
+    """Return the table as HTML, which scrolls by itself where the page is narrower."""
     head = "".join(_element("th", Cell(column.heading), column) for column in table.columns)
     body = "\n".join(f"<tr>{_row(row, table.columns)}</tr>" for row in table.cells)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>"
+    rows = f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody>"
+    return f'<div class="wide"><table>{rows}</table></div>'
 
 
 def folded(summary: str, html: str) -> str:
     """Return HTML, such as a wide table, that a click on the summary unfolds."""
-    return f'<details><summary>{escaped(summary)}</summary><div class="wide">{html}</div></details>'
+    return f"<details><summary>{escaped(summary)}</summary>{html}</details>"
 
 
 def write_page(
@@ -87,8 +91,8 @@ def _row(row: Sequence[Cell], columns: Sequence[Column]) -> str:
 
 
 def _element(tag: str, cell: Cell, column: Column) -> str:
-    number = ' class="n"' if column.numeric else ""
-    return f"<{tag}{number}>{_text(cell)}</{tag}>"
+    kind = ' class="n"' if column.numeric else ' class="lines"' if "\n" in cell.text else ""
+    return f"<{tag}{kind}>{_text(cell)}</{tag}>"
 
 
 def _text(cell: Cell) -> str:

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Sequence
+from math import isfinite
 from pathlib import Path
+
+SEPARATORS = (";", "\t", "|")
+"""What other programs write for the comma between two columns."""
 
 
 def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
@@ -16,9 +21,21 @@ def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
             rows = list(csv.reader(file))
     except OSError as error:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise ValueError(f"csv {path}: {error}; must be UTF-8 text") from error
+    except csv.Error as error:
+        raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
     header = [name.strip() for name in rows[0]] if rows else []
+    found = [one for one in SEPARATORS if any(one in name for name in header)]
+    if found:
+        raise ValueError(
+            f"csv {path}: the header is {rows[0]}: a comma must be between two columns, not "
+            f"{found[0]!r}"
+        )
     if not header or header[0] != "time":
-        raise ValueError(f"csv {path}: the first column must be 'time', the header is {header}")
+        raise ValueError(
+            f"csv {path}: the header is {header}: it must begin with 'time', then the values"
+        )
     name = column if column in header else "value"
     if name not in header:
         raise ValueError(f"csv {path}: no column {column!r} or 'value', only {header[1:]}")
@@ -26,7 +43,18 @@ def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
     points = []
     for line, row in enumerate(rows[1:], start=2):
         try:
-            points.append((float(row[0]), float(row[index])))
-        except (IndexError, ValueError) as error:
-            raise ValueError(f"csv {path} line {line}: {row} has no number there") from error
+            points.append((_number("time", row, 0), _number(name, row, index)))
+        except ValueError as error:
+            raise ValueError(f"csv {path} line {line}: {error}") from error
     return points
+
+
+def _number(name: str, row: Sequence[str], index: int) -> float:
+    text = row[index].strip() if index < len(row) else ""
+    try:
+        number = float(text)
+    except ValueError:
+        number = float("nan")
+    if not isfinite(number):
+        raise ValueError(f"{name} = {text!r}: must be a finite number")
+    return number

@@ -10,6 +10,7 @@ from pydantic import Field, field_validator, model_validator
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.key_table import (
     KeyTable,
+    Line,
     NotNegative,
     Number,
     exactly_one,
@@ -56,7 +57,7 @@ class ExpectTable(KeyTable):
     tube: Annotated[float, Field(strict=True, gt=0.0, lt=MAX_TUBE)] | None = key(
         "allowed shift in time", 0.01, unit="drive periods"
     )
-    why: str = required(
+    why: Line = required(
         "the reason for the expectation, for the report", "the step must arrive when it is due"
     )
 
@@ -105,10 +106,9 @@ class ExpectTable(KeyTable):
                 raise ValueError(f"{self.quantity} needs a tube, a share of the period, alone")
             return
         if self.tube is not None and self.reference not in quantity.tube_references:
-            allowed = ", ".join(quantity.tube_references) or "none"
-            raise ValueError(
-                f"tube = {self.tube!r}: references of {self.quantity} that allow one: {allowed}"
-            )
+            by = " or ".join(quantity.tube_references)
+            only = f"only against {by}" if by else "with no reference: delete the key"
+            raise ValueError(f"tube = {self.tube!r}: {self.quantity} can have one {only}")
         signal = quantity.kind == "signal"
         alone = quantity.exact or not self.relative > 0.0
         if signal and "absolute" in self.model_fields_set and alone:

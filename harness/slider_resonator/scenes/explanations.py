@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from datetime import date, time
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from slider_resonator.device.interface import (
+    INPUTS,
+    INTEGERS,
+    OUTPUTS,
+    PARAMETERS,
+    TUNABLES,
+    VARIABLES,
+)
 from slider_resonator.errors import unknown_name
-from slider_resonator.scenes.schema import SceneTable
+from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
+from slider_resonator.scenes.key_table import NAMED
+from slider_resonator.scenes.schema import RunTable, SceneTable
 from slider_resonator.scenes.toml_text import toml_value
 
 _REQUIREMENTS: Mapping[str, str] = {
@@ -22,6 +33,7 @@ _REQUIREMENTS: Mapping[str, str] = {
     "less_than": "a number below {lt:g}",
     "literal_error": "{expected}",
     "model_type": "a table of keys and values",
+    "string_too_short": "a text that is not empty",
     "string_pattern_mismatch": "a word of letters, digits, _ and -",
     "string_type": "a text in quotes",
     "too_long": "a list of {max_length} numbers",
@@ -35,9 +47,28 @@ _NUMBERS = ("finite_number", "float_type", "greater_than", "greater_than_equal",
 """Types of error for which the unit of a key is worth a word."""
 
 
+PLACES: Mapping[str, str] = {
+    **dict.fromkeys(OUTPUTS, "an output cannot be set"),
+    **dict.fromkeys(PARAMETERS, "a parameter must be in [device]"),
+    **dict.fromkeys(TUNABLES, "a tunable parameter must be in [device] or in [tuning]"),
+    **dict.fromkeys(INPUTS, "an input must be in [inputs]"),
+    **dict.fromkeys(RunTable.model_fields, "must be in [run]"),
+    **dict.fromkeys(SceneTable.model_fields, "must be above the first heading"),
+}
+"""Where a key belongs that stands in a table which does not have it."""
+
+
 def explanations(source: str, error: ValidationError) -> list[str]:
-    """Return one line per error: file, key path, value and requirement."""
-    return [f"{source}: {_explanation(problem)}" for problem in error.errors()]
+    """Return one line per error: file, key path, value and requirement.
+
+    Of the errors of one kind in a list only the first is reported.
+    """
+    first: dict[tuple[object, ...], ErrorDetails] = {}
+    for problem in error.errors():
+        place = problem["loc"]
+        in_list = bool(place) and isinstance(place[-1], int)
+        first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
+    return [f"{source}: {_explanation(problem)}" for problem in first.values()]
 
 
 def _explanation(problem: ErrorDetails) -> str:
@@ -46,8 +77,10 @@ def _explanation(problem: ErrorDetails) -> str:
     key, kind = _key_path(location), problem["type"]
     if not location:
         return problem["msg"].removeprefix("Value error, ")
+    if kind == NAMED:
+        return f"{key}.{problem['msg']}"
     if kind == "extra_forbidden":
-        return f"{key}: {unknown_name('key', str(location[-1]), _table_at(location).model_fields)}"
+        return f"{key}: {_unknown_key(location)}"
     if kind == "missing" and isinstance(location[-1], int):
         return f"{_key_path(location[:-1])}: must be a pair [time (s), value]"
     field = _field_at(location)
@@ -55,18 +88,46 @@ def _explanation(problem: ErrorDetails) -> str:
         example = f"; add {location[-1]} = {toml_value(field.examples[0])}" if field else ""
         return f"{key}: is missing{example}"
     value = problem["input"]
-    shown = "" if isinstance(value, dict) else f" = {value!r}"
+    shown = "" if isinstance(value, dict) else f" = {_shown(value)}"
     wrong = problem["msg"].removeprefix("Value error, ")
     if kind in _REQUIREMENTS:
         wrong = "must be " + _REQUIREMENTS[kind].format(**problem.get("ctx", {}))
-        wrong += _in_unit(field) if kind in _NUMBERS else ""
+        wrong += _in_unit(location, field) if kind in _NUMBERS else ""
     if location == ("expect",):
         wrong = "must be a list of tables, each headed [[expect]]"
+    if _is_point(location):
+        wrong = "must be a pair [time (s), value]"
+    if problem["loc"][-1] == "constant" and isinstance(value, list):
+        wrong = (
+            "must be a number, or values over time such as { steps = [[0.0, 0.0], [0.05, 0.04]] }"
+        )
     return f"{key}{shown}: {wrong}"
 
 
-def _in_unit(field: Any) -> str:
+def _unknown_key(location: tuple[int | str, ...]) -> str:
+    name, known = str(location[-1]), _table_at(location).model_fields
+    below_top = len(location) > 1
+    if name in PLACES and (below_top or name not in SceneTable.model_fields):
+        return f"unknown key {name!r}; {PLACES[name]}"
+    return unknown_name("key", name, known)
+
+
+def _is_point(location: tuple[int | str, ...]) -> bool:
+    """Whether a location is a pair in the list `steps` or `ramp`."""
+    return len(location) > 1 and location[-2] in ("steps", "ramp") and isinstance(location[-1], int)
+
+
+def _shown(value: object) -> str:
+    return str(value) if isinstance(value, date | time) else repr(value)
+
+
+def _in_unit(location: tuple[int | str, ...], field: Any) -> str:
+    name = str(location[-1])
+    if "device" in location and name in INTEGERS:
+        return f": {PARAMETER_MEANINGS[name]}"
     unit = (field.json_schema_extra or {}).get("unit", "1") if field else "1"
+    if "device" in location and name in PARAMETERS:
+        unit = VARIABLES[name].unit or "1"
     return f", in {unit}" if unit not in ("1", "unit of the quantity") else ""
 
 

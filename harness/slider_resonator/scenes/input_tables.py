@@ -31,6 +31,8 @@ class InputTable(KeyTable):
         "the end of the run: a run that goes beyond them is refused.",
         "`column` and `between` belong to a `csv`.",
         "A jump is a communication point: no step goes over it.",
+        "Straight lines are sampled at communication points and held until the next, unless [run] "
+        "says `interpolate`.",
     )
 
     constant: Number | None = key("value throughout the run", 0.4)

@@ -5,15 +5,21 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
-from slider_resonator.device.interface import PARAMETERS
+from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
 NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
+Line = Annotated[str, Field(min_length=1)]
 Point = tuple[Number, Number]
+
+
+NAMED = "named"
+"""The type of an error whose text begins with the key in the table where it is found."""
 
 
 class KeyTable(BaseModel):
@@ -46,9 +52,14 @@ def exactly_one(table: str, given: list[str], choices: str) -> None:
 
 
 def checked_device(device: dict[str, float]) -> dict[str, float]:
-    """Return the parameters; ValueError for an unknown name or an impossible value."""
+    """Return the parameters; an error of kind `NAMED` for an unknown name or impossible value."""
     for name, value in device.items():
-        if name not in PARAMETERS:
-            raise ValueError(unknown_name("parameter", name, PARAMETERS))
-        check_value(name, value)
+        try:
+            if name in INPUTS:
+                raise ValueError(f"{name}: is an input: must be in [inputs]")
+            if name not in PARAMETERS:
+                raise ValueError(f"{name}: {unknown_name('parameter', name, PARAMETERS)}")
+            check_value(name, value)
+        except ValueError as error:
+            raise PydanticCustomError(NAMED, "{text}", {"text": str(error)}) from error
     return device

@@ -55,6 +55,7 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
             _forces(axes[4], record, period)
         for panel, index in zip(axes[len(heights) - len(varying) :], varying, strict=True):
             _input(panel, record, times, unit, index)
+        figure.align_ylabels(axes)
         with replacing(path) as temporary:
             save(figure, temporary)
 
@@ -75,7 +76,7 @@ def _position(axes: Axes, record: Record, times: Array) -> None:
 def _velocity(axes: Axes, record: Record, times: Array, unit: str) -> None:
     axes.plot(times, 1e3 * record["mean_velocity"], color=COLOURS["slow"], label="mean velocity")
     predicted = 1e3 * record["steady_velocity"]
-    axes.plot(times, predicted, "--", color=COLOURS["theory"], label="steady, averaged theory")
+    axes.plot(times, predicted, "--", color=COLOURS["theory"], label="steady, for these inputs")
     axes.set(xlabel=f"time [{unit}]", ylabel="velocity [mm/s]", xlim=(times[0], times[-1]))
     axes.legend()
 

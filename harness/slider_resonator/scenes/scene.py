@@ -134,7 +134,9 @@ class Scene:
                 "scenes shows which can"
             )
         assert self.run is not None
-        plan = schedule(self.stop_time, self._steps, self.tuning, **self.signals)
+        plan = schedule(
+            self.stop_time, self._steps, self.tuning, self.run.interpolate, **self.signals
+        )
         return replace(plan, start_time=self.start_time, reads_twice=self.run.read_twice)
 
     def check_plain(self, command: str) -> None:
@@ -169,6 +171,12 @@ class Scene:
         step = {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
         return replace(self, run=self.run.model_copy(update=step))
 
+    def interpolating(self, interpolate: bool) -> Scene:
+        """Return the scene with straight lines of inputs passed on as derivatives, or held."""
+        if self.run is None:
+            return self
+        return replace(self, run=self.run.model_copy(update={"interpolate": interpolate}))
+
     def points(self) -> tuple[ScenePoint, ...]:
         """Return the points of the sweep, or without a sweep the scene as its only point."""
         if self.sweep is None:
@@ -195,7 +203,7 @@ def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
     """
     source = str(path)
     try:
-        text = path.read_bytes().decode()
+        text = path.read_bytes().decode("utf-8-sig")
         content = tomllib.loads(text)
     except OSError as error:
         raise SceneError(f"{source}: cannot be read: {error.strerror}") from error
@@ -256,12 +264,19 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
         if table.ramp is not None:
             return ramp(table.ramp)
         if table.csv is not None:
-            points = csv_points(folder / table.csv, table.column or name)
-            signal = steps(points) if table.between == "hold" else ramp(points)
-            return replace(signal, file=folder / table.csv)
+            return _csv_signal(folder / table.csv, table.column or name, table.between)
         return constant(table.constant or 0.0)
     except ValueError as error:
         raise SceneError(f"{where}: {error}") from error
+
+
+def _csv_signal(path: Path, column: str, between: str) -> Signal:
+    points = csv_points(path, column)
+    try:
+        signal = steps(points) if between == "hold" else ramp(points)
+    except ValueError as error:
+        raise ValueError(f"csv {path}: {error}") from error
+    return replace(signal, file=path)
 
 
 def built_in_scenes() -> dict[str, Path]:

@@ -14,6 +14,7 @@ from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import BesideTable, InputsTable, TuningTable
 from slider_resonator.scenes.key_table import (
     KeyTable,
+    Line,
     Number,
     Positive,
     checked_device,
@@ -32,6 +33,9 @@ class RunTable(KeyTable):
         "Exactly one of `stop_time` and `drive_periods`.",
         "Exactly one of `step_size`, `steps_per_period` and `step_sizes`.",
         "A run has at most 3 000 000 steps.",
+        "Without `interpolate` inputs are sampled at each communication point and held until the "
+        "next, in any FMU. With it their corners are communication points, too; what is expected "
+        "of the run does not apply to an FMU without `canInterpolateInputs`.",
         "Without [run] only quantities of the steady motion can be expected.",
     )
 
@@ -56,6 +60,12 @@ class RunTable(KeyTable):
         default=False,
     )
 
+    interpolate: Annotated[bool, Field(strict=True)] = key(
+        "pass straight lines of inputs on, as derivatives: `ramp`, and `csv` with `between` linear",
+        True,
+        default=False,
+    )
+
     @model_validator(mode="after")
     def _one_of_each(self) -> RunTable:
         lengths = ("stop_time", "drive_periods")
@@ -68,7 +78,9 @@ class RunTable(KeyTable):
 class SweepTable(KeyTable):
     """One parameter or input and its values; every expectation must hold at each."""
 
-    rules: ClassVar[tuple[str, ...]] = ("At least one value.",)
+    rules: ClassVar[tuple[str, ...]] = (
+        "At least one value. Without the sweep the variable must be constant in the run.",
+    )
 
     variable: str = Field(
         description="the parameter or input that varies",
@@ -112,7 +124,7 @@ class SceneTable(KeyTable):
         description="name in reports: letters, digits, _ and -",
         examples=["my_step"],
     )
-    title: str = required("one line for lists and plots", "The load steps up")
+    title: Line = required("one line for lists and plots", "The load steps up")
     description: str = key("what the scene shows, and why", "A step of load.", default="")
     device: dict[str, Number] = Field(
         default={},
@@ -155,6 +167,11 @@ class SceneTable(KeyTable):
                 )
             if self.run is None:
                 raise ValueError(f"tuning.{name} is for a run: [run] is missing")
+        if self.sweep and self.sweep.variable in self._changing():
+            raise ValueError(
+                f"sweep.variable = {self.sweep.variable!r}: changes in the run; must be one whose "
+                "value is constant"
+            )
         for index, expect in enumerate(self.expect):
             quantity, key = QUANTITIES[expect.quantity], f"expect[{index}]: {expect.quantity}"
             if quantity.needs_run and self.run is None:
@@ -171,6 +188,9 @@ class SceneTable(KeyTable):
         return self
 
     def _constant(self) -> bool:
-        inputs = (self.inputs.phase, self.inputs.load, self.inputs.frequency_ratio)
-        tables = (*inputs, *self.tuning.given.values())
-        return all(table.constant is not None for table in tables)
+        return not self._changing()
+
+    def _changing(self) -> list[str]:
+        """Return the names of the inputs and parameters that change in the run."""
+        tables = {name: getattr(self.inputs, name) for name in INPUTS} | self.tuning.given
+        return [name for name, table in tables.items() if table.constant is None]

@@ -6,13 +6,29 @@ import re
 from collections.abc import Callable
 
 _LINE = re.compile(r"\(at line (\d+), column \d+\)$")
-_DECIMAL_COMMA = re.compile(r"=\s*([-+]?\d+),(\d+)\s*(#.*)?$")
-_BARE_WORD = re.compile(r"=\s*[A-Za-z]")
 
 MAX_SHOWN = 60
 """Characters of the line that are shown."""
 
 _NAME_AND_VALUE = "must be key = value, or a heading such as [run]"
+
+_NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
+_HABITS: tuple[tuple[str, str], ...] = (
+    (r"=\s*([-+]?\d+),(\d+)\s*(#.*)?$", r"a number has a decimal point: write \1.\2"),
+    (r"^(;|//|--|%|/\*)", "a comment begins with #"),
+    (r"=[^\[{]*[^\[{,;\s]\s*([,;])\s*(#.*)?$", r"nothing follows a value: delete the \1"),
+    (r"([“”„‘’«»])", 'quotes are straight: write "'),
+    (r"([−–])\s*[\d.]", "a minus sign is -"),
+    (r"=\s*([-+]?)(\.\d\S*)", r"a number begins with a digit: write \g<1>0\2"),
+    (r"=\s*([-+]?\d+\.)\s*(#.*)?$", r"a number ends with a digit: write \g<1>0"),
+    (r"=\s*(?i:true|yes|on)\s*(#.*)?$", "write true"),
+    (r"=\s*(?i:false|no|off)\s*(#.*)?$", "write false"),
+    (rf"=\s*({_NUMBER})\s*[A-Za-z%°/]+\s*(#.*)?$", r"a number stands without its unit: write \1"),
+    (r"=\s*[\w.()]+\s*[*/^+-]\s*[-+\w.(]", "nothing is computed: write the number, such as 1e-3"),
+    (r"^([A-Za-z]\w*) +(\w+)\s*=", r"a key has no blanks: did you mean \1_\2?"),
+    (r"=\s*\{\s*(#.*)?$", "a table in braces is on one line: close the brace there"),
+)
+"""What other notations have at this place, as a pattern of the line; the remedy."""
 
 
 def toml_mistake(text: str, error: str) -> str:
@@ -41,15 +57,19 @@ _REMEDIES: tuple[tuple[Callable[[str, str], bool], str], ...] = (
         lambda error, _: "overwrite" in error or "twice" in error or "mutate" in error,
         "must be there once: delete one",
     ),
-    (lambda error, _: "table declaration" in error, "close the bracket, as in [run]"),
+    (lambda error, _: "declaration" in error, "close the bracket, as in [run] or [[expect]]"),
+    (
+        lambda error, line: "\\" in line and ("hex value" in error or "Unescaped" in error),
+        "a path in quotes is written with /",
+    ),
     (lambda error, line: "Unclosed" in error or _opened(line) > 0, "close the bracket"),
     (
         lambda error, line: "Illegal character" in error or line.count('"') % 2 == 1,
         "close the quotes",
     ),
     (
-        lambda error, line: "Invalid value" in error and bool(_BARE_WORD.search(line)),
-        'a text needs quotes, as in "my_step"; true and false are small',
+        lambda error, line: "Invalid value" in error and bool(re.search(r"=\s*[A-Za-z]", line)),
+        'a text needs quotes, as in "my_step"',
     ),
     (lambda error, _: "Invalid value" in error, "must be a number, a text in quotes or a list"),
 )
@@ -57,7 +77,8 @@ _REMEDIES: tuple[tuple[Callable[[str, str], bool], str], ...] = (
 
 
 def _remedy(error: str, line: str) -> str:
-    comma = _DECIMAL_COMMA.search(line)
-    if comma:
-        return f"a number has a decimal point: write {comma[1]}.{comma[2]}"
+    for habit, remedy in _HABITS:
+        found = re.search(habit, line)
+        if found:
+            return found.expand(remedy)
     return next((text for fits, text in _REMEDIES if fits(error, line)), _NAME_AND_VALUE)

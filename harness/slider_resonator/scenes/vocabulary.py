@@ -169,6 +169,9 @@ QUANTITIES: Mapping[str, Quantity] = {
         "mean velocity over the last whole drive period before each point, first since the start",
         *(*RESOLVED, *AVERAGED),
     ),
+    "travelled_velocity": _number_of_run(
+        "m/s", "travel of the slider over the last step of the run, by its time"
+    ),
     "centre_velocity": _signal(
         "m/s",
         "velocity of slider and resonator as one mass, X' + r_m Y': without the resonator's swing",
@@ -231,6 +234,9 @@ QUANTITIES: Mapping[str, Quantity] = {
     ),
     "overwritten_differences": _count(
         "outputs of the run that differ where other and refused values are set before each value"
+    ),
+    "separate_differences": _count(
+        "outputs of the run that differ where each value that changes is set by a call of its own"
     ),
     "reading_differences": _count(
         "outputs of the run that differ where everything is read again between the calls"

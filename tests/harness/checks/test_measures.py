@@ -8,7 +8,7 @@ import pytest
 from slider_resonator.checks.measures.deviation import mismatch_share, peak, share_of
 from slider_resonator.checks.measures.frequency import dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
-from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.checks.measures.slow import slow_displacement, travelled_velocity
 from slider_resonator.checks.measures.tube import Tube, no_tube
 
 PERIOD = 0.002
@@ -116,3 +116,8 @@ def test_without_width_it_is_the_difference() -> None:
 def test_what_is_no_number_is_never_inside() -> None:
     assert np.isnan(TUBE.outside(np.array([np.nan, 1.0, 0.0]))[0])
     assert TUBE.outside(np.array([0.0, np.inf, 0.0]))[1] == np.inf
+
+
+def test_the_travel_of_the_last_step_alone_counts() -> None:
+    times = np.array([0.0, 0.1, 0.3, 0.5])
+    assert travelled_velocity(times, np.array([5.0, 1.0, 2.0, 2.5])) == pytest.approx(2.5)

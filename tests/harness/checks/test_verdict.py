@@ -2,7 +2,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from slider_resonator.checks.verdict import sentence, title
+from slider_resonator.checks.compare import AT_LEAST, AT_MOST
+from slider_resonator.checks.verdict import CALLED, called, measure_of, sentence, title
+from slider_resonator.scenes.vocabulary import REFERENCES
 from tests.harness.verdicts import BOUND, NONE, SIGNAL, SLOWER, WORD
 
 
@@ -36,3 +38,24 @@ def test_the_sentence_of_a_value_that_does_not_exist() -> None:
     without = replace(SLOWER, reference=None, deviation=None, allowed=None)
     assert sentence(without) == "the FMU gives 0.12 m/s, the reference has none"
     assert sentence(WORD) == "the FMU gives 'steady', expected 'stuck'"
+
+
+def test_tables_call_what_is_compared_with_by_words() -> None:
+    assert set(CALLED) == {*REFERENCES, "value", AT_MOST, AT_LEAST}
+    assert called("located_events") == "exact events"
+    assert called("recorded_result") == "recorded result", "of other commands"
+
+
+def test_a_deviation_is_a_share_or_has_a_unit() -> None:
+    assert measure_of(SLOWER) == "m/s"
+    assert measure_of(SIGNAL) == "of peak"
+    assert measure_of(replace(SIGNAL, reference=1e-4, scale=1e-4)) == "of peak"
+    assert measure_of(replace(SIGNAL, quantity="event_times")) == "periods"
+    assert measure_of(replace(SIGNAL, quantity="contact_mode")) == "of points"
+    assert measure_of(WORD) == ""
+
+
+def test_a_share_of_a_reference_near_zero_names_what_it_counts_as() -> None:
+    near_zero = replace(SIGNAL, reference=0.0, scale=2e-6)
+    assert measure_of(near_zero) == "of scale"
+    assert sentence(near_zero).startswith("off by 0.0003 of its scale, which is 2e-06 m, ")

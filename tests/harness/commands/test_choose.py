@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.harness.calling import call
+from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
 SCENE = """
@@ -99,6 +99,15 @@ def test_nothing_is_run_where_nothing_suffices(native_fmu: Path, tmp_path: Path)
     assert result.exit_code == 1
     assert "none suffices" in result.stdout
     assert not out.exists()
+
+
+@pytest.mark.parametrize("name", ["drive_frequency", "base_amplitude", "load"])
+def test_values_beyond_all_devices_are_refused_by_name(
+    native_fmu: Path, tmp_path: Path, name: str
+) -> None:
+    scene = written(tmp_path, LOOSE)
+    reported = refused("choose", scene, "--fmu", native_fmu, "--set", f"{name}=1e308")
+    assert f"{name} = 1e+308: must be at most 1e+50 to choose a model" in reported
 
 
 @pytest.mark.parametrize("setting", ["fidelity=1", "tolerance=1e-6"])

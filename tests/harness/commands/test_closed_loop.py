@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import json
 import tempfile
+import zipfile
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.studies.closed_loop import prediction
+from slider_resonator.trials.hosts.ssp_package import WITH_CONNECTORS
 from tests.harness import faulty_fmus
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
@@ -110,3 +112,16 @@ def test_what_is_no_package_is_reported(tmp_path: Path) -> None:
     assert "text.ssp: no parameter set design can be read" in refused(
         "closed-loop", tmp_path / "text.ssp", "--out", tmp_path
     )
+
+
+def test_a_package_of_an_earlier_version_is_named_with_what_it_lacks(
+    closed_loop_package: Path, tmp_path: Path
+) -> None:
+    old = tmp_path / "old.ssp"
+    with zipfile.ZipFile(closed_loop_package) as new, zipfile.ZipFile(old, "w") as archive:
+        for name in new.namelist():
+            if name != WITH_CONNECTORS:
+                archive.writestr(name, new.read(name))
+    said = refused("closed-loop", old, "--out", tmp_path)
+    assert f"old.ssp: has no {WITH_CONNECTORS}" in said
+    assert "`make build` builds one" in said

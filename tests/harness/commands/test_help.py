@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -30,6 +31,10 @@ OPTIONS = {
 }
 
 
+def having(option: str) -> set[str]:
+    return {name for name, options in OPTIONS.items() if option in options}
+
+
 @pytest.mark.parametrize("group", ["", "baseline"])
 def test_summaries_are_whole_at_80_columns(group: str) -> None:
     printed = call(*group.split(), "--help", COLUMNS="80").stdout
@@ -38,9 +43,47 @@ def test_summaries_are_whole_at_80_columns(group: str) -> None:
     assert not [row for row in rows if row.endswith("...") or len(row) > 80]
 
 
+@pytest.mark.parametrize("width", [60, 80, 120])
+def test_no_help_is_wider_than_the_terminal(width: int) -> None:
+    for name, command in EVERY.items():
+        context = click.Context(command, info_name=name, terminal_width=width - 2)
+        lines = command.get_help(context).splitlines()
+        assert not [line for line in lines if len(line) > width], name
+        assert not [line for line in lines if re.search(r"\w-$", line)], name
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_an_example_on_several_lines_is_the_same_command(name: str) -> None:
+    def words(width: int) -> list[list[str]]:
+        context = click.Context(EVERY[name], info_name=name, terminal_width=width)
+        joined = re.sub(r" \\\n +", " ", EVERY[name].get_help(context))
+        return [line.split() for line in joined.splitlines() if "  slider-resonator " in line]
+
+    assert words(58) == words(400)
+
+
 def test_commands_that_take_an_fmu_take_it_by_the_same_option() -> None:
-    takes = set(EVERY) - {"baseline", "build", "closed-loop", "hosts", "scenes"}
-    assert {name for name, options in OPTIONS.items() if "--fmu" in options} == takes
+    assert having("--fmu") == set(EVERY) - {"baseline", "build", "closed-loop", "scenes"}
+
+
+def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
+    runs_nothing = {"baseline", "build", "baseline accept", "scenes"}
+    assert having("--time-limit") == set(EVERY) - runs_nothing
+    assert having("--json") == set(EVERY) - {
+        *("baseline", "build"),
+        *("baseline accept", "baseline record"),  # whose results are files
+    }
+    assert having("--jobs") == {"mutants", "sweep", "validate"}
+    assert having("--scene") == {
+        *("baseline accept", "baseline check", "baseline record", "mutants", "validate")
+    }
+    assert having("--set") == {"blocking", "choose", "run", "steady"}
+    own = {"--python-fmu", "--fmi3-fmu"}  # further FMUs of `hosts`
+    looks_alike = re.compile("fmu|job|worker|limit|timeout|json")
+    common = {"--fmu", "--jobs", "--time-limit", "--json", "--workers", "--limit"}
+    for name, options in OPTIONS.items():
+        other = {option for option in options - common - own if looks_alike.search(option)}
+        assert not other, f"{name}: another name for a common option"
 
 
 def test_old_names_of_options_go_on_working_and_are_not_in_the_help() -> None:

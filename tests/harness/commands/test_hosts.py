@@ -41,6 +41,11 @@ def test_the_reference_agrees_with_itself(
     assert out.read_text().count("| 0 | 0 | 0 | 0 | 0 | 0 |") == 2
 
 
+def test_the_fmu_may_be_an_option(native_fmu: Path, others: tuple[str | Path, ...]) -> None:
+    assert call("hosts", "--fmu", native_fmu, *others, *FMPY).exit_code == 0
+    assert "must be one FMU" in call("hosts", native_fmu, "--fmu", native_fmu).stderr
+
+
 def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(
     others: tuple[str | Path, ...], tmp_path: Path
 ) -> None:

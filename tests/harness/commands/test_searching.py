@@ -15,7 +15,7 @@ def test_a_result_is_reported_in_sentences(capsys: pytest.CaptureFixture[str]) -
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "steady velocity  0.25 m/s"
     assert lines[1] == "status           steady: stable"
-    assert lines[2].startswith("averaged theory  0.5 m/s")
+    assert lines[2].startswith("FMU's output     0.5 m/s")
     assert "40 drive periods in 3 iterations" in lines[3]
     assert lines[4] == "multipliers      0.900000, 0.100000 (magnitudes)"
 

@@ -1,8 +1,19 @@
 from __future__ import annotations
 
-import pytest
+import re
+from io import StringIO
 
-from slider_resonator.output.console import counted, output, progress_bar, time_left
+import pytest
+from rich.cells import cell_len
+
+from slider_resonator.output.console import (
+    counted,
+    output,
+    part_of,
+    progress_bar,
+    shortened,
+    time_left,
+)
 from slider_resonator.output.readable import readable
 
 
@@ -11,6 +22,35 @@ def test_progress_is_silent_without_a_terminal(capsys: pytest.CaptureFixture[str
         progress("scene", 0.5)
     captured = capsys.readouterr()
     assert captured.out == captured.err == ""
+
+
+class Terminal(StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.mark.parametrize("width", [60, 80, 120])
+def test_progress_stays_on_one_line(width: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stderr", terminal)
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setenv("TERM", "xterm")
+    with progress_bar() as progress:
+        progress("3 of 33: C host: resolved Coulomb, 1 drive period, no set or get", 0.5)
+    lines = re.split(
+        r"[\r\n]|\x1b\[2K", re.sub(r"\x1b\[[0-9;?]*[A-JL-Za-z]", "", terminal.getvalue())
+    )
+    shown = [line for line in lines if "3 of 33" in line]
+    assert shown
+    assert all("set or get" in line and "0:00:0" in line for line in shown)
+    assert max(map(cell_len, lines)) <= width
+
+
+def test_a_long_label_keeps_its_beginning_and_its_end() -> None:
+    assert shortened("3 of 33: table_1", 16) == "3 of 33: table_1"
+    assert (
+        shortened("3 of 33: a_long_name_of_a_scene", 16) == "3 of 33\N{HORIZONTAL ELLIPSIS}_a_scene"
+    )
 
 
 def test_a_log_is_no_wider_than_a_page() -> None:
@@ -31,6 +71,12 @@ def test_other_numbers_keep_their_digits_and_sign() -> None:
 def test_a_task_has_its_number() -> None:
     assert counted("table_1", 0, 33) == "1 of 33: table_1"
     assert counted("table_1", 33, 33) == "33 of 33: table_1"
+
+
+def test_a_part_reports_its_share_of_all_work() -> None:
+    reported: list[tuple[str, float]] = []
+    part_of(lambda label, share: reported.append((label, share)), 1, 4)("second of four", 0.5)
+    assert reported == [("second of four", 0.375)]
 
 
 @pytest.mark.parametrize(

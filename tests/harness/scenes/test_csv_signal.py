@@ -23,8 +23,8 @@ def test_a_run_written_by_the_harness_can_be_read_back_as_an_input(tmp_path: Pat
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "first column must be 'time'"),
-        ("t,load\n0,1\n", "first column must be 'time'"),
+        ("", "must begin with 'time'"),
+        ("t,load\n0,1\n", "must begin with 'time'"),
         ("time,lod\n0,1\n", "no column 'load'"),
         ("time,load\n0,1\n1,x\n", "line 3"),
         ("time,load\n0\n", "line 2"),

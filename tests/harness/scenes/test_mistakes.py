@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.scenes.scene import read_scene
 from tests.harness.calling import refused
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
@@ -111,7 +112,7 @@ MISTAKES = {
         "exactly one of",
     ),
     "not tunable": Mistake(
-        HEAD + RUN + "[tuning]\nslider_mass = 1\n", "tuning.slider_mass", "must be one of"
+        HEAD + RUN + "[tuning]\nslider_mass = 1\n", "tuning.slider_mass", "must be in [device]"
     ),
     "tuned and fixed": Mistake(
         HEAD + RUN + "[device]\nnormal_preload = 1\n[tuning]\nnormal_preload = 2\n",
@@ -164,6 +165,99 @@ MISTAKES = {
     "a need without a tolerance": Mistake(
         HEAD + RUN + "[need]\nposition = 1e-3\n", "need.position", "such as { rel = 0.01 }"
     ),
+    # What other notations allow:
+    "comma after a value": Mistake(HEAD + "[run]\nstop_time = 0.1,\n", "stop_time", "delete the ,"),
+    "semicolon": Mistake(HEAD + "[run]\nstop_time = 0.1;\n", "stop_time", "delete the ;"),
+    "a comment of C": Mistake(HEAD + "// a comment\n" + RUN, "line 3", "begins with #"),
+    "curly quotes": Mistake("name = “mine”\n", "line 1", "straight"),
+    "typographic minus": Mistake(HEAD + "[inputs]\nphase = −0.4\n", "phase", "a minus sign is -"),
+    "no digit before the point": Mistake(HEAD + "[inputs]\nphase = -.5\n", "phase", "write -0.5"),
+    "no digit after the point": Mistake(HEAD + "[inputs]\nphase = 5.\n", "phase", "write 5.0"),
+    "a number with its unit": Mistake(
+        HEAD + "[run]\nstop_time = 1.5e-1 s\n", "stop_time", "write 1.5e-1"
+    ),
+    "true in another spelling": Mistake(
+        HEAD + RUN + "read_twice = True\n", "read_twice", "write true"
+    ),
+    "a power": Mistake(HEAD + "[run]\nstop_time = 10^-3\n", "stop_time", "nothing is computed"),
+    "a formula": Mistake(HEAD + "[inputs]\nphase = pi/2\n", "phase", "nothing is computed"),
+    "a key of two words": Mistake(
+        HEAD + "[run]\nstop time = 1\n", "stop time", "did you mean stop_time"
+    ),
+    "braces over lines": Mistake(
+        HEAD + "[inputs]\nload = {\n steps = [[0, 0]]\n}\n", "load", "on one line"
+    ),
+    "a path with backslashes": Mistake(
+        HEAD + '[inputs]\nload = { csv = "C:\\Users\\me.csv" }\n', "load", "written with /"
+    ),
+    "one bracket too few": Mistake(HEAD + "[[expect]\n", "line 3", "or [[expect]]"),
+    # A key in the table of another:
+    "an input among the parameters": Mistake(
+        HEAD + "[device]\nload = 0.1\n", "device.load", "must be in [inputs]"
+    ),
+    "a parameter among the inputs": Mistake(
+        HEAD + "[inputs]\nslider_mass = 1\n", "inputs.slider_mass", "must be in [device]"
+    ),
+    "an output among the inputs": Mistake(
+        HEAD + "[inputs]\nposition = 1\n", "inputs.position", "an output cannot be set"
+    ),
+    "an input in the run": Mistake(HEAD + RUN + "phase = 1\n", "run.phase", "must be in [inputs]"),
+    "a length above the tables": Mistake(HEAD + "stop_time = 1\n", "stop_time", "must be in [run]"),
+    "a title below a heading": Mistake(
+        'name = "mine"\ntitle = "x"\n' + RUN + 'title = "Mine"\n', "run.title", "above the first"
+    ),
+    # Values:
+    "an impossible parameter": Mistake(
+        HEAD + "[device]\nslider_mass = -1\n", "device.slider_mass = -1.0", "above 0"
+    ),
+    "a law by its name": Mistake(
+        HEAD + '[device]\nfriction_law = "lugre"\n', "device.friction_law", "0 Coulomb, 1 LuGre"
+    ),
+    "a date": Mistake(HEAD + "[inputs]\nload = 2020-01-01\n", "load = 2020-01-01", "a number"),
+    "a bare list of points": Mistake(
+        HEAD + RUN + "[inputs]\nload = [[0, 0], [1, 1]]\n", "inputs.load", "such as { steps ="
+    ),
+    "points that are numbers": Mistake(
+        HEAD + RUN + "[inputs]\nload = { steps = [0.0, 1.0] }\n", "steps[0]", "[time (s), value]"
+    ),
+    "a sweep of what changes": Mistake(
+        HEAD
+        + RUN
+        + "[inputs]\nload = { ramp = [[0, 0], [1, 1]] }\n"
+        + "[sweep]\nvariable = 'load'\nvalues = [0, 1]\n",
+        "sweep.variable",
+        "must be one whose value is constant",
+    ),
+    "an empty reason": Mistake(
+        HEAD + RUN + '[[expect]]\nquantity = "reversals"\nvalue = 0\nwhy = ""\n',
+        "expect[0].why",
+        "not empty",
+    ),
+    "a tube without a reference for it": Mistake(
+        expect(
+            'quantity = "ripple_amplitude"',
+            'reference = "closed_form"',
+            "relative = 1e-3",
+            "tube = 0.1",
+        ),
+        "tube",
+        "delete the key",
+    ),
+    # CSV files:
+    "CSV with semicolons": Mistake(
+        HEAD + RUN + '[inputs]\nload = { csv = "semicolons.csv" }\n', "inputs.load", "a comma"
+    ),
+    "CSV without a header": Mistake(
+        HEAD + RUN + '[inputs]\nload = { csv = "bare.csv" }\n', "inputs.load", "begin with 'time'"
+    ),
+    "CSV with a word": Mistake(
+        HEAD + RUN + '[inputs]\nload = { csv = "words.csv" }\n',
+        "words.csv line 2: load = 'none'",
+        "a finite number",
+    ),
+    "CSV of another encoding": Mistake(
+        HEAD + RUN + '[inputs]\nload = { csv = "utf16.csv" }\n', "utf16.csv", "UTF-8"
+    ),
 }
 
 
@@ -171,6 +265,10 @@ MISTAKES = {
 def test_a_mistake_is_one_line_with_file_key_and_remedy(name: str, tmp_path: Path) -> None:
     mistake = MISTAKES[name]
     (tmp_path / "short.csv").write_text("time,load\n0,0\n0.05,1\n")
+    (tmp_path / "semicolons.csv").write_text("time;load\n0;0,5\n1;1,5\n")
+    (tmp_path / "bare.csv").write_text("0,0\n1,1\n")
+    (tmp_path / "words.csv").write_text("time,load\n0,none\n")
+    (tmp_path / "utf16.csv").write_text("time,load\n0,0\n1,1\n", encoding="utf-16")
     path = tmp_path / "mine.toml"
     path.write_text(mistake.text)
     message = refused("scenes", "--check", path)
@@ -183,3 +281,9 @@ def test_a_mistake_is_one_line_with_file_key_and_remedy(name: str, tmp_path: Pat
 
 def test_there_are_thirty() -> None:
     assert len(MISTAKES) >= 30
+
+
+def test_a_scene_saved_with_a_byte_order_mark_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(HEAD + RUN, encoding="utf-8-sig")
+    assert read_scene(path).name == "mine"

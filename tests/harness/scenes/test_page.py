@@ -151,6 +151,8 @@ def test_the_json_schema_is_one_and_accepts_what_is_valid() -> None:
 NOT_IN_A_SCHEMA = {
     *("step in ms", "no run", "no such CSV", "short CSV", "no column", "times not in order"),
     *("tuned and fixed", "no tolerance", "not a number", "a bound of a signal"),
+    *("CSV of another encoding", "CSV with a word", "CSV with semicolons", "CSV without a header"),
+    *("a sweep of what changes", "a tube without a reference for it"),
 }
 """Mistakes that depend on other tables, files or numbers in a way that a schema cannot say."""
 

@@ -51,6 +51,6 @@ def test_the_lines_and_constant_inputs_are_named(instance: Instance, tmp_path: P
     record = run(instance, scene.parameters, schedule_to_plot(scene))
     plot_run(record, scene, tmp_path / "run.svg")
     text = (tmp_path / "run.svg").read_text()
-    assert "steady, averaged theory" in text
+    assert "steady, for these inputs" in text
     assert "phase 0.4 rad, load 0.05 N" in text
     assert "frequency_ratio" not in text, "it is at its start"

@@ -167,7 +167,7 @@ def test_a_slower_drive_may_make_a_run_longer_than_its_csv(tmp_path: Path) -> No
         ('[inputs]\nphase = "1"\n', ["inputs.phase", "'1'", "must be a number"]),
         (
             "[inputs]\nphase = { steps = [[0, 1, 2]] }\n",
-            ["inputs.phase.steps[0]", "a list of 2 numbers"],
+            ["inputs.phase.steps[0]", "a pair [time (s), value]"],
         ),
         ("[inputs]\nphase = { steps = [[1, 0], [0, 1]] }\n", ["inputs.phase", "increase"]),
         ("[inputs]\nphase = { step = [[0, 0]] }\n", ["inputs.phase.step", "'steps'"]),
@@ -261,7 +261,7 @@ def test_a_mistake_is_named_with_key_value_and_requirement(
         ),
         (
             'quantity = "position"\nreference = "averaged"\nrelative = 1e-6\ntube = 0.01',
-            ["tube = 0.01", "located_events, taylor, bristle_state"],
+            ["tube = 0.01", "located_events or taylor or bristle_state"],
         ),
         (
             'quantity = "position"\nreference = "taylor"\nrelative = 1e-6\ntube = 0.5',

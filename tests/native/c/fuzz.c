@@ -137,6 +137,18 @@ static fmi2Status set_logging(fmi2Component c) {
     return status == fmi2Error && !said.messages ? fmi2OK : status;
 }
 
+enum { INPUTS = 3 };
+
+/* Orders of derivatives, most often the one there is, and half of the time references of inputs. */
+static fmi2Integer *orders(void) {
+    int i, of_inputs = one_in(2);
+    for (i = 0; i < ROOM; i++) {
+        integers[i] = one_in(40) ? random_integer() : 1;
+        if (of_inputs) references[i] = below(INPUTS);
+    }
+    return or_null(integers);
+}
+
 typedef struct {
     const char *name;
     unsigned weight;
@@ -167,8 +179,8 @@ typedef struct {
     X(fmi2SerializeFMUstate, 6, write_state(c)) \
     X(fmi2DeSerializeFMUstate, 6, read_state(c)) \
     X(fmi2GetDirectionalDerivative, 1, fmu.GetDirectionalDerivative(c, REFS, REFS, or_null(reals), or_null(reals))) \
-    X(fmi2SetRealInputDerivatives, 1, fmu.SetRealInputDerivatives(c, REFS, or_null(integers), or_null(reals))) \
-    X(fmi2GetRealOutputDerivatives, 1, fmu.GetRealOutputDerivatives(c, REFS, or_null(integers), or_null(reals))) \
+    X(fmi2SetRealInputDerivatives, 8, fmu.SetRealInputDerivatives(c, REFS, orders(), or_null(reals))) \
+    X(fmi2GetRealOutputDerivatives, 3, fmu.GetRealOutputDerivatives(c, REFS, orders(), or_null(reals))) \
     X(fmi2DoStep, 24, do_step(c)) \
     X(fmi2CancelStep, 1, fmu.CancelStep(c)) \
     X(fmi2GetStatus, 1, fmu.GetStatus(c, STATUS_KIND, or_null(integers))) \

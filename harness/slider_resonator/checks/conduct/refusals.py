@@ -53,12 +53,12 @@ EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
 """Arguments of fmi2SetupExperiment that must be refused."""
 
 STEP_SIZES = (0.0, -0.0, -1e-3, math.nan, math.inf, -math.inf)
-JUMPS = (-STEP, 1e-5, STEP, 1e9, math.nan, math.inf)
+JUMPS = (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf)
 """Distances (s) from the present time at which a step cannot begin."""
 
 
 @dataclass
-class _Trial:
+class Trial:
     """Calls that must be refused, and what was found wrong with them."""
 
     instance: Instance
@@ -71,8 +71,9 @@ class _Trial:
         try:
             attempt()
         except FMICallException as error:
-            if error.status == fmi2Discard:
-                self.faults.append(f"{what} gives fmi2Discard, at which hosts end a run")
+            if error.status == fmi2Discard:  # the same number in each version of FMI
+                status = f"{str(error.function)[: len('fmi2')]}Discard"
+                self.faults.append(f"{what} gives {status}, at which hosts end a run")
             if name and name not in " ".join(self.instance.messages):
                 self.faults.append(f"{what} is refused without naming {name}")
             changed = {n for n, value in self._values().items() if value != before[n]}
@@ -149,7 +150,7 @@ def refusal_faults(fmu: FmuSide) -> Findings:
         quiet.read()
         for step in range(quiet.steps):
             quiet.advance(step)
-    trial = _Trial(instance, [])
+    trial = Trial(instance, [])
     try:
         _try_all(trial, running, start, schedule.start_time)
     except Refusal as error:
@@ -162,9 +163,7 @@ def refusal_faults(fmu: FmuSide) -> Findings:
     return Findings.of(trial.faults) + found
 
 
-def _try_all(
-    trial: _Trial, running: Running, start: Mapping[str, float], start_time: float
-) -> None:
+def _try_all(trial: Trial, running: Running, start: Mapping[str, float], start_time: float) -> None:
     """Try what must be refused; Refusal when the FMU then refuses what it must do."""
     instance = trial.instance
     present = [v for name, v in VARIABLES.items() if name in instance.fmu.variables]
@@ -191,7 +190,7 @@ def _try_all(
     trial.refuses_calls("after a run")
 
 
-def _before_the_run(trial: _Trial, settable: list[Variable]) -> None:
+def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     instance = trial.instance
     with instance.explained():
         instance.set_up()
@@ -203,7 +202,7 @@ def _before_the_run(trial: _Trial, settable: list[Variable]) -> None:
     trial.accepts_bounds(iter(settable))
 
 
-def _in_the_run(trial: _Trial, present: list[Variable]) -> None:
+def _in_the_run(trial: Trial, present: list[Variable]) -> None:
     instance = trial.instance
     anytime = [v for v in present if v.causality == "input" or v.variability == "tunable"]
     fixed = [v for v in present if v.causality == "parameter" and v.variability == "fixed"]

@@ -11,6 +11,7 @@ from fmpy.fmi1 import FMICallException
 
 from slider_resonator.checks.conduct.findings import NOTHING, Findings, differences
 from slider_resonator.checks.conduct.other_values import other_inputs, other_value
+from slider_resonator.checks.conduct.status import status_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.device.schedule import Schedule, in_order
@@ -214,6 +215,23 @@ def overwritten_differences(fmu: FmuSide) -> Findings:
     return found + Findings.of(list(dict.fromkeys(accepted)))
 
 
+def separate_differences(fmu: FmuSide) -> Findings:
+    """Set what changes, and nothing else, each value by a call of its own."""
+    plain = _Comparison(fmu)
+    instance = fmu.instance
+    with instance.explained():
+        running = _started(instance, plain.parameters, plain.schedule)
+        before = running.first
+        for step in range(running.steps):
+            present = running.values_at(step)
+            for name, value in reversed(present.items()):
+                if value != before[name]:
+                    instance.set({name: value})
+            before = present
+            running.advance(step)
+    return plain.of("with values set one by one", running.rows)
+
+
 def _refused(instance: Instance, name: str) -> list[str]:
     """Set a variable to NaN, an Integer to a value that none has; return a fault if it is taken."""
     variable = instance.fmu.variables[name]
@@ -229,7 +247,7 @@ def _refused(instance: Instance, name: str) -> list[str]:
 
 
 def reading_differences(fmu: FmuSide) -> Findings:
-    """Read all variables, one by one and backwards, between any two calls."""
+    """Read all variables, one by one and backwards, and the status, between any two calls."""
     plain = _Comparison(fmu)
     instance, schedule = fmu.instance, plain.schedule
     running = Running(instance, schedule)
@@ -256,4 +274,5 @@ def reading_differences(fmu: FmuSide) -> Findings:
         for step in range(running.steps):
             running.advance(step, read_all)
             read_all()
+            unequal += status_faults(instance)
     return plain.of("with more readings", running.rows) + Findings.of(unequal)

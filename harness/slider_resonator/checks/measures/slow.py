@@ -23,3 +23,8 @@ def slow_displacement(times: Array, position: Array, period: float) -> Array:
         )
     integral = scipy.integrate.cumulative_trapezoid(position, times, initial=0)
     return np.asarray((integral[first:] - np.interp(starts[first:], times, integral)) / period)
+
+
+def travelled_velocity(times: Array, position: Array) -> float:
+    """Return the travel over the last step of a run by its time, m/s."""
+    return float((position[-1] - position[-2]) / (times[-1] - times[-2]))

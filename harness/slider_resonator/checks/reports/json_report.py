@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from slider_resonator.checks.validate import Validation, provenance_of_all
-from slider_resonator.checks.verdict import sentence
+from slider_resonator.checks.verdict import measure_of, sentence
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.json_output import to_json
 
@@ -34,7 +34,11 @@ def write_json(path: Path, validations: Sequence[Validation], error: str = "") -
 
 def _plain(validation: Validation) -> dict[str, object]:
     checks = [
-        {**vars(check), "verdict": "pass" if check.passed else sentence(check)}
+        {
+            **vars(check),
+            "deviation_in": measure_of(check),
+            "verdict": "pass" if check.passed else sentence(check),
+        }
         for check in validation.checks
     ]
     return {

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.overview import Overview
 from slider_resonator.checks.validate import Validation
-from slider_resonator.checks.verdict import title, value_text
+from slider_resonator.checks.verdict import measure_of, title, value_text
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html
 from slider_resonator.output.html_page import escaped, rendered
@@ -16,11 +17,13 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 
 DIGITS = 8
 HEIGHT = 240
-REFERENCE, FMU = "#c8553d", "#1f3b57"
+REFERENCE, FMU = "#f0a58f", "#1f3b57"
+MIN_DECADES = 2.0
+"""Width of a sweep from which on its axis is logarithmic."""
 COLUMNS = (
     *texts("quantity"),
     *numbers("FMU", "reference", "off by", "allowed"),
-    *texts("", "why"),
+    *texts("in", "", "why"),
 )
 
 
@@ -42,14 +45,15 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
         plot = _of_signal(overviews[name]) if name in overviews else _over_sweep(checks)
         parts += [plot_html(plot)] if plot is not None else []
         table = Table(COLUMNS, [_row(check) for check in checks])
-        parts.append(f'<div class="wide">{rendered(table)}</div></section>')
+        parts.append(f"{rendered(table)}</section>")
     return parts
 
 
 def _index_row(name: Cell, checks: Sequence[Check]) -> Row:
     failed = sum(not check.passed for check in checks)
     worst = max(check.severity for check in checks)
-    return (name, str(len(checks)), str(failed), f"{worst:.2g}", verdict(not failed))
+    share = f"{worst:.2g}" if math.isfinite(worst) else "beyond"
+    return (name, str(len(checks)), str(failed), share, verdict(not failed))
 
 
 def _of_signal(overview: Overview) -> HoverPlot:
@@ -76,11 +80,15 @@ def _over_sweep(checks: Sequence[Check]) -> HoverPlot | None:
     name = first.quantity.replace("_", " ")
     return HoverPlot(
         f"{name} over {variable.replace('_', ' ')}: FMU on reference",
-        Axis(_label(variable, INPUTS.get(variable) or PARAMETERS[variable])),
+        Axis(_label(variable, INPUTS.get(variable) or PARAMETERS[variable]), log=_is_wide(x)),
         Axis(_label(first.quantity, first.unit)),
         _pair(x, fmu, reference),
         HEIGHT,
     )
+
+
+def _is_wide(x: Sequence[float]) -> bool:
+    return x[0] > 0.0 and math.log10(x[-1] / x[0]) >= MIN_DECADES
 
 
 def _is_swept_number(check: Check) -> bool:
@@ -94,14 +102,14 @@ def _label(name: str, unit: str) -> str:
 
 def _pair(x: Sequence[float], fmu: Sequence[float], reference: Sequence[float]) -> list[Series]:
     return [
-        Series("reference", x, reference, REFERENCE, "", 4.0),
-        Series("FMU", x, fmu, FMU, "●" if len(fmu) <= 60 else "", 1.2, (5, 3)),
+        Series("reference", x, reference, REFERENCE, "", 5.0),
+        Series("FMU", x, fmu, FMU, "●" if len(fmu) <= 60 else "", 1.3),
     ]
 
 
 def _row(check: Check) -> Row:
-    of_peak = " of peak" if QUANTITIES[check.quantity].relative_to_peak else ""
-    sizes = ["-" if s is None else f"{s:.2g}{of_peak}" for s in (check.deviation, check.allowed)]
+    sizes = ["-" if s is None else f"{s:.2g}" for s in (check.deviation, check.allowed)]
     unit = f" [{check.unit}]" if check.unit not in ("", "1") else ""
     values = [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
-    return (title(check) + unit, *values, *sizes, verdict(check.passed), check.why)
+    cells = (title(check) + unit, *values, *sizes, measure_of(check))
+    return (*cells, verdict(check.passed), check.why)

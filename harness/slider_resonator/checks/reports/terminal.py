@@ -11,7 +11,9 @@ from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.headline import headline
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import (
+    called,
     judged_without,
+    measure_of,
     not_applied,
     place,
     sentence,
@@ -52,6 +54,9 @@ def print_validation(
         console.print(rendered(_table(rows, details)))
     if any(_of_peak(check) for check, _ in rows):
         mark = f"{SIGNAL} the peak of a signal; off by and allowed are shares of it"
+        if any(measure_of(check) == "of scale" for check, _ in rows):
+            mark += ", or of what counts near zero"
+        mark += "; all others are in their unit"
         console.print(words(mark, console.width))
     for check, _ in rows:
         if not check.passed:
@@ -97,11 +102,11 @@ def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
         passed = sum(check.passed for check in checks)
         nearest = max(checks, key=lambda check: check.severity)
         sizes = (_size(nearest.deviation), _size(nearest.allowed))
-        cells = (scene, f"{passed} of {len(checks)}", nearest.quantity, *sizes)
+        cells = (scene, f"{passed} of {len(checks)}", nearest.quantity, *sizes, measure_of(nearest))
         rows.append((*cells, verdict(passed == len(checks))))
     columns = (
         *(*texts("scene"), *numbers("passed"), *texts("nearest to its bound")),
-        *(*numbers("off by", "allowed"), *texts("")),
+        *(*numbers("off by", "allowed"), *texts("in", "")),
     )
     return Table(columns, rows)
 
@@ -122,7 +127,7 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
             rows.append([Cell(f"{scene}, {points} points" if points > 1 else scene, Style.HEADING)])
         cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
         cells += [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
-        cells.append(check.against.split("_")[0])
+        cells.append(called(check.against))
         cells += [_size(check.deviation), _size(check.allowed)]
         rows.append((*cells, verdict(check.passed)))
         if details:

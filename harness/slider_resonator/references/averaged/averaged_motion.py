@@ -17,7 +17,12 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.device.held_inputs import (
+    HeldInputs,
+    check_contiguous,
+    check_times,
+    with_steady_phase,
+)
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
 from slider_resonator.references.averaged.averaged_coulomb import slow_start
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
@@ -82,6 +87,8 @@ def full_friction(device: Device, phase: float, ratio: float) -> float:
 def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> AveragedMotion:
     """Return the averaged motion under held inputs at ``times`` (shape (n,), s).
 
+    Phase and load may have rates, the load only where there is vibration.
+
     ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
     start. The initial values fix the momentum and the centre of slider and resonator; right after
     the start the fast motion is the steady one, whatever they are. Without vibration it is the
@@ -90,7 +97,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     cannot be integrated. Where a run tunes the drive the motion of slider and resonator goes on
     without a jump, and so what is left of it without the drive's own swing jumps.
     """
-    check_contiguous(held)
+    check_contiguous(held, rates=("phase_rate", "load_rate"))
     check_times(times, held)
     start, share = device, device.mass_ratio
     drive = _Drive.of(held[0].tuned_device(device))
@@ -99,7 +106,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     theta = psi = 0.0
     rows = np.empty((0, 3))
     last = np.array([device.initial_position, device.initial_velocity])
-    for inputs in held:
+    for inputs in with_steady_phase(held, device):
         tuned = inputs.tuned_device(start)
         before, drive = drive, _Drive.of(tuned)
         slow += (drive.velocity - before.velocity) * math.cos(theta)
@@ -108,6 +115,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
         local = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
         grid = np.union1d(local, [0.0, inputs.stop - inputs.start])
         if force.velocity_amplitude == 0.0:
+            check_contiguous([inputs])
             friction = full_friction(device, inputs.phase + psi, inputs.frequency_ratio)
             mass = device.total_mass
             moved, velocity = slide_of_block(slow, friction, inputs.load, mass, grid)
@@ -166,6 +174,6 @@ def _slow_acceleration(
         friction = mean_friction(
             device, force, force.velocity_amplitude * velocity, lead + drift * time, ratio
         )
-        return -(friction + inputs.load) / momentum
+        return -(friction + inputs.load + inputs.load_rate * time) / momentum
 
     return acceleration, abs(drift) * max(turns, 1)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs, with_steady_phase
 from slider_resonator.references.averaged.averaged_motion import (
     MAX_DETUNING,
     AveragedMotion,
@@ -55,7 +55,7 @@ def averaged_outputs(
     pieces = np.searchsorted([inputs.stop for inputs in held], motion.time, side="left")
     rows = np.empty((len(motion.time), 5))
     theta = psi = 0.0
-    for index, inputs in enumerate(held):
+    for index, inputs in enumerate(with_steady_phase(held, device)):
         here = pieces == index
         tuned = inputs.tuned_device(device)
         frequency = tuned.drive_frequency

@@ -20,7 +20,7 @@ from slider_resonator.references.averaged.slow_motion_second_order import (
     slow_start,
 )
 from slider_resonator.references.phase import advanced
-from slider_resonator.references.resolved import lugre_taylor, taylor
+from slider_resonator.references.resolved import located_events, lugre_scipy
 
 SWING_LEFT = 1e-9
 """What is left of the resonator's first swing when the slow motion takes over."""
@@ -63,7 +63,7 @@ def simulate_from_start(
     Raises ValueError without damping, for tuned parameters, inputs that do not begin at 0 s, and as
     `simulate_slow_motion` does; RuntimeError as it does.
     """
-    check_contiguous(held)
+    check_contiguous(held, rates=("phase_rate", "load_rate"))
     check_times(times, held)
     if held[0].start != 0.0:
         raise ValueError(f"held inputs begin at {held[0].start!r} s; must begin at 0 s")
@@ -72,8 +72,12 @@ def simulate_from_start(
     full = replace(device, fidelity=2)
     taken = min(turns_resolved(full) * 2.0 * math.pi / full.drive_frequency, held[-1].stop)
     early = [replace(h, stop=min(h.stop, taken)) for h in held if h.start < taken]
-    late = [replace(h, start=max(h.start, taken)) for h in held if h.stop > taken]
-    simulate = lugre_taylor.simulate_lugre if full.friction_law else taylor.simulate
+    late = [
+        replace(h.later(max(0.0, taken - h.start)), start=max(h.start, taken))
+        for h in held
+        if h.stop > taken
+    ]
+    simulate = lugre_scipy.simulate_lugre if full.friction_law else located_events.simulate
     first = times[times <= taken]
     resolved = simulate(full, early, np.append(first, taken))
     names = [column.name for column in fields(MotionFromStart)][1:]

@@ -22,7 +22,12 @@ from scipy.integrate import solve_ivp
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.device.held_inputs import (
+    HeldInputs,
+    check_contiguous,
+    check_times,
+    with_steady_phase,
+)
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.references.averaged.held_curve import HeldCurve
 from slider_resonator.references.averaged.held_orbit import HeldOrbit
@@ -112,18 +117,19 @@ def simulate_slow_motion(
     """Return the slow motion of second order under held inputs at ``times`` (shape (n,), s).
 
     ``times`` ascend within ``[held[0].start, held[-1].stop]``. The motion begins at ``start``, by
-    default with the initial values of the device and theta = psi = 0. ``leads`` (odd) is how many
+    default with the initial values of the device and theta = psi = 0. Phase and load may have
+    rates. ``leads`` (odd) is how many
     leads of the normal load are tabulated where it drifts, ``simulate`` the resolved motion for
     orbits that stick. Raises ValueError for a ratio without slow phase, inputs with gaps, times
     outside them, and as `Hold` does; RuntimeError where there is no orbit.
     """
-    check_contiguous(held)
+    check_contiguous(held, rates=("phase_rate", "load_rate"))
     check_times(times, held)
     curves = _Curves(device, leads, simulate)
     start = start or slow_start(device, initial_state(replace(device, fidelity=2)))
     momentum, centre, theta, psi = astuple(start)
     rows = np.empty((0, 5))
-    for inputs in held:
+    for inputs in with_steady_phase(held, device):
         wanted = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
         grid = np.union1d(wanted, [0.0, inputs.stop - inputs.start])
         slow = _Slow(curves, inputs, theta, psi)
@@ -189,12 +195,13 @@ class _Slow:
 
     def run(self, grid: Array) -> tuple[Array, Array]:
         """Return the integral of V in m and V in m/s at times in s from 0."""
-        mass = self._curves.device.total_mass
+        inputs, mass = self._inputs, self._curves.device.total_mass
         scale = self._curve(self._lead).hold.vibration.velocity_amplitude
 
         def slope(time: float, state: Array) -> tuple[float, float]:
             friction, factor = self._friction(time, float(state[1]))
-            return float(state[1]), -factor * (friction + self._inputs.load) / mass
+            load = inputs.load + inputs.load_rate * time
+            return float(state[1]), -factor * (friction + load) / mass
 
         solution = solve_ivp(
             slope,

@@ -55,7 +55,7 @@ class Equations:
     steady_resonator: complex | None = None
 
     def needed_force(
-        self, load: float, theta: Number, displacement: Number, velocity: Number
+        self, load: float | Number, theta: Number, displacement: Number, velocity: Number
     ) -> Number:
         """Return the force in N that friction needs to hold the slider at constant velocity.
 
@@ -84,15 +84,20 @@ class Equations:
         angle: float,
         frequency_ratio: float,
         width: float = 0.0,
+        *,
+        load_rate: float = 0.0,
+        ratio_rate: float = 0.0,
     ) -> Callable[[float, Array], list[float]]:
         """Return the time derivative of the state as a function of time (s) and state (4).
 
-        ``theta`` and ``angle`` are those at time 0. Within a contact mode the derivative is smooth;
-        with mode None friction follows the sign of the velocity at every instant, or with a
-        ``width`` in m/s its regularisation tanh(velocity / width).
+        ``theta``, ``angle``, ``load`` and ``frequency_ratio`` are those at time 0; the last two
+        have rates in N/s and 1/s. Within a contact mode the derivative is smooth; with mode None
+        friction follows the sign of the velocity at every instant, or with a ``width`` in m/s its
+        regularisation tanh(velocity / width).
         """
         sin, cos, tanh = math.sin, math.cos, math.tanh
         rate, angle_rate = self.drive_frequency, frequency_ratio * self.drive_frequency
+        half_acceleration = 0.5 * ratio_rate * self.drive_frequency
         coupling_damping, coupling_stiffness = self.coupling_damping, self.coupling_stiffness
         force_sine, force_cosine = self.force_sine, self.force_cosine
         base, damping, stiffness = self.base_acceleration, self.damping_rate, self.stiffness_rate
@@ -112,11 +117,11 @@ class Equations:
                 coupling_damping * resonator_velocity
                 + coupling_stiffness * displacement
                 + force_sine * sine
-                - load
+                - (load + load_rate * time)
             )
             if force_cosine:
                 force += force_cosine * cos(theta + rate * time)
-            limit = mean + amplitude * sin(angle + angle_rate * time)
+            limit = mean + amplitude * sin(angle + (angle_rate + half_acceleration * time) * time)
             if mode is None:
                 limit = max(0.0, limit)
                 direction = tanh(velocity / width) if width else (velocity > 0.0) - (velocity < 0.0)
@@ -128,7 +133,7 @@ class Equations:
     def contact_forces(
         self,
         mode: int,
-        load: float,
+        load: float | Array,
         theta: Array,
         angle: Array,
         states: Array,

@@ -72,16 +72,23 @@ class _Motion:
         self._segment = segment
         self._rate = segment.equations.drive_frequency
         self._angle_rate = segment.frequency_ratio * self._rate
+        self._acceleration = segment.ratio_rate * self._rate
 
     def follow(
         self, method: Method, rtol: float, atol: float, steps_per_period: int
     ) -> SegmentResult:
         segment = self._segment
-        fastest = self._equations.fastest_rate(segment.frequency_ratio)
+        fastest = self._equations.fastest_rate(segment.largest_ratio)
         longest_step = 2.0 * math.pi / fastest / steps_per_period
         solver = method(
             self._equations.slopes(
-                segment.mode, segment.load, segment.theta, segment.angle, segment.frequency_ratio
+                segment.mode,
+                segment.load,
+                segment.theta,
+                segment.angle,
+                segment.frequency_ratio,
+                load_rate=segment.load_rate,
+                ratio_rate=segment.ratio_rate,
             ),
             0.0,
             np.array([0.0, *segment.state[1:]]),
@@ -149,8 +156,11 @@ class _Motion:
         equations, segment = self._equations, self._segment
         _, velocity, displacement, resonator_velocity = states
         theta = segment.theta + self._rate * np.asarray(time)
-        angle = segment.angle + self._angle_rate * np.asarray(time)
-        needed = equations.needed_force(segment.load, theta, displacement, resonator_velocity)
+        local = np.asarray(time)
+        angle_rate = self._angle_rate + self._acceleration * local
+        angle = segment.angle + 0.5 * (self._angle_rate + angle_rate) * local
+        load = segment.load + segment.load_rate * local
+        needed = equations.needed_force(load, theta, displacement, resonator_velocity)
         limit = equations.friction_limit(angle)
         if segment.mode != STICK:
             acceleration = (needed - segment.mode * limit) / equations.inertia
@@ -165,6 +175,7 @@ class _Motion:
             + equations.coupling_stiffness * resonator_velocity
             + self._rate
             * (equations.force_sine * np.cos(theta) - equations.force_cosine * np.sin(theta))
+            - segment.load_rate
         )
-        limit_rate = self._angle_rate * equations.friction_amplitude * np.cos(angle)
+        limit_rate = angle_rate * equations.friction_amplitude * np.cos(angle)
         return limit - event * needed, limit_rate - event * needed_rate

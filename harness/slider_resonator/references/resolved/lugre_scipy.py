@@ -15,7 +15,14 @@ from scipy.optimize import brentq
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.device.held_inputs import (
+    RATES,
+    HeldInputs,
+    check_contiguous,
+    check_times,
+    check_turns_on,
+    with_steady_phase,
+)
 from slider_resonator.references.resolved.contact import LIFTED, is_lifted, time_to_contact_change
 from slider_resonator.references.resolved.contact_record import ContactRecord
 from slider_resonator.references.resolved.equations import initial_state
@@ -44,10 +51,11 @@ def simulate_lugre(
     ValueError as the other does, and for another method; RuntimeError if a step fails.
     """
     solver = scipy_method(method)
-    check_contiguous(held)
+    check_contiguous(held, rates=RATES)
     check_times(times, held)
     run = _Run(device, times)
-    for inputs in held:
+    for inputs in with_steady_phase(held, device):
+        check_turns_on(inputs)
         run.follow(inputs, solver, rtol, atol)
     return run.recorder.lugre_trajectory()
 
@@ -68,7 +76,8 @@ class _Run:
         self._device = inputs.tuned_device(self._start)
         self._lugre = lugre_equations_of(self._device)
         self._equations = equations = self._lugre.equations
-        ratio = inputs.frequency_ratio
+        span = inputs.stop - inputs.start
+        ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
         scales = np.append(equations.state_scales(inputs.load), self._lugre.max_deflection)
         start = self._state[0]
         events = _Events(self.recorder.contact, self._switches(inputs), inputs.start)
@@ -95,7 +104,7 @@ class _Run:
         self.recorder.evaluations += solver.nfev
         turned = equations.drive_frequency * (inputs.stop - inputs.start)
         self._theta += turned
-        self._psi += ratio * turned
+        self._psi += inputs.turned(inputs.stop - inputs.start, equations.drive_frequency)
         self._state = solver.y
         self._state[0] += start
 
@@ -106,14 +115,18 @@ class _Run:
         """
         equations = self._equations
         load = equations.normal_preload, equations.normal_amplitude
-        rate = inputs.frequency_ratio * equations.drive_frequency
-        angle, span = self._psi + inputs.phase, inputs.stop - inputs.start
-        first = lifted = is_lifted(*load, angle, rate)
+        frequency = equations.drive_frequency
+        span = inputs.stop - inputs.start
+        chirp = inputs.ratio_rate * frequency
+
+        def turning(time: float) -> tuple[float, float, float]:
+            angle = self._psi + inputs.phase + inputs.turned(time, frequency)
+            return angle, inputs.frequency_ratio * frequency + chirp * time, chirp
+
+        first = lifted = is_lifted(*load, *turning(0.0))
         times: list[float] = []
         time = 0.0
-        while (time := time + time_to_contact_change(lifted, *load, angle + rate * time, rate)) < (
-            span
-        ):
+        while (time := time + time_to_contact_change(lifted, *load, *turning(time))) < span:
             times.append(time)
             lifted = not lifted
         return first, times
@@ -123,7 +136,7 @@ class _Run:
         sin, cos = math.sin, math.cos
         theta, angle = self._theta, self._psi + inputs.phase
         rate = equations.drive_frequency
-        angle_rate = inputs.frequency_ratio * rate
+        angle_rate, half = inputs.frequency_ratio * rate, 0.5 * inputs.ratio_rate * rate
         preload, amplitude = equations.normal_preload, equations.normal_amplitude
         faces, coefficient = self._device.friction_faces, self._device.friction_coefficient
         stiffness, damping = self._device.bristle_stiffness, self._device.bristle_damping
@@ -131,14 +144,14 @@ class _Run:
         def slopes(time: float, state: Array) -> list[float]:
             _, velocity, displacement, resonator_velocity, deflection = state.tolist()
             deflection_rate = velocity - stiffness * abs(velocity) * deflection / coefficient
-            normal = max(0.0, preload + amplitude * sin(angle + angle_rate * time))
+            normal = max(0.0, preload + amplitude * sin(angle + (angle_rate + half * time) * time))
             sine = sin(theta + rate * time)
             acceleration = (
                 equations.coupling_damping * resonator_velocity
                 + equations.coupling_stiffness * displacement
                 + equations.force_sine * sine
                 + equations.force_cosine * cos(theta + rate * time)
-                - inputs.load
+                - (inputs.load + inputs.load_rate * time)
                 - faces * normal * (stiffness * deflection + damping * deflection_rate)
             ) / equations.inertia
             resonator = (
@@ -154,8 +167,8 @@ class _Run:
     def _keep(self, inputs: HeldInputs, time: Array, states: Array) -> None:
         equations = self._equations
         theta = self._theta + equations.drive_frequency * time
-        angle_rate = inputs.frequency_ratio * equations.drive_frequency
-        angle = self._psi + inputs.phase + angle_rate * time
+        rate, half = equations.drive_frequency, 0.5 * inputs.ratio_rate
+        angle = self._psi + inputs.phase + (inputs.frequency_ratio + half * time) * rate * time
         load = equations.normal_preload + equations.normal_amplitude * np.sin(angle)
         velocity, deflection = states[:, 1], states[:, 4]
         stretch = deflection / self._lugre.max_deflection

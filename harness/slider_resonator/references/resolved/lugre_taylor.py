@@ -15,7 +15,14 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.device.held_inputs import (
+    RATES,
+    HeldInputs,
+    check_contiguous,
+    check_times,
+    check_turns_on,
+    with_steady_phase,
+)
 from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import LIFTED, is_lifted, time_to_contact_change
 from slider_resonator.references.resolved.equations import initial_state
@@ -27,10 +34,12 @@ from slider_resonator.references.resolved.taylor_system import (
     DIRECTION,
     DRIVE_AND_NORMAL_ANGLE,
     HELD,
+    LOAD_AND_RATIO_RATES,
     ROUNDING,
     ROUNDING_OF_A_SUM,
     STRETCH_AND_SHORTFALL,
     held_parameters,
+    rate_parameters,
     scales_of,
     series_values,
     taylor_integrator,
@@ -63,10 +72,11 @@ def simulate_lugre(
     outside them; RuntimeError for a motion that leaves the finite numbers; ModuleNotFoundError when
     heyoka is not installed.
     """
-    check_contiguous(held)
+    check_contiguous(held, rates=RATES)
     check_times(times, held)
     run = _Run(device, times, bristle, tolerance)
-    for inputs in held:
+    for inputs in with_steady_phase(held, device):
+        check_turns_on(inputs)
         run.follow(inputs)
     return run.recorder.lugre_trajectory()
 
@@ -84,7 +94,7 @@ class _Run:
         self._lugre = lugre = lugre_equations_of(device)
         self._equations = lugre.equations
         self._from_path = bristle == "path"
-        self._integrator = taylor_integrator(bristle, tolerance)
+        self._bristle, self._tolerance = bristle, tolerance
         self._position, velocity, *resonator = initial_state(device)
         self._motion = np.array([0.0, velocity, *resonator])
         self._stretch = device.initial_bristle_deflection / lugre.max_deflection
@@ -96,7 +106,9 @@ class _Run:
     def follow(self, inputs: HeldInputs) -> None:
         self._tune(inputs)
         equations = self._equations
-        rate, ratio = equations.drive_frequency, inputs.frequency_ratio
+        rate = equations.drive_frequency
+        varies = bool(inputs.load_rate or inputs.ratio_rate)
+        self._integrator = taylor_integrator(self._bristle, self._tolerance, rates=varies)
         force, self._scales = scales_of(equations, inputs.load)
         self._integrator.pars[BRISTLE] = (
             self._lugre.path_rate * self._scales[0],
@@ -104,21 +116,29 @@ class _Run:
         )
         friction = equations.friction_mean + equations.friction_amplitude
         self._driving_share = 1.0 - friction / force
+        self._force = force
         span = (inputs.stop - inputs.start) * rate
         load_of = equations.normal_preload, equations.normal_amplitude
-        lifted = is_lifted(*load_of, self._psi + inputs.phase, ratio)
+        chirp = inputs.ratio_rate / rate
+        lifted = is_lifted(*load_of, self._psi + inputs.phase, inputs.frequency_ratio, chirp)
         elapsed = Elapsed()
         while (remaining := elapsed.until(span)) > 0.0:
-            change = time_to_contact_change(lifted, *load_of, self._psi + inputs.phase, ratio)
-            self._integrator.pars[HELD] = held_parameters(
-                equations, inputs.load, ratio, force, LIFTED if lifted else None
+            now = self._present(inputs, elapsed)
+            change = time_to_contact_change(
+                lifted, *load_of, self._psi + now.phase, now.frequency_ratio, chirp
             )
             self._follow_contact(inputs, lifted, elapsed, min(change, remaining))
             lifted = lifted != (change < remaining)
         # A last step that ends short of the stop by rounding has not covered samples there.
         still = np.append(self._motion / self._scales, self._stretch)[:, np.newaxis]
         missed = np.zeros(len(self.recorder.pending(inputs.stop)))
-        self._keep(inputs, LIFTED if lifted else self.recorder.contact.direction, missed, still)
+        end = self._present(inputs, elapsed)
+        self._keep(end, LIFTED if lifted else self.recorder.contact.direction, missed, still)
+
+    def _present(self, inputs: HeldInputs, elapsed: Elapsed) -> HeldInputs:
+        """Return the inputs as they are after a scaled time."""
+        passed = (elapsed.seconds + elapsed.carry) / self._equations.drive_frequency
+        return inputs.later(passed) if inputs.vary else inputs
 
     def _tune(self, inputs: HeldInputs) -> None:
         """Take the device as it is over these inputs; the deflection of the bristle stays."""
@@ -137,7 +157,19 @@ class _Run:
         within = Elapsed()
         events = 0
         while (remaining := within.until(span)) > 0.0:
-            step, fell, coefficients = self._expand(remaining, inputs.phase)
+            now = self._present(inputs, elapsed)
+            self._integrator.pars[HELD] = held_parameters(
+                self._equations,
+                now.load,
+                now.frequency_ratio,
+                self._force,
+                LIFTED if lifted else None,
+            )
+            if now.vary:
+                self._integrator.pars[LOAD_AND_RATIO_RATES] = rate_parameters(
+                    self._equations, now.load_rate, now.ratio_rate, self._force
+                )
+            step, fell, coefficients = self._expand(remaining, now.phase)
             events = events + 1 if fell and step <= math.ulp(1.0) else 0
             start = elapsed.seconds + elapsed.carry
             if events > _MAX_EVENTS_AT_ONE_INSTANT:
@@ -155,8 +187,8 @@ class _Run:
                 covered = len(local)
                 if step < stop:
                     covered = int(np.searchsorted(local, step, side="right"))
-                self._keep(inputs, mode, np.clip(local[:covered], 0.0, step), coefficients)
-                self._advance(step, inputs.frequency_ratio, coefficients)
+                self._keep(now, mode, np.clip(local[:covered], 0.0, step), coefficients)
+                self._advance(step, now, coefficients)
                 elapsed.add(step)
                 within.add(step)
             if fell:
@@ -227,15 +259,18 @@ class _Run:
         stretch, _ = self._stretched(scaled[:, 0], local, coefficients)
         states = scaled * self._scales
         states[:, 0] += self._position
-        angle = self._psi + inputs.phase + inputs.frequency_ratio * local
+        rate = equations.drive_frequency
+        half = 0.5 * inputs.ratio_rate / rate
+        angle = self._psi + inputs.phase + (inputs.frequency_ratio + half * local) * local
+        load = inputs.load + inputs.load_rate / rate * local
         resonator = equations.resonator_motion(self._theta + local, states)
-        forces = equations.contact_forces(mode, inputs.load, self._theta + local, angle, states)
+        forces = equations.contact_forces(mode, load, self._theta + local, angle, states)
         if mode != LIFTED:
             forces = forces[0], lugre.friction_force(states[:, 1], stretch, angle)
         deflection = lugre.max_deflection * stretch
         self.recorder.keep(states, resonator, forces, mode, deflection)
 
-    def _advance(self, step: float, ratio: float, coefficients: Array) -> None:
+    def _advance(self, step: float, inputs: HeldInputs, coefficients: Array) -> None:
         local = np.array([step])
         end = series_values(local, coefficients[:4])[0]
         stretch, shortfall = self._stretched(end[:1], local, coefficients)
@@ -245,4 +280,5 @@ class _Run:
         self._position += float(self._motion[0])
         self._motion[0] = 0.0
         self._theta = advanced(self._theta, step)
-        self._psi = advanced(self._psi, ratio * step)
+        half = 0.5 * inputs.ratio_rate / self._equations.drive_frequency
+        self._psi = advanced(self._psi, (inputs.frequency_ratio + half * step) * step)

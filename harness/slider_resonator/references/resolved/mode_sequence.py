@@ -9,7 +9,14 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.device.held_inputs import (
+    RATES,
+    HeldInputs,
+    check_contiguous,
+    check_times,
+    check_turns_on,
+    with_steady_phase,
+)
 from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import (
     LIFTED,
@@ -43,16 +50,16 @@ class ModeSequence:
         self._events_at_this_instant = 0
 
     def run(self, held: Sequence[HeldInputs]) -> Trajectory:
-        """Return the motion through the held inputs.
+        """Return the motion through the held inputs, or ones with rates.
 
         A sample on a boundary between held inputs belongs to the inputs before it. Counts and
         event times cover the whole span of the inputs, whatever the times. Raises ValueError for
-        inputs with gaps or times outside them, RuntimeError for a contact that cannot be
-        resolved in floating point numbers.
+        inputs with gaps or times outside them, or under which the normal load turns back,
+        RuntimeError for a contact that cannot be resolved in floating point numbers.
         """
-        check_contiguous(held)
+        check_contiguous(held, rates=RATES)
         check_times(self._recorder.times, held)
-        for inputs in held:
+        for inputs in with_steady_phase(held, self._device):
             self._equations = equations_of(inputs.tuned_device(self._device))
             self._run_held(inputs)
         return self._recorder.trajectory()
@@ -60,32 +67,38 @@ class ModeSequence:
     def _run_held(self, inputs: HeldInputs) -> None:
         elapsed = Elapsed()
         span = inputs.stop - inputs.start
+        check_turns_on(inputs)
         mode = self._mode_now(inputs)
         self._contact.enter(mode, inputs.start)
         self._keep_present(mode, inputs, self._recorder.pending(inputs.start))
         while (remaining := elapsed.until(span)) > 0.0:
-            contact_span = self._time_to_contact_change(mode, inputs)
-            result = self._pass(mode, inputs, elapsed, min(remaining, contact_span))
+            now = inputs.later(elapsed.seconds + elapsed.carry)
+            contact_span = self._time_to_contact_change(mode, now)
+            result = self._pass(mode, inputs, now, elapsed, min(remaining, contact_span))
             elapsed.add(result.duration)
             self._theta = advanced(self._theta, self._equations.drive_frequency * result.duration)
             self._psi = advanced(
-                self._psi,
-                inputs.frequency_ratio * self._equations.drive_frequency * result.duration,
+                self._psi, now.turned(result.duration, self._equations.drive_frequency)
             )
             self.state = result.state
             time = inputs.start + elapsed.seconds
+            now = inputs.later(elapsed.seconds + elapsed.carry)
             self._guard_progress(result.duration, time)
             if result.event:
-                mode = self._mode_after_event(mode, result.event, inputs)
+                mode = self._mode_after_event(mode, result.event, now)
             elif contact_span < remaining:
-                mode = self._mode_in_contact(inputs) if mode == LIFTED else LIFTED
+                mode = self._mode_in_contact(now) if mode == LIFTED else LIFTED
             else:
                 break
             self._contact.enter(mode, time)
         # An event at the stop, to rounding, has passed over the samples there.
-        self._keep_present(mode, inputs, self._recorder.pending(inputs.stop))
+        end = inputs.later(span)
+        self._keep_present(mode, end, self._recorder.pending(inputs.stop))
 
-    def _pass(self, mode: int, inputs: HeldInputs, elapsed: Elapsed, span: float) -> SegmentResult:
+    def _pass(
+        self, mode: int, inputs: HeldInputs, now: HeldInputs, elapsed: Elapsed, span: float
+    ) -> SegmentResult:
+        """Follow a mode; ``now`` are the inputs as they are at present."""
         local = elapsed.until(self._recorder.pending() - inputs.start)
         samples = local[: np.searchsorted(local, span, side="right")]
         segment = Segment(
@@ -94,14 +107,16 @@ class ModeSequence:
             start=inputs.start + elapsed.seconds,
             state=self.state,
             theta=self._theta,
-            angle=self._psi + inputs.phase,
-            load=inputs.load,
-            frequency_ratio=inputs.frequency_ratio,
+            angle=self._psi + now.phase,
+            load=now.load,
+            frequency_ratio=now.frequency_ratio,
             span=span,
             samples=samples,
+            load_rate=now.load_rate,
+            ratio_rate=now.ratio_rate,
         )
         result = self._follow(segment)
-        self._keep(mode, inputs, samples[: len(result.samples)], result.samples)
+        self._keep(mode, now, samples[: len(result.samples)], result.samples)
         self._contact.stay(result.duration)
         self._recorder.steps += result.steps
         self._recorder.evaluations += result.evaluations
@@ -116,11 +131,11 @@ class ModeSequence:
     ) -> None:
         equations = self._equations
         theta = self._theta + equations.drive_frequency * local
-        angle = (
-            self._psi + inputs.phase + inputs.frequency_ratio * equations.drive_frequency * local
-        )
+        rate, half = equations.drive_frequency, 0.5 * inputs.ratio_rate
+        angle = self._psi + inputs.phase + (inputs.frequency_ratio + half * local) * rate * local
         resonator = equations.resonator_motion(theta, states)
-        forces = equations.contact_forces(mode, inputs.load, theta, angle, states)
+        load = inputs.load + inputs.load_rate * local
+        forces = equations.contact_forces(mode, load, theta, angle, states)
         self._recorder.keep(states, resonator, forces, mode)
 
     def _keep_present(self, mode: int, inputs: HeldInputs, times: Array) -> None:
@@ -135,6 +150,7 @@ class ModeSequence:
             equations.normal_amplitude,
             self._psi + inputs.phase,
             inputs.frequency_ratio * equations.drive_frequency,
+            inputs.ratio_rate * equations.drive_frequency,
         ):
             return LIFTED
         return self._mode_in_contact(inputs)
@@ -165,6 +181,7 @@ class ModeSequence:
             equations.normal_amplitude,
             self._psi + inputs.phase,
             inputs.frequency_ratio * equations.drive_frequency,
+            inputs.ratio_rate * equations.drive_frequency,
         )
 
     def _guard_progress(self, duration: float, time: float) -> None:

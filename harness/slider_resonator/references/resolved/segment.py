@@ -11,11 +11,12 @@ from slider_resonator.references.resolved.equations import Equations, State
 
 @dataclass(frozen=True)
 class Segment:
-    """A contact mode with constant inputs, to be followed for at most ``span`` s.
+    """A contact mode, to be followed for at most ``span`` s.
 
     It obeys ``equations`` and begins ``start`` s into the run, at the drive angle ``theta`` and the
     angle ``angle`` of the normal load, rad. The motion is sampled at ``samples`` (shape (n,),
-    ascending, within (0, span], s from its start).
+    ascending, within (0, span], s from its start). ``load`` and ``frequency_ratio`` are those at
+    the start, with their rates in N/s and 1/s.
     """
 
     equations: Equations
@@ -28,6 +29,20 @@ class Segment:
     frequency_ratio: float
     span: float
     samples: Array
+    load_rate: float = 0.0
+    ratio_rate: float = 0.0
+
+    @property
+    def varies(self) -> bool:
+        """Whether load or ratio change."""
+        return bool(self.load_rate or self.ratio_rate)
+
+    @property
+    def largest_ratio(self) -> float:
+        """The largest magnitude of the ratio within the span."""
+        return max(
+            abs(self.frequency_ratio), abs(self.frequency_ratio + self.ratio_rate * self.span)
+        )
 
 
 @dataclass(frozen=True)

@@ -23,9 +23,11 @@ from slider_resonator.references.resolved.taylor_system import (
     DIRECTION,
     DRIVE_AND_NORMAL_ANGLE,
     HELD,
+    LOAD_AND_RATIO_RATES,
     ROUNDING,
     ROUNDING_OF_A_SUM,
     held_parameters,
+    rate_parameters,
     scales_of,
     series_values,
     taylor_integrator,
@@ -49,9 +51,9 @@ def simulate(
     that the equations do not cover, inputs with gaps, and times outside them; ModuleNotFoundError
     when heyoka is not installed.
     """
-    integrator = taylor_integrator("coulomb", tolerance)
 
     def follow(segment: Segment) -> SegmentResult:
+        integrator = taylor_integrator("coulomb", tolerance, rates=segment.varies)
         return _ScaledMotion(segment, integrator).follow()
 
     return ModeSequence(device, follow, times).run(held)
@@ -69,9 +71,10 @@ class _ScaledMotion:
     def follow(self) -> SegmentResult:
         segment, integrator = self._segment, self._integrator
         rate = self._equations.drive_frequency
-        integrator.pars[HELD] = held_parameters(
-            self._equations, segment.load, segment.frequency_ratio, self._force, segment.mode
-        )
+        if segment.varies:
+            integrator.pars[LOAD_AND_RATIO_RATES] = rate_parameters(
+                self._equations, segment.load_rate, segment.ratio_rate, self._force
+            )
         integrator.pars[DIRECTION] = segment.mode
         # The displacement starts from zero, so that a long way travelled costs it no digits.
         state = np.array([0.0, *segment.state[1:]]) / self._scales
@@ -80,16 +83,20 @@ class _ScaledMotion:
         longest = self._longest_step()
         elapsed = Elapsed()
         theta, angle = segment.theta, segment.angle
+        load, ratio = segment.load, segment.frequency_ratio
         samples: list[Array] = []
         steps, event = 0, 0
         while not event and (remaining := elapsed.until(span)) > 0.0:
+            integrator.pars[HELD] = held_parameters(
+                self._equations, load, ratio, self._force, segment.mode
+            )
             integrator.pars[DRIVE_AND_NORMAL_ANGLE] = theta, angle
             integrator.state[:] = state
             integrator.time = 0.0
             _, step = integrator.step(max_delta_t=min(remaining, longest), write_tc=True)
             coefficients = np.array(integrator.tc)
             steps += 1
-            crossing = self._first_event(coefficients, theta, angle, step)
+            crossing = self._first_event(coefficients, (theta, angle), (load, ratio), step)
             if crossing is None:
                 state = np.array(integrator.state)
             else:
@@ -100,7 +107,11 @@ class _ScaledMotion:
             samples.extend(series_values(covered, coefficients))
             elapsed.add(step)
             theta = advanced(theta, step)
-            angle = advanced(angle, segment.frequency_ratio * step)
+            half = 0.5 * segment.ratio_rate / rate
+            angle = advanced(angle, (ratio + half * step) * step)
+            passed = (elapsed.seconds + elapsed.carry) / rate
+            load = segment.load + segment.load_rate * passed
+            ratio = segment.frequency_ratio + segment.ratio_rate * passed
         sampled = np.array(samples).reshape(-1, 4) * self._scales
         sampled[:, 0] += segment.state[0]
         displacement, velocity, resonator, resonator_velocity = (state * self._scales).tolist()
@@ -114,9 +125,16 @@ class _ScaledMotion:
         )
 
     def _first_event(
-        self, coefficients: Array, theta: float, angle: float, step: float
+        self,
+        coefficients: Array,
+        angles: tuple[float, float],
+        inputs: tuple[float, float],
+        step: float,
     ) -> tuple[float, int] | None:
-        """Return scaled time and direction of the first event in a step, None if there is none."""
+        """Return scaled time and direction of the first event in a step, None if there is none.
+
+        ``angles`` (rad) of drive and normal load, load (N) and ratio are those at its start.
+        """
         mode = self._segment.mode
         if mode == LIFTED:
             return None
@@ -124,7 +142,7 @@ class _ScaledMotion:
         if mode != STICK:
             rest = first_fall(mode * coefficients[1], step, noise)
             return None if rest is None else (rest, -mode)
-        limit, needed = self._stick_forces(coefficients, theta, angle)
+        limit, needed = self._stick_forces(coefficients, angles, inputs)
         found = [
             (crossing, event)
             for event in (1, -1)
@@ -136,7 +154,7 @@ class _ScaledMotion:
         # heyoka sizes its steps by the motion. In a stick the event series hold sines that the
         # motion need not contain; steps of one radian of the faster keep them at rounding level.
         segment = self._segment
-        return 1.0 / max(1.0, abs(segment.frequency_ratio)) if segment.mode == STICK else np.inf
+        return 1.0 / max(1.0, segment.largest_ratio) if segment.mode == STICK else np.inf
 
     def _noise(self, coefficients: Array, step: float) -> float:
         """Return the rounding error of forces and velocities in a step, over their scales.
@@ -149,14 +167,19 @@ class _ScaledMotion:
         reach = np.abs(coefficients[2:] * step ** np.arange(coefficients.shape[1])).max()
         return ROUNDING_OF_A_SUM * float(1.0 + coupling / (equations.inertia * rate) * reach)
 
-    def _stick_forces(self, coefficients: Array, theta: float, angle: float) -> tuple[Array, Array]:
+    def _stick_forces(
+        self, coefficients: Array, angles: tuple[float, float], inputs: tuple[float, float]
+    ) -> tuple[Array, Array]:
         """Return the Taylor coefficients of friction limit and needed force, over force scale."""
         equations, segment = self._equations, self._segment
         count = coefficients.shape[1]
         rate = equations.drive_frequency
         coupling = 1.0 / (equations.inertia * rate)
-        drive_sine, drive_cosine = _sine_series(theta, 1.0, count)
-        normal_sine, _ = _sine_series(angle, segment.frequency_ratio, count)
+        load, ratio = inputs
+        drive_sine, drive_cosine = _sine_series(angles[0], 1.0, count)
+        normal_sine, _ = _sine_series(angles[1], ratio, count)
+        if segment.ratio_rate:
+            normal_sine = _chirp_series(angles[1], ratio, segment.ratio_rate / rate, count)
         needed = (
             coupling * equations.coupling_damping * coefficients[3]
             + coupling * equations.coupling_stiffness / rate * coefficients[2]
@@ -164,7 +187,8 @@ class _ScaledMotion:
             / self._force
         )
         limit = equations.friction_amplitude / self._force * normal_sine
-        needed[0] -= segment.load / self._force
+        needed[0] -= load / self._force
+        needed[1] -= segment.load_rate / (rate * self._force)
         limit[0] += equations.friction_mean / self._force
         return limit, needed
 
@@ -178,3 +202,13 @@ def _sine_series(angle: float, rate: float, count: int) -> tuple[Array, Array]:
         np.array([sine, cosine, -sine, -cosine])[order] * powers,
         np.array([cosine, -sine, -cosine, sine])[order] * powers,
     )
+
+
+def _chirp_series(angle: float, rate: float, chirp: float, count: int) -> Array:
+    """Return the Taylor coefficients of sin(angle + rate t + chirp t^2 / 2), shape (count,)."""
+    terms = np.zeros(count, dtype=np.complex128)
+    terms[0] = np.exp(1j * angle)
+    for order in range(count - 1):
+        before = chirp * terms[order - 1] if order else 0.0
+        terms[order + 1] = 1j * (rate * terms[order] + before) / (order + 1)
+    return terms.imag

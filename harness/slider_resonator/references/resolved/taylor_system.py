@@ -31,14 +31,18 @@ DIRECTION = 14
 """Parameter: the sign of the velocity."""
 BRISTLE = slice(15, 17)
 """Parameters of LuGre friction: path rate and path damping, scaled."""
+LOAD_AND_RATIO_RATES = slice(19, 21)
+"""Parameters of a system with ``rates``: those of load and, halved, of the ratio, scaled."""
 STRETCH_AND_SHORTFALL = slice(17, 19)
 """Parameters, for the bristle from the path, at the start of a step: its stretch, and how far that
 is from ``DIRECTION``, the stretch of steady sliding."""
 
 
 @cache
-def taylor_integrator(friction: Friction, tolerance: float) -> Any:
+def taylor_integrator(friction: Friction, tolerance: float, *, rates: bool = False) -> Any:
     """Return the Taylor integrator of the scaled equations, compiled once.
+
+    With ``rates`` load and frequency ratio are straight lines in time.
 
     The state is path, velocity, Y, Y' and, with the bristle as a state, its stretch; the places
     of the parameters are above. Raises ModuleNotFoundError when heyoka is not installed.
@@ -71,6 +75,14 @@ def taylor_integrator(friction: Friction, tolerance: float) -> Any:
             missing = direction - stretch
         # |v| is written as direction times v, analytic up to and through the reversal.
         grip = stretch + path_damping * direction * velocity * missing
+    normal_angle = angle + ratio * heyoka.time
+    if rates:
+        load_rate, half_chirp = (
+            heyoka.par[index]
+            for index in range(LOAD_AND_RATIO_RATES.start, LOAD_AND_RATIO_RATES.stop)
+        )
+        load = load + load_rate * heyoka.time
+        normal_angle = angle + (ratio + half_chirp * heyoka.time) * heyoka.time
     drive_angle = theta + heyoka.time
     acceleration = slides * (
         damping * resonator_velocity
@@ -78,7 +90,7 @@ def taylor_integrator(friction: Friction, tolerance: float) -> Any:
         + sine * heyoka.sin(drive_angle)
         + cosine * heyoka.cos(drive_angle)
         - load
-        - grip * (mean + amplitude * heyoka.sin(angle + ratio * heyoka.time))
+        - grip * (mean + amplitude * heyoka.sin(normal_angle))
     )
     resonator_acceleration = (
         base * heyoka.sin(drive_angle)
@@ -134,3 +146,14 @@ def scales_of(equations: Equations, load: float) -> tuple[float, Array]:
 def series_values(times: Array, coefficients: Array) -> Array:
     """Return the values, shape (n, k), of k Taylor series (k, order + 1) at n times."""
     return np.asarray(np.polynomial.polynomial.polyval(times, coefficients.T), dtype=np.float64).T
+
+
+def rate_parameters(
+    equations: Equations, load_rate: float, ratio_rate: float, force: float
+) -> list[float]:
+    """Return the parameters ``LOAD_AND_RATIO_RATES`` of rates in N/s and 1/s.
+
+    ``force`` (N) is characteristic.
+    """
+    frequency = equations.drive_frequency
+    return [load_rate / (frequency * force), 0.5 * ratio_rate / frequency]

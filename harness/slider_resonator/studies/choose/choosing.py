@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from math import ceil, inf
@@ -25,6 +26,7 @@ from slider_resonator.studies.choose.coverage import FINEST_TOLERANCE
 from slider_resonator.studies.choose.errors import Estimates
 from slider_resonator.studies.choose.ladder import step_ladder
 from slider_resonator.studies.choose.probe import Probe
+from slider_resonator.studies.choose.scales import check_magnitudes
 from slider_resonator.studies.choose.search import coarsest
 from slider_resonator.studies.choose.steady_need import SteadyValue, find, steady_error
 
@@ -40,21 +42,28 @@ TIME_LIMIT = 600.0
 """Default time limit of a choice, s."""
 
 
-def choose(scene: Scene, fmu: str | Path, time_limit: float = TIME_LIMIT) -> Choice:
+def choose(
+    scene: Scene,
+    fmu: str | Path,
+    time_limit: float = TIME_LIMIT,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Choice:
     """Return the cheapest model, tolerance and communication step that the scene's needs allow.
 
-    `fmu` is where it is tried, in a process of its own that may take `time_limit` (s). Raises
-    SceneError for a scene without needs and FmuError or Refusal where the FMU cannot run the
-    resolved device.
+    `fmu` is where it is tried, in a process of its own that may take `time_limit` (s). `progress`
+    gets the share of the models that are judged. Raises SceneError for a scene without needs and
+    FmuError or Refusal where the FMU cannot run the resolved device.
     """
     with IsolatedFmu(Path(fmu), time_limit) as isolated:
-        choice: Choice = isolated.run(partial(choose_with, scene=scene))
+        choice: Choice = isolated.run(partial(choose_with, scene=scene), progress)
         return choice
 
 
-def choose_with(instance: Instance, scene: Scene) -> Choice:
+def choose_with(
+    instance: Instance, scene: Scene, progress: Callable[[float], None] = lambda share: None
+) -> Choice:
     """Choose as `choose` does, in an existing instance."""
-    return _Choosing(instance, scene).answer()
+    return _Choosing(instance, scene).answer(progress)
 
 
 def candidates(instance: Instance, scene: Scene) -> tuple[tuple[Candidate, float], ...]:
@@ -83,6 +92,7 @@ class _Choosing:
                 "needs, such as mean_velocity = { rel = 0.01 }"
             )
         scene.check_plain("choose")
+        check_magnitudes(scene)
         self.instance = instance
         self.scene = scene
         self.needs = scene.need.needs
@@ -96,7 +106,7 @@ class _Choosing:
         self._evaluations: dict[Candidate, Evaluation] = {}
         self._steady: dict[tuple[str, Candidate], SteadyValue] = {}
 
-    def answer(self) -> Choice:
+    def answer(self, progress: Callable[[float], None]) -> Choice:
         """Try the models from the cheapest on."""
         impossible = self._impossible()
         if impossible:
@@ -106,7 +116,9 @@ class _Choosing:
             self.probe.resolve(self.ladder[0])
         ruled_out: list[RuledOut] = []
         best: Evaluation | None = None
-        for model in sorted(self.models(), key=self._min_cost):
+        models = sorted(self.models(), key=self._min_cost)
+        for index, model in enumerate(models):
+            progress(index / len(models))
             why = self._excluded(model)
             if why is None and best is not None and self._min_cost(model) >= best.cost:
                 why = f"costs at least {self._min_cost(model):.3g} s, the chosen {best.cost:.3g} s"

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import pairwise
 from math import inf, pi, sqrt
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Signal
+from slider_resonator.errors import SceneError
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene
 
@@ -76,6 +77,22 @@ class Scales:
             return None
         disturbed = 1.0 + self.mass_ratio * pi * min(self.memory, LONG_MEMORY)
         return self.slowness * self.fast_velocity * disturbed
+
+
+MAX_MAGNITUDE = 1e50
+"""Largest magnitude of a parameter or input, in SI units: products of six are finite."""
+
+
+def check_magnitudes(scene: Scene) -> None:
+    """Raise SceneError naming a parameter or input too large for the scales to be finite."""
+    values = {name: float(value) for name, value in asdict(scene.device).items()}
+    values |= {name: max(map(abs, signal.values)) for name, signal in scene.signals.items()}
+    for name, value in values.items():
+        if not abs(value) <= MAX_MAGNITUDE:
+            raise SceneError(
+                f"{scene.source}: {name} = {value!r}: must be at most {MAX_MAGNITUDE:g} to choose "
+                "a model"
+            )
 
 
 def scales_of(scene: Scene) -> Scales:

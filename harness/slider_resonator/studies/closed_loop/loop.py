@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.trials.hosts.hosts import Host, package_version
 from slider_resonator.trials.hosts.job import Job
 from slider_resonator.trials.hosts.runs import TIME_LIMIT, run_jobs
+from slider_resonator.trials.hosts.ssp_package import WITH_CONNECTORS
 
 Array = NDArray[np.float64]
 
@@ -58,6 +60,7 @@ def run_loop(
     """
     host.version()
     jobs = [_job(package, name, duty) for name in (DESIGN, PROOF)]
+    _check_structures(package)
     records = []
     for job, answer in zip(jobs, run_jobs(host, jobs, time_limit), strict=True):
         if answer.error is not None:
@@ -74,6 +77,15 @@ def run_loop(
         load = np.array([duty.load(time - late) for time in duty.times])
         records.append(LoopRecord(host.name, fidelity, times, rows[:, 0], rows[:, 1], load))
     return records[0], records[1]
+
+
+def _check_structures(package: Path) -> None:
+    with zipfile.ZipFile(package) as archive:
+        if WITH_CONNECTORS not in archive.namelist():
+            raise HarnessError(
+                f"{package}: has no {WITH_CONNECTORS}, the structure with system inputs; "
+                "must be a package of version 0.2.0 or later: `make build` builds one"
+            )
 
 
 def _job(package: Path, name: str, duty: Duty) -> Job:

@@ -96,7 +96,7 @@ def write_index(
         parts.append(f"<h2>Statements of the paper</h2><p>{text(verdicts(claims))}</p>")
     for title, group in groups:
         table = Table(_CLAIM_COLUMNS, [_claim_row(claim) for claim in group])
-        parts.append(f'<h3>{text(title)}</h3><div class="wide">{html_page.rendered(table)}</div>')
+        parts.append(f"<h3>{text(title)}</h3>{html_page.rendered(table)}")
     for figure in figures:
         name, title = text(figure.name), text(figure.title)
         parts.append(
@@ -108,7 +108,7 @@ def write_index(
         parts.append(
             f"<h2>{text(shown.name)}: {text(shown.title)}</h2><p>{text(shown.caption)}</p>"
         )
-        parts.append(f'<div class="wide">{rendered}</div>')
+        parts.append(rendered)
         parts += [f"<p>{text(line)}</p>" for line in _largest(shown, data)]
     parts.append(provenance_html(provenance))
     html_page.write_page(folder / "index.html", "The paper, reproduced", parts, images_beside=True)

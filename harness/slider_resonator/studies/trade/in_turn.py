@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from slider_resonator.output.console import counted
+
 Progress = Callable[[str, float], None]
 
 
@@ -30,7 +32,7 @@ def in_turn(
     for turn in range(max((timed.repeats for timed in everything), default=0)):
         for timed, taken in zip(everything, seconds, strict=True):
             if turn < timed.repeats:
-                progress(timed.name, done / total)
+                progress(counted(timed.name, done, total), done / total)
                 taken.append(timed.seconds())
                 done += 1
     return seconds

@@ -31,8 +31,8 @@ NEEDS = (
 )
 """Quantity and error; a scene without the quantity has no such row."""
 COLUMNS = (
-    *(*texts("need"), *numbers("within"), *texts("model"), *numbers("error")),
-    *texts("native FMU", "Python FMU", "cheapest peer"),
+    *(*texts("need"), *numbers("within"), *texts("model")),
+    *(*numbers("error", "native FMU", "Python FMU"), *texts("cheapest peer")),
 )
 
 

@@ -16,6 +16,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.fmu.run import run
+from slider_resonator.output.console import counted
 from slider_resonator.trials.campaign.expected import AVERAGED, RESOLVED
 from slider_resonator.trials.campaign.random_case import RandomCase
 from slider_resonator.trials.campaign.second_order import OUTPUTS
@@ -75,9 +76,7 @@ def run_campaign(
 
     def report(case: RandomCase) -> None:
         done = len(verdicts)
-        seconds = time.perf_counter() - began
-        left = f", {seconds / done * (len(cases) - done):.0f} s left" if done else ""
-        progress(f"{fmu.name}: case {case.number}{left}", done / len(cases))
+        progress(counted(f"{fmu.name}: case {case.number}", done, len(cases)), done / len(cases))
 
     def campaign() -> Campaign:
         seconds, seed = time.perf_counter() - began, cases[0].seed if cases else 0

@@ -9,6 +9,7 @@ from pathlib import Path
 from statistics import median
 
 from slider_resonator.errors import FmuError
+from slider_resonator.output.console import counted
 from slider_resonator.trials.hosts.driver_host import DriverFiles, initialised, run_natively
 from slider_resonator.trials.hosts.job import describe
 from slider_resonator.trials.hosts.program import run_program
@@ -40,7 +41,7 @@ LONG_STEP = f"the same, {_PERIODS} drive periods"
 
 STEPS = (
     Step("resolved Coulomb, 1 ms", {"fidelity": 2}, 1e-3, 20_000, _ALL_MOTION),
-    Step("the same, averaged theory read too", {"fidelity": 2}, 1e-3, 20_000, _FEED_FORWARD),
+    Step("the same, steady velocity read too", {"fidelity": 2}, 1e-3, 20_000, _FEED_FORWARD),
     Step("averaged Coulomb, 10 ms", {"fidelity": 0}, 1e-2, 20_000, _ALL_MOTION),
     Step("the same at 35 000 rad/s", {"fidelity": 0, **_FAST}, 1e-2, 20_000, _ALL_MOTION),
     Step("averaged LuGre, 10 ms", {"fidelity": 0, "friction_law": 1}, 1e-2, 20_000, _ALL_MOTION),
@@ -73,7 +74,8 @@ def measure_steps(
     times: dict[str, list[float]] = {step.name: [] for step in STEPS}
     for repeat in range(repeats):
         for index, step in enumerate(STEPS):
-            progress(f"C host: {step.name}", (repeat + index / len(STEPS)) / repeats)
+            done, total = repeat * len(STEPS) + index, repeats * len(STEPS)
+            progress(counted(f"C host: {step.name}", done, total), done / total)
             times[step.name].append(_microseconds(fmu, step, time_limit))
     progress("", 1.0)
     return tuple(

@@ -15,10 +15,12 @@ from slider_resonator.references.averaged.motion_from_start import (
     simulate_from_start,
     turns_resolved,
 )
-from slider_resonator.references.resolved import lugre_taylor, taylor
+from slider_resonator.references.resolved import located_events, lugre_taylor, taylor
 
 DEVICE = Device(friction_coefficient=0.5)
 TURN = 2.0 * math.pi / DEVICE.drive_frequency
+SCIPY_ERRORS = (1e-11, 1e-9)
+"""Errors of the integrators of scipy in 30 turns, as shares of the signals, by friction law."""
 
 
 @pytest.mark.parametrize("law", [0, 1])
@@ -33,13 +35,13 @@ def test_it_is_resolved_motion_at_first_and_close_to_it_later(law: int) -> None:
     assert 0 < early.sum() < len(times)
     for name, scale in (("position", 0.01), ("velocity", 0.3), ("resonator_velocity", 2.4)):
         apart = np.abs(getattr(found, name) - getattr(exact, name)) / scale
-        assert apart[early].max() < 1e-12
+        assert apart[early].max() < SCIPY_ERRORS[law]
         assert 0.0 < apart[~early].max() < 3e-6
 
 
 def test_a_run_that_ends_while_it_swings_is_resolved_throughout() -> None:
     held, times = [HeldInputs(0.0, 5.0 * TURN)], np.linspace(0.0, 5.0 * TURN, 7)
-    exact = taylor.simulate(DEVICE, held, times)
+    exact = located_events.simulate(DEVICE, held, times)
     assert np.array_equal(simulate_from_start(DEVICE, held, times).position, exact.position)
 
 

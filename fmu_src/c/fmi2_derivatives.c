@@ -1,0 +1,48 @@
+/* FMI 2.0 for co-simulation: first derivatives of inputs and outputs, all of a call or none. */
+#include "fmi2_api.h"
+#include "values.h"
+
+/* Refuse null pointers, more values than there are variables, references that are not of Reals, and any
+ * order but 1. */
+static bool derivatives_check(const char *call, const fmi2ValueReference *references, size_t count,
+                              const fmi2Integer *orders, const void *values, Refusal *refusal) {
+    if (count > VARIABLE_COUNT) {
+        return refuse(refusal, "%s: nvr = %lu refused: must be at most %d, each variable once", call,
+                      (unsigned long)count, VARIABLE_COUNT);
+    }
+    if (count > 0 && (references == NULL || orders == NULL || values == NULL)) {
+        return refuse(refusal,
+                      "%s: a null pointer refused: must point to %lu references, orders or values",
+                      call, (unsigned long)count);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!reference_check(references[i], REAL_TYPE, refusal)) {
+            return false;
+        }
+        if (orders[i] != 1) {
+            return refuse(refusal, "%s: derivative of %s of order %d refused: the order must be 1",
+                          call, VARIABLES[references[i]].name, (int)orders[i]);
+        }
+    }
+    return true;
+}
+
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
+                                       const fmi2Integer order[], const fmi2Real value[]) {
+    Instance *instance = c;
+    Refusal refusal;
+    bool done = instance != NULL
+                && derivatives_check("fmi2SetRealInputDerivatives", vr, nvr, order, value, &refusal)
+                && component_set_derivatives(&instance->component, vr, value, nvr, &refusal);
+    return answer(instance, done, &refusal);
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
+                                        const fmi2Integer order[], fmi2Real value[]) {
+    Instance *instance = c;
+    Refusal refusal;
+    bool done = instance != NULL
+                && derivatives_check("fmi2GetRealOutputDerivatives", vr, nvr, order, value, &refusal)
+                && component_get_derivatives(&instance->component, vr, value, nvr, &refusal);
+    return answer(instance, done, &refusal);
+}

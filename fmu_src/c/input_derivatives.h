@@ -1,0 +1,39 @@
+/* First derivatives of inputs, with which they vary linearly over a step.
+ *
+ * Like a value, a derivative holds until it is set again. An input that is set after a step without its
+ * derivative is held from then on. */
+#ifndef INPUT_DERIVATIVES_H
+#define INPUT_DERIVATIVES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "lifecycle.h"
+#include "refusal.h"
+
+/* The inputs are the first variables: phase, load and frequency ratio. */
+enum { INPUT_COUNT = 3 };
+
+/* The derivative of an input, per s. It `is_new` until a step has been made with it. */
+typedef struct {
+    double value;
+    bool is_new;
+} InputDerivative;
+
+/* Whether inputs vary. */
+bool inputs_vary(const InputDerivative derivatives[INPUT_COUNT]);
+
+/* Change derivatives by reference. Refuse those of other variables than inputs, any after the end, and
+ * values that are not finite; `derivatives` are then undefined. */
+bool change_derivatives(InputDerivative derivatives[INPUT_COUNT], Lifecycle lifecycle,
+                        const unsigned *references, const double *values, size_t count,
+                        Refusal *refusal);
+
+/* Hold inputs that were set by reference, except those with new derivatives. */
+void hold_inputs(InputDerivative derivatives[INPUT_COUNT], const unsigned *references,
+                 size_t count);
+
+/* Take note that a step was made. */
+void derivatives_used(InputDerivative derivatives[INPUT_COUNT]);
+
+#endif

@@ -1,0 +1,68 @@
+"""The help of commands, with examples that fit the terminal and can still be copied."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Iterable
+
+import click
+
+from slider_resonator.output.fitting_text import fitting
+
+_EXAMPLE = re.compile(r"\s*(slider-resonator|python|pip) ")
+_OPTION_AND_VALUE = re.compile(r"(?:--?\S+ (?!-)|> )?\S+")
+
+
+_WHOLE = "\N{NON-BREAKING HYPHEN}"
+"""Stands for a hyphen while click wraps: it would split names there."""
+
+
+class FittingHelp(click.HelpFormatter):
+    """Splits no name, and breaks lines that click leaves as they are, below one of backslash b."""
+
+    def write(self, string: str) -> None:
+        """Write what is wrapped."""
+        super().write(string.replace(_WHOLE, "-"))
+
+    def write_text(self, text: str) -> None:
+        """Write a text."""
+        width = max(self.width - self.current_indent, 20)
+        fitted = "\n\n".join(_paragraph(part, width) for part in text.split("\n\n"))
+        super().write_text(fitted.replace("-", _WHOLE))
+
+    def write_dl(
+        self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2
+    ) -> None:
+        """Write a list of names with their texts."""
+        whole = [(name, text.replace("-", _WHOLE)) for name, text in rows]
+        super().write_dl(whole, col_max, col_spacing)
+
+
+def _paragraph(text: str, width: int) -> str:
+    lines = text.splitlines()
+    if not lines or lines[0].strip() != "\b":
+        return text
+    return "\n".join([lines[0], *(_line(line, width) for line in lines[1:])])
+
+
+def _line(line: str, width: int) -> str:
+    if len(line) <= width:
+        return line
+    return _example(line, width) if _EXAMPLE.match(line) else fitting(line, width)
+
+
+def _example(line: str, width: int) -> str:
+    """Return a command on several lines of a shell, an option on that of its value."""
+    indent = line[: len(line) - len(line.lstrip())]
+    # textwrap breaks at blanks: those that stay are another character meanwhile.
+    joined = [found.replace(" ", "\0") for found in _OPTION_AND_VALUE.findall(line)]
+    rows = textwrap.wrap(
+        " ".join(joined),
+        width - len(" \\"),
+        initial_indent=indent,
+        subsequent_indent=f"{indent}    ",
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return " \\\n".join(rows).replace("\0", " ")

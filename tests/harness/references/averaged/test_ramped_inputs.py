@@ -1,0 +1,85 @@
+"""Averaged references under phases and loads that change at constant rates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.averaged.averaged_motion import simulate_averaged
+from slider_resonator.references.averaged.averaged_outputs import averaged_outputs
+from slider_resonator.references.averaged.motion_from_start import simulate_from_start
+from slider_resonator.references.resolved import taylor
+
+STOP = 0.3
+TIMES = np.linspace(0.0, STOP, 40)
+LINE = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0, load_rate=0.3)
+LOAD = replace(LINE, phase_rate=0.0)
+DEVICE = Device(fidelity=0)
+LUGRE = replace(DEVICE, friction_law=1, bristle_stiffness=1e4)
+Simulate = Callable[[Device, Sequence[HeldInputs], Array], Array]
+
+
+def first_order(device: Device, held: Sequence[HeldInputs], times: Array) -> Array:
+    return simulate_averaged(device, held, times).position
+
+
+def second_order(device: Device, held: Sequence[HeldInputs], times: Array) -> Array:
+    return simulate_from_start(device, held, times).position
+
+
+def staircase(count: int) -> list[HeldInputs]:
+    size = STOP / count
+    return [
+        replace(
+            LINE.later((i + 0.5) * size),
+            start=i * size,
+            stop=(i + 1) * size,
+            phase_rate=0.0,
+            load_rate=0.0,
+        )
+        for i in range(count)
+    ]
+
+
+@pytest.mark.parametrize("device", [DEVICE, LUGRE])
+def test_held_steps_tend_to_the_line(device: Device) -> None:
+    line = first_order(device, [LINE], TIMES)
+    errors = [np.abs(first_order(device, staircase(n), TIMES) - line).max() for n in (10, 40)]
+    assert errors[1] < errors[0] / 10.0
+    assert errors[1] < 1e-4 * np.abs(line).max()
+
+
+@pytest.mark.parametrize(("simulate", "line"), [(first_order, LINE), (second_order, LOAD)])
+def test_cutting_the_line_changes_nothing(simulate: Simulate, line: HeldInputs) -> None:
+    cut = [replace(line, stop=0.11), line.later(0.11)]
+    whole = simulate(DEVICE, [line], TIMES)
+    assert np.abs(simulate(DEVICE, cut, TIMES) - whole).max() < 1e-10 * np.abs(whole).max()
+
+
+def test_the_second_order_follows_the_full_device() -> None:
+    exact = taylor.simulate(replace(DEVICE, fidelity=2), [LOAD], TIMES).position
+    off = np.abs(second_order(DEVICE, [LOAD], TIMES) - exact).max()
+    assert off < 1e-6 * np.abs(exact).max()
+    held = replace(LOAD, load_rate=0.0)
+    assert np.abs(second_order(DEVICE, [held], TIMES) - exact).max() > 1e3 * off
+
+
+def test_the_normal_force_has_the_phase_of_the_ramp() -> None:
+    motion = simulate_averaged(DEVICE, [LINE], TIMES)
+    found = averaged_outputs(DEVICE, [LINE], motion).normal_force
+    angle = 3500.0 * TIMES + 0.2 + 2.0 * TIMES
+    assert np.abs(found - (1.0 + np.sin(angle))).max() < 1e-11
+
+
+def test_ramps_that_are_not_covered_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"ratio_rate = 1\.0: must be 0"):
+        simulate_averaged(DEVICE, [replace(LINE, ratio_rate=1.0)], TIMES)
+    block = replace(DEVICE, base_amplitude=0.0)
+    with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
+        simulate_averaged(block, [LOAD], TIMES)

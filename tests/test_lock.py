@@ -1,0 +1,59 @@
+"""The lock files hold what pyproject.toml asks for, so that an SBOM made of them is whole."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+
+import pytest
+from packaging.requirements import Requirement
+
+from tests.processes import ROOT
+
+
+def project() -> dict[str, object]:
+    content = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    own = content["project"]
+    extras = own["optional-dependencies"].values()
+    return {
+        "requirements.lock": [*own["dependencies"], *(name for extra in extras for name in extra)],
+        "requirements-lint.lock": content["dependency-groups"]["lint"],
+    }
+
+
+def locked(name: str) -> dict[str, set[str]]:
+    """Return the versions of each package, several where they depend on the Python."""
+    versions: dict[str, set[str]] = {}
+    for line in (ROOT / name).read_text(encoding="utf-8").splitlines():
+        if line and not line.lstrip().startswith("#"):
+            found = re.match(r"([A-Za-z0-9._-]+)==([^ ;]+)( ;.*)?$", line)
+            assert found, f"{name}: {line}: must be a package, == and a version"
+            versions.setdefault(normalised(found[1]), set()).add(found[2])
+    return versions
+
+
+def normalised(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+@pytest.mark.parametrize("name", ["requirements.lock", "requirements-lint.lock"])
+def test_every_requirement_is_locked_at_a_version_that_it_allows(name: str) -> None:
+    versions = locked(name)
+    wanted = project()[name]
+    assert isinstance(wanted, list)
+    for line in wanted:
+        requirement = Requirement(line)
+        if requirement.name == "slider-resonator":
+            continue
+        found = versions.get(normalised(requirement.name), set())
+        assert found, f"{name} lacks {requirement.name}: `make lock` writes it anew"
+        refused = [
+            one for one in found if not requirement.specifier.contains(one, prereleases=True)
+        ]
+        assert not refused, f"{name}: {requirement.name} {refused}: must be {requirement.specifier}"
+
+
+@pytest.mark.parametrize("name", ["requirements.lock", "requirements-lint.lock"])
+def test_a_lock_file_names_no_index_and_no_folder(name: str) -> None:
+    text = (ROOT / name).read_text(encoding="utf-8")
+    assert not re.search(r"://|--index|--extra-index|--find-links|^[./]", text, re.MULTILINE)
