@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from slider_resonator.trials.campaign.verdict import (
     judge,
 )
 from tests.fmus import both_fmus
+from tests.harness.faulty_fmus import without_later_variables
 from tests.harness.public_json import assert_public_keys
 
 CASES = 2 * len(MODELS)
@@ -41,6 +43,15 @@ def test_the_first_cases_pass(fmu: Fmu) -> None:
     assert len(labels) == CASES
     assert "s left" in labels[-1]
     assert all(verdict.found <= 1.0 for verdict in campaign.verdicts)
+
+
+def test_an_fmu_without_second_order_runs_the_other_cases(native_fmu: Path, tmp_path: Path) -> None:
+    older = without_later_variables(native_fmu, tmp_path / "older.fmu")
+    cases = [random_case(7, number) for number in (0, 6, 7)]
+    assert [case.second_order for case in cases] == [False, True, True]
+    campaign = run_campaign(older, cases, lambda label, share: None)
+    assert campaign.passed, sentences(campaign)
+    assert [one.number for one in campaign.verdicts] == [0]
 
 
 def test_a_case_depends_on_seed_and_number_alone() -> None:
