@@ -14,6 +14,9 @@ double friction_share(const Law *law);
  * resonator. */
 double decay_in_turn(const Law *law);
 
+/* Decay of the bend of a bristle in a turn, over a path of four times the amplitude; infinite without. */
+double bristle_decay(const Law *law);
+
 /* Error [m/s] of averages of first order. */
 double first_order_error(const Law *law);
 
@@ -21,5 +24,9 @@ double first_order_error(const Law *law);
  * friction and load leave a mean `force` [N]: without it motion is steady, and its orbit exact. It is larger
  * once the motion has `grazed` the velocity from which on the slider turns back. */
 double second_order_error(const Law *law, double added_mass, bool grazed, double force);
+
+/* What averages of second order err by [m/s] while inputs turn the lead by `turning` [rad/s]; 0 under held
+ * inputs. */
+double turning_error(const Law *law, double turning);
 
 #endif

@@ -15,9 +15,8 @@ _CHECKED = "    if (isfinite(value) && value >= variable->minimum && value <= va
 FAULTS: Mapping[str, tuple[str, str, str, str]] = {
     "a tuned value acts only after the next start": (
         "component.c",
-        "    Device device = device_of(values);",
-        "    Device device = component->now.lifecycle == STEP_COMPLETE\n"
-        "                        ? component->laws[component->present].device : device_of(values);",
+        "    component->present = next;\n",
+        "    component->present = component->now.lifecycle == STEP_COMPLETE ? 1 - next : next;\n",
         "tuned",
     ),
     "another drive frequency restarts the drive": (

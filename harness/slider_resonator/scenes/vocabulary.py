@@ -223,7 +223,8 @@ QUANTITIES: Mapping[str, Quantity] = {
         "outputs of the run that differ between a new instance and one that is reset"
     ),
     "restored_differences": _count(
-        "outputs of the run that differ after a state is restored, whatever was done meanwhile"
+        "outputs of the run that differ after a state is restored, whatever was done meanwhile, "
+        "and derivatives of outputs that differ from short steps"
     ),
     "transferred_differences": _count(
         "outputs of the run that differ in another instance that takes over a serialised state"

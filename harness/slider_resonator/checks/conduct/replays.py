@@ -11,6 +11,7 @@ from fmpy.fmi1 import FMICallException
 
 from slider_resonator.checks.conduct.findings import NOTHING, Findings, differences
 from slider_resonator.checks.conduct.other_values import other_inputs, other_value
+from slider_resonator.checks.conduct.output_derivatives import derivative_faults
 from slider_resonator.checks.conduct.status import status_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import TUNABLES
@@ -93,11 +94,16 @@ def reset_differences(fmu: FmuSide) -> Findings:
 
 
 def restored_differences(fmu: FmuSide) -> Findings:
-    """Save states in a run, and go on from each after the run and a detour."""
+    """Save states in a run, and go on from each after the run and a detour.
+
+    From each saved state of resolved motion derivatives of outputs are compared with a short step.
+    """
     fmu.instance.fmu.require("canGetAndSetFMUstate")
     plain = _Comparison(fmu)
     instance = fmu.instance
     found = NOTHING
+    wrong: list[str] = []
+    resolved = fmu.scene.device.fidelity > 0
     with instance.explained():
         running = _started(instance, plain.parameters, plain.schedule)
         steps = sorted({int(share * running.steps) for share in SAVED_AT})
@@ -106,6 +112,9 @@ def restored_differences(fmu: FmuSide) -> Findings:
             for step in range(running.steps):
                 if step in steps:
                     saved.append((step, len(running.rows), SavedState.of(instance)))
+                    if resolved:
+                        frequency = instance.value("drive_frequency")
+                        wrong += derivative_faults(instance, saved[-1][-1], frequency)
                 running.advance(step)
             found += plain.of("while states are saved", running.rows)
             for step, rows, state in reversed(saved):
@@ -120,7 +129,7 @@ def restored_differences(fmu: FmuSide) -> Findings:
         finally:
             for _, _, state in saved:
                 state.free()
-    return found
+    return found + Findings.of(wrong)
 
 
 def _detour(running: Running, step: int) -> None:
