@@ -36,6 +36,10 @@ FLOOR_DOUBLING = 1000
 """Evaluations after which the shortest step doubles: bounds the work on signals that stay within
 rounding of zero."""
 
+MAX_EVALUATIONS = 1_000_000
+"""Evaluations after which a search ends without a zero: of motion that is hardly a number any
+more."""
+
 MAX_NEWTON_STEPS = 60
 MAX_EXPECTING_STEPS = 4
 
@@ -59,7 +63,7 @@ def first_zero(
     if expected is not None and start < expected < limit:
         zero, steepness = _zero_near(signal, start, limit, expected, 1e-16 / fastest)
     evaluations = 0
-    while t < limit:
+    while t < limit and evaluations < MAX_EVALUATIONS:
         value, slope, bound = signal(t)
         square = slope * slope
         evaluations += 1

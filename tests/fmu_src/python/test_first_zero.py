@@ -148,3 +148,9 @@ def test_a_zero_expected_beyond_the_limit_does_not_hide_the_first(expected: floa
 
     zero = first_zero(watch(signal), 1.0, 0.0, expected)
     assert zero == pytest.approx(0.32, abs=1e-15)
+
+
+def test_a_search_that_hardly_advances_ends() -> None:
+    """A horizon next to nothing, as of frequencies beyond all devices."""
+    watch = Watch(lambda t: (1.0, 0.0, 0.0), 0.0, 1e300, 1e-300)
+    assert first_zero(watch, 1.0) is None
