@@ -23,7 +23,7 @@ ASSETS = Path(__file__).parent / "assets"
 _CONTENTS = "<!-- contents -->"
 
 _HEADINGS: tuple[tuple[str, str], ...] = (
-    ("input", "Inputs: may be set at any time, held over a step"),
+    ("input", "Inputs: may be set at any time"),
     ("tunable", "Tunable parameters: may be set at any time"),
     ("fixed", "Fixed parameters: may be set until initialization ends"),
     ("output", "Outputs"),

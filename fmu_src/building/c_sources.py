@@ -68,7 +68,10 @@ def slider_sources(version: FmiVersion = "2.0") -> dict[str, str]:
 
 
 def controller_sources() -> dict[str, str]:
-    """Return file name -> text of the velocity controller's; otherwise like `slider_sources`."""
+    """Return file name -> text of the velocity controller's; otherwise like `slider_sources`.
+
+    Its own files replace those of the slider of the same name.
+    """
     slider = slider_sources()
     return {
         **{name: slider[name] for name in slider if any(fnmatch(name, p) for p in SHARED)},

@@ -127,7 +127,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
         if (law == &moving) {
             ramp_to(&moving.held.plant, &start->held.plant, clock.elapsed + leg.t, leg.t == turning);
         }
-        if (found_reversal(search, &clock, &leg, &begin, now)) {
+        if (search != NULL && found_reversal(search, &clock, &leg, &begin, now)) {
             break;
         }
         friction->succeed(&leg, law, now, leg.zero_of < 0 && leg.t == switching);

@@ -52,8 +52,10 @@ void law_ramp(Law *law, const Ramp *ramp, double duration) {
 Law law_after(const Law *law, double t) {
     Law later = *law;
     Plant *plant = &later.held.plant;
+    double passed = plant->normal_rate / plant->drive_frequency * t;
     plant->normal_frequency += plant->normal_rate * t;
-    later.inputs.frequency_ratio += plant->normal_rate / plant->drive_frequency * t;
+    later.inputs.frequency_ratio += passed;
+    later.middle_ratio += 0.5 * passed;
     later.inputs.load += plant->load_rate * t;
     plant->load = later.inputs.load;
     return later;

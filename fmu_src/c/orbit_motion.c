@@ -168,6 +168,7 @@ static bool adapt(const Law *law, Moment *now) {
     bool loaded = is_loaded(orbit, &present);
     orbit->under = present;
     orbit->varied = HELD_INPUTS;
+    orbit->turning = 0.0;
     if ((shaken || tuned) && orbit->tunings < MAX_TUNINGS) {
         orbit->tunings++;
     }
@@ -356,7 +357,8 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
     return follow(&later, left, duration, after, refusal);
 }
 
-double orbit_motion_error(const Law *law, const Moment *moment) {
+/* The estimate under held inputs. */
+static double standing_error(const Law *law, const Moment *moment) {
     if (moment->orbit.stage != ON_ORBIT) {
         return second_order_error(law, 0.0, false, INFINITY);
     }
@@ -368,4 +370,9 @@ double orbit_motion_error(const Law *law, const Moment *moment) {
     }
     double force = point.of[ORBIT_FRICTION] + law->inputs.load;
     return second_order_error(law, point.of[ORBIT_FACTOR] - 1.0, moment->orbit.grazed, force);
+}
+
+double orbit_motion_error(const Law *law, const Moment *moment) {
+    double turning = turning_error(law, moment->orbit.turning);
+    return fmin(standing_error(law, moment) + turning, law->fast.velocity);
 }

@@ -75,8 +75,9 @@ static bool prepare_piece(RampedStep *step, const double values[SETTABLE_COUNT],
 
 /* Give a moment the phases of inputs that are held: `begin` were the values `duration` [s] before, `end`
  * are those now. */
-static void settle_phases(const double begin[SETTABLE_COUNT], const double end[SETTABLE_COUNT],
-                          const Ramp *ramp, double duration, Moment *after) {
+static void settle_phases(const Law *law, const double begin[SETTABLE_COUNT],
+                          const double end[SETTABLE_COUNT], const Ramp *ramp, double duration,
+                          Moment *after) {
     double w = begin[VR_DRIVE_FREQUENCY];
     double added = ramp->ratio * w - begin[VR_FREQUENCY_RATIO] * w;
     after->psi = within_turn(after->psi - remainder(added * duration, TAU));
@@ -84,7 +85,9 @@ static void settle_phases(const double begin[SETTABLE_COUNT], const double end[S
         Inputs inputs = reduced_inputs(end);
         after->orbit.under.phase = inputs.phase;
         after->orbit.under.load = inputs.load;
-        after->orbit.varied = added != 0.0 || ramp->ratio_rate != 0.0 ? VARIED_LEAD : VARIED_LOAD;
+        bool led = added != 0.0 || ramp->ratio_rate != 0.0;
+        after->orbit.varied = led ? VARIED_LEAD : VARIED_LOAD;
+        after->orbit.turning = led ? law_slow_phase(law).fastest : 0.0;
     }
 }
 
@@ -112,7 +115,7 @@ bool ramped_step(RampedStep *step, const Snapshot *now, double duration, Frictio
         }
         left = piece == left ? 0.0 : clock_advance(&clock, piece);
         grow(now, left > 0.0 ? clock.elapsed : duration, end);
-        settle_phases(values, end, &ramp, piece, after);
+        settle_phases(&step->law, values, end, &ramp, piece, after);
         memcpy(values, end, sizeof values);
     }
     return true;

@@ -22,4 +22,8 @@ double first_order_error(const Law *law);
  * once the motion has `grazed` the velocity from which on the slider turns back. */
 double second_order_error(const Law *law, double added_mass, bool grazed, double force);
 
+/* What averages of second order err by [m/s] while inputs turn the lead by `turning` [rad/s]; 0 under held
+ * inputs. */
+double turning_error(const Law *law, double turning);
+
 #endif

@@ -104,6 +104,16 @@ class Instance:
             else:
                 self.slave.setReal([self.reference(name)], [value])
 
+    def ramp(self, **derivatives: float) -> None:
+        """Set the first derivatives of inputs, per s; one call per input, in the order given."""
+        for name, derivative in derivatives.items():
+            self.slave.setRealInputDerivatives([self.reference(name)], [1], [derivative])
+
+    def derivatives(self, *names: str) -> tuple[float, ...]:
+        """First derivatives of outputs, per s."""
+        references = [self.reference(name) for name in names]
+        return tuple(self.slave.getRealOutputDerivatives(references, [1] * len(names)))
+
     def get(self, *names: str) -> tuple[float, ...]:
         return tuple(self.slave.getReal([self.reference(name) for name in names]))
 

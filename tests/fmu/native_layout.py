@@ -21,7 +21,7 @@ FIELDS = (
     *("stage", "to_go", "slow_velocity", "centre", "lead", "own_displacement", "own_rate"),
     *(f"under_{name}" for name in OrbitValues._fields),
     *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
-    *("tunings", "grazed"),
+    *("varied", "turning", "tunings", "grazed"),
 )
 HEAD = 8 + 40
 LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")

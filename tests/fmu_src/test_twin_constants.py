@@ -28,6 +28,9 @@ ONLY_IN_C = {
     *("STATE_HEADER_SIZE", "STATE_NUMBER_SIZE", "STATE_CHECKSUM_SIZE"),
     # Of FMI 3.0, for which there is only the native build.
     "TIME_REFERENCE",
+    # Of inputs that vary, which pythonfmu cannot offer.
+    *("INPUT_COUNT", "SERIES_ROUNDING", "MAX_BLOCK_LEGS", "MAX_SLOW_PHASES"),
+    *("SAME_INPUT", "TURNING", "TURNING_FAST"),
     # Part of Python: math.pi, math.tau, None for no zero.
     *("PI", "TAU", "NO_ZERO"),
     # Literals of the Python twin.

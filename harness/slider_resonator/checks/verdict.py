@@ -13,17 +13,17 @@ TITLE = "Slider-resonator validation"
 """Default title of a report."""
 DIGITS = 9
 CALLED: Mapping[str, str] = {
-    "located_events": "exact events",
-    "taylor": "Taylor series",
-    "bristle_state": "bristle as a state",
-    "averaged": "averaged theory",
-    "held_orbits": "held orbits",
-    "closed_form": "paper's formula",
-    "value": "value in the scene",
-    AT_MOST: "upper bound",
-    AT_LEAST: "lower bound",
+    "located_events": "events",
+    "taylor": "series",
+    "bristle_state": "bristles",
+    "averaged": "averages",
+    "held_orbits": "orbits",
+    "closed_form": "formula",
+    "value": "value",
+    AT_MOST: "at most",
+    AT_LEAST: "at least",
 }
-"""What checks compare with, by what tables call it."""
+"""What checks compare with, by what tables call it, in 8 letters: a log has room for no more."""
 
 
 def called(against: str) -> str:

@@ -42,7 +42,7 @@ def test_the_sentence_of_a_value_that_does_not_exist() -> None:
 
 def test_tables_call_what_is_compared_with_by_words() -> None:
     assert set(CALLED) == {*REFERENCES, "value", AT_MOST, AT_LEAST}
-    assert called("located_events") == "exact events"
+    assert called("located_events") == "events"
     assert called("recorded_result") == "recorded result", "of other commands"
 
 

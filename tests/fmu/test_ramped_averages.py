@@ -1,0 +1,155 @@
+"""Averaged motion, fidelity 0, under inputs that vary linearly."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pytest
+
+from slider_resonator.arrays import Array
+from tests.fmu.host import Instance, Instantiate
+from tests.fmus import native_fmu_only
+
+pytestmark = native_fmu_only
+
+PERIOD = math.tau / 3500.0
+FAST = 0.263
+"""v_q of table 1 [m/s]."""
+
+Piece = tuple[float, dict[str, float]]
+"""Drive periods, and the derivatives of inputs in them."""
+
+PHASE: list[Piece] = [(400, {"phase": 2.0})]
+LOAD: list[Piece] = [(400, {"load": 0.12})]
+BOTH_WAYS: list[Piece] = [(100, {"phase": 2.0}), (100, {}), (100, {"phase": -4.0, "load": 0.3}),
+                          (100, {"load": -0.3})]  # fmt: skip
+THROUGH_ONE: list[Piece] = [(400, {"frequency_ratio": -0.02})]
+
+
+def run(instance: Instance, pieces: Sequence[Piece], steps: int) -> Array:
+    """Mean velocity, position, centre and stated error after each step, so many in each piece."""
+    inputs = dict(zip(("phase", "load", "frequency_ratio"), (0.0, 0.0, 1.0), strict=True))
+    inputs["frequency_ratio"] = instance.get("frequency_ratio")[0]
+    rows = []
+    for periods, rates in pieces:
+        size = periods * PERIOD / steps
+        for _ in range(steps):
+            instance.set(**inputs)
+            if rates:
+                instance.ramp(**rates)
+            instance.step(size)
+            inputs |= {name: inputs[name] + rate * size for name, rate in rates.items()}
+            position, displacement = instance.get("position", "resonator_displacement")
+            mean, stated = instance.get("mean_velocity", "slow_motion_error")
+            rows.append((mean, position, position + displacement / 11.0, stated))
+    return np.array(rows)
+
+
+def compared(
+    instantiate: Instantiate, pieces: Sequence[Piece], start: Mapping[str, float], order: int
+) -> tuple[Array, float]:
+    """Deviation from resolved motion, and the largest error that the FMU states."""
+    resolved = run(instantiate().initialize(**start, fidelity=2), pieces, 10)
+    averaged = instantiate().initialize(**start, fidelity=0, averaging_order=order)
+    found = run(averaged, pieces, 10)
+    return np.abs(found - resolved), float(found[:, 3].max())
+
+
+@pytest.mark.parametrize("law", [0, 1])
+@pytest.mark.parametrize(
+    ("pieces", "ratio"),
+    [(PHASE, 1.0), (LOAD, 1.0), (BOTH_WAYS, 1.0), (PHASE, 0.0), (THROUGH_ONE, 1.002)],
+    ids=["phase", "load", "both ways", "ratio 0", "through ratio 1"],
+)
+def test_second_order_follows_resolved_motion(
+    instantiate: Instantiate, pieces: list[Piece], ratio: float, law: int
+) -> None:
+    start = {"friction_law": law, "frequency_ratio": ratio}
+    deviation, stated = compared(instantiate, pieces, start, 2)
+    assert deviation[:, 0].max() <= stated <= 2e-6 * FAST
+    assert deviation[:, 2].max() <= 1e-7
+    first, _ = compared(instantiate, pieces, start, 1)
+    assert first[:, 2].max() > 20.0 * deviation[:, 2].max(), "first order is far coarser"
+
+
+@pytest.mark.parametrize("rate", [0.5, 8.0, 128.0])
+def test_the_stated_error_grows_with_the_turning_lead(
+    instantiate: Instantiate, rate: float
+) -> None:
+    """Under stronger friction, where turning counts."""
+    pieces: list[Piece] = [(60, {}), (min(200.0, 20_000.0 / rate), {"phase": rate})]
+    deviation, stated = compared(instantiate, pieces, {"friction_coefficient": 0.5}, 2)
+    assert deviation[:, 0].max() <= stated
+    assert stated <= 2e-4 * FAST
+
+
+@pytest.mark.parametrize("law", [0, 1])
+@pytest.mark.parametrize("pieces", [PHASE, LOAD, BOTH_WAYS], ids=["phase", "load", "both ways"])
+def test_first_order_keeps_the_error_it_states(
+    instantiate: Instantiate, pieces: list[Piece], law: int
+) -> None:
+    deviation, stated = compared(instantiate, pieces, {"friction_law": law}, 1)
+    # A mean over one of the first periods has the resonator's first swing in it.
+    assert deviation[5:, 0].max() <= stated
+
+
+def test_a_lifting_contact_is_followed_by_search(instantiate: Instantiate) -> None:
+    pieces: list[Piece] = [(100, {}), (200, {"phase": 3.0})]
+    deviation, stated = compared(instantiate, pieces, {"normal_amplitude": 1.5}, 2)
+    assert deviation[:, 0].max() <= stated <= 2e-6 * FAST
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("law", [0, 1])
+def test_steps_do_not_matter(instantiate: Instantiate, law: int, order: int) -> None:
+    """One slow phase after the other: from ratio 1 to 1.4, and a load and a phase that grow."""
+    rates = {"phase": 1.0, "load": 0.05, "frequency_ratio": 2.0}
+    ends = []
+    for steps in (1, 3, 40):
+        start = {"fidelity": 0, "averaging_order": order, "friction_law": law}
+        instance = instantiate().initialize(**start)
+        ends.append(run(instance, [(0.2 / PERIOD, rates)], steps)[-1])
+        assert instance.get("prediction_valid") == (float(order == 1),), "no phase is slow at 1.4"
+    assert ends[1][2] == pytest.approx(ends[0][2], abs=2e-10)
+    assert ends[2][2] == pytest.approx(ends[0][2], abs=2e-10)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_a_chirp_leaves_and_reaches_slow_phases(instantiate: Instantiate, law: int) -> None:
+    """1.3 to 0.9 and the reverse: away from 1 the load counts with its mean, to first order."""
+    for ratio, rate in ((1.3, -1.0), (0.8, 1.0)):
+        start = {"friction_law": law, "frequency_ratio": ratio}
+        deviation, _ = compared(instantiate, [(0.4 / PERIOD, {"frequency_ratio": rate})], start, 2)
+        assert deviation[:, 0].max() <= 5e-3 * FAST
+
+
+@pytest.mark.parametrize(
+    ("load", "rate", "friction"), [(0.0, 0.12, 0.2), (0.5, -1.0, 0.2), (-0.5, 0.7, 0.2)]
+)
+def test_a_block_without_vibration_is_exact(
+    instantiate: Instantiate, load: float, rate: float, friction: float
+) -> None:
+    """Without drive it sticks, is released and stops as the resolved block of one mass."""
+    block = {"base_amplitude": 0.0, "normal_amplitude": 0.0, "resonator_mass": 0.0, "load": load}
+    ends = []
+    for fidelity in (0, 2):
+        instance = instantiate().initialize(**block, fidelity=fidelity)
+        for k in range(4):
+            instance.set(load=load + 0.5 * k * rate)
+            instance.ramp(load=rate)
+            instance.step(0.5)
+        ends.append(instance.get("position", "velocity"))
+    assert ends[0] == pytest.approx(ends[1], rel=1e-11, abs=1e-15)
+    assert friction == 2.0 * 0.1 * 1.0
+
+
+def test_a_ramp_that_stops_and_starts_keeps_tables(instantiate: Instantiate) -> None:
+    """Each stop has a lead of its own: soon they are interpolated, not tabulated one by one."""
+    instance = instantiate().initialize(fidelity=0)
+    pieces: list[Piece] = [(40, {})]
+    pieces += [(5, rates) for _ in range(30) for rates in ({"phase": 1.7}, {})]
+    found = run(instance, pieces, 1)
+    resolved = run(instantiate().initialize(fidelity=2), pieces, 1)
+    assert np.abs(found - resolved)[:, 0].max() <= 2e-6 * FAST
