@@ -210,6 +210,10 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
     trial.refuses_all("in a run", iter(fixed))
     trial.refuses_all("from outside", (v for v in present if v.causality == "output"))
     trial.refuses_calls("in a run")
+    if instance.fmu.interpolates:
+        for bad in (math.nan, math.inf, -math.inf):
+            rates = [0.0, bad, 0.0]
+            trial.refuses(f"a derivative of {bad} N/s", partial(instance.set_input_rates, rates))
     for size in STEP_SIZES:
         trial.refuses(
             f"a step of {size!r} s",
