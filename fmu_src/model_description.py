@@ -54,7 +54,7 @@ def model_description(
     `model` names both the model and its binaries, `generated` is the date and time of the build
     (ISO 8601, UTC), `about` describes the model in a sentence. `host_manages_memory` is True for an
     FMU that takes its memory from the host, `takes_derivatives` for one that takes first
-    derivatives of inputs and gives those of outputs. `source_files` are the files to compile in its
+    derivatives of inputs and gives those of outputs; `source_files` are the files to compile in its
     folder `sources`. The value reference of a variable is its position in `variables`.
 
     Raises ValueError for a unit that `fmu_src.units` lacks, and for a dependency on a variable that

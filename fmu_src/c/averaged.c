@@ -219,7 +219,11 @@ TheoryRange theory_range(const Law *law) {
     double drag = law->friction->averaged->drag(&law->bristle, fastest);
     double normal = device->normal_preload + device->normal_amplitude;
     range.drag = drag != 0.0 ? drag / mu : 0.0;
-    range.strongest = TAU * normal * (1.0 + device->friction_faces * (mu + drag));
+    double bent = 0.0;
+    if (device->friction_law != 0) {
+        bent = fabs(law->bristle.stiffness * device->initial_bristle_deflection) * (1.0 + drag / mu);
+    }
+    range.strongest = TAU * normal * (1.0 + device->friction_faces * (mu + drag + bent));
     return range;
 }
 

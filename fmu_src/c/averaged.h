@@ -20,7 +20,7 @@ typedef struct {
 
 /* Numbers that are all finite where averaged theory stays in the range of floating point: the fast
  * velocity [m/s]; the drag of that or of the start, whichever is faster, over mu; and a bound on
- * integrals of load and friction [N]. */
+ * integrals of load and friction [N], with bristles bent as at the start. */
 typedef struct {
     double velocity, drag, strongest;
 } TheoryRange;

@@ -27,7 +27,8 @@ static bool is_time(fmi3ValueReference reference, ValueType type) {
     return reference == TIME_REFERENCE && type == REAL_TYPE;
 }
 
-/* Translate references to places in the table, without the time; refuse those that do not fit. */
+/* Translate references to places in the table, without the time; refuse those that do not fit, and more
+ * of them than the table has. */
 static bool places_of(const fmi3ValueReference *references, size_t count, ValueType type,
                       unsigned *places, size_t *place_count, Refusal *refusal) {
     *place_count = 0;
@@ -45,7 +46,9 @@ static bool places_of(const fmi3ValueReference *references, size_t count, ValueT
         }
         places[(*place_count)++] = place;
     }
-    return true;
+    return *place_count <= VARIABLE_COUNT
+           || refuse(refusal, "valueReferences: %lu variables refused: must be at most %d, each once",
+                     (unsigned long)*place_count, VARIABLE_COUNT);
 }
 
 /* Check a call and translate its references; refuse what does not fit. */

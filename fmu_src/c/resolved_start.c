@@ -21,15 +21,6 @@
 /* Largest swing, over the steady one, that counts. */
 #define MAX_SWING 1e6
 
-/* Decay of the bend of a bristle in a turn: over a path of four times the amplitude. */
-static double bristle_decay(const Law *law) {
-    if (law->device.friction_law == 0) {
-        return INFINITY;
-    }
-    double path = 4.0 * law->fast.velocity / law->device.drive_frequency;
-    return law->bristle.stiffness * path / law->bristle.coefficient;
-}
-
 /* Drive angle [rad] until a `size` has become `left` at a decay in a turn. */
 static double angle_until(double size, double left, double decay) {
     return size > left ? TAU * ceil(log(size / left) / decay) : 0.0;

@@ -4,8 +4,8 @@
 
 #include "state.h"
 
-/* Error of first order in friction shares and v_q: that of the average, and that of the resonator's first
- * swing, which the average leaves out. */
+/* Error of first order in friction shares and v_q: that of the average, and that of what the average leaves
+ * out, the resonator's first swing and the first bend of bristles. */
 #define FIRST_ORDER 2.0
 
 /* Error of second order in squares of the friction share and v_q, with a resonator that is stiff against
@@ -53,12 +53,22 @@ double decay_in_turn(const Law *law) {
     return slower * TAU / device->drive_frequency;
 }
 
+double bristle_decay(const Law *law) {
+    if (law->device.friction_law == 0) {
+        return INFINITY;
+    }
+    double path = 4.0 * law->fast.velocity / law->device.drive_frequency;
+    return law->bristle.stiffness * path / law->bristle.coefficient;
+}
+
 double first_order_error(const Law *law) {
-    if (!(law->fast.velocity > 0.0)) {
+    double share = law->fast.velocity > 0.0 ? friction_share(law) : 0.0;
+    if (!(share > 0.0)) {
         return 0.0;
     }
-    double decay = decay_in_turn(law), swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
-    return fmin(FIRST_ORDER * friction_share(law) * swing, 1.0) * law->fast.velocity;
+    double decay = fmin(decay_in_turn(law), bristle_decay(law));
+    double swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
+    return fmin(FIRST_ORDER * share * swing, 1.0) * law->fast.velocity;
 }
 
 double second_order_error(const Law *law, double added_mass, bool grazed, double force) {

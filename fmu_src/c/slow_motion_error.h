@@ -14,6 +14,9 @@ double friction_share(const Law *law);
  * resonator. */
 double decay_in_turn(const Law *law);
 
+/* Decay of the bend of a bristle in a turn, over a path of four times the amplitude; infinite without. */
+double bristle_decay(const Law *law);
+
 /* Error [m/s] of averages of first order. */
 double first_order_error(const Law *law);
 

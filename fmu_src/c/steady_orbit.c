@@ -12,6 +12,9 @@ enum { SAMPLES = 12, MAX_HALVINGS = 60 };
 /* Largest sampled velocity, in v_q: beyond grazing unless friction is strong. */
 #define SAMPLED_REACH 1.05
 
+/* Amplitude [m/s] of the vibration from which on squares leave the range of numbers: no iteration ends. */
+#define MAX_SPEED 1e150
+
 /* Force, over full friction, that is rounding or the tolerance of a map. */
 #define NOISE 1e-9
 
@@ -76,6 +79,9 @@ OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrb
     OrbitStatus failure = ORBIT_RUNS_AWAY;
     HeldOrbit sample = {0};
     Scan scan = {0};
+    if (!(map->speed < MAX_SPEED)) {
+        return ORBIT_NOT_CONVERGED;
+    }
     scan_on(&scan, -reach, load - sliding, noise, &sample);
     for (int i = 0; i < SAMPLES; i++) {
         double velocity = -SAMPLED_REACH * map->speed * cos(PI * (i + 0.5) / SAMPLES);

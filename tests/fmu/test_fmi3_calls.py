@@ -144,6 +144,16 @@ def test_an_unknown_reference_is_refused(instance: Instance3, reference: int) ->
         instance.slave.getFloat64([reference])
 
 
+def test_more_references_than_variables_are_refused(instance: Instance3) -> None:
+    """With the time one more may be read than there are variables, but no other one twice."""
+    position = instance.reference("position")
+    some = [position] * len(VARIABLES)
+    assert len(instance.slave.getFloat64([TIME, *some])) == len(VARIABLES) + 1
+    with pytest.raises(FMICallException):
+        instance.slave.getFloat64([position, *some])
+    assert f"{len(VARIABLES) + 1} variables refused: must be at most" in instance.log[-1][2]
+
+
 @pytest.mark.parametrize("variable", VARIABLES, ids=lambda v: v.name)
 def test_values_are_those_of_the_table(unpacked_3: Unpacked, variable: Any) -> None:
     with instance_3(unpacked_3) as instance:

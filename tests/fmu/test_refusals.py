@@ -115,6 +115,14 @@ def test_values_that_do_not_fit_each_other(instantiate: Instantiate, fidelity: i
         ("friction_coefficient", 1.7976931348623157e308, {"friction_law": 1}),
         ("friction_coefficient", 5e-324, {"friction_law": 1}),
         ("bristle_damping", 1e308, {"friction_law": 1}),
+        (
+            *("bristle_stiffness", 1e308),
+            {"friction_law": 1, "initial_bristle_deflection": 1e10},
+        ),
+        (
+            *("initial_bristle_deflection", 1e300),
+            {"friction_law": 1, "bristle_stiffness": 1e8, "fidelity": 0, "averaging_order": 1},
+        ),
         *(("initial_velocity", 1e308, {"friction_law": 1, "fidelity": n}) for n in range(3)),
         ("initial_velocity", -1e308, {"friction_law": 1, "bristle_damping": 1e10}),
         ("normal_preload", 1.7e308, {"normal_amplitude": 1.7e308, "friction_coefficient": 1e-200}),
@@ -131,7 +139,10 @@ def test_forces_that_leave_the_range_of_numbers(
 
 def test_output_that_leaves_the_range_of_numbers(instantiate: Callable[[], Instance]) -> None:
     instance = instantiate().initialize(
-        friction_law=1, bristle_stiffness=1e308, initial_bristle_deflection=1e10
+        friction_law=1,
+        friction_coefficient=1e-300,
+        bristle_damping=0.0,
+        initial_bristle_deflection=1e5,
     )
     with instance.refuses("friction_force = ", "the output leaves the range of floating point"):
         instance.get("position", "friction_force")

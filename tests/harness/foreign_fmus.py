@@ -12,7 +12,12 @@ from tests.harness.faulty_fmus import shared_library
 
 SOURCE = Path(__file__).with_name("foreign_fmu.c")
 IDENTIFIER = "foreign_slider"
-FLAGS = ("canGetAndSetFMUstate", "canSerializeFMUstate", "canHandleVariableCommunicationStepSize")
+FLAGS = (
+    "canGetAndSetFMUstate",
+    "canSerializeFMUstate",
+    "canHandleVariableCommunicationStepSize",
+    "canInterpolateInputs",
+)
 
 
 def foreign(fmu: Path, out: Path) -> Path:

@@ -42,6 +42,22 @@ def test_no_call_crashes_hangs_or_is_refused_in_silence(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+def test_no_call_of_fmi_3_crashes_hangs_or_is_refused_in_silence(
+    native_3_fmu: Path, tmp_path: Path, seed: int
+) -> None:
+    fuzzer = program(PROGRAMS / "fuzz3.c", tmp_path)
+    binary = unpacked_binary(native_3_fmu, tmp_path, "x86_64-linux")
+    done = run([fuzzer, binary.library, binary.guid, seed, CALLS, COUNTS[0], 2.0])
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.startswith(f"{CALLS} calls"), "the fuzzer ended before its last call"
+    calls = {name: (int(n), int(k)) for name, n, k in re.findall(r"(\w+) (\d+) (\d+)", done.stdout)}
+    for name in ("fmi3DoStep", "fmi3SetFloat64", "fmi3SetFMUState", "fmi3EnterStepMode"):
+        number, carried_out = calls[name]
+        assert 1000 < carried_out < number, f"{name} is both carried out and refused"
+
+
+@pytest.mark.slow
 def test_no_state_with_a_valid_seal_does_harm(product: Binary, tmp_path: Path) -> None:
     """States of any content: what is restored is stepped and read, in at most 2 s a call."""
     states = program(PROGRAMS / "states.c", tmp_path)

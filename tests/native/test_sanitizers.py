@@ -93,6 +93,13 @@ def test_no_call_makes_undefined_behaviour_or_leaves_memory(
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+def test_no_call_of_fmi_3_makes_undefined_behaviour_or_leaves_memory(tmp_path: Path) -> None:
+    binary = sanitized_binary(tmp_path / "library", MEMORY, "3.0")
+    caller = program(PROGRAMS / "fuzz3.c", tmp_path, MEMORY)
+    done = run([caller, binary.library, binary.guid, 1, 100_000, COUNTS[0], 30.0], "", SPEAK_UP)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_8_instances_in_8_threads_do_not_race(tmp_path: Path) -> None:
     binary = sanitized_binary(tmp_path, THREADS)
     threads = program(PROGRAMS / "threads.c", tmp_path, THREADS)

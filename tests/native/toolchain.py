@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.building.c_sources import UNBUILT_GUID, slider_sources, write_sources
+from fmu_src.building.c_sources import UNBUILT_GUID, FmiVersion, slider_sources, write_sources
 from fmu_src.python.slider_component.variables import VARIABLES
 from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
 from slider_resonator.trials.hosts.driver_host import BINARY
@@ -33,10 +33,10 @@ class Binary:
     guid: str
 
 
-def unpacked_binary(fmu: Path, folder: Path) -> Binary:
-    """The binary inside an FMU for this machine."""
+def unpacked_binary(fmu: Path, folder: Path, place: str = BINARY["Linux"][0]) -> Binary:
+    """The binary inside an FMU for this machine, or another `place` below binaries."""
     description = describe(str(fmu))
-    place, suffix = BINARY["Linux"]
+    suffix = BINARY["Linux"][1]
     with zipfile.ZipFile(fmu) as archive:
         name = archive.extract(f"binaries/{place}/{description.identifier}{suffix}", folder)
     return Binary(Path(name), description.guid)
@@ -48,9 +48,9 @@ def program(source: Path, folder: Path, flags: Sequence[str] = ()) -> Path:
     return compile_program(compiler, source, folder / source.stem, flags)
 
 
-def sanitized_binary(folder: Path, flags: Sequence[str]) -> Binary:
+def sanitized_binary(folder: Path, flags: Sequence[str], version: FmiVersion = "2.0") -> Binary:
     """The C sources as a library with a sanitizer's flags."""
-    write_sources(slider_sources(), folder)
+    write_sources(slider_sources(version), folder)
     library = folder / "SliderResonator.so"
     command = [*sanitizing_compiler(), "-std=c99", "-ffp-contract=off", *flags, "-fPIC", "-shared"]
     command += [*(str(path) for path in sorted(folder.glob("*.c"))), "-o", str(library), "-lm"]

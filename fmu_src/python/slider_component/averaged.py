@@ -43,7 +43,7 @@ def theory_range(device: Device) -> tuple[float, ...]:
     """Return numbers that are all finite where `averaged` stays in the range of floating point.
 
     The fast velocity [m/s]; the drag of that or of the start, whichever is faster, over mu; and a
-    bound on integrals of load and friction [N].
+    bound on integrals of load and friction [N], with bristles bent as at the start.
     """
     try:
         force = equivalent_force(device)
@@ -52,9 +52,12 @@ def theory_range(device: Device) -> tuple[float, ...]:
     velocity = abs(force) / (device.total_mass * device.drive_frequency)
     mu = device.friction_coefficient
     fastest = max(velocity, abs(device.initial_velocity))
-    drag = friction_law_of(device.friction_law).averaged.drag(bristle_of(device), fastest)
+    bristle, bent = bristle_of(device), 0.0
+    drag = friction_law_of(device.friction_law).averaged.drag(bristle, fastest)
+    if device.friction_law != 0:
+        bent = abs(bristle.stiffness * device.initial_bristle_deflection) * (1.0 + drag / mu)
     normal = device.normal_preload + device.normal_amplitude
-    strongest = tau * normal * (1.0 + device.friction_faces * (mu + drag))
+    strongest = tau * normal * (1.0 + device.friction_faces * (mu + drag + bent))
     return velocity, drag / mu if drag else 0.0, strongest
 
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from math import ceil, hypot, inf, log, tau
+from math import ceil, hypot, log, tau
 
-from .bristle import bristle_of
 from .device import Device
 from .fast_vibration import FastVibration, steady_swing
 from .motion import State
-from .slow_motion_error import decay_in_turn
+from .slow_motion_error import bristle_decay, decay_in_turn
 
 SWING_LEFT = 1e-7
 """What may be left of the swing, over the steady one, and of the bend of a bristle."""
@@ -29,7 +28,7 @@ MAX_SWING = 1e6
 
 def resolved_is_bounded(device: Device, fast: FastVibration) -> bool:
     """Whether the vibration decays at all, in a number of turns that can be resolved."""
-    decay = min(decay_in_turn(device), _bristle_decay(device, fast))
+    decay = min(decay_in_turn(device), bristle_decay(device, fast))
     return decay * MAX_TURNS_RESOLVED > log(MAX_SWING / SWING_LEFT)
 
 
@@ -44,23 +43,14 @@ def resolved_angle(device: Device, fast: FastVibration, state: State, theta: flo
         size = max(abs(fast.resonator), fast.velocity / w)
         apart = hypot(state.displacement - displacement, (state.rate - rate) / w) / size
     swing = _angle_until(min(apart, MAX_SWING), SWING_LEFT, decay_in_turn(device))
-    bend = _angle_until(1.0, SWING_LEFT, _bristle_decay(device, fast))
+    bend = _angle_until(1.0, SWING_LEFT, bristle_decay(device, fast))
     return max(tau * MIN_TURNS_RESOLVED, swing, bend)
 
 
 def lag_angle(device: Device, fast: FastVibration, added_mass: float) -> float:
     """The same after friction has changed while it adds a share `added_mass` of the total mass."""
-    decay = min(decay_in_turn(device), _bristle_decay(device, fast))
+    decay = min(decay_in_turn(device), bristle_decay(device, fast))
     return _angle_until(added_mass * added_mass, LAG_LEFT, decay)
-
-
-def _bristle_decay(device: Device, fast: FastVibration) -> float:
-    """Decay of the bend of a bristle in a turn: over a path of four times the amplitude."""
-    if device.friction_law == 0:
-        return inf
-    bristle = bristle_of(device)
-    path = 4.0 * fast.velocity / device.drive_frequency
-    return bristle.stiffness * path / bristle.coefficient
 
 
 def _angle_until(size: float, left: float, decay: float) -> float:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from math import inf, pi, sqrt, tau
 
+from .bristle import bristle_of
 from .device import Device
 from .fast_vibration import FastVibration
 
 FIRST_ORDER = 2.0
-"""Error of first order in friction shares and v_q: of the average, and of the resonator's first
-swing, which the average leaves out."""
+"""Error of first order in friction shares and v_q: of the average, and of what the average leaves
+out, the resonator's first swing and the first bend of bristles."""
 
 STIFF = 0.8
 """Error of second order in squares of the friction share and v_q, with a resonator that is stiff
@@ -66,13 +67,26 @@ def decay_in_turn(device: Device) -> float:
     return slower * tau / device.drive_frequency
 
 
+def bristle_decay(device: Device, fast: FastVibration) -> float:
+    """Decay of the bend of a bristle in a turn: over a path of four times the amplitude.
+
+    It is infinite without bristles.
+    """
+    if device.friction_law == 0:
+        return inf
+    bristle = bristle_of(device)
+    path = 4.0 * fast.velocity / device.drive_frequency
+    return bristle.stiffness * path / bristle.coefficient
+
+
 def first_order_error(device: Device, fast: FastVibration) -> float:
     """Error [m/s] of averages of first order."""
-    decay = decay_in_turn(device)
-    if not fast.velocity > 0.0:
+    share = friction_share(device, fast) if fast.velocity > 0.0 else 0.0
+    if not share > 0.0:
         return 0.0
+    decay = min(decay_in_turn(device), bristle_decay(device, fast))
     swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
-    return min(FIRST_ORDER * friction_share(device, fast) * swing, 1.0) * fast.velocity
+    return min(FIRST_ORDER * share * swing, 1.0) * fast.velocity
 
 
 def second_order_error(

@@ -20,6 +20,10 @@ MAX_HALVINGS = 60
 NOISE = 1e-9
 """Force, over full friction, that is rounding or the tolerance of a map."""
 
+MAX_SPEED = 1e150
+"""Amplitude [m/s] of the vibration from which on squares leave the range of numbers: no iteration
+ends."""
+
 SAMPLED_REACH = 1.05
 """Largest sampled velocity, in v_q: beyond grazing unless friction is strong."""
 
@@ -57,8 +61,11 @@ def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
     """The steady motion under `load` [N] to which motion at other velocities tends.
 
     Orbits at a few velocities tell how many there are. Raises NoOrbitError: RUNS_AWAY for none,
-    UNDETERMINED for several, and the reason of the last failure where no orbit was found.
+    UNDETERMINED for several, NOT_CONVERGED beyond `MAX_SPEED`, and the reason of the last failure
+    where no orbit was found.
     """
+    if not period_map.speed < MAX_SPEED:
+        raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
     sliding, reach = period_map.sliding_friction(lead), 2.0 * SAMPLED_REACH * period_map.speed
     scan, failure = _Scan(NOISE * sliding), OrbitStatus.RUNS_AWAY
     sample: HeldOrbit | None = None

@@ -20,7 +20,7 @@ from slider_resonator.output.console import progress_bar
 from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import files_of_scenes
 from slider_resonator.trials.baseline.judge import TOLERANCE
-from slider_resonator.trials.baseline.work import accept, check, record
+from slider_resonator.trials.baseline.work import accept, applicable_scenes, check, record
 
 dir_option = click.option(
     "--dir",
@@ -51,7 +51,7 @@ def baseline_command() -> None:
 @baseline_command.command("record")
 @fmu_argument
 @dir_option
-@scenes_option("all built-in")
+@scenes_option("all built-in that apply")
 @click.option("--replace", is_flag=True, help="Replace scenes that are already recorded.")
 @limited
 @click.pass_context
@@ -63,7 +63,7 @@ def record_command(
     replace: bool,
     time_limit: float,
 ) -> None:
-    """Record scenes, by default all built-in ones.
+    """Record scenes, by default all built-in ones that apply to the FMU.
 
     Recorded scenes are replaced only with --replace. Exit code: 0, or 2 when something could not
     run; the scenes that could run are recorded.
@@ -73,7 +73,7 @@ def record_command(
       slider-resonator baseline record my.fmu --dir baseline
       slider-resonator baseline record my.fmu --dir baseline --scene scenes/mine.toml --replace
     """
-    files = files_of_scenes(scenes)
+    files = files_of_scenes(scenes) if scenes else applicable_scenes(fmu)
     with progress_bar() as progress:
         names, run_failures = record(
             fmu, files, folder, progress, replace=replace, time_limit=time_limit

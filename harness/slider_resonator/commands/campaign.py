@@ -77,10 +77,11 @@ def campaign_command(
     """Run FMUs with random devices and schedules, and compare them with the references.
 
     Devices lie over decades; inputs, tunable parameters and step sizes change in the run; both
-    friction laws and fidelities 0 (averages of first order), 1 and 2 come in turn. Each case is
-    judged by the errors that its numerics state. Without FMUS: those in dist. Exit code: 0 when no
-    case fails, 1 when one does, 2 when an FMU could not run. What is finished when the command is
-    interrupted is written to --out.
+    friction laws and fidelities 0 (averages of both orders), 1 and 2 come in turn. Each case is
+    judged by the errors that its numerics state, and averages of second order, against resolved
+    motion, by what they may lag behind it and slow_motion_error, too. Without FMUS: those in dist.
+    Exit code: 0 when no case fails, 1 when one does, 2 when an FMU could not run. What is finished
+    when the command is interrupted is written to --out.
 
     \b
     Examples:

@@ -81,7 +81,8 @@ def draw_signals(
     shown = window or (0.0, float(scene.schedule().times[-1]))
 
     def record(on: IsolatedFmu, varied: Scene) -> Record:
-        schedule = schedule_for_window(varied, shown)
+        interpolates = varied.schedule().interpolates and on.interpolates
+        schedule = schedule_for_window(varied.interpolating(interpolates), shown)
         found: Record = on.run(partial(run, parameters=varied.parameters, schedule=schedule))
         return found
 

@@ -37,11 +37,20 @@ if TYPE_CHECKING:
     from slider_resonator.studies.choose import Choice
 
 
+HOW_INPUTS = {
+    "interpolated": "straight lines between communication points, by their derivatives",
+    "held": "straight lines are held over each step; --interpolate passes them on",
+    "cannot": "straight lines are held over each step: the FMU has canInterpolateInputs = false",
+}
+"""How inputs that are straight lines reach an FMU, in words."""
+
+
 @dataclass(frozen=True)
 class RunSummary:
     """A run and its cost; times in s, positions in m, velocities in m/s.
 
-    `auto` is the choice of --auto.
+    `auto` is the choice of --auto, `inputs` how inputs that are straight lines reach the FMU: one
+    of `HOW_INPUTS`, None where there are none.
     """
 
     fmu: str
@@ -60,6 +69,7 @@ class RunSummary:
     out: str | None
     plot: str | None
     auto: Choice | None
+    inputs: str | None
 
 
 @click.command("run", short_help="Run one scene and report results and cost.", cls=SettingsCommand)
@@ -95,6 +105,13 @@ class RunSummary:
     help="Run with the cheapest fidelity, tolerance and step that meet the scene's [need], as the "
     "command choose finds them.",
 )
+@click.option(
+    "--interpolate/--no-interpolate",
+    default=None,
+    help="Pass ramps, and CSV inputs with between linear, on as derivatives, or hold them over "
+    "each step. An FMU without canInterpolateInputs holds them.  [default: as [run] of the scene "
+    "says, which holds them unless it has interpolate]",
+)
 @set_option
 @time_limit_option(TIME_LIMIT, "For each of the choice, the run and the run for the picture.")
 @json_option
@@ -109,6 +126,7 @@ def run_command(
     window: tuple[float, float] | None,
     overlays: tuple[tuple[str, float] | Path, ...],
     auto: bool,
+    interpolate: bool | None,
     settings: dict[str, float],
     time_limit: float,
     as_json: bool,
@@ -123,10 +141,13 @@ def run_command(
     Examples:
       slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
       slider-resonator run my.fmu feed_forward --auto
+      slider-resonator run my.fmu changing_inputs --interpolate
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
     read = read_scene(find_scene(scene), settings)
+    if interpolate is not None:
+        read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}
     others = {f"the FMU {one}": one for one in overlays if isinstance(one, Path)}
     distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **others, **files})
@@ -153,6 +174,9 @@ def run_command(
                 print_result(choice, text, as_json=as_json, provenance=provenance)
                 context.exit(1)
             read = choice.applied_to(read)
+        how = _how_inputs(read, isolated)
+        if how == "cannot":
+            read = read.interpolating(False)
 
         def run_in(schedule: Schedule) -> Record:
             task = partial(run, parameters=read.parameters, schedule=schedule)
@@ -169,8 +193,17 @@ def run_command(
             from slider_resonator.scenes.run_plot import plot_run, schedule_to_plot
 
             plot_run(run_in(schedule_to_plot(read)), read, plot)
-    summary = _summary(fmu, read, record, out, plot, choice)
+    summary = _summary(fmu, read, record, out, plot, choice, how)
     print_result(summary, _sentences(summary, read), as_json=as_json, provenance=provenance)
+
+
+def _how_inputs(scene: Scene, fmu: IsolatedFmu) -> str | None:
+    """Return how straight lines reach the FMU, a key of `HOW_INPUTS`; None without any."""
+    if not scene.interpolating(True).schedule().ramps:
+        return None
+    if not scene.schedule().interpolates:
+        return "held"
+    return "interpolated" if fmu.interpolates else "cannot"
 
 
 def _summary(
@@ -180,6 +213,7 @@ def _summary(
     out: Path | None,
     plot: Path | None,
     choice: Choice | None,
+    how: str | None,
 ) -> RunSummary:
     simulated = float(record.times[-1])
     periods = simulated * scene.device.drive_frequency / (2.0 * pi)
@@ -200,6 +234,7 @@ def _summary(
         out=None if out is None else str(out),
         plot=None if plot is None else str(plot),
         auto=choice,
+        inputs=how,
     )
 
 
@@ -212,6 +247,7 @@ def _sentences(summary: RunSummary, scene: Scene) -> str:
         f"{summary.communication_steps} communication steps",
         f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
         f"period {readable(summary.mean_velocity, 9)} m/s",
+        *([f"inputs   {HOW_INPUTS[summary.inputs]}"] if summary.inputs else []),
         *_contact(summary, scene),
         f"cost     {summary.wall_time:.3g} s of wall time, "
         f"{summary.wall_time_per_simulated_time:.3g} per simulated second, "

@@ -171,6 +171,11 @@ class Scene:
         step = {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
         return replace(self, run=self.run.model_copy(update=step))
 
+    @property
+    def interpolates(self) -> bool:
+        """Whether it passes straight lines of inputs on as derivatives, and has any."""
+        return self.run is not None and self.run.interpolate and self.schedule().ramps
+
     def interpolating(self, interpolate: bool) -> Scene:
         """Return the scene with straight lines of inputs passed on as derivatives, or held."""
         if self.run is None:

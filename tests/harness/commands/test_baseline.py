@@ -11,6 +11,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from click.testing import Result
 
+from slider_resonator.trials.baseline.work import applicable_scenes
 from tests.harness import calling, faulty_fmus
 from tests.harness.public_json import assert_public_keys
 
@@ -191,3 +192,23 @@ def test_changes_that_cannot_be_kept_are_shown(other_fmu: Path, baseline: Path) 
     assert result.exit_code == 2
     assert "one: blocking_force" in result.stdout
     assert "could not be kept for accept" in result.stderr
+
+
+def test_lines_that_an_fmu_cannot_take_do_not_apply(
+    native_fmu: Path, python_fmu: Path, tmp_path: Path
+) -> None:
+    scenes, folder = tmp_path / "scenes", tmp_path / "baseline"
+    scenes.mkdir()
+    faulty_fmus.scene(scenes, "one")
+    line = faulty_fmus.scene(scenes, "two")
+    text = line.read_text().replace("[run]", "[run]\ninterpolate = true")
+    line.write_text(text + "[inputs]\nload = { ramp = [[0.0, 0.0], [0.01, 0.1]] }\n")
+    assert run("record", native_fmu, folder, "--scene", scenes).exit_code == 0
+    assert run("check", native_fmu, folder).exit_code == 0
+    other = run("check", python_fmu, folder)
+    assert other.exit_code == 0, other.output
+    assert "not applicable: two: the run: needs canInterpolateInputs = true" in other.stdout
+    assert "canInterpolateInputs" in refused(
+        "record", python_fmu, tmp_path / "other", "--scene", line
+    )
+    assert len(applicable_scenes(native_fmu)) - len(applicable_scenes(python_fmu)) == 12

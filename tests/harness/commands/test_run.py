@@ -86,3 +86,49 @@ def test_averaged_motion_has_no_reversals_to_report(python_fmu: Path) -> None:
     assert "reversals" not in averaged
     assert "mean velocity" in averaged
     assert "reversals" in call("run", python_fmu, "pushed_at_rest").stdout
+
+
+LINE = """
+name = "line"
+title = "Line"
+[inputs]
+load = { ramp = [[0.0, 0.0], [0.01, 0.2]] }
+[run]
+stop_time = 0.01
+step_size = 0.005
+"""
+
+
+@pytest.mark.parametrize(
+    ("build", "option", "how"),
+    [
+        ("native_fmu", [], "held over each step; --interpolate"),
+        ("native_fmu", ["--interpolate"], "between communication points, by their derivatives"),
+        ("python_fmu", ["--interpolate"], "the FMU has canInterpolateInputs = false"),
+    ],
+)
+def test_a_run_says_how_lines_reach_the_fmu(
+    request: pytest.FixtureRequest, tmp_path: Path, build: str, option: list[str], how: str
+) -> None:
+    scene = tmp_path / "line.toml"
+    scene.write_text(LINE)
+    result = call("run", request.getfixturevalue(build), scene, *option)
+    assert result.exit_code == 0, result.output
+    assert how in result.stdout
+
+
+def test_the_option_replaces_what_the_scene_says(native_fmu: Path, tmp_path: Path) -> None:
+    held, passed = tmp_path / "held.toml", tmp_path / "passed.toml"
+    held.write_text(LINE)
+    passed.write_text(LINE + "interpolate = true\n")
+    outs: list[str] = []
+    for scene, *options in (
+        (held, "--interpolate"),
+        (passed,),
+        (held,),
+        (passed, "--no-interpolate"),
+    ):
+        out = tmp_path / f"{len(outs)}.csv"
+        assert call("run", native_fmu, scene, *options, "--out", out).exit_code == 0
+        outs.append(out.read_text())
+    assert outs[0] == outs[1] != outs[2] == outs[3]

@@ -185,3 +185,24 @@ def test_extra_readings_keep_the_held_inputs() -> None:
     assert more.times.tolist() == [0.0, 0.1, 0.25, 0.5, 0.6, 0.75, 1.0]
     assert more.held() == plan.held()
     assert more.phase is plan.phase, "what is constant stays so"
+
+
+def test_lines_are_held_or_have_rates_and_corners() -> None:
+    signals = {
+        "load": ramp([(0.0, 0.0), (0.35, 0.7), (1.0, 0.7)]),
+        "phase": steps([(0.0, 0.2), (0.5, 0.7)]),
+    }
+    held, lines = (schedule(1.0, 0.1, None, line, **signals) for line in (False, True))
+    assert not held.ramps
+    assert lines.ramps
+    assert 0.35 in lines.times
+    assert 0.35 not in held.times
+    rates = lines.rates()
+    inside = lines.times[:-1] < 0.35
+    assert rates[:-1, 1] == pytest.approx(np.where(inside, 2.0, 0.0))
+    assert not rates[:, [0, 2]].any(), "steps have no rate"
+    *_, last = lines.held()
+    assert (last.start, last.phase, last.load, last.load_rate) == (0.5, 0.7, 0.7, 0.0)
+    check_contiguous(lines.held(), rates=["load_rate"])
+    finer = lines.refined(0.2, 0.01)
+    assert np.allclose(finer.rates()[:, 1], np.where(finer.times < 0.35 - 1e-9, 2.0, 0.0))

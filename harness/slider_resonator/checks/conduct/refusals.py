@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from ctypes import c_double, c_int, c_uint
 from dataclasses import dataclass
 from functools import partial
 
@@ -53,6 +54,8 @@ EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
 """Arguments of fmi2SetupExperiment that must be refused."""
 
 STEP_SIZES = (0.0, -0.0, -1e-3, math.nan, math.inf, -math.inf)
+DERIVATIVE_ORDERS = (0, 2, -1)
+"""Orders of derivatives of inputs that must be refused."""
 JUMPS = (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf)
 """Distances (s) from the present time at which a step cannot begin."""
 
@@ -107,6 +110,21 @@ class Trial:
         for name in OUT_OF_ORDER[when]:
             self.refuses(f"{name} {when}", partial(_LIFECYCLE[name], self.instance))
 
+    def refuses_derivatives(self, variables: Sequence[Variable]) -> None:
+        """Set derivatives that are not finite, of another order or of what is no input."""
+        for variable in variables:
+            if variable.kind != "Real":
+                continue
+            derive, name = partial(self._derive, variable), variable.name
+            if variable.causality != "input":
+                self.refuses(f"a derivative of {name}", partial(derive, 1, 0.1), name)
+                continue
+            for bad in (math.nan, math.inf, -math.inf):
+                self.refuses(f"a derivative of {name} = {bad!r}", partial(derive, 1, bad), name)
+            for order in DERIVATIVE_ORDERS:
+                what = f"a derivative of {name} of order {order}"
+                self.refuses(what, partial(derive, order, 0.1), name)
+
     def accepts_bounds(self, variables: Iterator[Variable]) -> None:
         """Set variables to their bounds, which they can have."""
         for variable in variables:
@@ -117,6 +135,11 @@ class Trial:
                     self._set(variable, bound)
                 except FMICallException:
                     self.faults.append(f"{variable.name} = {bound!r} is refused, a bound")
+
+    def _derive(self, variable: Variable, order: int, value: float) -> None:
+        reference = self.instance.fmu.variables[variable.name].valueReference
+        arguments = (c_uint * 1)(reference), 1, (c_int * 1)(order), (c_double * 1)(value)
+        call(self.instance.slave, "fmi2SetRealInputDerivatives", *arguments)
 
     def _set(self, variable: Variable, value: float) -> None:
         reference = [self.instance.fmu.variables[variable.name].valueReference]
@@ -211,9 +234,7 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
     trial.refuses_all("from outside", (v for v in present if v.causality == "output"))
     trial.refuses_calls("in a run")
     if instance.fmu.interpolates:
-        for bad in (math.nan, math.inf, -math.inf):
-            rates = [0.0, bad, 0.0]
-            trial.refuses(f"a derivative of {bad} N/s", partial(instance.set_input_rates, rates))
+        trial.refuses_derivatives(present)
     for size in STEP_SIZES:
         trial.refuses(
             f"a step of {size!r} s",

@@ -60,7 +60,9 @@ def main() -> None:
             begin()
             with instantiate(fmu) as instance:
                 faulthandler.cancel_dump_traceback_later()
-                opened = Opened(fmu.runs_without_python, str(fmu.description.guid))
+                opened = Opened(
+                    fmu.runs_without_python, str(fmu.description.guid), fmu.interpolates
+                )
                 _send(messages, Result(opened))
                 for request in _read(requests):
                     begin()

@@ -22,10 +22,11 @@ class Started:
 
 @dataclass(frozen=True)
 class Opened:
-    """The FMU is instantiated; whether it runs without Python, and its GUID."""
+    """The FMU is instantiated: whether it runs without Python and takes derivatives, its GUID."""
 
     runs_without_python: bool
     guid: str
+    interpolates: bool = False
 
 
 @dataclass(frozen=True)

@@ -80,6 +80,7 @@ class IsolatedFmu:
             raise
         self.runs_without_python = opened.runs_without_python
         self.guid = opened.guid
+        self.interpolates = opened.interpolates
 
     def _start(self, fmu: Path) -> None:
         with self._log.open("wb") as log:

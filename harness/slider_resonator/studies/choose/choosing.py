@@ -94,9 +94,9 @@ class _Choosing:
         scene.check_plain("choose")
         check_magnitudes(scene)
         self.instance = instance
-        self.scene = scene
+        self.scene = scene.interpolating(False)
         self.needs = scene.need.needs
-        self.probe = Probe(instance, scene)
+        self.probe = Probe(instance, self.scene)
         self.scales = self.probe.scales
         self.ladder: tuple[float | None, ...] = (None,)
         if self.probe.run_needs:

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
@@ -74,6 +75,7 @@ class FmuMethods:
         self.fmu = fmu
         self._cpu = 0.0
         self._orders: tuple[int | None, ...] | None = None
+        self._interpolates: bool | None = None
 
     @property
     def orders(self) -> tuple[int | None, ...]:
@@ -111,6 +113,18 @@ class FmuMethods:
             for order in self.orders:
                 yield self._prediction(quantity, order)
 
+    @property
+    def interpolates(self) -> bool:
+        """Whether the FMU takes derivatives of inputs."""
+        if self._interpolates is None:
+            self._interpolates = bool(self.fmu.run(_takes_derivatives))
+        return self._interpolates
+
+    def _schedule(self, periods: int, step: float) -> Schedule:
+        """Return the inputs in steps (s): straight lines as derivatives where it takes them."""
+        inputs = self.problem.interpolated if self.interpolates else self.problem.schedule
+        return inputs(periods, step)
+
     def _values(self, model: Model, law: int, tolerance: float) -> dict[str, float]:
         own = {**model.parameters, "friction_law": law}
         return {**self.problem.parameters, **own, "tolerance": tolerance}
@@ -137,7 +151,7 @@ class FmuMethods:
             return self._follow(values, periods, size, resolved=model.fidelity > 0)
 
         def seconds(periods: int) -> float:
-            schedule = self.problem.schedule(periods, size)
+            schedule = self._schedule(periods, size)
             taken: list[float] = []
             while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
                 taken.append(self._run(run, values, schedule, outputs=OUTPUTS).step_cpu)
@@ -155,7 +169,7 @@ class FmuMethods:
     def _follow(
         self, values: Mapping[str, float], periods: int, size: float, *, resolved: bool
     ) -> Solution:
-        own = self.problem.schedule(periods, size)
+        own = self._schedule(periods, size)
         readings = self.problem.readings(periods)
         closest = 1e-9 * min(size, self.problem.period)
         outputs = (*OUTPUTS, "last_event_time", "reversals")
@@ -213,6 +227,10 @@ def _timed(
 
 def _has_orders(instance: Instance) -> bool:
     return "averaging_order" in instance.fmu.variables
+
+
+def _takes_derivatives(instance: Instance) -> bool:
+    return instance.fmu.interpolates
 
 
 def _value_at_start(instance: Instance, values: Mapping[str, float], output: str) -> float:

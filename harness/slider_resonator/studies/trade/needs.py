@@ -40,7 +40,8 @@ COLUMNS = (
 class CheapestRows:
     """The cheapest rows that meet a need, None where no method does.
 
-    `python` is the same model in the Python FMU.
+    `python` is the same model in the Python FMU, None where it does not meet the need there: that
+    FMU holds inputs over each step.
     """
 
     quantity: str
@@ -64,7 +65,7 @@ def choices(trade: Trade) -> list[CheapestRows]:
             if native is not None and row.method == native.method.replace("native", "Python", 1)
         ]
         peer = cheapest([row for row in rows if row.kind == PEER], quantity, error)
-        found.append(CheapestRows(quantity, error, native, twins[0] if twins else None, peer))
+        found.append(CheapestRows(quantity, error, native, cheapest(twins, quantity, error), peer))
     return found
 
 

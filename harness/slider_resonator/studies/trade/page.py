@@ -61,7 +61,7 @@ def _scene(trade: Trade) -> list[str]:
     run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
     if trade.uncertainty:
         run += (
-            f" The reference holds inputs that vary in fine steps, which leaves an uncertainty of "
+            f" The reference holds inputs in fine steps, which leaves an uncertainty of "
             f"{trade.uncertainty:.0e} of the position: errors below it mean nothing."
         )
     parts.append(f"<p>{escaped(run)}</p>")

@@ -11,7 +11,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.held_inputs import HeldInputs, check_turns_on, with_steady_phase
 from slider_resonator.device.schedule import (
     Schedule,
     Signal,
@@ -29,7 +29,8 @@ HALVINGS = 5
 POINTS = 16
 """Readings in a window, which is a drive period long."""
 REFERENCE_STEPS = 16
-"""Steps per drive period in which the reference holds varying inputs, at their middle value."""
+"""Steps per drive period in which the reference holds inputs, at their middle value, where it
+cannot follow their lines."""
 
 
 @dataclass(frozen=True)
@@ -118,12 +119,32 @@ class Problem:
         """Return the inputs sampled at steps (s) and held; all their jumps are points."""
         return schedule(periods * self.period, step, **self.signals)
 
+    def interpolated(self, periods: int, step: float) -> Schedule:
+        """Return the inputs with straight lines passed on; all their corners are points."""
+        return schedule(periods * self.period, step, None, True, **self.signals)
+
     def held(self, periods: int) -> list[HeldInputs]:
         """Return the inputs of peers, held over the scene's own communication step."""
         return self.schedule(periods, self.step).held()
 
+    def lines(self, periods: int) -> list[HeldInputs] | None:
+        """Return the inputs as straight lines from corner to corner.
+
+        None where the normal load turns back within a line, which no reference follows.
+        """
+        lines = self.interpolated(periods, periods * self.period).held()
+        try:
+            for inputs in with_steady_phase(lines, self.device):
+                check_turns_on(inputs)
+        except ValueError:
+            return None
+        return lines
+
     def reference_inputs(self, periods: int, steps: int = REFERENCE_STEPS) -> list[HeldInputs]:
-        """Return the inputs of the reference, with `steps` per drive period where they vary."""
+        """Return the inputs of the reference: lines, or else `steps` per drive period, held."""
+        lines = self.lines(periods)
+        if lines is not None:
+            return lines
         corners = [t for signal in self.signals.values() for t in signal.times]
         times = communication_points(periods * self.period, self.period / steps, corners)
         begins, middles = tuple(times[:-1].tolist()), 0.5 * (times[1:] + times[:-1])

@@ -27,8 +27,8 @@ class Reference:
     """The reference solution of a problem.
 
     `windows` are its readings; `sticks` says whether the slider sticks after the first drive
-    period; `uncertainty` is the change of the position, as a share of its peak, when varying inputs
-    are held over half as many steps. The steady velocity (m/s) and the
+    period; `uncertainty` is the change of the position, as a share of its peak, when inputs whose
+    lines it cannot follow are held over half as many steps. The steady velocity (m/s) and the
     blocking force (N) are None where there is none.
     """
 
@@ -46,7 +46,7 @@ def find_reference(problem: Problem) -> Reference:
         run = _run(problem, simulate, REFERENCE_STEPS)
         found = windows(problem, solution_of(run, located=True), problem.periods)
         uncertainty = 0.0
-        if not problem.constant:
+        if problem.lines(problem.periods) is None:
             coarse = _run(problem, simulate, REFERENCE_STEPS // 2)
             # Three times what second order leaves: corners between steps make it irregular.
             uncertainty = share_of(peak(coarse.position - run.position), peak(run.position))

@@ -39,8 +39,10 @@ Golden = Mapping[str, Measurement]
 def measure_golden(fmu: FmuSide) -> Golden:
     """Measure all quantities that the scene allows: a ripple needs enough points per period.
 
-    Raises FmuError and Refusal as the FMU does.
+    Raises FmuError and Refusal as the FMU does, NotApplicable where it cannot run the scene.
     """
+    if fmu.scene.interpolates:
+        fmu.instance.fmu.require("canInterpolateInputs")
     found = {}
     for name in _quantities(fmu):
         try:

@@ -11,8 +11,8 @@ from time import perf_counter
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.measure_points import measure_points
-from slider_resonator.checks.validate import Curves, RunFailure, Validation
-from slider_resonator.errors import HarnessError, SceneError, unknown_name
+from slider_resonator.checks.validate import Curves, NotApplied, RunFailure, Validation
+from slider_resonator.errors import HarnessError, NotApplicable, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import identity_of
@@ -76,12 +76,25 @@ def record(
     with open_fmu(fmu):
         pass  # nothing is made in `folder` for a file that is no FMU
     make_folder(folder)
-    measured, run_failures = _measure(fmu, scenes, folder, progress, time_limit)
+    measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
+    run_failures += [RunFailure(one.scene, one.reason, one.at) for one in not_applied]
     whole = [scene for scene in scenes if scene.source in measured]
     for scene in whole:
         write_recorded(folder / scene.name, measured[scene.source])
         shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
     return tuple(scene.name for scene in whole), tuple(run_failures)
+
+
+def applicable_scenes(fmu: Path) -> list[Path]:
+    """Return the files of the built-in scenes that the FMU can run; FmuError for no FMU.
+
+    Those with `interpolate` are for FMUs that take derivatives of inputs.
+    """
+    files = list(built_in_scenes().values())
+    with open_fmu(fmu) as opened:
+        if opened.interpolates:
+            return files
+    return [file for file in files if not read_scene(file).interpolates]
 
 
 def check(
@@ -103,7 +116,7 @@ def check(
     identity = identity_of(fmu)
     scenes = [read_scene(file) for file in dict.fromkeys(files or recorded_files(folder))]
     golden = [_recorded(folder, scene) for scene in scenes]
-    measured, run_failures = _measure(fmu, scenes, folder, progress, time_limit)
+    measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
     compared: list[tuple[Check, Curves | None]] = []
     for scene, before in zip(scenes, golden, strict=True):
         shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
@@ -128,6 +141,7 @@ def check(
         perf_counter() - began,
         tuple(run_failures),
         tuple(curves for _, curves in compared if curves is not None),
+        not_applied=tuple(not_applied),
         identity=identity,
     )
 
@@ -177,8 +191,8 @@ def recorded_files(folder: Path) -> list[Path]:
 
 def _measure(
     fmu: Path, scenes: Sequence[Scene], folder: Path, progress: Progress, time_limit: float
-) -> tuple[dict[str, Recorded], list[RunFailure]]:
-    """Return the results by the source of the scene, and what could not be run.
+) -> tuple[dict[str, Recorded], list[RunFailure], list[NotApplied]]:
+    """Return the results by the source of the scene, what could not be run and what did not apply.
 
     A scene that fails at a point is left out. `folder` is where the results are to be kept. Raises
     FmuError for a file that is no FMU.
@@ -187,6 +201,7 @@ def _measure(
     all_points = [point for some in points.values() for point in some]
     found: dict[str, dict[At, Golden]] = {source: {} for source in points}
     run_failures: list[RunFailure] = []
+    not_applied: list[NotApplied] = []
     number = count()
 
     def meanwhile(point: ScenePoint) -> None:
@@ -198,13 +213,17 @@ def _measure(
         runs = measure_points(fmu, all_points, measure_golden, time_limit, meanwhile)
         with closing(runs) as finished:
             for one in finished:
-                if one.error is not None or one.item is None:
+                if isinstance(one.error, NotApplicable) and one.item is not None:
+                    place = (one.item.scene.name, "the run", str(one.error), one.item.at)
+                    not_applied.append(NotApplied(*place))
+                elif one.error is not None or one.item is None:
                     run_failures.append(RunFailure.of(fmu, one.item, one.error))
                 else:
                     found[one.item.scene.source][key(one.item.at)] = one.result
     progress("", 1.0)
     whole = [source for source in points if len(found[source]) == len(points[source])]
-    return {source: Recorded(found[source], origins[source]) for source in whole}, run_failures
+    recorded = {source: Recorded(found[source], origins[source]) for source in whole}
+    return recorded, run_failures, not_applied
 
 
 def _scene_file(path: Path) -> Path:

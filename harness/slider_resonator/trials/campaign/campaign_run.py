@@ -15,10 +15,12 @@ from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_tasks
+from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.run import run
 from slider_resonator.output.console import counted
 from slider_resonator.trials.campaign.expected import AVERAGED, RESOLVED
 from slider_resonator.trials.campaign.random_case import RandomCase
+from slider_resonator.trials.campaign.second_order import OUTPUTS
 from slider_resonator.trials.campaign.verdict import FAILED, PASSED, REFUSED, CaseVerdict, judge
 
 TIME_LIMIT = 60.0
@@ -67,11 +69,14 @@ def run_campaign(
 ) -> Campaign:
     """Run and judge the cases; FmuError when the FMU cannot be run at all.
 
-    A crash or a missed `time_limit` (s) fails its case only. `keep` is called with what there is
+    Cases of second order are left out for an FMU without `averaging_order`. A crash or a missed
+    `time_limit` (s) fails its case only. `keep` is called with what there is
     when the run is interrupted or stopped by an error.
     """
     began = time.perf_counter()
     verdicts: list[CaseVerdict] = []
+    if "averaging_order" in lacking(fmu):
+        cases = [case for case in cases if not case.second_order]
 
     def report(case: RandomCase) -> None:
         done = len(verdicts)
@@ -114,6 +119,8 @@ def run_campaign(
 
 def _outputs(instance: Instance, case: RandomCase) -> dict[str, Array]:
     """Run a case; what is raised is what `run` does."""
-    names = AVERAGED if case.device.fidelity == 0 else RESOLVED
+    names: tuple[str, ...] = AVERAGED if case.device.fidelity == 0 else RESOLVED
+    if case.second_order:
+        names = OUTPUTS
     record = run(instance, case.parameters, case.schedule, outputs=names)
     return dict(record.outputs)

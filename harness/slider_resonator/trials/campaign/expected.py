@@ -10,6 +10,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.schedule import Schedule
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
@@ -19,6 +20,8 @@ from slider_resonator.trials.campaign.random_case import RandomCase
 
 RESOLVED = ("position", "velocity", "resonator_displacement", "resonator_velocity")
 AVERAGED = ("position", "mean_velocity")
+FULL = 2
+"""Fidelity of the full device, to which averages of second order come close."""
 EXACT = 1e-10
 """Error of resolved motion with Coulomb friction, over the peaks: rounding, at events too."""
 AVERAGED_ERROR = 1.1e-6
@@ -64,6 +67,8 @@ def _expected(case: RandomCase, device: Device, by: float) -> Expected:
     ]
     own = case.schedule.times
     times = np.union1d(own, np.linspace(own[0], own[-1], PEAK_SAMPLES))
+    if case.second_order:
+        device = replace(device, fidelity=FULL)
     names = AVERAGED if device.fidelity == 0 else RESOLVED
     with np.errstate(over="ignore", invalid="ignore"):
         motion = _simulate(device, held, times)
@@ -71,10 +76,11 @@ def _expected(case: RandomCase, device: Device, by: float) -> Expected:
     if not all(np.isfinite(signal).all() for signal in everywhere.values()):
         raise ArithmeticError("the motion leaves the range of floating point numbers")
     places = np.searchsorted(times, own)
-    resolution = _resolution(case)
+    resolution = _resolution(device, case.schedule)
+    peaks = _peaks(device, case.schedule, everywhere)
     return Expected(
         {name: signal[places] for name, signal in everywhere.items()},
-        {name: resolution * peak for name, peak in _peaks(case, everywhere).items()},
+        {name: resolution * peak for name, peak in peaks.items()},
         resolution,
     )
 
@@ -89,9 +95,8 @@ def _simulate(
     return simulate_lugre(device, held, times)
 
 
-def _resolution(case: RandomCase) -> float:
+def _resolution(device: Device, schedule: Schedule) -> float:
     """Rounding, of the angles too, and the errors of integration."""
-    device, schedule = case.device, case.schedule
     ratio = max(1.0, float(np.abs(schedule.sampled()[:, 2]).max()))
     turned = 1.2 * ratio * device.drive_frequency * float(schedule.times[-1])
     rounding = 8.0 * float(np.finfo(float).eps) * turned
@@ -100,9 +105,8 @@ def _resolution(case: RandomCase) -> float:
     return EXACT + rounding + 3.0 * device.tolerance * device.friction_law
 
 
-def _peaks(case: RandomCase, signals: Mapping[str, Array]) -> dict[str, float]:
+def _peaks(device: Device, schedule: Schedule, signals: Mapping[str, Array]) -> dict[str, float]:
     """Peaks of slider and resonator, which move each other; positions count in turns too."""
-    device = case.device
     w, share = device.drive_frequency, device.mass_ratio
     peak = {name: float(np.abs(signal).max()) for name, signal in signals.items()}
     try:
@@ -111,7 +115,7 @@ def _peaks(case: RandomCase, signals: Mapping[str, Array]) -> dict[str, float]:
         fast = 0.0
     if device.fidelity == 0:
         velocity = max(peak["mean_velocity"], fast)
-        turns = w * float(case.schedule.times[-1])
+        turns = w * float(schedule.times[-1])
         return {
             "position": max(peak["position"], velocity / w * max(1.0, turns)),
             "mean_velocity": velocity,
@@ -119,7 +123,7 @@ def _peaks(case: RandomCase, signals: Mapping[str, Array]) -> dict[str, float]:
     swing = max(peak["resonator_displacement"], peak["resonator_velocity"] / w)
     rate = max(peak["resonator_velocity"], w * swing)
     velocity = max(peak["velocity"], fast) + share * rate
-    turns = max(1.0, w * float(case.schedule.times[-1]))
+    turns = max(1.0, w * float(schedule.times[-1]))
     return {
         "position": max(peak["position"], velocity / w * turns),
         "velocity": velocity,

@@ -8,20 +8,32 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import tau
+from math import log, log10, tau
 from random import Random
 
 import numpy as np
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Schedule, Signal
+from slider_resonator.references.averaged.motion_from_start import SWING_LEFT, turns_resolved
 from slider_resonator.references.closed_forms import equivalent_force
 
-MODELS = ((2, 0), (1, 0), (0, 0), (2, 1), (1, 1), (0, 1))
-"""Fidelity and friction law, in turn."""
+MODELS = (
+    *((2, 0, 2), (1, 0, 2), (0, 0, 1), (2, 1, 2), (1, 1, 2), (0, 1, 1)),
+    *((0, 0, 2), (0, 1, 2)),
+)
+"""Fidelity, friction law and order of averages, in turn."""
 RESOLVED_PERIODS = (0.3, 30.0)
 AVERAGED_PERIODS = (3.0, 3000.0)
 """Shortest and longest run, in drive periods."""
+SECOND_ORDER_PERIODS = (20.0, 300.0)
+"""The same with averages of second order, whose reference is resolved."""
+FRICTION_SHARES = (1e-4, 0.1)
+"""Friction over the drive force, with averages of second order; at most `SHARE_OF_DECAY` of what
+the resonator's swing decays by in a turn of the drive."""
+SHARE_OF_DECAY = 0.1
+MIN_DAMPING = 0.005
+"""Smallest damping ratio with them: what is left of a swing must decay."""
 MAX_LUGRE_RELAXATIONS = 20.0
 """Longest averaged run with LuGre friction, in times in which friction stops the fast velocity."""
 TUNABLES = (
@@ -30,6 +42,8 @@ TUNABLES = (
 )
 """Parameters that are tuned by up to a factor of two; the drive frequency by up to a tenth."""
 RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 0.5, 1.5, 1.01, 0.97, 0.003)
+SLOW_RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 1.01, 0.97, 0.003)
+"""Those with a slow phase also where the contact does not lift."""
 START_TIMES = (0.0, 0.0, 0.0, 1e-3, -5.0, 12.5, 1e4)
 
 
@@ -51,16 +65,24 @@ class RandomCase:
     def model(self) -> str:
         """Fidelity and friction law in words."""
         law = "LuGre" if self.parameters["friction_law"] else "Coulomb"
-        return f"{law}, fidelity {self.parameters['fidelity']:g}"
+        order = ", order 2" if self.second_order else ""
+        return f"{law}, fidelity {self.parameters['fidelity']:g}{order}"
+
+    @property
+    def second_order(self) -> bool:
+        """Whether it is motion by averages of second order."""
+        return self.parameters["fidelity"] == 0 and self.parameters["averaging_order"] == 2
 
 
 def random_case(seed: int, number: int) -> RandomCase:
     """Return a case of a campaign; `number` counts from 0."""
     random = Random(f"{seed} {number}")
-    fidelity, law = MODELS[number % len(MODELS)]
+    fidelity, law, order = MODELS[number % len(MODELS)]
     parameters = _device(random) | {"fidelity": fidelity, "friction_law": law}
     if fidelity == 0:
-        parameters["averaging_order"] = 1
+        parameters["averaging_order"] = order
+    if fidelity == 0 and order == 2:
+        parameters |= _light_friction(random, parameters)
     if law == 1:
         parameters |= _bristles(random, parameters)
     return RandomCase(seed, number, parameters, _schedule(random, parameters))
@@ -102,6 +124,19 @@ def _device(random: Random) -> dict[str, float]:
     return values
 
 
+def _light_friction(random: Random, values: Mapping[str, float]) -> dict[str, float]:
+    """Damping and friction for which averages of second order are made."""
+    parameters = {**values, "damping_ratio": _decades(random, log10(MIN_DAMPING), 0.0)}
+    device = Device.from_mapping(parameters)
+    low, high = FRICTION_SHARES
+    decay = -log(SWING_LEFT) / turns_resolved(device)
+    high = max(2.0 * low, min(high, SHARE_OF_DECAY * decay))
+    friction = abs(equivalent_force(device).amplitude) * _decades(random, log10(low), log10(high))
+    preload = friction / (device.friction_faces * device.friction_coefficient)
+    share = device.normal_amplitude / device.normal_preload
+    return parameters | {"normal_preload": preload, "normal_amplitude": preload * share}
+
+
 def _bristles(random: Random, values: Mapping[str, float]) -> dict[str, float]:
     """Bristles from soft to hard, as the fast motion sees them."""
     device = Device.from_mapping(values)
@@ -121,9 +156,12 @@ def _bristles(random: Random, values: Mapping[str, float]) -> dict[str, float]:
 def _schedule(random: Random, values: Mapping[str, float]) -> Schedule:
     device = Device.from_mapping(values)
     period = tau / device.drive_frequency
+    second_order = device.fidelity == 0 and device.averaging_order == 2
     low, high = AVERAGED_PERIODS if device.fidelity == 0 else RESOLVED_PERIODS
-    duration = period * _decades(random, float(np.log10(low)), float(np.log10(high)))
-    if device.fidelity == 0 and device.friction_law == 1:
+    if second_order:
+        low, high = SECOND_ORDER_PERIODS
+    duration = period * _decades(random, log10(low), log10(high))
+    if device.fidelity == 0 and device.friction_law == 1 and not second_order:
         fast = equivalent_force(device).velocity_amplitude
         duration = min(
             duration, MAX_LUGRE_RELAXATIONS * device.total_mass * fast / device.mean_friction
@@ -136,7 +174,11 @@ def _schedule(random: Random, values: Mapping[str, float]) -> Schedule:
     jumps = sorted({0, *(random.randrange(len(times)) for _ in range(random.randint(0, 4)))})
     starts = [float(times[i]) for i in jumps if i < len(times) - 1]
     load = device.mean_friction * random.choice((0.0, 0.3, 1.2))
-    ratio = random.choice((*RATIOS, random.uniform(-3.0, 5.0)))
+    ratios: tuple[float, ...] = (*RATIOS, random.uniform(-3.0, 5.0))
+    if second_order:
+        lifts = device.normal_amplitude > device.normal_preload
+        ratios = RATIOS if lifts else SLOW_RATIOS
+    ratio = random.choice(ratios)
 
     def over(draw: list[float]) -> Signal:
         return Signal(tuple(starts), tuple(draw))
@@ -152,7 +194,7 @@ def _schedule(random: Random, values: Mapping[str, float]) -> Schedule:
         times,
         over([random.uniform(-10.0, 10.0) for _ in starts]),
         over([load * random.uniform(-1.0, 1.0) for _ in starts]),
-        over([ratio if random.random() < 0.7 else random.choice(RATIOS) for _ in starts]),
+        over([ratio if random.random() < 0.7 else random.choice(ratios) for _ in starts]),
         tuning=tuning,
         start_time=random.choice(START_TIMES),
     )

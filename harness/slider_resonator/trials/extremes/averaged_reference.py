@@ -1,4 +1,4 @@
-"""Compare averaged motion with the averaged reference, which computes the means differently."""
+"""Compare averaged motion of first order with a reference that computes the means differently."""
 
 from __future__ import annotations
 

@@ -14,6 +14,8 @@ DETUNING = 0.05
 BEAT = PERIOD / DETUNING
 WEAK = {"normal_preload": 0.01, "normal_amplitude": 0.01, "initial_velocity": -0.144}
 """Friction that needs many beats to change the slow velocity."""
+FIRST_ORDER = (Model(0, 0), Model(0, 1))
+"""Averages whose reference is one, too, and as cheap."""
 BEATS = {"1 beat": 1.0, "90 beats": 90.0, "1/3 beat": 1.0 / 3.0}
 FAR = {
     "friction_coefficient": (1e308, 1.7e308),
@@ -55,7 +57,8 @@ def _starts_in_flight(model: Model) -> Iterator[MatrixCell]:
         limits: tuple[Limit, ...] = ()
         if model == Model(0, 0) and ratio == 0.01:
             limits = (Limit("mean_velocity", 0.0063860, 1e-7, "by small steps"),)
-        size = (1000.0 if model.fidelity == 0 else 10.0) * PERIOD
+        periods = 1000.0 if model in FIRST_ORDER else 50.0 if model.second_order else 10.0
+        size = periods * PERIOD
         hold = Hold(size, 3, phase=-pi / 2.0, frequency_ratio=ratio)
         yield MatrixCell(
             "start in flight", f"ratio {ratio:g}", model, parameters, (hold,), limits=limits
@@ -64,7 +67,8 @@ def _starts_in_flight(model: Model) -> Iterator[MatrixCell]:
 
 def _late_jumps(model: Model) -> Iterator[MatrixCell]:
     """An input jumps once, long after the start, and never again."""
-    before = Hold(400.0 * PERIOD if model.fidelity == 0 else 10.0 * PERIOD, 4)
+    periods = 400.0 if model in FIRST_ORDER else 40.0 if model.second_order else 10.0
+    before = Hold(periods * PERIOD, 4)
     for name, value in (("phase", -2.0), ("load", 0.15), ("frequency_ratio", 3.0)):
         after = replace(before, size=before.size / 20.0, count=20, **{name: value})
         yield MatrixCell("late jump", name, model, {}, (before, after))

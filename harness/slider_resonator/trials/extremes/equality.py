@@ -13,7 +13,7 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.taylor import simulate
 from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
-from slider_resonator.trials.extremes import averaged_reference
+from slider_resonator.trials.extremes import averaged_reference, second_order_reference
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.observe import NAMES, Observation
 from slider_resonator.trials.extremes.verdict import NO_REFERENCE, REFERENCE, BoundCheck
@@ -58,15 +58,18 @@ def allowed_deviation(cell: MatrixCell, seen: Observation) -> float:
     angle = float((device.drive_frequency * ratios * seen.sizes).sum())
     rounding = 4.0 * float(np.finfo(float).eps) * angle
     if device.fidelity == 0:
-        return AVERAGED + rounding
+        tolerance = device.tolerance if cell.model.second_order else 0.0
+        return AVERAGED + rounding + 3.0 * tolerance * device.friction_law
     return EXACT + rounding + device.tolerance * device.friction_law
 
 
 def has_reference(cell: MatrixCell) -> bool:
     """Return whether a reference covers the cell at an acceptable cost."""
     device = cell.device
-    if device.fidelity == 0:
-        return averaged_reference.covers(cell)
+    if device.fidelity == 0 and not averaged_reference.covers(cell):
+        return False
+    if device.fidelity == 0 and not cell.model.second_order:
+        return True
     if cell.start_time or len(cell.holds) > MAX_HOLDS:
         return False
     if device.fidelity == 1 and device.damping_ratio < 1e-9:
@@ -93,23 +96,26 @@ def _compare_with_reference(cell: MatrixCell, seen: Observation) -> BoundCheck:
         for first, last, hold in zip(ends, ends[1:], cell.holds, strict=False)
     ]
     try:
+        own = allowed_deviation(cell, seen)
+        if cell.model.second_order:
+            full = _resolved(second_order_reference.full_device(cell), held, times)
+            motion = dict(zip(SIGNALS, full, strict=True))
+            return second_order_reference.compare(cell, seen, held, motion, own)
         if cell.device.fidelity == 0:
-            return averaged_reference.compare(
-                cell, seen, held, times, allowed_deviation(cell, seen)
-            )
-        motion = _resolved(cell, held, times)
+            return averaged_reference.compare(cell, seen, held, times, own)
+        resolved = _resolved(cell.device, held, times)
     except (RuntimeError, ValueError, ArithmeticError) as error:
         return BoundCheck(NO_REFERENCE, 0.0, f"the reference gave up: {error}", is_deviation=False)
-    return _compare(REFERENCE, cell, seen, motion)
+    return _compare(REFERENCE, cell, seen, resolved)
 
 
-def _resolved(cell: MatrixCell, held: Sequence[HeldInputs], times: Array) -> list[Array]:
+def _resolved(device: Device, held: Sequence[HeldInputs], times: Array) -> list[Array]:
     """Return the four signals; ArithmeticError where they leave the range of numbers."""
     with np.errstate(over="ignore", invalid="ignore"):
-        if cell.device.friction_law == 0:
-            motion: Trajectory | LugreTrajectory = simulate(cell.device, held, times)
+        if device.friction_law == 0:
+            motion: Trajectory | LugreTrajectory = simulate(device, held, times)
         else:
-            motion = simulate_lugre(cell.device, held, times)
+            motion = simulate_lugre(device, held, times)
     signals = [getattr(motion, name) for name in SIGNALS]
     if not np.isfinite(signals).all():
         raise ArithmeticError("its motion leaves the range of floating point numbers")

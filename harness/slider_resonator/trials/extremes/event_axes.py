@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import nextafter, pi
 
-from slider_resonator.trials.extremes.cell import COULOMB_RESOLVED, MODELS, Limit, MatrixCell, Model
+from slider_resonator.trials.extremes.cell import CHEAP, COULOMB_RESOLVED, Limit, MatrixCell, Model
 from slider_resonator.trials.extremes.device_axes import usual_holds
 
 LIMIT = 2 * 0.1 * 1.0
@@ -19,7 +19,7 @@ Parameters = Mapping[str, float]
 
 def event_cells() -> Iterator[MatrixCell]:
     """Yield the cells at limits of events, by all models."""
-    for model in MODELS:
+    for model in CHEAP:
         yield from _grazing(model)
         yield from _simultaneous(model)
         yield from _free(model)

@@ -36,7 +36,7 @@ def invariants(cell: MatrixCell, seen: Observation) -> Iterator[BoundCheck]:
 
 def _finite(seen: Observation) -> BoundCheck:
     wrong = [
-        name for name, column in zip(NAMES, seen.outputs.T, strict=True)
+        name for name, column in zip(NAMES, seen.outputs.T, strict=False)
         if not np.isfinite(column).all()
     ]  # fmt: skip
     wrong = wrong if np.isfinite(seen.other).all() else [*wrong, "the other partition"]
@@ -78,6 +78,8 @@ def _friction_bound(cell: MatrixCell, seen: Observation) -> BoundCheck:
         velocity = np.abs(seen.signal("velocity"))
         if device.fidelity == 0:
             velocity = np.abs(seen.signal("mean_velocity")) + _vibration(device)
+        if cell.model.second_order:
+            velocity = np.maximum(velocity, np.abs(seen.signal("velocity")))
         share += 2.0 * device.bristle_damping * velocity
     force = np.abs(seen.signal("friction_force"))
     allowed = BOUND * device.friction_faces * share * max_normal
@@ -97,7 +99,8 @@ def _momentum(cell: MatrixCell, seen: Observation, theta: Exact) -> BoundCheck:
     """Momentum changes by the drive, the load, and friction of at most faces mu max(N).
 
     The averaged motion has the momentum (M+m) V - D cos(theta) with D the impulse of the drive; at
-    fidelity 1 a mean over a period may differ from that by the vibration itself.
+    fidelity 1 a mean over a period may differ from that by the vibration itself, with averages of
+    second order by what friction does in a period.
     """
     device = cell.device
     drive = device.resonator_mass * device.base_amplitude * device.drive_frequency
@@ -105,8 +108,15 @@ def _momentum(cell: MatrixCell, seen: Observation, theta: Exact) -> BoundCheck:
     body = device.total_mass * seen.signal("velocity")
     resonator = device.resonator_mass * seen.signal("resonator_velocity")
     slack = 0.0
-    if device.fidelity == 2:
+    max_normal = device.normal_preload + device.normal_amplitude
+    max_friction = device.friction_faces * device.friction_coefficient * max_normal
+    if device.fidelity == 2 or cell.model.second_order:
         momentum = body + resonator - drive * (1.0 - np.cos(theta)).astype(float)
+        if cell.model.second_order:
+            momentum[0] = device.total_mass * device.initial_velocity
+            momentum[0] += device.resonator_mass * device.initial_resonator_velocity
+            slack = 3.0 * device.total_mass * float(seen.signal("slow_motion_error").max())
+            slack += max_friction * cell.period
     else:
         momentum = device.total_mass * seen.signal("mean_velocity")
         if device.fidelity == 0:
@@ -116,8 +126,7 @@ def _momentum(cell: MatrixCell, seen: Observation, theta: Exact) -> BoundCheck:
             slack = 2.0 * float(np.abs(body - momentum).max())
     load = np.concatenate([[0.0], np.cumsum(seen.inputs[:, 1] * seen.sizes)])
     time = np.concatenate([[0.0], np.cumsum(seen.sizes)])
-    max_normal = device.normal_preload + device.normal_amplitude
-    friction = device.friction_faces * device.friction_coefficient * max_normal * time
+    friction = max_friction * time
     change = np.abs(momentum - momentum[0] + load)
     sizes = abs(drive) + (np.abs(body) + np.abs(resonator)).max() + np.abs(load) + friction
     rounding = (BOUND + 4.0 * ROUNDING * theta.astype(float)) * sizes

@@ -15,7 +15,8 @@ from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.trials.extremes.cell import Hold, MatrixCell
 
-NAMES = tuple(OUTPUTS)
+NAMES = (*OUTPUTS, "slow_motion_error")
+"""Outputs that are read; the last only with averages of second order."""
 BASELINE_STEPS = 5
 """Steps of a drive period, or of the whole run if that is shorter, that measure its cost."""
 
@@ -24,13 +25,13 @@ BASELINE_STEPS = 5
 class Observation:
     """The outputs and costs of an FMU in a cell.
 
-    `sizes` (n,) and `inputs` (n, 3) are those of each step, `outputs` (n + 1, 13) start with the
-    first moment. `other` (13,) are the last outputs in the other partition, `from_zero` those of
-    a run from time 0, where one was made. `replayed` is whether a second run, and steps after a
-    return to a stored state, were equal bit by bit. `worst_step` is the CPU time (s) of the most
-    expensive step, the smaller of two runs, per drive period it spans (at least 1); `period_cost`
-    is the median of a drive period of the device. `refusal` is the message of the FMU where it
-    refused the cell; all else is empty then.
+    `sizes` (n,) and `inputs` (n, 3) are those of each step, `outputs` (n + 1, 13 or 14) start with
+    the first moment. `other` (13 or 14,) are the last outputs in the other partition, `from_zero`
+    those of a run from time 0, where one was made. `replayed` is whether a second run, and steps
+    after a return to a stored state, were equal bit by bit. `worst_step` is the CPU time (s) of the
+    most expensive step, the smaller of two runs, per drive period it spans (at least 1);
+    `period_cost` is the median of a drive period of the device. `refusal` is the message of the FMU
+    where it refused the cell; all else is empty then.
     """
 
     sizes: Array
@@ -60,9 +61,10 @@ def observe(instance: Instance, cell: MatrixCell) -> Observation:
 
 def _observe(instance: Instance, cell: MatrixCell) -> Observation:
     begin(instance, cell, cell.start_time)
-    outputs, costs = _follow(instance, cell.holds)
+    names = NAMES if cell.model.second_order else NAMES[:-1]
+    outputs, costs = _follow(instance, cell.holds, names)
     begin(instance, cell, cell.start_time)
-    again, costs_again = _follow(instance, cell.holds)
+    again, costs_again = _follow(instance, cell.holds, names)
     costs = [min(pair) for pair in zip(costs, costs_again, strict=True)]
     replayed = bool(np.array_equal(outputs, again, equal_nan=True))
     if cell.restored:
@@ -70,12 +72,13 @@ def _observe(instance: Instance, cell: MatrixCell) -> Observation:
     from_zero = None
     if cell.from_zero:
         begin(instance, cell, 0.0)
-        from_zero = _follow(instance, cell.holds)[0][-1]
+        from_zero = _follow(instance, cell.holds, names)[0][-1]
     begin(instance, cell, cell.start_time)
-    other, _ = _follow(instance, cell.other_holds)
+    other, _ = _follow(instance, cell.other_holds, names)
     begin(instance, cell, 0.0)
     size = min(cell.period, sum(hold.size * hold.count for hold in cell.holds))
-    _, periods = _follow(instance, (Hold(size, BASELINE_STEPS, *cell.holds[0].inputs),))
+    baseline = (Hold(size, BASELINE_STEPS, *cell.holds[0].inputs),)
+    _, periods = _follow(instance, baseline, names)
     sizes = [hold.size for hold in cell.holds for _ in range(hold.count)]
     inputs = [hold.inputs for hold in cell.holds for _ in range(hold.count)]
     return Observation(
@@ -96,9 +99,11 @@ def begin(instance: Instance, cell: MatrixCell, start_time: float) -> None:
     instance.start({**cell.settings, **first}, start_time=start_time)
 
 
-def _follow(instance: Instance, holds: Sequence[Hold]) -> tuple[Array, list[tuple[float, float]]]:
+def _follow(
+    instance: Instance, holds: Sequence[Hold], names: Sequence[str]
+) -> tuple[Array, list[tuple[float, float]]]:
     """Return the outputs at all points, and size and CPU time (s) of every step."""
-    block = instance.block(NAMES)
+    block = instance.block(names)
     clock = time.thread_time
     costs = []
     with instance.explained():
@@ -116,7 +121,7 @@ def _follow(instance: Instance, holds: Sequence[Hold]) -> tuple[Array, list[tupl
 def _replayed(instance: Instance, cell: MatrixCell) -> bool:
     """Return whether every second step, repeated from a stored state, gives the same outputs."""
     begin(instance, cell, 0.0)
-    block = instance.block(NAMES)
+    block = instance.block(NAMES[:-1])
     slave = instance.slave
     equal = True
     with instance.explained():

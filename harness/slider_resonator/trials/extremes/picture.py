@@ -96,9 +96,10 @@ def _draw_block(axes: Axes, block: Groups, rows: float) -> None:
         axes.text(-0.3, top + 0.6 * HEADING, axis, **heading)
         for model in MODELS:
             place = places[model.name] + 0.5
-            axes.text(place, top + 1.25, str(model.fidelity), **_small("center", "0.45"))
+            text = f"{model.fidelity}{'*' if model.second_order else ''}"
+            axes.text(place, top + 1.25, text, **_small("center", "0.45"))
         for law, name in ((0, "Coulomb"), (1, "LuGre")):
-            place = 1.5 + (3 + GAP) * law
+            place = (0.5 + law) * (len(MODELS) / 2) + GAP * law
             axes.text(place, top + 0.55, name, **_small("center", "0.45"))
         top += HEADING
         values = list(dict.fromkeys(one.value for one in group))
@@ -136,5 +137,8 @@ def _explain(figure: Figure, matrix: Matrix) -> None:
         Patch(color=FAILED_COLOUR, label=f"{FAILED}: {matrix.count(FAILED)}"),
     ]
     figure.legend(handles=handles, loc="lower right", ncols=2)
-    words = "columns: friction law and fidelity, the number of resolved degrees of freedom"
+    words = (
+        "columns: friction law and fidelity, the number of resolved degrees of freedom; "
+        "0*: averages of second order"
+    )
     figure.text(0.01, 0.008, words, fontsize=8.5, color="0.35")

@@ -12,6 +12,7 @@ from pathlib import Path
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_tasks
+from slider_resonator.fmu.opening import lacking
 from slider_resonator.output.console import counted
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, broken, judge
@@ -98,11 +99,14 @@ def run_matrix(
 ) -> Matrix:
     """Run and judge every cell; FmuError when the FMU cannot be run at all.
 
-    A crash or a missed `time_limit` (s) fails its cell only. `keep` is called with what there is
+    Cells of second order are left out for an FMU without `averaging_order`. A crash or a missed
+    `time_limit` (s) fails its cell only. `keep` is called with what there is
     when the run is interrupted or stopped by an error.
     """
     began = time.perf_counter()
     verdicts: list[CellVerdict] = []
+    if "averaging_order" in lacking(fmu):
+        cells = [cell for cell in cells if not cell.model.second_order]
 
     def report(cell: MatrixCell) -> None:
         label = counted(f"{fmu.name}: {cell.axis}", len(verdicts), len(cells))

@@ -38,6 +38,13 @@ load = { ramp = [[0.0, 0.0], [0.02, 0.1]] }
 drive_periods = 16
 steps_per_period = 8
 """
+TURNS_BACK = """
+[inputs]
+frequency_ratio = { ramp = [[0.0, 0.4], [0.02, -0.6]] }
+[run]
+drive_periods = 16
+steps_per_period = 8
+"""
 JUMPS = """
 [inputs]
 load = { steps = [[0.0, 0.0], [0.0101, 0.05]] }

@@ -36,7 +36,16 @@ def pick(
     )
 
 
-def test_a_held_ramp_costs_the_first_power_of_the_step(tmp_path: Path, instance: Instance) -> None:
+def test_a_ramp_that_is_passed_on_costs_nothing(tmp_path: Path, instance: Instance) -> None:
+    ramp = problem(tmp_path, RAMP)
+    found = followed(ramp, pick(ramp, instance, 2, 10.0))
+    assert max(found.values()) < 1e-11, f"steps of 10 periods: {found}"
+
+
+def test_a_held_ramp_costs_the_first_power_of_the_step(
+    tmp_path: Path, instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(FmuMethods, "interpolates", False)
     ramp = problem(tmp_path, RAMP)
     steps = np.array([0.01, 0.1, 1.0])
     wrong = [followed(ramp, pick(ramp, instance, 2, step))["slow_displacement"] for step in steps]

@@ -63,6 +63,17 @@ def test_the_native_fmu_decides_the_model() -> None:
     assert {quantity for quantity, _ in found} == {"position"}, "the scene has nothing else"
 
 
+def test_a_model_that_falls_short_in_the_python_fmu_is_not_its_answer() -> None:
+    held = replace(TRADE.rows[2], errors={"position": 1e-3})
+    found = {c.error: cells(c) for c in choices(replace(TRADE, rows=(*TRADE.rows[:2], held)))}
+    assert found[1e-9][2:6] == (
+        "fidelity 2, steps of 10 periods",
+        "1e-13",
+        "300 us / s",
+        "not reached",
+    )
+
+
 def test_a_need_that_no_method_meets_is_shown(tmp_path: Path) -> None:
     rough = replace(TRADE, rows=TRADE.rows[:1])
     (_, _, exact) = choices(rough)

@@ -10,7 +10,15 @@ import pytest
 
 from slider_resonator.references.resolved.located_events import simulate
 from slider_resonator.studies.trade.problem import MIN_PERIODS
-from tests.harness.studies.trade.problems import BEAT, JUMPS, LUGRE, RAMP, TABLE_1, problem
+from tests.harness.studies.trade.problems import (
+    BEAT,
+    JUMPS,
+    LUGRE,
+    RAMP,
+    TABLE_1,
+    TURNS_BACK,
+    problem,
+)
 
 PERIOD = 2.0 * pi / 3500.0
 
@@ -68,12 +76,22 @@ def test_jumps_are_exact_for_every_method(tmp_path: Path) -> None:
     assert found.held(16) == found.reference_inputs(16)
 
 
-def test_the_reference_takes_ramps_by_their_middle(tmp_path: Path) -> None:
-    found = problem(tmp_path, RAMP)
+def test_the_reference_follows_ramps(tmp_path: Path) -> None:
+    line, constant = problem(tmp_path, RAMP).reference_inputs(16)
+    assert (line.start, line.stop, line.load) == (0.0, 0.02, 0.0)
+    assert line.load_rate == pytest.approx(5.0)
+    assert (constant.load, constant.load_rate) == (0.1, 0.0), "from where the ramp ends"
+
+
+def test_the_reference_takes_by_their_middle_what_turns_the_normal_load_back(
+    tmp_path: Path,
+) -> None:
+    found = problem(tmp_path, TURNS_BACK)
     held = found.reference_inputs(16, steps=4)
     middles = np.array([0.5 * (inputs.start + inputs.stop) for inputs in held])
-    assert [inputs.load for inputs in held[:-1]] == pytest.approx(5.0 * middles[:-1])
-    assert (held[-1].start, held[-1].load) == (0.02, 0.1), "from where the ramp ends it is constant"
+    ratios = [inputs.frequency_ratio for inputs in held[:-1]]
+    assert ratios == pytest.approx(0.4 - 50.0 * middles[:-1])
+    assert (held[-1].start, held[-1].frequency_ratio) == (0.02, -0.6)
     times = np.array([16 * PERIOD])
     *ends, fine = (
         simulate(found.device, found.reference_inputs(16, n), times).position[0] for n in (2, 8, 32)

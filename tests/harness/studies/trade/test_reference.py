@@ -10,7 +10,7 @@ import pytest
 from slider_resonator.references.resolved import taylor
 from slider_resonator.studies.trade.problem import REFERENCE_STEPS
 from slider_resonator.studies.trade.reference import find_reference
-from tests.harness.studies.trade.problems import RAMP, STICKING, TABLE_1, problem
+from tests.harness.studies.trade.problems import RAMP, STICKING, TABLE_1, TURNS_BACK, problem
 
 HELD_BY_FRICTION = """
 [device]
@@ -36,8 +36,12 @@ def test_a_drive_weaker_than_friction_sticks(tmp_path: Path) -> None:
     assert find_reference(problem(tmp_path, STICKING, max_periods=3)).sticks
 
 
-def test_the_uncertainty_is_what_finer_steps_of_a_ramp_would_change(tmp_path: Path) -> None:
-    ramp = problem(tmp_path, RAMP)
+def test_a_ramp_is_followed_without_an_error(tmp_path: Path) -> None:
+    assert find_reference(problem(tmp_path, RAMP)).uncertainty == 0.0
+
+
+def test_the_uncertainty_is_what_finer_steps_would_change(tmp_path: Path) -> None:
+    ramp = problem(tmp_path, TURNS_BACK)
     usual, fine = (
         taylor.simulate(ramp.device, ramp.reference_inputs(16, steps), ramp.readings(16)).position
         for steps in (REFERENCE_STEPS, 8 * REFERENCE_STEPS)

@@ -2,17 +2,20 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from slider_resonator.arrays import Array
+from slider_resonator.checks.second_order import CENTRE, CENTRE_VELOCITY, lag_of
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.output.json_output import to_json
 from slider_resonator.trials.campaign.campaign_run import Campaign, run_campaign
 from slider_resonator.trials.campaign.expected import expected
 from slider_resonator.trials.campaign.listing import as_plain, sentences
 from slider_resonator.trials.campaign.random_case import MODELS, random_case
+from slider_resonator.trials.campaign.second_order import of_second_order
 from slider_resonator.trials.campaign.verdict import (
     FAILED,
     NO_REFERENCE,
@@ -22,10 +25,13 @@ from slider_resonator.trials.campaign.verdict import (
     judge,
 )
 from tests.fmus import both_fmus
+from tests.harness.faulty_fmus import without_later_variables
 from tests.harness.public_json import assert_public_keys
 
-CASES = 12
-"""Two of each model, in about three seconds."""
+CASES = 2 * len(MODELS)
+"""Two of each model, in about four seconds."""
+CENTRE_SIGNALS = {"velocity": CENTRE_VELOCITY, "position": CENTRE}
+"""What averages of second order are compared by."""
 
 
 @both_fmus
@@ -37,6 +43,15 @@ def test_the_first_cases_pass(fmu: Fmu) -> None:
     assert len(labels) == CASES
     assert "s left" in labels[-1]
     assert all(verdict.found <= 1.0 for verdict in campaign.verdicts)
+
+
+def test_an_fmu_without_second_order_runs_the_other_cases(native_fmu: Path, tmp_path: Path) -> None:
+    older = without_later_variables(native_fmu, tmp_path / "older.fmu")
+    cases = [random_case(7, number) for number in (0, 6, 7)]
+    assert [case.second_order for case in cases] == [False, True, True]
+    campaign = run_campaign(older, cases, lambda label, share: None)
+    assert campaign.passed, sentences(campaign)
+    assert [one.number for one in campaign.verdicts] == [0]
 
 
 def test_a_case_depends_on_seed_and_number_alone() -> None:
@@ -65,14 +80,24 @@ def test_an_error_above_the_bound_fails(number: int) -> None:
     case = random_case(7, number)
     wanted = expected(case)
     record: dict[str, Array] = {name: signal.copy() for name, signal in wanted.signals.items()}
+    allowed_deviations = dict(wanted.allowed)
+    if case.second_order:
+        estimate = 1e-7 * lag_of(case.device, case.schedule.held()).fast_velocity
+        record["slow_motion_error"] = np.full_like(record["velocity"], estimate)
+        widened = of_second_order(case, wanted, estimate).allowed
+        allowed_deviations = {
+            "velocity": widened[CENTRE_VELOCITY],
+            "position": widened[CENTRE],
+        }
     assert judge(case, record).verdict == PASSED
-    for name, allowed in wanted.allowed.items():
+    for name, allowed in allowed_deviations.items():
         off = record | {name: record[name] + 0.5 * allowed}
         assert judge(case, off).found == pytest.approx(0.5, rel=0.01), name
         off[name] = record[name] + 1e4 * allowed
         verdict = judge(case, off)
         assert verdict.verdict == FAILED, name
-        assert verdict.signal == name
+        compared = CENTRE_SIGNALS[name] if case.second_order else name
+        assert verdict.signal == compared
         off[name] = np.full_like(record[name], np.nan)
         assert judge(case, off).verdict == FAILED
 

@@ -42,7 +42,7 @@ def test_a_mean_friction_that_is_slightly_off_fails(
 
 
 def test_most_averaged_cells_are_covered() -> None:
-    averaged = [cell for cell in all_cells() if cell.model.fidelity == 0]
+    averaged = [cell for cell in all_cells() if cell.model in (Model(0, 0), Model(0, 1))]
     left = {cell.axis for cell in averaged if not covers(cell)}
     assert sum(map(covers, averaged)) > 0.8 * len(averaged)
     assert not left & {"Omega", "xi", "critical damping", "frequency ratio", "blocking load"}

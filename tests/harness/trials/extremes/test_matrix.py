@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from slider_resonator.trials.extremes.cell import MODELS, Hold, MatrixCell, Model
+from slider_resonator.trials.extremes.cell import CHEAP, MODELS, Hold, MatrixCell, Model
 from slider_resonator.trials.extremes.matrix import all_cells
 
 AXES = {
@@ -70,11 +70,15 @@ def test_every_device_is_run_by_every_model_that_covers_it() -> None:
         "mu",
         "r_m",
         "xi",
-        "resonance",
-        "communication step",
+        "neutral motions",
+        "frequency ratio",
+        "state restored",
     ):
         counts = Counter(cell.value for cell in all_cells() if cell.axis == axis)
         assert set(counts.values()) == {len(MODELS)}, axis
+    for axis in ("resonance", "communication step", "grazing release"):
+        counts = Counter(cell.value for cell in all_cells() if cell.axis == axis)
+        assert set(counts.values()) == {len(CHEAP)}, axis
 
 
 def test_long_runs_are_asked_for() -> None:

@@ -1,0 +1,53 @@
+"""Compare averaged motion of second order with the resolved motion of the full device."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.checks.second_order import allowed_off, centre_signals, lag_of
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.trials.extremes.cell import MatrixCell
+from slider_resonator.trials.extremes.observe import Observation
+from slider_resonator.trials.extremes.verdict import REFERENCE, BoundCheck
+
+FULL = 2
+"""Fidelity of the full device."""
+
+
+def full_device(cell: MatrixCell) -> Device:
+    """Return the device whose resolved motion a cell is compared with."""
+    return replace(cell.device, fidelity=FULL)
+
+
+def compare(
+    cell: MatrixCell,
+    seen: Observation,
+    held: Sequence[HeldInputs],
+    motion: Mapping[str, Array],
+    own: float,
+) -> BoundCheck:
+    """Return the check of slider and resonator as one mass; `motion` is that of the full device.
+
+    `own` is the error allowed of a resolved motion, as a fraction of peaks. Raises ValueError as
+    `lag_of` does.
+    """
+    device = cell.device
+    estimate = float(seen.signal("slow_motion_error").max())
+    allowed = allowed_off(device, lag_of(device, held), estimate, float(seen.sizes.sum()))
+    signals = {name: seen.signal(name) for name in motion}
+    here, there = centre_signals(device, signals), centre_signals(device, motion)
+    worst, words = 0.0, ""
+    for name, bound in allowed.items():
+        # At the first point, averages without slow motion begin with the steady swing.
+        off = float(np.abs(here[name] - there[name])[1:].max())
+        size = float(np.abs(there[name]).max())
+        total = bound + own * size
+        found = off / total if total else 2.0 * float(off > 0.0)
+        if not found <= worst:
+            worst, words = found, f"{name} off by {off:.3g}, allowed {total:.3g}"
+    return BoundCheck(REFERENCE, worst, words)
