@@ -280,7 +280,10 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         .may_settle = !slow_phase_drifts(&ride.slow) && plant->load_rate == 0.0 &&
                       ride.source != FROM_SEARCH,
         .most = ride.source == FROM_SEARCH ? searches : MAX_SLOW_STEPS,
+        .jerk = -plant->load_rate / plant->total_mass,
+        .sway = slow_friction_sway(&ride.first) / plant->total_mass,
     };
+    ride_edges(&ride, plan.edge, &plan.margin);
     Reached reached = {.velocity = orbit->velocity, .step = plan.step};
     double last = period_last_end(now->theta, w, duration);
     Marks marks = {{last - length, last}, {0.0, 0.0}};

@@ -10,6 +10,9 @@
  * find orbits. */
 #define MAX_RATE 300.0
 
+/* How far from the fast velocity grazing counts as unknown where there is no curve, as a share of it. */
+#define GRAZING_BAND 0.05
+
 /* Waves of the normal load in a turn of the drive up to which orbits are found in some seconds. */
 #define MAX_ORBIT_WAVES 30.0
 
@@ -121,6 +124,15 @@ double ride_acceleration(const void *rider, double t, double velocity) {
 double ride_to_kink(const void *rider, double t) {
     const OrbitRide *ride = *(OrbitRide *const *)rider;
     return slow_friction_to_kink(&ride->first, t);
+}
+
+void ride_edges(const OrbitRide *ride, double edge[2], double *margin) {
+    bool known = ride->source == FROM_CURVE && ride->curve->found;
+    double fast = ride->law->fast.velocity, middle = known ? ride->curve->middle : 0.0;
+    double reach = known ? ride->curve->reach : fast;
+    edge[0] = middle - reach;
+    edge[1] = middle + reach;
+    *margin = known || ride->source == FROM_CURVE ? 0.0 : GRAZING_BAND * fast;
 }
 
 OrbitPoint ride_point(OrbitRide *ride, double t, double velocity) {

@@ -44,6 +44,10 @@ double ride_acceleration(const void *rider, double t, double velocity);
 /* Time [s] from `t` [s] on for which the acceleration is smooth. */
 double ride_to_kink(const void *rider, double t);
 
+/* The velocities [m/s] backward and forward beyond which friction no longer depends on them, known to a
+ * `margin` [m/s]. */
+void ride_edges(const OrbitRide *ride, double edge[2], double *margin);
+
 /* The orbit at that time and velocity. Without an orbit it is the vibration under averaged friction, and
  * its error that of first order. */
 OrbitPoint ride_point(OrbitRide *ride, double t, double velocity);

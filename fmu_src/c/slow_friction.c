@@ -101,6 +101,12 @@ double slow_friction_to_kink(const SlowFriction *slow, double t) {
     return time_to_switch_chirped(window, chi, drift, chirp, is_lifted(window, chi, going));
 }
 
+double slow_friction_sway(const SlowFriction *slow) {
+    const Device *device = &slow->law->device;
+    double most = device->friction_faces * device->friction_coefficient * device->normal_amplitude;
+    return slow->stands ? most * slow->slow.fastest : 0.0;
+}
+
 double slow_friction_at(const SlowFriction *slow, double t, double velocity) {
     double turning = turning_at(velocity, slow->fast.velocity);
     double face = slow->form == UNDER_SINE ? under_sine(slow, t, turning)

@@ -49,18 +49,6 @@ static Reached block_after(double velocity, double friction, double load, double
 /* Legs of a block under a load that grows: it stops, sticks and sets out at most twice. */
 enum { MAX_BLOCK_LEGS = 8 };
 
-/* Time [s] until a velocity u >= 0 with acceleration a + j t is 0 again; infinite if it never is. */
-static double time_to_stop(double u, double a, double j) {
-    double square = a * a - 2.0 * j * u;
-    if (square < 0.0) {
-        return INFINITY;
-    }
-    if (a < 0.0) {
-        return 2.0 * u / (sqrt(square) - a);
-    }
-    return j < 0.0 ? (a + sqrt(square)) / -j : INFINITY;
-}
-
 /* Where a block at rest sets out under a load that grows by `rate` [N/s]: 0 while friction holds it. */
 static int block_sets_out(double friction, double load, double rate) {
     if (fabs(load) > friction || (fabs(load) == friction && load * rate > 0.0)) {
@@ -166,6 +154,9 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
         .beat = friction->beat,
         .may_settle = !slow_phase_drifts(&friction->slow) && plant->load_rate == 0.0,
         .most = max_steps(friction),
+        .edge = {-fast, fast},
+        .jerk = -plant->load_rate / plant->total_mass,
+        .sway = slow_friction_sway(friction) / plant->total_mass,
     };
     Reached now = {.velocity = reached->velocity, .step = plan.step};
     if (!slow_pass(&plan, duration, &now, refusal)) {

@@ -19,12 +19,46 @@
 /* Steps before each of which it may turn out that the motion has settled. */
 enum { BLOCK = 16 };
 
+/* Shortest step to an edge of friction, as a share of the step tried first. */
+#define MIN_APPROACH 1e-9
+
 double slow_pass_step(double fast, double mass, double strongest, double duration) {
     return strongest > 0.0 ? FIRST_STEP * fast * mass / strongest : duration;
 }
 
+double time_to_stop(double u, double a, double j) {
+    double square = a * a - 2.0 * j * u;
+    if (square < 0.0) {
+        return INFINITY;
+    }
+    if (a < 0.0) {
+        return 2.0 * u / (sqrt(square) - a);
+    }
+    return j < 0.0 ? (a + sqrt(square)) / -j : INFINITY;
+}
+
+/* Time [s] until the motion gets to an edge of friction, by the acceleration of now and its growth; beyond
+ * the edge, where friction is constant, that is exact. Near an edge known to a `margin` it is the time for so
+ * short a way. Steps that end there leave no visit across an edge between their stages. */
+static double to_edge(const SlowPass *pass, const Reached *now) {
+    double middle = 0.5 * (pass->edge[0] + pass->edge[1]);
+    int side = now->velocity > middle ? 1 : -1;
+    double beyond = side * (now->velocity - pass->edge[side > 0]);
+    double distance = fabs(beyond) - pass->margin;
+    double a = pass->acceleration(pass->motion, now->t, now->velocity), time;
+    if (distance < 0.0) {
+        time = time_to_stop(pass->margin, -fabs(a), -fabs(pass->jerk) - pass->sway);
+    } else {
+        int away = beyond < 0.0 ? -side : side;
+        time = time_to_stop(distance, away * a, away * pass->jerk - pass->sway);
+    }
+    return fmax(time, MIN_APPROACH * pass->step);
+}
+
 bool slow_pass(const SlowPass *pass, double end, Reached *now, Refusal *refusal) {
-    for (int count = 0; now->t < end && isfinite(now->velocity); count += BLOCK) {
+    bool grows = pass->jerk != 0.0;
+    int block = grows ? 1 : BLOCK;
+    for (int count = 0; now->t < end && isfinite(now->velocity); count += block) {
         if (count >= pass->most) {
             return refuse_work(refusal, pass->duration, now->t, pass->most,
                                "steps of averaged motion");
@@ -34,8 +68,9 @@ bool slow_pass(const SlowPass *pass, double end, Reached *now, Refusal *refusal)
             break;
         }
         double kink = fmax(pass->to_kink(pass->motion, now->t), MIN_SHARE * pass->beat);
-        *now = integrate(pass->acceleration, pass->motion, *now, fmin(end, now->t + kink),
-                         pass->tolerance, BEAT_SHARE * pass->beat, BLOCK);
+        double smooth = grows ? fmin(kink, to_edge(pass, now)) : kink;
+        *now = integrate(pass->acceleration, pass->motion, *now, fmin(end, now->t + smooth),
+                         pass->tolerance, BEAT_SHARE * pass->beat, block);
     }
     return true;
 }

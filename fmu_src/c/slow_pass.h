@@ -9,7 +9,10 @@
 
 /* How to pass: the `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, whether
  * the motion may settle, and the most steps. `duration` [s] is that of the communication step. The
- * acceleration repeats after a `beat` [s], and is smooth for `to_kink(motion, t)` [s] from `t` [s] on. */
+ * acceleration repeats after a `beat` [s], and is smooth for `to_kink(motion, t)` [s] from `t` [s] on.
+ * Under a load that grows, with `jerk` [m/s^3], friction has an `edge` [m/s] backward and one forward, known to a
+ * `margin` [m/s], beyond which it no longer depends on the velocity; there it may accelerate the motion with up
+ * to `sway` [m/s^3] besides. */
 typedef struct {
     AccelerationFunction acceleration;
     double (*to_kink)(const void *motion, double t);
@@ -17,7 +20,11 @@ typedef struct {
     double fast, tolerance, step, duration, beat;
     bool may_settle;
     int most;
+    double edge[2], margin, jerk, sway;
 } SlowPass;
+
+/* Time [s] until a velocity u >= 0 with acceleration a + j t is 0 again; infinite if it never is. */
+double time_to_stop(double u, double a, double j);
 
 /* The step [s] to try first: a share of the time in which the `strongest` force [N] changes the fast
  * velocity of a mass [kg]; without force all the `duration`. */

@@ -116,6 +116,22 @@ def test_steps_do_not_matter(instantiate: Instantiate, law: int, order: int) -> 
     assert ends[2][2] == pytest.approx(ends[0][2], abs=2e-10)
 
 
+@pytest.mark.parametrize("velocity", [0.375, 0.44])
+@pytest.mark.parametrize("law", [0, 1])
+@pytest.mark.parametrize(("ratio", "order"), [(1.5, 2), (1.0, 1), (1.0, 2), (0.0, 1)])
+def test_a_dip_below_the_fast_velocity_is_not_jumped(
+    instantiate: Instantiate, ratio: float, order: int, law: int, velocity: float
+) -> None:
+    """Constant friction beyond v_q lets steps grow; the load turns the motion at 0.193 or 0.258 m/s."""
+    start = {"frequency_ratio": ratio, "averaging_order": order, "friction_law": law}
+    ends = []
+    for steps in (1, 2, 64):
+        instance = instantiate().initialize(**start, fidelity=0, initial_velocity=velocity)
+        found = run(instance, [(8.0 / PERIOD, {"load": -0.1})], steps)
+        ends.append(found[-1, 0])
+    assert ends[:2] == pytest.approx(ends[2:] * 2, abs=1e-8)
+
+
 @pytest.mark.parametrize("law", [0, 1])
 def test_a_chirp_leaves_and_reaches_slow_phases(instantiate: Instantiate, law: int) -> None:
     """1.3 to 0.9 and the reverse: away from 1 the load counts with its mean, to first order."""
