@@ -25,6 +25,12 @@ static SlowForm form_of(const Law *law, const AveragedFriction *friction, int tu
     return lifts || too_many ? UNDER_ANY_LOAD : UNDER_SINE;
 }
 
+/* Whether the load is constant to averages while its frequency grows. */
+static bool is_steady_in_chirp(const SlowFriction *slow) {
+    bool averaged = slow->form == UNDER_MEAN_LOAD && !slow->stands;
+    return slow->slow.chirp != 0.0 && (averaged || slow->law->device.normal_amplitude == 0.0);
+}
+
 SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     const Device *device = &law->device;
     SlowPhase phase = law_slow_phase(law);
@@ -46,6 +52,12 @@ SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
         slow.cosine = cos(slow.phase);
     } else {
         slow.load = vibrating_load_of(device, n, slow.phase);
+    }
+    if (is_steady_in_chirp(&slow)) {
+        /* The frequency ratio may begin at an integer, where the load would count with its phase. */
+        slow.load = slow.stands ? slow.load : vibrating_load_flattened(&slow.load);
+        slow.slow.drift = slow.slow.chirp = slow.slow.fastest = 0.0;
+        slow.beat = INFINITY;
     }
     if (slow.form != UNDER_ANY_LOAD && slow.friction->is_expensive) {
         double tabulated = slow.form == UNDER_SINE ? n : 1.0;

@@ -132,6 +132,24 @@ def test_a_dip_below_the_fast_velocity_is_not_jumped(
     assert ends[:2] == pytest.approx(ends[2:] * 2, abs=1e-8)
 
 
+@pytest.mark.parametrize("duration", [0.2, 40.0])
+@pytest.mark.parametrize("ratio", [0.0, 0.97, 1.0])
+@pytest.mark.parametrize("law", [0, 1])
+def test_the_frequency_of_a_constant_load_does_not_matter(
+    instantiate: Instantiate, law: int, ratio: float, duration: float
+) -> None:
+    start = {"normal_amplitude": 0.0, "initial_velocity": 0.2, "friction_law": law}
+    ends = []
+    for rate in (0.0, 5.0):
+        instance = instantiate().initialize(
+            **start, fidelity=0, averaging_order=1, frequency_ratio=ratio
+        )
+        instance.ramp(frequency_ratio=rate)
+        instance.step(duration)
+        ends.append(instance.get("mean_velocity", "position"))
+    assert ends[1] == pytest.approx(ends[0], abs=2e-9)
+
+
 @pytest.mark.parametrize("law", [0, 1])
 def test_a_chirp_leaves_and_reaches_slow_phases(instantiate: Instantiate, law: int) -> None:
     """1.3 to 0.9 and the reverse: away from 1 the load counts with its mean, to first order."""
