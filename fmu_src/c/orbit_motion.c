@@ -362,6 +362,9 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
 
 /* The estimate under held inputs. */
 static double standing_error(const Law *law, const Moment *moment) {
+    if (moment->orbit.stage == AVERAGED) {
+        return first_order_error(law);
+    }
     if (moment->orbit.stage != ON_ORBIT) {
         return second_order_error(law, 0.0, false, INFINITY);
     }

@@ -132,6 +132,19 @@ def test_a_dip_below_the_fast_velocity_is_not_jumped(
     assert ends[:2] == pytest.approx(ends[2:] * 2, abs=1e-8)
 
 
+def test_the_error_of_a_step_that_left_the_slow_phase_is_of_first_order(
+    instantiate: Instantiate,
+) -> None:
+    """Under flight the ratio 1/2 is slow, 0.471 is not; the inputs come back at the end of the ramp."""
+    pieces: list[Piece] = [(0.5 / PERIOD, {}), (0.5 / PERIOD, {"phase": -100.0})]
+    start = {"normal_amplitude": 1.8, "frequency_ratio": 0.5}
+    resolved = run(instantiate().initialize(**start, fidelity=2), pieces, 1)
+    averaged = run(instantiate().initialize(**start, fidelity=0), pieces, 1)
+    deviation, stated = np.abs(averaged - resolved)[1, 0], averaged[1, 3]
+    assert 1e-6 <= deviation <= stated <= 20.0 * deviation
+    assert averaged[0, 3] <= 1e-3 * stated, "the step before was of second order"
+
+
 @pytest.mark.parametrize("duration", [0.2, 40.0])
 @pytest.mark.parametrize("ratio", [0.0, 0.97, 1.0])
 @pytest.mark.parametrize("law", [0, 1])

@@ -121,6 +121,8 @@ class OrbitLaw:
     def slow_motion_error(self, moment: Moment) -> float:
         """See Law."""
         device, orbit = self.full.device, moment.orbit
+        if orbit.stage == Stage.AVERAGED:
+            return first_order_error(device, self.fast)
         if orbit.stage != Stage.ON_ORBIT:
             return second_order_error(device, self.fast, 0.0, False, inf)
         point = self._ride(moment, orbit.lead).point(0.0, orbit.velocity)
