@@ -169,6 +169,7 @@ static bool adapt(const Law *law, Moment *now) {
     orbit->under = present;
     orbit->varied = HELD_INPUTS;
     orbit->turning = 0.0;
+    orbit->loading = 0.0;
     if ((shaken || tuned) && orbit->tunings < MAX_TUNINGS) {
         orbit->tunings++;
     }
@@ -380,5 +381,6 @@ static double standing_error(const Law *law, const Moment *moment) {
 
 double orbit_motion_error(const Law *law, const Moment *moment) {
     double turning = turning_error(law, moment->orbit.turning);
-    return fmin(standing_error(law, moment) + turning, law->fast.velocity);
+    double loading = loading_error(law, moment->orbit.loading);
+    return fmin(standing_error(law, moment) + turning + loading, law->fast.velocity);
 }

@@ -29,8 +29,8 @@ typedef struct {
  * slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by
  * which it differs from the orbit. The step was made `under` these values; `tunings`
  * counts, up to MAX_TUNINGS, how often a parameter changed the orbits. `varied` is how inputs did during
- * it, and `turning` [rad/s] how fast the lead then turned at most, 0 under held inputs. `grazed` is 1 once the slider went
- * so fast that it did not turn back, else 0. */
+ * it, `turning` [rad/s] how fast the lead then turned at most, and `loading` [N/s] how fast the load grew, both
+ * 0 under held inputs. `grazed` is 1 once the slider went so fast that it did not turn back, else 0. */
 typedef struct {
     int stage;
     double to_go, velocity, centre, lead;
@@ -38,7 +38,7 @@ typedef struct {
     OrbitValues under;
     VisitedLeads leads;
     int varied;
-    double turning;
+    double turning, loading;
     int tunings, grazed;
 } OrbitState;
 

@@ -88,6 +88,7 @@ static void settle_phases(const Law *law, const double begin[SETTABLE_COUNT],
         bool led = added != 0.0 || ramp->ratio_rate != 0.0;
         after->orbit.varied = led ? VARIED_LEAD : VARIED_LOAD;
         after->orbit.turning = led ? law_slow_phase(law).fastest : 0.0;
+        after->orbit.loading = ramp->load_rate;
     }
 }
 

@@ -31,6 +31,10 @@
 #define TURNING 4.0
 #define TURNING_FAST 0.4
 
+/* Error under a load that grows, over the velocity at which it then bends the resonator by its inertia: more
+ * than 1 for the swing with which that begins. */
+#define LOADING 1.2
+
 /* Error of the integration and of the tables, in v_q. */
 #define RESOLUTION 1e-8
 
@@ -97,4 +101,11 @@ double turning_error(const Law *law, double turning) {
     }
     double share = friction_share(law), fast = TURNING_FAST * turning / law->device.drive_frequency;
     return fmin(share * (TURNING * share + fast), 1.0) * law->fast.velocity;
+}
+
+double loading_error(const Law *law, double loading) {
+    const Device *device = &law->device;
+    double wn = device->resonator_frequency, inertia = device_total_mass(device) * wn * wn;
+    double bending = device->resonator_mass > 0.0 ? fabs(loading) / inertia : 0.0;
+    return fmin(LOADING * device_mass_fraction(device) * bending, law->fast.velocity);
 }

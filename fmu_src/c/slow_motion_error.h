@@ -29,4 +29,7 @@ double second_order_error(const Law *law, double added_mass, bool grazed, double
  * inputs. */
 double turning_error(const Law *law, double turning);
 
+/* The same while the load grows by `loading` [N/s]. */
+double loading_error(const Law *law, double loading);
+
 #endif

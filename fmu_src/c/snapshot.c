@@ -83,6 +83,7 @@ static const Field FIELDS[] = {
     FIELD(moment.orbit.leads.lead[3], FINITE, 0, 0),
     FIELD(moment.orbit.varied, INTEGER, HELD_INPUTS, VARIED_LEAD),
     FIELD(moment.orbit.turning, FINITE, 0, 0),
+    FIELD(moment.orbit.loading, FINITE, 0, 0),
     FIELD(moment.orbit.tunings, INTEGER, 0, MAX_TUNINGS),
     FIELD(moment.orbit.grazed, INTEGER, 0, 1),
 };

@@ -95,6 +95,21 @@ def test_first_order_keeps_the_error_it_states(
     assert deviation[5:, 0].max() <= stated
 
 
+@pytest.mark.parametrize("rate", [-100.0, -20.0, 2.0, 20.0])
+@pytest.mark.parametrize("law", [0, 1])
+def test_the_stated_error_grows_with_the_rate_of_load(
+    instantiate: Instantiate, law: int, rate: float
+) -> None:
+    """The load bends the resonator, whose momentum averages leave to the slider."""
+    pieces: list[Piece] = [(1.0 / PERIOD, {}), (0.01 / PERIOD, {"load": rate})]
+    start = {"initial_velocity": 0.126, "friction_law": law}
+    resolved = run(instantiate().initialize(**start, fidelity=2), pieces, 1)
+    averaged = run(instantiate().initialize(**start, fidelity=0), pieces, 1)
+    deviation = abs(averaged[1, 0] - resolved[1, 0])
+    bending = abs(rate) / 11.0 / (1.1 * 3500.0**2)
+    assert deviation <= averaged[1, 3] <= averaged[0, 3] + 1.5 * bending + 2e-8
+
+
 def test_a_lifting_contact_is_followed_by_search(instantiate: Instantiate) -> None:
     pieces: list[Piece] = [(100, {}), (200, {"phase": 3.0})]
     deviation, stated = compared(instantiate, pieces, {"normal_amplitude": 1.5}, 2)
