@@ -8,7 +8,7 @@
 enum { FLOOR_DOUBLING = 1000 };
 
 /* Evaluations after which a search ends without a zero: of motion that is hardly a number any more. */
-enum { MAX_EVALUATIONS = 1000000 };
+enum { MAX_SEARCH_EVALUATIONS = 1000000 };
 
 enum { MAX_NEWTON_STEPS = 60, MAX_EXPECTING_STEPS = 4 };
 
@@ -88,7 +88,7 @@ double first_zero_near(const Watch *watch, double limit, double start, double ex
     double t = start, shortest = 1e-7 / watch->fastest;
     Candidate candidate = zero_near(watch, start, limit, expected);
     int evaluations = 0;
-    while (t < limit && evaluations < MAX_EVALUATIONS) {
+    while (t < limit && evaluations < MAX_SEARCH_EVALUATIONS) {
         Signal at = watch->signal(watch->motion, t);
         double square = at.slope * at.slope, value = at.value;
         evaluations++;

@@ -36,7 +36,7 @@ FLOOR_DOUBLING = 1000
 """Evaluations after which the shortest step doubles: bounds the work on signals that stay within
 rounding of zero."""
 
-MAX_EVALUATIONS = 1_000_000
+MAX_SEARCH_EVALUATIONS = 1_000_000
 """Evaluations after which a search ends without a zero: of motion that is hardly a number any
 more."""
 
@@ -63,7 +63,7 @@ def first_zero(
     if expected is not None and start < expected < limit:
         zero, steepness = _zero_near(signal, start, limit, expected, 1e-16 / fastest)
     evaluations = 0
-    while t < limit and evaluations < MAX_EVALUATIONS:
+    while t < limit and evaluations < MAX_SEARCH_EVALUATIONS:
         value, slope, bound = signal(t)
         square = slope * slope
         evaluations += 1
