@@ -1,5 +1,6 @@
 #include "averaged.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -218,10 +219,10 @@ TheoryRange theory_range(const Law *law) {
     double fastest = fmax(range.velocity, fabs(device->initial_velocity));
     double drag = law->friction->averaged->drag(&law->bristle, fastest);
     double normal = device->normal_preload + device->normal_amplitude;
-    range.drag = drag != 0.0 ? drag / mu : 0.0;
+    range.drag = drag / fmax(mu, DBL_MIN); /* No drag without friction: 0, without a trap. */
     double bent = 0.0;
     if (device->friction_law != 0) {
-        bent = fabs(law->bristle.stiffness * device->initial_bristle_deflection) * (1.0 + drag / mu);
+        bent = fabs(law->bristle.stiffness * device->initial_bristle_deflection) * (1.0 + range.drag);
     }
     range.strongest = TAU * normal * (1.0 + device->friction_faces * (mu + drag + bent));
     return range;

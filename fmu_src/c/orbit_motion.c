@@ -7,6 +7,7 @@
 #include "constants.h"
 #include "contact.h"
 #include "events.h"
+#include "orbit_price.h"
 #include "orbit_ride.h"
 #include "refusal_texts.h"
 #include "resolved_start.h"
@@ -39,6 +40,7 @@ static OrbitValues values_of(const Law *law) {
     return (OrbitValues){
         .phase = law->inputs.phase,
         .load = law->inputs.load,
+        .ratio = law->inputs.frequency_ratio,
         .waves = orbit_phase_of(law).waves,
         .preload = device->normal_preload,
         .amplitude = device->normal_amplitude,
@@ -69,18 +71,6 @@ static double lead_of(const Law *law, const Moment *moment) {
     return least;
 }
 
-static void visit(VisitedLeads *leads, double lead) {
-    for (int i = 0; i < leads->count && i < MAX_LEADS; i++) {
-        if (leads->lead[i] == lead) {
-            return;
-        }
-    }
-    if (leads->count < MAX_LEADS) {
-        leads->lead[leads->count] = lead;
-    }
-    leads->count += leads->count <= MAX_LEADS;
-}
-
 /* Drive phase [rad] over all turns of the orbit in which the normal phase `chi` [rad] fits the lead. */
 static double orbit_theta(const OrbitRide *ride, double t, double theta, double chi) {
     double best = INFINITY, phase = theta, lead = ride_lead(ride, t);
@@ -101,7 +91,8 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     OrbitRide ride;
     Moment there;
     orbit->lead = lead_of(law, now);
-    visit(&orbit->leads, orbit->lead);
+    orbit_visit(&orbit->leads, orbit->lead);
+    orbit_pay(law, orbit, orbit->lead);
     ride_begin(&ride, law, now, orbit->lead);
     const PeriodMap *map = ride.map;
     double share = map->law.held.plant.mass_fraction;
@@ -127,7 +118,7 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
         now->position = centre;
     }
     orbit->stage = ON_ORBIT;
-    orbit->to_go = 0.0;
+    orbit->to_go = orbit->waited = 0.0;
     orbit->grazed = orbit->grazed || point->beyond;
     orbit->velocity = velocity;
     orbit->centre = centre - there.position;
@@ -154,18 +145,36 @@ static bool is_loaded(const OrbitState *orbit, const OrbitValues *present) {
                                         : fabs(present->load - before) > tolerance;
 }
 
+/* Resolve the motion for a drive angle [rad] at least. */
+static void resolve_for(OrbitState *orbit, double angle) {
+    if (orbit->stage != RESOLVED) {
+        orbit->stage = RESOLVED;
+        orbit->to_go = orbit->waited = 0.0;
+    }
+    orbit->to_go = fmax(orbit->to_go, angle);
+}
+
+/* A drive angle [rad] of resolved motion is over. */
+static void resolved_for(OrbitState *orbit, double angle) {
+    orbit->to_go = fmax(0.0, orbit->to_go - angle);
+    orbit->waited += angle;
+}
+
 /* Take note of values that changed since the last step. */
 static bool adapt(const Law *law, Moment *now) {
     OrbitState *orbit = &now->orbit;
     OrbitValues before = orbit->under, present = values_of(law);
     OrbitPoint point;
-    bool shaken = present.base != before.base || present.frequency != before.frequency ||
-                  present.force != before.force || orbit->stage == AVERAGED;
+    bool driven = present.base != before.base || present.frequency != before.frequency ||
+                  present.force != before.force;
+    bool shaken = driven || orbit->stage == AVERAGED;
     bool tuned = present.preload != before.preload || present.amplitude != before.amplitude ||
                  present.coefficient != before.coefficient;
     const SlowPhase slow = orbit_phase_of(law);
     bool led = is_led(orbit, &present, slow_phase_drifts(&slow));
     bool loaded = is_loaded(orbit, &present);
+    bool turned = orbit->varied != VARIED_LEAD && present.ratio != before.ratio;
+    bool changed = shaken || tuned || led || turned;
     orbit->under = present;
     orbit->varied = HELD_INPUTS;
     orbit->turning = 0.0;
@@ -173,19 +182,32 @@ static bool adapt(const Law *law, Moment *now) {
     if ((shaken || tuned) && orbit->tunings < MAX_TUNINGS) {
         orbit->tunings++;
     }
+    if (driven || tuned) {
+        orbit->paid = (PaidTables){.count = 0};
+    }
+    bool starts = orbit->stage == RESOLVED && orbit->waited == 0.0;
     if (shaken) {
-        orbit->to_go = fmax(orbit->stage == RESOLVED ? orbit->to_go : 0.0, resolved_angle(law, now));
-        orbit->stage = RESOLVED;
+        resolve_for(orbit, resolved_angle(law, now));
+    }
+    bool goes_over = tuned || led || orbit->stage == RESOLVED;
+    double lead = goes_over ? lead_of(law, now) : orbit->lead;
+    double price = orbit_price(law, orbit, lead, changed);
+    if (orbit->stage == RESOLVED) {
+        if (changed && !starts) {
+            resolve_for(orbit, price - orbit->waited);
+        }
         return true;
     }
-    if (orbit->stage == RESOLVED || !(tuned || led || loaded)) {
+    if (price > 0.0) {
+        resolve_for(orbit, price);
+        orbit_pay(law, orbit, lead);
         return true;
     }
     if (tuned || led) {
         if (!take_over(law, now, &point)) {
             return false;
         }
-    } else if (law->device.friction_law != 0) {
+    } else if (loaded && law->device.friction_law != 0) {
         OrbitRide ride;
         ride_begin(&ride, law, now, orbit->lead);
         point = ride_point(&ride, 0.0, orbit->velocity);
@@ -194,8 +216,7 @@ static bool adapt(const Law *law, Moment *now) {
     }
     double lag = lag_angle(law, point.of[ORBIT_FACTOR] - 1.0);
     if (lag > 0.0) {
-        orbit->stage = RESOLVED;
-        orbit->to_go = lag;
+        resolve_for(orbit, lag);
     }
     return true;
 }
@@ -214,10 +235,10 @@ static bool resolve(const Law *law, double duration, EventSearch *search, Moment
         }
         *now = after;
         if (search != NULL && search->found) {
-            now->orbit.to_go = fmax(0.0, now->orbit.to_go - w * search->elapsed);
+            resolved_for(&now->orbit, w * search->elapsed);
             return true;
         }
-        now->orbit.to_go -= w * *time;
+        resolved_for(&now->orbit, w * *time);
     } else {
         *time = 0.0;
     }

@@ -42,13 +42,16 @@ SlowPhase orbit_phase_of(const Law *law) {
     return slow;
 }
 
-static OrbitSource source_of(const OrbitState *orbit, const Device *device, bool drifts) {
+OrbitSource orbit_source_of(const OrbitState *orbit, const Device *device, bool drifts) {
     bool lifts = device->normal_amplitude > device->normal_preload;
-    bool many = drifts || orbit->leads.count > MAX_LEADS;
-    if (orbit->tunings >= MAX_TUNINGS || (many && lifts)) {
+    bool many = orbit->leads.count > MAX_LEADS;
+    if (orbit->tunings >= MAX_TUNINGS || ((drifts || many) && lifts)) {
         return FROM_SEARCH;
     }
-    return drifts ? FROM_SERIES : FROM_CURVE;
+    if (drifts) {
+        return FROM_SERIES;
+    }
+    return many ? FROM_COMBINED : FROM_CURVE;
 }
 
 void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead) {
@@ -58,11 +61,11 @@ void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double le
     ride->slow = orbit_phase_of(law);
     ride->map = orbit_map_of(law->orbits, device, &ride->slow);
     ride->lead = lead;
-    ride->source = source_of(orbit, device, slow_phase_drifts(&ride->slow));
+    ride->source = orbit_source_of(orbit, device, slow_phase_drifts(&ride->slow));
     ride->first = slow_friction_of(law, moment->theta, moment->psi);
     ride->searched = false;
-    if (ride->source == FROM_CURVE) {
-        bool combined = orbit->leads.count > MAX_LEADS;
+    if (ride->source == FROM_CURVE || ride->source == FROM_COMBINED) {
+        bool combined = ride->source == FROM_COMBINED;
         ride->curve = orbit_curve_of(law->orbits, device, &ride->slow, lead, combined);
     } else if (ride->source == FROM_SERIES) {
         ride->series = orbit_series_of(law->orbits, device, &ride->slow);
@@ -89,6 +92,7 @@ static bool search(OrbitRide *ride, double t, double velocity) {
 static bool known_point(OrbitRide *ride, double t, double velocity, OrbitPoint *point) {
     switch (ride->source) {
     case FROM_CURVE:
+    case FROM_COMBINED:
         return orbit_point_at(ride->law->orbits, ride->curve, velocity, point);
     case FROM_SERIES:
         return orbit_series_at(ride->law->orbits, &ride->series, ride_lead(ride, t), velocity, point);
@@ -103,7 +107,7 @@ double ride_acceleration(const void *rider, double t, double velocity) {
     const Plant *plant = &ride->law->held.plant;
     double friction = 0.0, factor = 1.0;
     bool found = false;
-    if (ride->source == FROM_CURVE) {
+    if (ride->source == FROM_CURVE || ride->source == FROM_COMBINED) {
         found = orbit_friction_at(ride->law->orbits, ride->curve, velocity, &friction, &factor);
     } else if (ride->source == FROM_SERIES) {
         found = orbit_series_friction_at(ride->law->orbits, &ride->series, ride_lead(ride, t),

@@ -8,9 +8,9 @@
 #include "orbit_tables.h"
 #include "slow_friction.h"
 
-/* Where orbits come from: from the curve at one lead, from a series over leads that drift, or from
- * Newton's method each time. */
-typedef enum { FROM_CURVE, FROM_SERIES, FROM_SEARCH } OrbitSource;
+/* Where orbits come from: from the curve at one lead, from such a curve combined from a series over leads, from
+ * that series where the lead drifts, or from Newton's method each time. */
+typedef enum { FROM_CURVE, FROM_COMBINED, FROM_SERIES, FROM_SEARCH } OrbitSource;
 
 /* The ride from drive phase `theta` [rad] on, where the lead is `lead` [rad]. `last` is the orbit found
  * last, `searched` whether there is one. Where there is no orbit, averages of `first` order serve. */
@@ -30,6 +30,9 @@ typedef struct {
 /* The slow phase that counts for orbits: that of a load that does not vibrate stands still. `turns` is 0,
  * too, where a turn of the drive holds far faster motion. */
 SlowPhase orbit_phase_of(const Law *law);
+
+/* The source for a device at the leads that were visited; `drifts` is whether the lead does. */
+OrbitSource orbit_source_of(const OrbitState *orbit, const Device *device, bool drifts);
 
 /* Begin a ride at `lead` [rad] with the phases of a moment. */
 void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead);

@@ -14,9 +14,9 @@ enum { MAX_LEADS = 4, MAX_TUNINGS = 4 };
 typedef enum { HELD_INPUTS, VARIED_LOAD, VARIED_LEAD } Varied;
 
 /* What a held orbit depends on and what may change from one step to the next: input phase [rad], load
- * [N], `waves` of the normal load in a turn of the drive, and the tunable parameters. */
+ * [N], frequency ratio, `waves` of the normal load in a turn of the drive, and the tunable parameters. */
 typedef struct {
-    double phase, load, waves, preload, amplitude, coefficient, base, frequency, force;
+    double phase, load, ratio, waves, preload, amplitude, coefficient, base, frequency, force;
 } OrbitValues;
 
 /* Leads [rad] that were visited; `count` is MAX_LEADS + 1 once there were more. */
@@ -25,18 +25,28 @@ typedef struct {
     double lead[MAX_LEADS];
 } VisitedLeads;
 
-/* `to_go` is the drive angle [rad] that is still to be resolved. On an orbit: slow velocity V [m/s],
- * slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by
+/* Tables that are paid for: the last `count` curves, of these `waves` in a turn and leads [rad], and whether
+ * the series over all leads is, of `series_waves`. */
+typedef struct {
+    int count;
+    double waves[MAX_LEADS], lead[MAX_LEADS];
+    int has_series;
+    double series_waves;
+} PaidTables;
+
+/* `to_go` is the drive angle [rad] that is still to be resolved, `waited` what has been. On an orbit: slow
+ * velocity V [m/s], slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by
  * which it differs from the orbit. The step was made `under` these values; `tunings`
  * counts, up to MAX_TUNINGS, how often a parameter changed the orbits. `varied` is how inputs did during
  * it, `turning` [rad/s] how fast the lead then turned at most, and `loading` [N/s] how fast the load grew, both
  * 0 under held inputs. `grazed` is 1 once the slider went so fast that it did not turn back, else 0. */
 typedef struct {
     int stage;
-    double to_go, velocity, centre, lead;
+    double to_go, waited, velocity, centre, lead;
     Response swing;
     OrbitValues under;
     VisitedLeads leads;
+    PaidTables paid;
     int varied;
     double turning, loading;
     int tunings, grazed;

@@ -7,9 +7,9 @@
 #include "orbit_curve.h"
 #include "slow_phase.h"
 
-/* Leads between which orbits are interpolated by a Fourier series, and curves that are kept: at least
- * those, their combination and one for comparison. */
-enum { SERIES_LEADS = 9, CURVES = 12 };
+/* Leads between which orbits are interpolated by a Fourier series, and curves that are kept: those, a
+ * combination of them, and the curves of MAX_LEADS leads. */
+enum { SERIES_LEADS = 9, CURVES = 14 };
 
 /* Zeroed memory holds no table. `map` is the one that was used last, of these `waves`. */
 typedef struct OrbitTables {

@@ -40,6 +40,9 @@ static double value(const double *coefficients, double t) {
 
 /* Motion [m/s] that is as good as none. */
 #define LEAST 1e-200
+
+/* Coefficient of a series below which it lets the series hold for ever. */
+#define SMALLEST 1e-300
 enum { MAX_SHRINKS = 4 };
 
 /* Two last terms of series, by the tolerance over their coefficients: how far they let the series hold [s]
@@ -48,9 +51,9 @@ typedef struct {
     double lower, higher;
 } LastTerms;
 
+/* A coefficient of 0 counts as SMALLEST: compilers divide before they choose, and hosts may trap x / 0. */
 static double tolerance_over(double tolerance, double coefficient) {
-    double size = fabs(coefficient);
-    return size > 0.0 ? tolerance / size : INFINITY;
+    return tolerance / fmax(fabs(coefficient), SMALLEST);
 }
 
 static LastTerms last_terms(const double *coefficients, double tolerance) {

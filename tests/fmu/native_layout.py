@@ -6,7 +6,7 @@ import json
 import struct
 from typing import Any
 
-from fmu_src.python.slider_component.orbit_state import OrbitValues
+from fmu_src.python.slider_component.orbit_state import OrbitValues, PaidTables
 from fmu_src.python.slider_component.variables import VARIABLES
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]
@@ -18,9 +18,11 @@ FIELDS = (
     *("sliding", "reversals", "sticks", "event_age"),
     *("travel", "elapsed", "sticking", "complete", "mean_velocity", "stick_fraction", "bristle"),
     *("backward_stop", "backward_drift", "forward_stop", "forward_drift"),
-    *("stage", "to_go", "slow_velocity", "centre", "lead", "own_displacement", "own_rate"),
+    *("stage", "to_go", "waited", "slow_velocity", "centre", "lead"),
+    *("own_displacement", "own_rate"),
     *(f"under_{name}" for name in OrbitValues._fields),
     *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
+    *(f"paid_{name}" for name in PaidTables._fields),
     *("varied", "turning", "tunings", "grazed"),
 )
 HEAD = 8 + 40

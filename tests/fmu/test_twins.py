@@ -185,7 +185,8 @@ def test_lugre_devices(
         ({"frequency_ratio": 1.002, "friction_coefficient": 1.0}, {}, 1e-9),
         ({"frequency_ratio": 1.002, "normal_amplitude": 1.5}, {}, 1e-9),
         ({}, {"phase": [0.0, 1.0, 0.3, 2.0, -1.0, 0.5, 1.7], "load": [0.0, 0.05]}, ROUNDING),
-        ({"friction_law": 1}, {"phase": [0.4, 1.0]}, 1e-8),
+        ({"friction_law": 1, "tolerance": 1e-10, "phase": 0.4}, {"load": [0.0, 0.05]}, 1e-8),
+        ({"friction_law": 1, "tolerance": 1e-10}, {"phase": [0.4, 1.0]}, 1e-8),
         ({"resonator_mass": 0.0, "tangential_force": 900.0}, {}, ROUNDING),
         ({"frequency_ratio": 1.37}, {}, ROUNDING),
         ({"damping_ratio": 0.0}, {}, ROUNDING),
@@ -205,6 +206,15 @@ def test_motion_along_held_orbits(
     given = {k: v for k, v in values.items() if k not in ("frequency_ratio", "phase")}
     native, python = both(twins, {"fidelity": 0, **given}, schedule(0.7, 0.01, **held))
     assert_equal(native, python, allowed)
+
+
+def test_orbits_of_many_phases(twins: Twins) -> None:
+    """Each is held for longer than its orbits cost: the fifth as long as the series over all."""
+    times = {0.0: 0.0, 1.0: 1.0, 2.0: 0.3, 3.0: 2.0, 4.0: -1.0, 12.0: 0.5, 12.5: 1.7}
+    held = {"phase": steps(list(times.items()))}
+    native, python = both(twins, {"fidelity": 0}, schedule(13.0, 0.1, **held))
+    assert_equal(native, python, ROUNDING)
+    assert native["reversals"][-1] == native["reversals"][-10], "the last ones are not resolved"
 
 
 def test_bristles_far_harder_than_rounding_of_the_path(twins: Twins) -> None:

@@ -25,8 +25,9 @@ from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
+from .orbit_price import orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
-from .orbit_state import MAX_TUNINGS, OrbitState, OrbitValues, Stage, Swing
+from .orbit_state import MAX_TUNINGS, OrbitState, OrbitValues, PaidTables, Stage, Swing
 from .oscillator import free_response
 from .period import MARK_TOLERANCE, PeriodMeans
 from .resolved_start import lag_angle, resolved_angle, resolved_is_bounded
@@ -137,6 +138,7 @@ class OrbitLaw:
         return OrbitValues(
             phase=inputs.phase,
             load=inputs.load,
+            ratio=inputs.frequency_ratio,
             waves=orbit_phase_of(device, inputs.frequency_ratio).waves,
             preload=device.normal_preload,
             amplitude=device.normal_amplitude,
@@ -174,20 +176,30 @@ class OrbitLaw:
         device, orbit = self.full.device, now.orbit
         before, present = orbit.under, self._values()
         drive_before = before.base, before.frequency, before.force
-        shaken = drive_before != (present.base, present.frequency, present.force)
-        shaken = shaken or orbit.stage == Stage.AVERAGED
+        driven = drive_before != (present.base, present.frequency, present.force)
+        shaken = driven or orbit.stage == Stage.AVERAGED
         contact_before = before.preload, before.amplitude, before.coefficient
         tuned = contact_before != (present.preload, present.amplitude, present.coefficient)
         led = (before.phase, before.waves) != (present.phase, present.waves)
         tunings = min(orbit.tunings + 1, MAX_TUNINGS) if shaken or tuned else orbit.tunings
-        now.orbit = orbit = orbit._replace(under=present, tunings=tunings)
+        changed = shaken or tuned or led or before.ratio != present.ratio
+        paid = PaidTables() if driven or tuned else orbit.paid
+        orbit = orbit._replace(under=present, tunings=tunings, paid=paid)
+        starts = orbit.stage == Stage.RESOLVED and orbit.waited == 0.0
         if shaken:
-            to_go = resolved_angle(device, self.fast, now.state, now.theta)
-            if orbit.stage == Stage.RESOLVED:
-                to_go = max(orbit.to_go, to_go)
-            now.orbit = orbit._replace(stage=Stage.RESOLVED, to_go=to_go)
-            return now
+            angle = resolved_angle(device, self.fast, now.state, now.theta)
+            orbit = orbit.resolved_for(angle)
+        now.orbit = orbit
+        ratio = self.full.inputs.frequency_ratio
+        goes_over = tuned or led or orbit.stage == Stage.RESOLVED
+        lead = self._lead(now) if goes_over else orbit.lead
+        price = orbit_price(device, ratio, orbit, lead, changed=changed)
         if orbit.stage == Stage.RESOLVED:
+            if changed and not starts:
+                now.orbit = orbit.resolved_for(price - orbit.waited)
+            return now
+        if price > 0.0:
+            now.orbit = with_paid(device, ratio, orbit.resolved_for(price), lead)
             return now
         if tuned or led:
             now, factor = self._taken_over(now)
@@ -197,12 +209,14 @@ class OrbitLaw:
             return now
         lag = lag_angle(device, self.fast, factor - 1.0)
         if lag > 0.0:
-            now.orbit = now.orbit._replace(stage=Stage.RESOLVED, to_go=lag)
+            now.orbit = now.orbit.resolved_for(lag)
         return now
 
     def _taken_over(self, now: Moment) -> tuple[Moment, float]:
         """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m."""
         orbit, lead = now.orbit, self._lead(now)
+        ratio = self.full.inputs.frequency_ratio
+        orbit = with_paid(self.full.device, ratio, orbit, lead)
         now.orbit = orbit = orbit._replace(lead=lead, leads=orbit.leads.visited(lead))
         ride = self._ride(now, lead)
         share = ride.map.held.plant.mass_fraction
@@ -232,6 +246,7 @@ class OrbitLaw:
         now.orbit = orbit._replace(
             stage=Stage.ON_ORBIT,
             to_go=0.0,
+            waited=0.0,
             velocity=velocity,
             centre=centre - there.position,
             swing=swing,
@@ -247,7 +262,8 @@ class OrbitLaw:
         time = min(to_go / w, duration) if ends else duration
         if time * w > NOTHING or not ends:
             now = events.advance(self.friction, self.full, now, time)
-            now.orbit = now.orbit._replace(to_go=to_go - w * time)
+            waited = now.orbit.waited + w * time
+            now.orbit = now.orbit._replace(to_go=max(0.0, to_go - w * time), waited=waited)
         else:
             time = 0.0
         return (self._taken_over(now)[0] if ends else now), time

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum, auto
 from math import cos, floor, inf, remainder, sin, sqrt, tau
 
 from .contact import BACKWARD, FORWARD
@@ -49,6 +50,30 @@ def _is_affordable(device: Device, waves: float) -> bool:
     bristle = grip * device.bristle_damping <= limit
     bristle = bristle and grip * device.bristle_stiffness <= limit * limit
     return abs(waves) <= MAX_ORBIT_WAVES and resonator and bristle
+
+
+class OrbitSource(Enum):
+    """Where orbits come from.
+
+    From the curve at one lead, from such a curve combined from a series over leads, from that
+    series where the lead drifts, or from Newton's method each time.
+    """
+
+    CURVE = auto()
+    COMBINED = auto()
+    SERIES = auto()
+    SEARCH = auto()
+
+
+def orbit_source_of(orbit: OrbitState, device: Device, *, drifts: bool) -> OrbitSource:
+    """The source for a device at the leads that were visited; `drifts` is whether the lead does."""
+    lifts = device.normal_amplitude > device.normal_preload
+    many = orbit.leads.visits > MAX_LEADS
+    if orbit.tunings >= MAX_TUNINGS or ((drifts or many) and lifts):
+        return OrbitSource.SEARCH
+    if drifts:
+        return OrbitSource.SERIES
+    return OrbitSource.COMBINED if many else OrbitSource.CURVE
 
 
 class _Search:
@@ -189,16 +214,15 @@ def begin_ride(
     """The ride of a device from a state beside the moment and a `lead` [rad] on."""
     slow = orbit_phase_of(device, ratio)
     turns, waves, drift = slow.turns or 1, slow.waves, slow.drift
-    lifts = device.normal_amplitude > device.normal_preload
-    many = drift != 0.0 or orbit.leads.visits > MAX_LEADS
+    source = orbit_source_of(orbit, device, drifts=drift != 0.0)
     period_map = orbit_map(device, waves, turns)
-    searches = orbit.tunings >= MAX_TUNINGS or (many and lifts)
+    searches = source == OrbitSource.SEARCH
     table: OrbitTable
     if searches:
         table = _Search(period_map)
-    elif drift != 0.0:
+    elif source == OrbitSource.SERIES:
         table = series_table(device, waves, turns)
-    elif many:
+    elif source == OrbitSource.COMBINED:
         table = combined_table(device, waves, turns, lead)
     else:
         table = curve_table(device, waves, turns, lead)

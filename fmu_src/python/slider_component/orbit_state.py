@@ -23,12 +23,13 @@ class Stage(IntEnum):
 class OrbitValues(NamedTuple):
     """What a held orbit depends on and what may change from one step to the next.
 
-    Input phase [rad], load [N], `waves` of the normal load in a turn of the drive, and the tunable
-    parameters.
+    Input phase [rad], load [N], frequency ratio, `waves` of the normal load in a turn of the drive,
+    and the tunable parameters.
     """
 
     phase: float = 0.0
     load: float = 0.0
+    ratio: float = 0.0
     waves: float = 0.0
     preload: float = 0.0
     amplitude: float = 0.0
@@ -58,6 +59,65 @@ class VisitedLeads(NamedTuple):
         return VisitedLeads(self.visits + 1, *leads)
 
 
+class PaidTables(NamedTuple):
+    """Tables that are paid for.
+
+    The last `curves` ones at one lead, of these waves in a turn and leads [rad], and whether the
+    series over all leads is, of `series_waves`.
+    """
+
+    curves: int = 0
+    first_waves: float = 0.0
+    second_waves: float = 0.0
+    third_waves: float = 0.0
+    fourth_waves: float = 0.0
+    first_lead: float = 0.0
+    second_lead: float = 0.0
+    third_lead: float = 0.0
+    fourth_lead: float = 0.0
+    has_series: bool = False
+    series_waves: float = 0.0
+
+    def has_curve(self, waves: float, lead: float) -> bool:
+        """Whether a curve is paid for."""
+        return (waves, lead) in self._known()
+
+    def has_series_of(self, waves: float) -> bool:
+        """Whether the series of these waves is paid for."""
+        return self.has_series and self.series_waves == waves
+
+    def with_curve(self, waves: float, lead: float) -> PaidTables:
+        """The same with a curve.
+
+        Where more come than the cache has places for beside the series, that may be gone.
+        """
+        known = self._known()
+        if (waves, lead) in known:
+            return self
+        full = len(known) == MAX_LEADS
+        known = [*known[full:], (waves, lead)]
+        rest = [(0.0, 0.0)] * (MAX_LEADS - len(known))
+        (first, second, third, fourth) = (*known, *rest)
+        return PaidTables(
+            len(known),
+            *(first[0], second[0], third[0], fourth[0]),
+            *(first[1], second[1], third[1], fourth[1]),
+            has_series=self.has_series and not full,
+            series_waves=self.series_waves,
+        )
+
+    def with_series(self, waves: float) -> PaidTables:
+        """The same with the series."""
+        if self.has_series_of(waves):
+            return self
+        return PaidTables(has_series=True, series_waves=waves)
+
+    def _known(self) -> list[tuple[float, float]]:
+        waves = self.first_waves, self.second_waves, self.third_waves, self.fourth_waves
+        leads = self.first_lead, self.second_lead, self.third_lead, self.fourth_lead
+        return list(zip(waves, leads, strict=True))[: self.curves]
+
+
 class Swing(NamedTuple):
     """Displacement [m] and velocity [m/s] of the resonator's own swing."""
 
@@ -68,23 +128,31 @@ class Swing(NamedTuple):
 class OrbitState(NamedTuple):
     """The state beside the moment.
 
-    `to_go` is the drive angle [rad] that is still to be resolved. On an orbit: slow velocity V
-    [m/s], slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's
-    own `swing`, by which it differs from the orbit. The step was made `under` these values;
-    `tunings` counts, up to MAX_TUNINGS, how often a parameter changed the orbits. `grazed` says
-    that the slider went so fast that it did not turn back.
+    `to_go` is the drive angle [rad] that is still to be resolved, `waited` what has been. On an
+    orbit: slow velocity V [m/s], slow centre [m] and lead [rad] of the normal load, and what is
+    left of the resonator's own `swing`, by which it differs from the orbit. The step was made
+    `under` these values; `tunings` counts, up to MAX_TUNINGS, how often a parameter changed the
+    orbits. `grazed` says that the slider went so fast that it did not turn back.
     """
 
     stage: int = Stage.AVERAGED
     to_go: float = 0.0
+    waited: float = 0.0
     velocity: float = 0.0
     centre: float = 0.0
     lead: float = 0.0
     swing: Swing = Swing()
     under: OrbitValues = OrbitValues()
     leads: VisitedLeads = VisitedLeads()
+    paid: PaidTables = PaidTables()
     tunings: int = 0
     grazed: bool = False
+
+    def resolved_for(self, angle: float) -> OrbitState:
+        """The same when motion is to be resolved for a drive angle [rad] at least."""
+        if self.stage == Stage.RESOLVED:
+            return self._replace(to_go=max(self.to_go, angle))
+        return self._replace(stage=Stage.RESOLVED, to_go=max(0.0, angle), waited=0.0)
 
 
 NO_ORBIT = OrbitState()

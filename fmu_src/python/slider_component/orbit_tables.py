@@ -23,8 +23,8 @@ from .period_map import PeriodMap, period_map
 SERIES_LEADS = 9
 """Leads between which orbits are interpolated by a Fourier series."""
 
-CURVES = 12
-"""Curves that are kept: at least those, and a few more."""
+CURVES = 14
+"""Curves that are kept: those, a combination of them, and the curves of MAX_LEADS leads."""
 
 
 class OrbitTable(Protocol):

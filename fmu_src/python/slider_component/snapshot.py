@@ -17,6 +17,7 @@ from .orbit_state import (
     MAX_TUNINGS,
     OrbitState,
     OrbitValues,
+    PaidTables,
     Stage,
     Swing,
     VisitedLeads,
@@ -30,7 +31,7 @@ FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
 build does not fit another."""
 
-_PARTS_OF_ORBIT = ("swing", "under", "leads")
+_PARTS_OF_ORBIT = ("swing", "under", "leads", "paid")
 
 
 def moment_to_plain(moment: Moment) -> dict[str, Any]:
@@ -94,13 +95,27 @@ def _orbit_from_plain(plain: object) -> OrbitState:
         stage=integer_within("orbit.stage", orbit["stage"], Stage.AVERAGED, Stage.ON_ORBIT),
         **{
             key: number(f"orbit.{key}", orbit[key])
-            for key in ("to_go", "velocity", "centre", "lead")
+            for key in ("to_go", "waited", "velocity", "centre", "lead")
         },
         swing=Swing(*numbers("swing", Swing._fields)),
         under=OrbitValues(*numbers("under", OrbitValues._fields)),
         leads=VisitedLeads(visits, *leads),
+        paid=_paid_from_plain(orbit["paid"]),
         tunings=integer_within("orbit.tunings", orbit["tunings"], 0, MAX_TUNINGS),
         grazed=flag("orbit.grazed", orbit["grazed"]),
+    )
+
+
+def _paid_from_plain(plain: object) -> PaidTables:
+    paid = entries("paid", plain, PaidTables._fields)
+    return PaidTables(
+        curves=integer_within("orbit.paid.curves", paid["curves"], 0, MAX_LEADS),
+        has_series=flag("orbit.paid.has_series", paid["has_series"]),
+        **{
+            key: number(f"orbit.paid.{key}", value)
+            for key, value in paid.items()
+            if key not in ("curves", "has_series")
+        },
     )
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from fmu_src.python.slider_component.component import Component
-from fmu_src.python.slider_component.orbit_state import OrbitValues
+from fmu_src.python.slider_component.orbit_state import OrbitValues, PaidTables
 from fmu_src.python.slider_component.outputs import OUTPUTS
 from fmu_src.python.slider_component.refusal import Refusal
 from fmu_src.python.slider_component.snapshot import from_bytes
@@ -97,14 +97,15 @@ NUMBERS = {"time", "stop_time", "last_event_time", "position", "theta", "psi", "
     *("bristle", "velocity", "displacement", "rate", "travel", "elapsed", "sticking"),
     *("mean_velocity", "stick_fraction"),
     *("backward", "backward_drift", "forward", "forward_drift"),
-    *("to_go", "centre", "lead", "first", "second", "third", "fourth"),
+    *("to_go", "waited", "centre", "lead", "first", "second", "third", "fourth"),
     *OrbitValues._fields,
+    *(name for name in PaidTables._fields if name not in ("curves", "has_series")),
 }
 
 
 def fits(path: Path, value: object) -> bool:
     """Whether an odd value is one that the entry at `path` may have."""
-    if path[-1] in ("complete", "grazed"):
+    if path[-1] in ("complete", "grazed", "has_series"):
         return value is True
     if path[0] == "values":
         variable = BY_NAME[path[-1]] if len(path) > 1 else None

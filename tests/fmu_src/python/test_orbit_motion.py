@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from fmu_src.python.slider_component import orbit_tables
+from fmu_src.python.slider_component import orbit_price, orbit_tables
 from fmu_src.python.slider_component.component import Component
 from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import law_of
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.orbit_price import CURVE_TURNS, SEARCH_TURNS
 from fmu_src.python.slider_component.orbit_state import MAX_LEADS, Stage
 from fmu_src.python.slider_component.period_map import PeriodMap
 
@@ -124,7 +125,9 @@ def test_a_load_leaves_the_slow_velocity_and_a_phase_the_momentum() -> None:
     moment = run(ROUGH, Inputs(), 100, 1)
     loaded = law_of(ROUGH, Inputs(load=0.2)).advance(moment, 1e-12)
     assert loaded.orbit.velocity == pytest.approx(moment.orbit.velocity, abs=1e-11)
-    turned = law_of(ROUGH, Inputs(phase=1.0)).advance(moment, 1e-12)
+    paid = moment.copied()
+    paid.orbit = moment.orbit._replace(paid=moment.orbit.paid.with_curve(1.0, 1.0))
+    turned = law_of(ROUGH, Inputs(phase=1.0)).advance(paid, 1e-12)
     assert abs(turned.orbit.velocity - moment.orbit.velocity) > 1e-6
     share = ROUGH.mass_fraction
     momentum = [m.state.velocity + share * m.state.rate for m in (moment, turned)]
@@ -140,7 +143,7 @@ def test_a_tuned_drive_is_resolved(change: dict[str, Any]) -> None:
     for device in (tuned, replace(tuned, fidelity=2)):
         law = law_of(device, Inputs())
         now = law.advance(moment, 10.0 * PERIOD)
-        ends.append(law.advance(now, 200.0 * PERIOD))
+        ends.append(law.advance(now, CURVE_TURNS * PERIOD))
         if device.fidelity == 0:
             assert now.orbit.stage == Stage.RESOLVED
             assert ends[-1].orbit.stage == Stage.ON_ORBIT
@@ -175,36 +178,117 @@ def drive(component: Component, steps: range) -> list[float]:
 
 
 @pytest.mark.parametrize("values", [{}, {"normal_amplitude": 1.7}], ids=["closed", "lifting"])
-def test_replay_does_not_depend_on_what_is_tabulated(values: dict[str, float]) -> None:
+@pytest.mark.parametrize("price", [0.01, 1.0])
+def test_replay_does_not_depend_on_what_is_tabulated(
+    values: dict[str, float], price: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also at prices at which motion soon goes over to many leads."""
+    for name in ("CURVE_TURNS", "SERIES_TURNS", "SEARCH_TURNS"):
+        monkeypatch.setattr(orbit_price, name, price * getattr(orbit_price, name))
     forget_tables()
     component = component_at(values)
     drive(component, range(8))
     stored = json.loads(json.dumps(component.snapshot()))
     first = drive(component, range(8, 24))
-    assert component.snapshot()["moment"]["orbit"]["leads"]["visits"] == MAX_LEADS + 1
+    visits = component.snapshot()["moment"]["orbit"]["leads"]["visits"]
+    assert visits == (MAX_LEADS + 1 if price < 1.0 else 1)
     forget_tables()
     other = component_at({})
     other.restore(stored)
     assert drive(other, range(8, 24)) == first
 
 
+class CountedMaps:
+    """How many maps of about a period were made since it was asked last."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self._maps = 0
+        advance = PeriodMap.advance
+
+        def counted(period_map: PeriodMap, *arguments: Any) -> Moment | None:
+            self._maps += arguments[-1] > 0.9 * period_map.period
+            return advance(period_map, *arguments)
+
+        monkeypatch.setattr(PeriodMap, "advance", counted)
+
+    def taken(self) -> int:
+        maps, self._maps = self._maps, 0
+        return maps
+
+
 def test_preparation_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     """Table 1 from rest to its steady motion: orbits on one panel, and the ends beyond grazing."""
     forget_tables()
-    maps = 0
-    advance = PeriodMap.advance
-
-    def counted(self: PeriodMap, *arguments: Any) -> Moment | None:
-        nonlocal maps
-        maps += arguments[-1] > 0.9 * self.period
-        return advance(self, *arguments)
-
-    monkeypatch.setattr(PeriodMap, "advance", counted)
+    maps = CountedMaps(monkeypatch)
     run(TABLE_1, Inputs(), 5000, 5)
-    assert 30 < maps < 110
-    maps = 0
+    assert 30 < maps.taken() < 110
     run(TABLE_1, Inputs(), 5000, 50)
-    assert maps < 60, "what was tabulated serves the next instance"
+    assert maps.taken() < 60, "what was tabulated serves the next instance"
+
+
+def run_through(device: Device, changes: Sequence[Inputs], periods: float) -> Moment:
+    """So many periods under each of the inputs."""
+    moment = law_of(device, changes[0]).start(State(0.0, 0.0, 0.0), 0.0)
+    for inputs in changes:
+        moment = law_of(device, inputs).advance(moment, periods * PERIOD)
+    return moment
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        [Inputs(0.1 * i) for i in range(40)],
+        [Inputs(frequency_ratio=1.0 + 0.001 * i) for i in range(40)],
+        [Inputs(frequency_ratio=1.0 + i % 5) for i in range(40)],
+    ],
+    ids=["phases", "beats", "ratios"],
+)
+@pytest.mark.parametrize("amplitude", [1.0, 1.7])
+def test_inputs_that_keep_changing_cost_no_more_maps_than_periods(
+    changes: list[Inputs], amplitude: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each of 40 tables would cost some hundred."""
+    forget_tables()
+    maps = CountedMaps(monkeypatch)
+    run_through(replace(TABLE_1, normal_amplitude=amplitude), changes, 10.0)
+    assert maps.taken() < 400
+
+
+@pytest.mark.parametrize("tuned", [False, True], ids=["phase", "preload"])
+def test_a_change_that_lasts_is_resolved_for_the_price_of_its_orbits(tuned: bool) -> None:
+    device = replace(TABLE_1, normal_preload=1.1) if tuned else TABLE_1
+    law = law_of(device, Inputs(0.0 if tuned else 1.0))
+    moment = law.advance(run(TABLE_1, Inputs(), 100, 1), (CURVE_TURNS - 1.0) * PERIOD)
+    assert moment.orbit.stage == Stage.RESOLVED
+    assert law.advance(moment, 2.0 * PERIOD).orbit.stage == Stage.ON_ORBIT
+
+
+def test_further_changes_do_not_prolong_it() -> None:
+    there_and_back = [Inputs(), *[Inputs(1.0), Inputs()] * 5]
+    last = run_through(TABLE_1, there_and_back, 50.0)
+    assert (last.orbit.stage, last.orbit.lead) == (Stage.ON_ORBIT, 0.0)
+    last = law_of(TABLE_1, Inputs(1.0)).advance(last, PERIOD)
+    assert (last.orbit.stage, last.orbit.lead) == (Stage.ON_ORBIT, 1.0), "it was paid for"
+
+
+def test_a_search_costs_the_same_after_each_change() -> None:
+    lifting = replace(TABLE_1, normal_amplitude=1.7)
+    start = run(lifting, Inputs(frequency_ratio=1.001), 100, 1)
+    assert start.orbit.stage == Stage.ON_ORBIT
+    for phase in (0.1, 0.2):
+        law = law_of(lifting, Inputs(phase, 0.0, 1.001))
+        moment = law.advance(start, (SEARCH_TURNS - 1.0) * PERIOD)
+        assert moment.orbit.stage == Stage.RESOLVED
+        start = law.advance(moment, 2.0 * PERIOD)
+        assert start.orbit.stage == Stage.ON_ORBIT
+
+
+def test_a_load_and_inputs_that_are_set_at_the_start_cost_nothing() -> None:
+    resting = law_of(TABLE_1, Inputs()).start(State(0.0, 0.0, 0.0), 0.0)
+    moment = law_of(TABLE_1, Inputs(1.0)).advance(resting, 60.0 * PERIOD)
+    assert moment.orbit.stage == Stage.ON_ORBIT
+    loaded = law_of(TABLE_1, Inputs(1.0, 0.05)).advance(moment, PERIOD)
+    assert loaded.orbit.stage == Stage.ON_ORBIT
 
 
 def test_the_estimate_bounds_the_error() -> None:

@@ -85,6 +85,7 @@ int main(int count, char **arguments) {
     if (count != 4 || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
     wanted = strtol(arguments[3], NULL, 10);
     for (number = 0; number < wanted; number++) {
+        if (number == wanted / 20) resident_kilobytes(); /* The first reading takes a place in the heap. */
         if (number == wanted / 10) printf("%ld ", resident_kilobytes());
         live(&fmu, arguments[2], number);
     }

@@ -47,16 +47,14 @@ def time_to_contact_change(
     return 2.0 * way / (abs(rate) + math.sqrt(square)) if square >= 0.0 else math.inf
 
 
-def is_lifted(
-    preload: float, amplitude: float, angle: float, rate: float, acceleration: float = 0.0
-) -> bool:
+def is_lifted(preload: float, amplitude: float, angle: float, rate: float) -> bool:
     """Return whether the contact is open just after the normal load has the given angle (rad)."""
     if rate == 0.0 or amplitude == 0.0:
         return preload + amplitude * math.sin(angle) <= 0.0
     # The order of the next two crossings decides, not the sign of the normal load: at a crossing
     # that sign is rounding, and a decision against the crossing times would lose a whole flight.
+    # The order is that of the angles, whatever changes the rate before either comes.
     touchdown, lift_off = (
-        time_to_contact_change(lifted, preload, amplitude, angle, rate, acceleration)
-        for lifted in (True, False)
+        time_to_contact_change(lifted, preload, amplitude, angle, rate) for lifted in (True, False)
     )
     return lift_off == 0.0 or 0.0 < touchdown < lift_off

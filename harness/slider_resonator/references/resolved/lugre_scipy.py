@@ -123,7 +123,7 @@ class _Run:
             angle = self._psi + inputs.phase + inputs.turned(time, frequency)
             return angle, inputs.frequency_ratio * frequency + chirp * time, chirp
 
-        first = lifted = is_lifted(*load, *turning(0.0))
+        first = lifted = is_lifted(*load, *turning(0.0)[:2])
         times: list[float] = []
         time = 0.0
         while (time := time + time_to_contact_change(lifted, *load, *turning(time))) < span:

@@ -120,7 +120,7 @@ class _Run:
         span = (inputs.stop - inputs.start) * rate
         load_of = equations.normal_preload, equations.normal_amplitude
         chirp = inputs.ratio_rate / rate
-        lifted = is_lifted(*load_of, self._psi + inputs.phase, inputs.frequency_ratio, chirp)
+        lifted = is_lifted(*load_of, self._psi + inputs.phase, inputs.frequency_ratio)
         elapsed = Elapsed()
         while (remaining := elapsed.until(span)) > 0.0:
             now = self._present(inputs, elapsed)

@@ -150,7 +150,6 @@ class ModeSequence:
             equations.normal_amplitude,
             self._psi + inputs.phase,
             inputs.frequency_ratio * equations.drive_frequency,
-            inputs.ratio_rate * equations.drive_frequency,
         ):
             return LIFTED
         return self._mode_in_contact(inputs)
