@@ -49,6 +49,9 @@ static Reached block_after(double velocity, double friction, double load, double
 /* Legs of a block under a load that grows: it stops, sticks and sets out at most twice. */
 enum { MAX_BLOCK_LEGS = 8 };
 
+/* How many times a step under a growing load costs one under a constant one, at most. */
+enum { GROWING = 4 };
+
 /* Where a block at rest sets out under a load that grows by `rate` [N/s]: 0 while friction holds it. */
 static int block_sets_out(double friction, double load, double rate) {
     if (fabs(load) > friction || (fabs(load) == friction && load * rate > 0.0)) {
@@ -119,7 +122,8 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Reached
 /* Steps of averaged motion in one communication step up to which its work is accepted. */
 static int max_steps(const SlowFriction *friction) {
     if (!slow_friction_is_expensive(friction)) {
-        return MAX_SLOW_STEPS;
+        bool grows = friction->law->held.plant.load_rate != 0.0;
+        return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
     }
     double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
     return (int)fmax(LEAST_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));

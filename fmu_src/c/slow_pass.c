@@ -56,6 +56,12 @@ static double to_edge(const SlowPass *pass, const Reached *now) {
 }
 
 bool slow_pass(const SlowPass *pass, double end, Reached *now, Refusal *refusal) {
+    /* No step is longer than a share of a beat: too many of them are refused before the first. */
+    double furthest = (pass->most + BLOCK) * (BEAT_SHARE * pass->beat);
+    if (!pass->may_settle && end - now->t > furthest) {
+        return refuse_work(refusal, pass->duration, now->t + furthest, pass->most,
+                           "steps of averaged motion");
+    }
     bool grows = pass->jerk != 0.0;
     int block = grows ? 1 : BLOCK;
     for (int count = 0; now->t < end && isfinite(now->velocity); count += block) {

@@ -33,13 +33,13 @@ ONLY_IN_C = {
     "TIME_REFERENCE",
     # Of inputs that vary, which pythonfmu cannot offer.
     *("INPUT_COUNT", "SERIES_ROUNDING", "MAX_BLOCK_LEGS", "MAX_SLOW_PHASES"),
-    *("SAME_INPUT", "TURNING", "TURNING_FAST"),
+    *("SAME_INPUT", "TURNING", "TURNING_FAST", "LOADING", "MIN_APPROACH", "GRAZING_BAND", "GROWING"),
     # Part of Python: math.pi, math.tau, None for no zero.
     *("PI", "TAU", "NO_ZERO"),
     # Literals of the Python twin.
     *("LEAD_PARTS", "SLOWEST"),
     # Faster ways to the same zeros and series than those of the Python twin.
-    *("MAX_BISECTIONS", "MAX_USES", "NEGLIGIBLE", "PAST_TURNS", "SMALL_TURN"),
+    *("MAX_BISECTIONS", "MAX_USES", "NEGLIGIBLE", "PAST_TURNS", "SMALL_TURN", "SMALLEST"),
 }
 """C constants without a twin."""
 

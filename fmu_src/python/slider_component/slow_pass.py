@@ -25,6 +25,8 @@ MIN_SHARE = 1e-9
 BLOCK = 16
 """Steps before each of which it may turn out that the motion has settled."""
 
+STEPS = "steps of averaged motion"
+
 
 @dataclass(frozen=True, slots=True)
 class SlowPass:
@@ -50,6 +52,10 @@ class SlowPass:
 
         Raises Refusal where that takes too many.
         """
+        # No step is longer than a share of a beat: too many of them are refused before the first.
+        furthest = (self.most + BLOCK) * (BEAT_SHARE * self.beat)
+        if not self.may_settle and end - now.t > furthest:
+            raise too_much_work(self.duration, now.t + furthest, self.most, STEPS)
         for _ in range(0, self.most, BLOCK):
             if self.may_settle and end - now.t > SETTLING * self.step:
                 now = settled(self.acceleration, self.fast, end, now) or now
@@ -59,7 +65,7 @@ class SlowPass:
             smooth = self._end_of_smoothness(now.t, end)
             now = integrate(self.acceleration, now, smooth, self.tolerance, BLOCK, longest)
         if now.t < end and isfinite(now.velocity):
-            raise too_much_work(self.duration, now.t, self.most, "steps of averaged motion")
+            raise too_much_work(self.duration, now.t, self.most, STEPS)
         return now
 
     def _end_of_smoothness(self, t: float, end: float) -> float:

@@ -1,6 +1,7 @@
 """The cells of the matrix: each passes, or is refused with name, value and requirement.
 
-Each night all are run; here those of second-order averages, which take most of the time, in part."""
+All are run each night. Here those of second-order averages, the most expensive, are run in part.
+"""
 
 from __future__ import annotations
 
