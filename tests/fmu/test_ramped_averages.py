@@ -150,7 +150,7 @@ def test_a_dip_below_the_fast_velocity_is_not_jumped(
 def test_the_error_of_a_step_that_left_the_slow_phase_is_of_first_order(
     instantiate: Instantiate,
 ) -> None:
-    """Under flight the ratio 1/2 is slow, 0.471 is not; the inputs are held again after the ramp."""
+    """Under flight the ratio 1/2 is slow, 0.471 is not; the inputs are held again after it."""
     pieces: list[Piece] = [(0.5 / PERIOD, {}), (0.5 / PERIOD, {"phase": -100.0})]
     start = {"normal_amplitude": 1.8, "frequency_ratio": 0.5}
     resolved = run(instantiate().initialize(**start, fidelity=2), pieces, 1)
