@@ -40,7 +40,7 @@ SlowFriction slow_friction_of(const Law *law, double theta, double psi);
  * else infinite. */
 double slow_friction_to_kink(const SlowFriction *slow, double t);
 
-/* How fast [N/s] it may grow at a constant velocity beyond the fast one, where the load itself is slow; else 0. */
+/* How fast [N/s] it may grow beyond the fast velocity, where the load itself is slow; else 0. */
 double slow_friction_sway(const SlowFriction *slow);
 
 /* Its value [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */

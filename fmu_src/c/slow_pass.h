@@ -10,8 +10,8 @@
 /* How to pass: the `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, whether
  * the motion may settle, and the most steps. `duration` [s] is that of the communication step. The
  * acceleration repeats after a `beat` [s], and is smooth for `to_kink(motion, t)` [s] from `t` [s] on.
- * Under a load that grows, with `jerk` [m/s^3], friction has an `edge` [m/s] backward and one forward, known to a
- * `margin` [m/s], beyond which it no longer depends on the velocity; there it may accelerate the motion with up
+ * Under a load that grows, with `jerk` [m/s^3], friction has an `edge` [m/s] backward and one forward, known to
+ * a `margin` [m/s], beyond which it no longer depends on the velocity; there it may speed the motion with up
  * to `sway` [m/s^3] besides. */
 typedef struct {
     AccelerationFunction acceleration;

@@ -137,7 +137,7 @@ def test_steps_do_not_matter(instantiate: Instantiate, law: int, order: int) -> 
 def test_a_dip_below_the_fast_velocity_is_not_jumped(
     instantiate: Instantiate, ratio: float, order: int, law: int, velocity: float
 ) -> None:
-    """Constant friction beyond v_q lets steps grow; the load turns the motion at 0.193 or 0.258 m/s."""
+    """Constant friction beyond v_q lets steps grow; the load turns it at 0.193 or 0.258 m/s."""
     start = {"frequency_ratio": ratio, "averaging_order": order, "friction_law": law}
     ends = []
     for steps in (1, 2, 64):
@@ -150,7 +150,7 @@ def test_a_dip_below_the_fast_velocity_is_not_jumped(
 def test_the_error_of_a_step_that_left_the_slow_phase_is_of_first_order(
     instantiate: Instantiate,
 ) -> None:
-    """Under flight the ratio 1/2 is slow, 0.471 is not; the inputs come back at the end of the ramp."""
+    """Under flight the ratio 1/2 is slow, 0.471 is not; the inputs are held again after it."""
     pieces: list[Piece] = [(0.5 / PERIOD, {}), (0.5 / PERIOD, {"phase": -100.0})]
     start = {"normal_amplitude": 1.8, "frequency_ratio": 0.5}
     resolved = run(instantiate().initialize(**start, fidelity=2), pieces, 1)
