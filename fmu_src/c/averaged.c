@@ -1,6 +1,5 @@
 #include "averaged.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -219,7 +218,7 @@ TheoryRange theory_range(const Law *law) {
     double fastest = fmax(range.velocity, fabs(device->initial_velocity));
     double drag = law->friction->averaged->drag(&law->bristle, fastest);
     double normal = device->normal_preload + device->normal_amplitude;
-    range.drag = drag / fmax(mu, DBL_MIN); /* No drag without friction: 0, without a trap. */
+    range.drag = drag / (mu > 0.0 ? mu : 1.0); /* Without friction there is no drag. */
     double bent = 0.0;
     if (device->friction_law != 0) {
         bent = fabs(law->bristle.stiffness * device->initial_bristle_deflection) * (1.0 + range.drag);

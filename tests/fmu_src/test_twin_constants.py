@@ -33,7 +33,15 @@ ONLY_IN_C = {
     "TIME_REFERENCE",
     # Of inputs that vary, which pythonfmu cannot offer.
     *("INPUT_COUNT", "SERIES_ROUNDING", "MAX_BLOCK_LEGS", "MAX_SLOW_PHASES"),
-    *("SAME_INPUT", "TURNING", "TURNING_FAST", "LOADING", "MIN_APPROACH", "GRAZING_BAND", "GROWING"),
+    *(
+        "SAME_INPUT",
+        "TURNING",
+        "TURNING_FAST",
+        "LOADING",
+        "MIN_APPROACH",
+        "GRAZING_BAND",
+        "GROWING",
+    ),
     # Part of Python: math.pi, math.tau, None for no zero.
     *("PI", "TAU", "NO_ZERO"),
     # Literals of the Python twin.
