@@ -36,6 +36,10 @@ WITHOUT_MEANING = {
 }
 
 
+LONG_FOR_PYTHON = frozenset(f"communication step: 1e4 s: LuGre, fidelity {n}" for n in (1, 2))
+"""Steps whose series would take the Python FMU minutes: it refuses them by its bound of work."""
+
+
 def cells_in_part(every: int, of_second_order: int) -> list[MatrixCell]:
     """One cell in so many of the matrix, of second-order averages and of the other models."""
     second_order = [cell for cell in all_cells() if "order 2" in cell.name]
@@ -43,7 +47,7 @@ def cells_in_part(every: int, of_second_order: int) -> list[MatrixCell]:
     return [*others[::every], *second_order[::of_second_order]]
 
 
-def judged(fmu: Path, cells: list[MatrixCell]) -> Matrix:
+def judged(fmu: Path, cells: list[MatrixCell], too_long: frozenset[str] = frozenset()) -> Matrix:
     matrix = run_matrix(fmu, cells, lambda _name, _share: None)
     failed = [f"{one.name}: {one.reason}" for one in matrix.verdicts if one.verdict == FAILED]
     assert failed == []
@@ -51,7 +55,7 @@ def judged(fmu: Path, cells: list[MatrixCell]) -> Matrix:
     # Values that leave the range of numbers may be refused by name: that is what their axis tries.
     beyond = {cell.name for cell in cells if cell.axis == "overflow"}
     refused = {one.name for one in matrix.verdicts if one.verdict == REFUSED} - beyond
-    assert refused == WITHOUT_MEANING & {cell.name for cell in cells}
+    assert refused == (WITHOUT_MEANING | too_long) & {cell.name for cell in cells}
     return matrix
 
 
@@ -70,4 +74,4 @@ def test_native(native_fmu: Path) -> None:
 
 @pytest.mark.slow
 def test_python(python_fmu: Path) -> None:
-    judged(python_fmu, cells_in_part(EVERY, EVERY_OF_SECOND_ORDER))
+    judged(python_fmu, cells_in_part(EVERY, EVERY_OF_SECOND_ORDER), LONG_FOR_PYTHON)
