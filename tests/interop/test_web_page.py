@@ -81,9 +81,13 @@ def test_outputs_are_those_of_fmpy(
     )
     assert record["time"][-1] == pytest.approx(end)
     for name in record.dtype.names[1:]:
-        # Held orbits of LuGre are iterated to 1e-10: another platform's sine shows below that.
-        is_orbit = device["fidelity"] == 0 or name in ("steady_velocity", "blocking_force")
-        allowed = 1e-10 if is_orbit and device["friction_law"] == 1 else 1e-12
+        # Another platform's sine shows in what is searched: in predictions, which add up rounding,
+        # and in held orbits of LuGre, which are iterated to 1e-10 and make a curve less exact.
+        is_prediction = name in ("steady_velocity", "blocking_force")
+        if device["friction_law"] == 1 and (device["fidelity"] == 0 or is_prediction):
+            allowed = 3e-10
+        else:
+            allowed = 1e-11 if is_prediction else 1e-12
         scale = float(np.abs(record[name]).max())
         assert abs(found[name] - record[name][-1]) <= allowed * scale, name
     assert set(OUTPUTS) <= found.keys()
