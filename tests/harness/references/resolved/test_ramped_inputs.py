@@ -18,6 +18,7 @@ from slider_resonator.references.resolved import (
     lugre_taylor,
     taylor,
 )
+from slider_resonator.references.resolved.contact import LIFTED
 
 STOP = 0.03
 TIMES = np.linspace(0.0, STOP, 200)
@@ -102,3 +103,10 @@ def test_a_normal_load_that_turns_back_is_refused() -> None:
     back = HeldInputs(0.0, STOP, frequency_ratio=0.1, ratio_rate=-10.0)
     with pytest.raises(ValueError, match="must keep its sign"):
         taylor.simulate(DEVICE, [back], TIMES)
+
+
+def test_flight_under_a_chirp_that_fades_is_seen() -> None:
+    """1 + 3 sin(-1.1) < 0: the contact is open, though the chirp ends before it would touch."""
+    held = HeldInputs(0.0, 9e-5, phase=-1.1, frequency_ratio=0.1, ratio_rate=-1000.0)
+    motion = located_events.simulate(Device(normal_amplitude=3.0), [held], np.array([9e-5]))
+    assert motion.contact_mode[-1] == LIFTED
