@@ -4,6 +4,7 @@
 
 #include "fmi2Functions.h"
 #include "instance.h"
+#include "values.h"
 
 /* The header of fmpy leaves out the prefix of FMI 2.0 for static linking. */
 #ifdef FMI2_FUNCTION_PREFIX
@@ -21,5 +22,9 @@ static inline fmi2Status report(const Instance *instance, fmi2Status status, con
 static inline fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal) {
     return (fmi2Status)send_answer(instance, done, refusal);
 }
+
+/* Refuse null pointers, more values than there are variables, and references that do not fit. */
+bool references_check(const char *call, const fmi2ValueReference *references, size_t count,
+                      const void *values, ValueType type, Refusal *refusal);
 
 #endif

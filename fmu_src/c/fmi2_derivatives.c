@@ -1,24 +1,17 @@
 /* FMI 2.0 for co-simulation: first derivatives of inputs and outputs, all of a call or none. */
 #include "fmi2_api.h"
-#include "values.h"
 
-/* Refuse null pointers, more values than there are variables, references that are not of Reals, and any
- * order but 1. */
+/* Refuse what is no call for Reals, and any order but 1. */
 static bool derivatives_check(const char *call, const fmi2ValueReference *references, size_t count,
                               const fmi2Integer *orders, const void *values, Refusal *refusal) {
-    if (count > VARIABLE_COUNT) {
-        return refuse(refusal, "%s: nvr = %lu refused: must be at most %d, each variable once", call,
-                      (unsigned long)count, VARIABLE_COUNT);
+    if (!references_check(call, references, count, values, REAL_TYPE, refusal)) {
+        return false;
     }
-    if (count > 0 && (references == NULL || orders == NULL || values == NULL)) {
-        return refuse(refusal,
-                      "%s: a null pointer refused: must point to %lu references, orders or values",
-                      call, (unsigned long)count);
+    if (count > 0 && orders == NULL) {
+        return refuse(refusal, "%s: a null pointer refused: must point to %lu orders", call,
+                      (unsigned long)count);
     }
     for (size_t i = 0; i < count; i++) {
-        if (!reference_check(references[i], REAL_TYPE, refusal)) {
-            return false;
-        }
         if (orders[i] != 1) {
             return refuse(refusal, "%s: derivative of %s of order %d refused: the order must be 1",
                           call, VARIABLES[references[i]].name, (int)orders[i]);

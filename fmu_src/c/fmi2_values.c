@@ -2,9 +2,8 @@
 #include "fmi2_api.h"
 #include "values.h"
 
-/* Refuse null pointers, more values than there are variables, and references that do not fit. */
-static bool references_check(const char *call, const fmi2ValueReference *references, size_t count,
-                             const void *values, ValueType type, Refusal *refusal) {
+bool references_check(const char *call, const fmi2ValueReference *references, size_t count,
+                      const void *values, ValueType type, Refusal *refusal) {
     if (count > VARIABLE_COUNT) {
         return refuse(refusal, "%s: nvr = %lu refused: must be at most %d, each variable once", call,
                       (unsigned long)count, VARIABLE_COUNT);

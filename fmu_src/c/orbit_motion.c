@@ -171,7 +171,8 @@ static bool adapt(const Law *law, Moment *now) {
     bool tuned = present.preload != before.preload || present.amplitude != before.amplitude ||
                  present.coefficient != before.coefficient;
     const SlowPhase slow = orbit_phase_of(law);
-    bool led = is_led(orbit, &present, slow_phase_drifts(&slow));
+    bool drifts = slow_phase_drifts(&slow);
+    bool led = is_led(orbit, &present, drifts);
     bool loaded = is_loaded(orbit, &present);
     bool turned = orbit->varied != VARIED_LEAD && present.ratio != before.ratio;
     bool changed = shaken || tuned || led || turned;
@@ -189,13 +190,14 @@ static bool adapt(const Law *law, Moment *now) {
     if (shaken) {
         resolve_for(orbit, resolved_angle(law, now));
     }
-    bool goes_over = tuned || led || orbit->stage == RESOLVED;
-    double lead = goes_over ? lead_of(law, now) : orbit->lead;
+    bool resolved = orbit->stage == RESOLVED;
+    if (resolved ? starts || !changed : !(changed || loaded || drifts)) {
+        return true;
+    }
+    double lead = tuned || led || resolved ? lead_of(law, now) : orbit->lead;
     double price = orbit_price(law, orbit, lead, changed);
-    if (orbit->stage == RESOLVED) {
-        if (changed && !starts) {
-            resolve_for(orbit, price - orbit->waited);
-        }
+    if (resolved) {
+        resolve_for(orbit, price - orbit->waited);
         return true;
     }
     if (price > 0.0) {

@@ -182,6 +182,7 @@ class OrbitLaw:
         tuned = contact_before != (present.preload, present.amplitude, present.coefficient)
         led = (before.phase, before.waves) != (present.phase, present.waves)
         tunings = min(orbit.tunings + 1, MAX_TUNINGS) if shaken or tuned else orbit.tunings
+        loaded = present.load != before.load
         changed = shaken or tuned or led or before.ratio != present.ratio
         paid = PaidTables() if driven or tuned else orbit.paid
         orbit = orbit._replace(under=present, tunings=tunings, paid=paid)
@@ -191,19 +192,20 @@ class OrbitLaw:
             orbit = orbit.resolved_for(angle)
         now.orbit = orbit
         ratio = self.full.inputs.frequency_ratio
-        goes_over = tuned or led or orbit.stage == Stage.RESOLVED
-        lead = self._lead(now) if goes_over else orbit.lead
+        resolved = orbit.stage == Stage.RESOLVED
+        if (starts or not changed) if resolved else not (changed or loaded):
+            return now
+        lead = self._lead(now) if tuned or led or resolved else orbit.lead
         price = orbit_price(device, ratio, orbit, lead, changed=changed)
-        if orbit.stage == Stage.RESOLVED:
-            if changed and not starts:
-                now.orbit = orbit.resolved_for(price - orbit.waited)
+        if resolved:
+            now.orbit = orbit.resolved_for(price - orbit.waited)
             return now
         if price > 0.0:
             now.orbit = with_paid(device, ratio, orbit.resolved_for(price), lead)
             return now
         if tuned or led:
             now, factor = self._taken_over(now)
-        elif present.load != before.load and device.friction_law != 0:
+        elif loaded and device.friction_law != 0:
             factor = self._ride(now, orbit.lead).point(0.0, orbit.velocity).of.factor
         else:
             return now

@@ -96,7 +96,10 @@ def values_in(scene: Scene) -> list[Any]:
 
 
 class _Worker:
-    """A process that computes expected values; it ends when this one does."""
+    """A process that computes expected values; it ends when this one does.
+
+    Not one of `multiprocessing`, which runs the script of a user that calls `validate` once more.
+    """
 
     def __init__(self) -> None:
         search = os.pathsep.join(filter(None, [PACKAGE_PATH, os.environ.get("PYTHONPATH", "")]))

@@ -149,11 +149,6 @@ static fmi2Integer *orders(void) {
     return or_null(integers);
 }
 
-typedef struct {
-    const char *name;
-    unsigned weight;
-} Function;
-
 #define REFS or_null(references), random_count()
 #define STATUS_KIND (fmi2StatusKind)(one_in(8) ? random_integer() : (int)below(4))
 
@@ -205,14 +200,6 @@ static const Function FUNCTION[] = {FUNCTIONS(ROW)};
 
 enum { FUNCTION_COUNT = sizeof FUNCTION / sizeof *FUNCTION };
 
-static unsigned some_function(void) {
-    unsigned total = 0, choice, i;
-    for (i = 0; i < FUNCTION_COUNT; i++) total += FUNCTION[i].weight;
-    choice = below(total);
-    for (i = 0; choice >= FUNCTION[i].weight; i++) choice -= FUNCTION[i].weight;
-    return i;
-}
-
 static fmi2Status call(unsigned function, fmi2Component c) {
     unsigned index = 0;
 #define CASE(name, weight, call) if (function == index++) return call;
@@ -227,7 +214,7 @@ static int may_discard(const char *name) {
 
 static void one_call(void) {
     static fmi2Byte before[MOST_BYTES], after[MOST_BYTES];
-    unsigned function = some_function();
+    unsigned function = some_function(FUNCTION, FUNCTION_COUNT);
     fmi2Component instance = one_in(100) ? NULL : some_instance();
     size_t size = one_in(4) ? state_of(instance, before) : 0;
     fmi2Status status;

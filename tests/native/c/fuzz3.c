@@ -257,24 +257,11 @@ static fmi3Status set_logging(fmi3Instance c) {
     X(ActivateModelPartition, 1, fmu.ActivateModelPartition(c, references[0], random_real())) \
     X(DoStep, 26, step(c))
 
-typedef struct {
-    const char *name;
-    unsigned weight;
-} Function;
-
 #define ROW(name, weight, call) {"fmi3" #name, weight},
 static const Function FUNCTION[] = {FUNCTIONS(ROW)};
 #undef ROW
 
 enum { FUNCTION_COUNT = sizeof FUNCTION / sizeof *FUNCTION };
-
-static unsigned some_function(void) {
-    unsigned total = 0, drawn, i;
-    for (i = 0; i < FUNCTION_COUNT; i++) total += FUNCTION[i].weight;
-    drawn = below(total);
-    for (i = 0; drawn >= FUNCTION[i].weight; i++) drawn -= FUNCTION[i].weight;
-    return i;
-}
 
 static fmi3Status call(unsigned function, fmi3Instance c) {
     unsigned index = 0;
@@ -303,7 +290,7 @@ static void show(fmi3Instance instance) {
 
 static void one_call(void) {
     static fmi3Byte before[MOST_BYTES], after[MOST_BYTES];
-    unsigned function = some_function();
+    unsigned function = some_function(FUNCTION, FUNCTION_COUNT);
     fmi3Instance instance = one_in(100) ? NULL : instances[below(INSTANCES)];
     size_t size = one_in(4) ? state_of(instance, before) : 0;
     fmi3Status status;

@@ -65,4 +65,18 @@ static inline size_t random_count(void) {
     return one_in(10) ? below(ROOM + 1) : 1 + below(3);
 }
 
+/* A function that is called, as often as its weight says. */
+typedef struct {
+    const char *name;
+    unsigned weight;
+} Function;
+
+static inline unsigned some_function(const Function *functions, unsigned count) {
+    unsigned total = 0, drawn, i;
+    for (i = 0; i < count; i++) total += functions[i].weight;
+    drawn = below(total);
+    for (i = 0; drawn >= functions[i].weight; i++) drawn -= functions[i].weight;
+    return i;
+}
+
 #endif

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
@@ -87,6 +88,30 @@ def run_tasks(
     finally:
         if process is not None:
             process.kill()
+
+
+def run_all_tasks(
+    fmu: Path,
+    tasks: Sequence[tuple[Item, Task]],
+    time_limit: float,
+    *,
+    name: Callable[[Item], str],
+    meanwhile: Callable[[Item], None],
+    outcomes: tuple[type[HarnessError], ...],
+) -> Generator[tuple[Item, Any, HarnessError | None], None, None]:
+    """Run a task for each item, however many crash, and yield item, result and error of each.
+
+    Errors that are among the `outcomes` of a task are yielded, others raised: FmuError when the FMU
+    cannot be run at all.
+    """
+    finished = run_tasks(fmu, tasks, time_limit, name=name, meanwhile=meanwhile, max_crashes=None)
+    with closing(finished):
+        for one in finished:
+            if one.item is None:
+                raise one.error or FmuError(f"{fmu}: cannot be run")
+            if one.error is not None and not isinstance(one.error, outcomes):
+                raise one.error
+            yield one.item, one.result, one.error
 
 
 def _gave_up(crashes: int, names: Sequence[str]) -> FmuError:

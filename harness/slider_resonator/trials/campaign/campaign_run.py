@@ -11,10 +11,10 @@ from functools import partial
 from pathlib import Path
 
 from slider_resonator.arrays import Array
-from slider_resonator.errors import FmuError, Refusal
+from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.fmu.isolation.tasks import run_tasks
+from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.run import run
 from slider_resonator.output.console import counted
@@ -88,28 +88,21 @@ def run_campaign(
 
     tasks = [(case, partial(_outputs, case=case)) for case in cases]
     try:
-        finished = run_tasks(
+        finished = run_all_tasks(
             fmu,
             tasks,
             time_limit,
             name=lambda case: str(case.number),
             meanwhile=report,
-            max_crashes=None,
+            outcomes=(FmuDied, Refusal),
         )
         with closing(finished):
-            for one in finished:
-                if one.item is None:
-                    raise one.error or FmuError(f"{fmu}: cannot be run")
-                if one.error is None:
-                    verdicts.append(judge(one.item, one.result))
-                elif isinstance(one.error, FmuDied | Refusal):
-                    verdict = REFUSED if isinstance(one.error, Refusal) else FAILED
-                    reason = str(one.error)
-                    verdicts.append(
-                        CaseVerdict(one.item.number, one.item.model, verdict, reason=reason)
-                    )
-                else:
-                    raise one.error
+            for case, result, error in finished:
+                if error is None:
+                    verdicts.append(judge(case, result))
+                    continue
+                verdict = REFUSED if isinstance(error, Refusal) else FAILED
+                verdicts.append(CaseVerdict(case.number, case.model, verdict, reason=str(error)))
     except BaseException:
         if verdicts:
             keep(campaign())

@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.fmu.isolation.tasks import run_tasks
+from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.output.console import counted
 from slider_resonator.trials.extremes.cell import MatrixCell
@@ -118,25 +117,17 @@ def run_matrix(
 
     tasks = [(cell, partial(observe, cell=cell)) for cell in cells]
     try:
-        with closing(
-            run_tasks(
-                fmu,
-                tasks,
-                time_limit,
-                name=lambda cell: cell.name,
-                meanwhile=report,
-                max_crashes=None,
-            )
-        ) as finished:
-            for one in finished:
-                if one.item is None:
-                    raise one.error or FmuError(f"{fmu}: cannot be run")
-                if one.error is None:
-                    verdicts.append(judge(one.item, one.result))
-                elif isinstance(one.error, FmuDied):
-                    verdicts.append(broken(one.item, str(one.error)))
-                else:
-                    raise one.error
+        finished = run_all_tasks(
+            fmu,
+            tasks,
+            time_limit,
+            name=lambda cell: cell.name,
+            meanwhile=report,
+            outcomes=(FmuDied,),
+        )
+        with closing(finished):
+            for cell, result, error in finished:
+                verdicts.append(judge(cell, result) if error is None else broken(cell, str(error)))
     except BaseException:
         if verdicts:
             keep(matrix())
