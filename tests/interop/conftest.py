@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,9 @@ from fmu_src.building.platforms import HOST
 
 if TYPE_CHECKING:
     from selenium.webdriver import Chrome
+
+collect_ignore = [] if find_spec("selenium") else ["test_reports.py", "test_web_page.py"]
+"""Tests in a browser, which `make test` must not need: `make interop` installs what drives it."""
 
 
 @pytest.fixture(scope="session")
