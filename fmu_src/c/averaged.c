@@ -130,12 +130,12 @@ static Bracket close_in(const Balance *balance, Point low, Point next, Point hig
             other = newest;
         }
         newest = next;
-        double width = other.turning - newest.turning, least = CLOSE / fabs(width), share;
-        if (!bracket_narrows(&bracket, balance, newest) || !(least < 0.5)) {
+        double width = other.turning - newest.turning, min_share = CLOSE / fabs(width), share;
+        if (!bracket_narrows(&bracket, balance, newest) || !(min_share < 0.5)) {
             break;
         }
         share = interpolates(newest, other, before, &share) ? share : 0.5;
-        share = fmin(fmax(share, least), 1.0 - least);
+        share = fmin(fmax(share, min_share), 1.0 - min_share);
         next = point_near(balance, newest.turning + share * width);
     }
     bracket.root = fabs(newest.excess) < fabs(other.excess) ? newest.turning : other.turning;

@@ -115,8 +115,8 @@ double slow_friction_to_kink(const SlowFriction *slow, double t) {
 
 double slow_friction_sway(const SlowFriction *slow) {
     const Device *device = &slow->law->device;
-    double most = device->friction_faces * device->friction_coefficient * device->normal_amplitude;
-    return slow->stands ? most * slow->slow.fastest : 0.0;
+    double amplitude = device->friction_faces * device->friction_coefficient * device->normal_amplitude;
+    return slow->stands ? amplitude * slow->slow.fastest : 0.0;
 }
 
 double slow_friction_at(const SlowFriction *slow, double t, double velocity) {

@@ -17,7 +17,7 @@
 #define MAX_WAVES 1000.0
 
 /* Fewest steps up to which work is accepted. */
-enum { LEAST_STEPS = 16 };
+enum { MIN_STEPS = 16 };
 
 /* Pieces of a beat with constant friction each, where there is no vibration. */
 #define PIECES 256.0
@@ -126,7 +126,7 @@ static int max_steps(const SlowFriction *friction) {
         return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
     }
     double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
-    return (int)fmax(LEAST_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
+    return (int)fmax(MIN_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
 }
 
 /* Largest friction [N] of Coulomb's law under the normal load at any phase. */

@@ -28,7 +28,7 @@ ORBITS = 1e-9
 """Differences of the Newton iterations that find held orbits, over the peak."""
 """Difference of Coulomb signals, as a share of their peak."""
 
-LEAST_FAST_VELOCITY = 1e-4
+MIN_FAST_VELOCITY = 1e-4
 """Of the devices below, in m/s."""
 
 SLIP_RESONANCE = {"resonator_mass": 3.0, "resonator_frequency": 1.0, "drive_frequency": 2.0}
@@ -74,7 +74,7 @@ def scale(name: str, record: Record) -> float:
         peak = max(peak, float(np.abs(record[beside]).max()))
     if name == "steady_velocity":
         # Where it is 0 it is the fast velocity times the rounding of cos(pi / 2).
-        peak = max(peak, LEAST_FAST_VELOCITY)
+        peak = max(peak, MIN_FAST_VELOCITY)
     return max(peak, 1e-300)
 
 

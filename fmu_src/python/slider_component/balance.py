@@ -137,10 +137,11 @@ def _closed_in(balance: Balance, low: Point, following: Point, high: Point) -> B
             before, other = other, newest
         newest = following
         width = other.turning - newest.turning
-        least = CLOSE / abs(width) if width else inf
-        if not bracket.narrow(newest) or not least < 0.5:
+        min_share = CLOSE / abs(width) if width else inf
+        if not bracket.narrow(newest) or not min_share < 0.5:
             break
-        share = min(max(_share_of_the_way(newest, other, before), least), 1.0 - least)
+        share = _share_of_the_way(newest, other, before)
+        share = min(max(share, min_share), 1.0 - min_share)
         turning = newest.turning + share * width
         following = Point(turning, balance.excess_near(turning))
     nearest = newest if abs(newest.excess) < abs(other.excess) else other

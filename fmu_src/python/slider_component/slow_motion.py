@@ -36,7 +36,7 @@ WAVES = 10.0
 
 WORK = "steps of averaged motion"
 
-LEAST_STEPS = 16
+MIN_STEPS = 16
 """Fewest steps up to which work is accepted."""
 
 PIECES = 256
@@ -149,7 +149,7 @@ def _max_steps(is_expensive: bool, ratio: float) -> int:
     if not is_expensive:
         return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
     waves = min(abs(ratio), MAX_WAVES)
-    return max(LEAST_STEPS, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
+    return max(MIN_STEPS, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
 
 
 def _unshaken(
@@ -158,9 +158,9 @@ def _unshaken(
     """Velocity and displacement without vibration: under constant forces in each piece of time."""
     longest = duration if friction.to_kink is None else min(duration, friction.beat / PIECES)
     pieces = ceil(duration / longest)
-    most = _max_steps(is_expensive=False, ratio=0.0)
-    if pieces > most:
-        raise too_much_work(duration, most * longest, most, WORK)
+    max_pieces = _max_steps(is_expensive=False, ratio=0.0)
+    if pieces > max_pieces:
+        raise too_much_work(duration, max_pieces * longest, max_pieces, WORK)
     moved, piece = 0.0, duration / pieces
     for k in range(pieces):
         resisting = friction.at((k + 0.5) * piece, inf)

@@ -27,11 +27,11 @@ ORDER = 22
 SMALL = 1e-3
 """Share of a motion that the last terms of its series may have."""
 
-LEAST = 1e-200
-"""Motion [m/s] that is as good as none."""
+NEGLIGIBLE_MOTION = 1e-200
+"""Motion [m/s] below which a series is not cut shorter."""
 
 MAX_SHRINKS = 4
-"""How often a series is cut shorter for that."""
+"""How often a series is cut shorter to reach that share."""
 
 
 class TaylorSlide:
@@ -91,11 +91,18 @@ class TaylorSlide:
         if resonates:
             weight = plant.mass_fraction or 1.0
             self.reach = min(self.reach, _reach(u, tolerance / weight))
-        # Of a motion far below the tolerance the last terms would be the larger part, and its first
-        # zero hard to find.
+        self._cut_off_slow_motion(tolerance)
+
+    def _cut_off_slow_motion(self, tolerance: float) -> None:
+        """Shorten the series of a motion far below the tolerance.
+
+        Otherwise its last terms would exceed the motion itself, and its first zero would be hard to
+        find.
+        """
+        v = self._velocity
         for _ in range(MAX_SHRINKS):
             small = SMALL * (abs(v[0]) + abs(v[1]) * self.reach)
-            if not LEAST < small < tolerance:
+            if not NEGLIGIBLE_MOTION < small < tolerance:
                 break
             self.reach = min(self.reach, _reach(v, small))
 

@@ -83,9 +83,9 @@ class Fmu:
         return {name: value for name, value in values.items() if name not in lacking}
 
     def _lacks(self, name: str, value: float | None = None) -> NotApplicable:
-        wanted = "" if value is None else f" = {value:g}"
+        setting = "" if value is None else f" = {value:g}"
         since = VARIABLES[name].since
-        return NotApplicable(f"needs {name}{wanted}, which came with interface {since}")
+        return NotApplicable(f"needs {name}{setting}, which came with interface {since}")
 
     def require(self, capability: str, *, of: bool = True) -> None:
         """Raise NotApplicable unless a capability flag of the description has the given value."""

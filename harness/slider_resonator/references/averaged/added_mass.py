@@ -28,7 +28,7 @@ from slider_resonator.references.averaged.held_orbit import HeldOrbit
 from slider_resonator.references.averaged.panels import Panels
 
 _CONVERGED = 1e-13
-_MOST_ITERATIONS = 300
+_MAX_ITERATIONS = 300
 
 _FLAT = 1e-5
 """Decay of the slow motion over a period up to which it is taken from the drift."""
@@ -138,7 +138,7 @@ def _tangent(orbit: HeldOrbit) -> tuple[float, _Variation]:
     """Return F2' and the periodic variation whose mean velocity is 1."""
     hold, panels, answer_to = orbit.hold, orbit.panels, _answer_of(orbit)
     velocity = np.ones_like(panels.nodes)
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(_MAX_ITERATIONS):
         answer = answer_to(velocity)
         slope = answer.mean()
         lost, _ = answer.lost(-slope)
@@ -157,7 +157,7 @@ def _multiplier(orbit: HeldOrbit) -> float:
     hold, panels, answer_to = orbit.hold, orbit.panels, _answer_of(orbit)
     velocity = np.ones_like(panels.nodes)
     multiplier = 1.0
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(_MAX_ITERATIONS):
         answer = answer_to(velocity, multiplier=multiplier)
         lost, in_all = answer.lost()
         multiplier = 1.0 - in_all
@@ -183,7 +183,7 @@ def _drift(orbit: HeldOrbit, tangent: _Variation) -> float:
     )
     gained = -hold.period * load
     velocity = np.zeros_like(panels.nodes)
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(_MAX_ITERATIONS):
         answer = answer_to(velocity, jump=gained * stretch_there)
         lost, in_all = answer.lost(load)
         gained = -in_all / momentum_there

@@ -30,7 +30,7 @@ from slider_resonator.references.averaged.reversals import sign_changes
 _CONVERGED = 1e-13
 """Change of the velocity in the last iteration, over v_q."""
 
-_MOST_ITERATIONS = 100
+_MAX_ITERATIONS = 100
 
 _PATIENCE = 12
 """Iterations within which the change has to fall to a tenth: close to sticking it does not."""
@@ -93,7 +93,7 @@ def held_orbit(hold: Hold, neighbour: HeldOrbit | None = None) -> HeldOrbit:
     panels = neighbour.panels if neighbour else hold.panels(np.empty(0), 0.0)
     answer = neighbour.friction_answer if neighbour else np.zeros_like(panels.nodes)
     changes: list[float] = []
-    for iteration in range(1, _MOST_ITERATIONS + 1):
+    for iteration in range(1, _MAX_ITERATIONS + 1):
 
         def velocity_at(theta: Array, panels: Panels = panels, answer: Array = answer) -> Array:
             return hold.velocity + hold.forced_velocity(theta) + panels.at(answer, theta)

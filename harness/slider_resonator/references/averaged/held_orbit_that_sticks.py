@@ -31,7 +31,7 @@ _STEP = 1e-6
 """Step of the differences of the period map, over the scale of a state."""
 
 _CONVERGED = 1e-12
-_MOST_ITERATIONS = 40
+_MAX_ITERATIONS = 40
 
 
 def any_held_orbit(
@@ -75,7 +75,7 @@ def held_orbit_by_shooting(
         return np.append(state / scales[:3] - values[:3], way / speed)
 
     left = imbalance(unknowns)
-    for iteration in range(1, _MOST_ITERATIONS + 1):
+    for iteration in range(1, _MAX_ITERATIONS + 1):
         slopes = np.column_stack(
             [(imbalance(unknowns + step) - left) / _STEP for step in _STEP * np.eye(4)]
         )

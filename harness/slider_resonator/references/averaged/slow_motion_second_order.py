@@ -130,12 +130,13 @@ def simulate_slow_motion(
     momentum, centre, theta, psi = astuple(start)
     rows = np.empty((0, 5))
     for inputs in with_steady_phase(held, device):
-        wanted = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
-        grid = np.union1d(wanted, [0.0, inputs.stop - inputs.start])
+        last = np.searchsorted(times, inputs.stop, side="right")
+        samples = times[len(rows) : last] - inputs.start
+        grid = np.union1d(samples, [0.0, inputs.stop - inputs.start])
         slow = _Slow(curves, inputs, theta, psi)
         slow.begin(momentum, centre)
         moved, velocity = slow.run(grid)
-        places = np.searchsorted(grid, wanted)
+        places = np.searchsorted(grid, samples)
         found = [
             slow.motion(float(grid[place]), float(moved[place]), float(velocity[place]))
             for place in places
