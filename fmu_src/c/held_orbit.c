@@ -7,20 +7,20 @@
 #include "orbit_linearisation.h"
 #include "state.h"
 
-/* Correction of the unknowns in their scales up to which an orbit is found, and that up to which it
- * is where rounding ends its decrease. */
+/* Correction of the unknowns, in their scales, below which an orbit is found. Up to ROUNDED it is found
+ * also where corrections no longer decrease, by rounding. */
 #define COULOMB_CONVERGED 1e-13
 #define LUGRE_CONVERGED 1e-12
 #define ROUNDED 1e-9
 
-/* Velocity against the direction of a section, in v_q, up to which the section serves. */
+/* Largest velocity against the direction of a section, in v_q, at which the section is used. */
 #define SECTION_REACH 0.5
 
-/* Smallest part of a step that is tried. */
+/* Smallest damping factor of a Newton step. */
 #define SMALLEST_PART 0.015
 
-/* Broyden's update: the Jacobian that takes `moved` to the change of the values, and is else the
- * same. */
+/* Broyden's update: the Jacobian that maps `moved` to the change of the values, and is otherwise
+ * unchanged. */
 static void update_jacobian(double jacobian[UNKNOWNS][UNKNOWNS], int count,
                             const double moved[UNKNOWNS], const double before[UNKNOWNS],
                             const double after[UNKNOWNS]) {
@@ -104,7 +104,7 @@ static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *t
     return ORBIT_NOT_CONVERGED;
 }
 
-/* The vibration without friction at the section: where the search begins that has no neighbour. */
+/* The vibration without friction at the section: the first guess without a neighbour. */
 static Unknowns vibration_alone(const OrbitEquations *equations, int direction) {
     const PeriodMap *map = equations->map;
     const Plant *plant = &map->law.held.plant;
@@ -118,7 +118,7 @@ static Unknowns vibration_alone(const OrbitEquations *equations, int direction) 
     return unknowns_of(equations, &section, load);
 }
 
-/* Where the tangent at a neighbour leads, and its Jacobian; false where it has none. */
+/* The first guess on the tangent at a neighbour, and its Jacobian; false where that is singular. */
 static bool along_tangent(OrbitEquations *equations, const HeldOrbit *neighbour,
                           Unknowns *unknowns, double jacobian[UNKNOWNS][UNKNOWNS]) {
     double values[UNKNOWNS] = {0.0}, step[UNKNOWNS] = {0.0};
@@ -186,7 +186,7 @@ static OrbitStatus find(OrbitEquations *equations, int direction, const HeldOrbi
     return ORBIT_FOUND;
 }
 
-/* Why there can be no orbit at all. */
+/* The reason why no orbit can exist, or ORBIT_FOUND. */
 static OrbitStatus precondition(const PeriodMap *map) {
     if (!(map->law.device.damping_ratio > 0.0)) {
         return ORBIT_UNDAMPED;
@@ -194,7 +194,7 @@ static OrbitStatus precondition(const PeriodMap *map) {
     return map->speed > 0.0 ? ORBIT_FOUND : ORBIT_STILL;
 }
 
-/* Whether the section in `direction` serves orbits at `velocity` [m/s]. */
+/* Whether the section in `direction` may be used for orbits at `velocity` [m/s]. */
 static bool section_serves(const PeriodMap *map, int direction, double velocity) {
     return direction * velocity > -SECTION_REACH * map->speed;
 }

@@ -61,8 +61,8 @@ double friction_limit_by(const Plant *plant, const Phasors *phasors) {
     return limit > 0.0 ? limit : 0.0;
 }
 
-/* Gives the free oscillation of the resonator its amplitude [m] and returns how large a velocity of the
- * slider it makes [m/s]. */
+/* Sets the complex amplitude of the free oscillation of the resonator [m] and returns the velocity amplitude
+ * of the slider that belongs to it [m/s]. */
 static double swing_freely(SplitSlide *slide, Complex free) {
     const Plant *plant = slide->plant;
     Complex turning = complex_mul(plant->slip.eigenvalue, free);
@@ -74,7 +74,7 @@ static double swing_freely(SplitSlide *slide, Complex free) {
     return decaying;
 }
 
-/* Amplitudes and bounds of a slide whose forced parts are known, from `state` on. */
+/* Sets the free part and the bounds of a slide whose forced parts are known, so that it begins at `state`. */
 static void match_state(SplitSlide *slide, const State *state) {
     const Plant *plant = slide->plant;
     double w = plant->drive_frequency, q = plant->normal_frequency;
@@ -152,7 +152,7 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
     slide->anchored = true;
 }
 
-/* exp(i theta); at the end of a turn, where means over a period are taken, that needs no sine. */
+/* exp(i theta), without a sine at the end of a turn, where means over a period need it. */
 static Complex drive_at(double theta) {
     double passed = theta - TAU;
     return fabs(passed) < 1e-9 ? complex_of(1.0, passed) : complex_rect(1.0, theta);
@@ -175,11 +175,11 @@ static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
                                 : complex_rect(1.0, slide->chi + plant->normal_frequency * t);
 }
 
-/* Angle [rad] of the fastest oscillation up to which turns are rotated: the terms below then reach
+/* Angle [rad] of the fastest oscillation up to which turns are rotated: the series below are then exact to
  * rounding. */
 #define SMALL_TURN 0x1p-7
 
-/* How often turns are rotated on from one slide to the next: for rounding not to add up. */
+/* How often the same turns may be rotated from slide to slide: limits the sum of rounding errors. */
 enum { MAX_USES = 15 };
 
 /* `z` exp(i angle) for a small `angle` [rad]. */
@@ -196,7 +196,7 @@ static inline double grown(double x) {
     return 1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * tail)));
 }
 
-/* Turns at the anchor, or another time, rotated by the little that is missing to `t`. */
+/* Turns at the time of `anchor`, rotated to the close time `t`. */
 static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, double t,
                                 Turns *turns) {
     const Plant *plant = slide->plant;
@@ -216,7 +216,7 @@ static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, do
                                 : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
 }
 
-/* An angle [rad] less than a turn and a half, by whole turns next to 0. */
+/* `angle` [rad], less than a turn and a half in size, reduced to [-pi, pi] by whole turns. */
 static inline double nearest(double angle) {
     return angle > PI ? angle - TAU : angle < -PI ? angle + TAU : angle;
 }
@@ -278,8 +278,9 @@ static inline bool is_soon(const SplitSlide *slide, double t) {
     return t * slide->split->fastest < SMALL_TURN;
 }
 
-/* Turns at `t`: close to the start or the anchor in `place`, or computed in `fresh`. Close to the start
- * rounding must not differ from what it is there: a slider that sets out moves forward at once. */
+/* Turns at `t`: rotated from the start or the anchor (in `place`), or computed (in `fresh`). Close to the
+ * start they are always rotated, so that rounding errors are those of the start: a slider that sets out
+ * must not seem to move back. */
 static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place,
                                     Turns *fresh) {
     if (t == 0.0) {

@@ -42,8 +42,8 @@ NO_VIBRATION = Averaged(0.0, 0.0, False)
 def theory_range(device: Device) -> tuple[float, ...]:
     """Return numbers that are all finite where `averaged` stays in the range of floating point.
 
-    The fast velocity [m/s]; the drag of that or of the start, whichever is faster, over mu; and a
-    bound on integrals of load and friction [N], with bristles bent as at the start.
+    The fast velocity [m/s]; the drag over mu at the fast or the initial velocity, whichever is
+    larger; and a bound on integrals of load and friction [N], with the initial bristle deflection.
     """
     try:
         force = equivalent_force(device)
@@ -64,10 +64,10 @@ def theory_range(device: Device) -> tuple[float, ...]:
 def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
     """Averaged theory at the present inputs (eqs 20-22 with both faces).
 
-    `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where
-    the load exceeds full friction the velocity is the limit v_q of the theory, with its sign; both
-    are 0 without vibration, and where undamped resonance leaves no steady vibration. Then, and
-    where the vibration does not break the contact loose, they are not `valid`.
+    `normal_lead` [rad] is psi - n theta, which earlier changes of the ratio make different from 0.
+    Where the load exceeds full friction the velocity is the limit v_q of the theory, with its sign.
+    Both results are 0 without vibration, and where undamped resonance leaves no steady vibration.
+    In these cases, and where the vibration does not break the contact loose, they are not `valid`.
     """
     try:
         force = equivalent_force(device)
@@ -89,7 +89,7 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
 
     first, middle, last = friction(0.0), friction(0.5 * pi), friction(pi)
     if first == last:
-        # Nothing holds the slider back: every velocity is steady, or with a load none.
+        # No friction: every velocity is steady without a load, and none with one.
         fastest = -copysign(fast.velocity, inputs.load) if inputs.load else 0.0
         return Averaged(fastest, 0.0, valid=False)
     stays = abs(opposing) < first
@@ -122,10 +122,10 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
 def _breaks_loose(
     device: Device, law: AveragedFriction, fast: FastMotion, force: float, friction: float
 ) -> bool:
-    """Whether the vibration overcomes the mean `friction` [N] of sliding by itself.
+    """Whether the vibration alone overcomes the mean `friction` [N] of sliding.
 
-    It must do so with the amplitude `force` [N] with which it moves the pair, and with that on a
-    held slider.
+    The amplitude `force` [N] of its force on the pair must, and so must that of its force on a held
+    slider.
     """
     bristle = bristle_of(device)
     grip = law.grip(bristle, fast.velocity / fast.frequency, fast.frequency)

@@ -13,14 +13,14 @@ from .moment import Moment
 from .refusal import too_much_work
 
 MAX_LEGS = 20_000
-"""Legs in a turn of the fastest oscillation up to which work is accepted: several times what
+"""Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
 presliding on the hardest bristles takes."""
 
 
 def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) -> Moment:
     """The moment `duration` > 0 [s] later, inputs held.
 
-    Raises Refusal where it takes too much work, or time does not get on.
+    Raises Refusal for a motion of too many legs, in the step or in a turn.
     """
     plant, arc, window = held.plant, held.arc, held.window
     max_legs = MAX_STEP_LEGS // PYTHON_SLOWDOWN

@@ -1,8 +1,9 @@
 """Held orbits: the periodic motion of the full device whose mean velocity is held at V.
 
-The load that holds it is L = -F2(V), F2 the mean friction. Unknown are the state at the section and
-L, given that the state repeats after a period and that the way in it is V times the period: a fixed
-point of the period map, found by Newton's method, with sliding, sticking and flight alike.
+The load that holds it is L = -F2(V), F2 the mean friction. The unknowns are the state at the
+section and L; the equations are that the state repeats after a period, and that the displacement in
+a period is V times the period. This fixed point of the period map is found by Newton's method, with
+sliding, sticking and flight alike.
 """
 
 from __future__ import annotations
@@ -23,22 +24,22 @@ from .oscillator import transfer
 from .period_map import PeriodMap
 
 MAX_MAPS = 120
-"""Maps that an orbit may take, Jacobians included, before it counts as not found."""
+"""Largest number of period maps for an orbit, Jacobians included."""
 
 COULOMB_CONVERGED = 1e-13
-"""Correction of the unknowns in their scales up to which an orbit is found."""
+"""Correction of the unknowns, in their scales, below which an orbit is found."""
 
 LUGRE_CONVERGED = 1e-12
 """The same under LuGre friction."""
 
 ROUNDED = 1e-9
-"""Correction up to which an orbit is found where rounding ends the decrease of corrections."""
+"""Correction up to which an orbit is found where corrections no longer decrease, by rounding."""
 
 SECTION_REACH = 0.5
-"""Velocity against the direction of a section, in v_q, up to which the section serves."""
+"""Largest velocity against the direction of a section, in v_q, at which the section is used."""
 
 SMALLEST_PART = 0.015
-"""Smallest part of a step that is tried."""
+"""Smallest damping factor of a Newton step."""
 
 
 class OrbitStatus(IntEnum):
@@ -56,8 +57,8 @@ class OrbitStatus(IntEnum):
 class NoOrbitError(RuntimeError):
     """There is no orbit, or none was found, for the reason `status`.
 
-    UNDAMPED: without damping the resonator never forgets its start. STILL: nothing vibrates, or
-    friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not settle.
+    UNDAMPED: without damping the start of the resonator never decays. STILL: nothing vibrates, or
+    friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not converge.
     UNSTABLE: the vibration about the orbit does not decay. RUNS_AWAY: the load exceeds all
     friction, so that no velocity is steady. UNDETERMINED: the load leaves several velocities
     steady.
@@ -83,15 +84,15 @@ class HeldOrbit:
     """An orbit of mean velocity [m/s] and mean friction F2 [N].
 
     `lead` [rad] is the phase of the normal load at drive phase 0. `section` is the moment at the
-    section, in `direction`: motion under the load -friction goes on from there, see
-    `held_orbit_moment`. `reversals` in a period, and whether the slider `sticks` in it. `maps` is
-    how often the period was mapped for this orbit. `jacobian` is that of its equations, in their
-    scales.
+    section, in `direction`; motion from there on under the load -friction is the orbit, see
+    `held_orbit_moment`. `reversals` is their number in a period; `sticks`: the slider sticks in a
+    period. `maps` is the number of period maps that it took. `jacobian` is that of its equations,
+    in their scales.
 
     Known once it is `linearised`: `factor` 1 + kappa_m, 1 until then and where the slider sticks;
-    `slope` F2' = dF2/dV [N s/m]; `fast_multiplier`, the largest one by which vibration about the
-    orbit decays in a period; `tangent` by velocity [m/s]; and the `lag` of a motion that drifts, by
-    the excess F2 + load [N] of force.
+    `slope` F2' = dF2/dV [N s/m]; `fast_multiplier`, the largest multiplier of a period of the
+    vibration about the orbit; `tangent`, the derivative of the section by velocity [m/s]; `lag`,
+    the change of the section in a motion that drifts, per excess force F2 + load [N].
     """
 
     lead: float
@@ -114,7 +115,7 @@ class HeldOrbit:
 def held_orbit_at(
     period_map: PeriodMap, lead: float, velocity: float, neighbour: HeldOrbit | None = None
 ) -> HeldOrbit:
-    """The orbit at `velocity` [m/s], from that of a neighbour if there is one.
+    """The orbit at `velocity` [m/s], starting from a neighbour if there is one.
 
     Raises NoOrbitError.
     """
@@ -128,7 +129,7 @@ def held_orbit_at(
 def steady_orbit_at(
     period_map: PeriodMap, lead: float, load: float, neighbour: HeldOrbit | None = None
 ) -> HeldOrbit:
-    """The orbit in which `load` [N] is the one that holds: the steady motion under it.
+    """The orbit that `load` [N] holds: the steady motion under this load.
 
     Raises NoOrbitError.
     """
@@ -144,10 +145,10 @@ def steady_orbit_at(
 
 
 def held_orbit_linearised(period_map: PeriodMap, orbit: HeldOrbit) -> HeldOrbit:
-    """The orbit with what is known once it is linearised.
+    """The orbit, linearised, at the cost of one map more than it has unknowns.
 
-    That costs as many maps as it has unknowns, and one. It is needed under LuGre friction, and
-    under Coulomb friction for the slope, the error and low damping. Raises NoOrbitError.
+    LuGre friction needs this always, Coulomb friction for slope, lag and low damping. Raises
+    NoOrbitError.
     """
     equations = OrbitEquations(period_map, orbit.lead, theta=orbit.section.theta, maps=orbit.maps)
     unknowns = equations.unknowns(orbit.section.state, orbit.section.bristle, -orbit.friction)
@@ -184,7 +185,7 @@ def _check(period_map: PeriodMap) -> None:
 
 
 def _section_serves(period_map: PeriodMap, direction: int, velocity: float) -> bool:
-    """Whether the section in `direction` serves orbits at `velocity` [m/s]."""
+    """Whether the section in `direction` may be used for orbits at `velocity` [m/s]."""
     return direction * velocity > -SECTION_REACH * period_map.speed
 
 
@@ -230,7 +231,7 @@ def _found(equations: OrbitEquations, direction: int, neighbour: HeldOrbit | Non
 
 
 def _along_tangent(equations: OrbitEquations, neighbour: HeldOrbit) -> Vector | None:
-    """Where the tangent at a neighbour leads; None where it has none."""
+    """The first guess on the tangent at a neighbour; None where its Jacobian is singular."""
     section = neighbour.section
     unknowns = equations.unknowns(section.state, section.bristle, -neighbour.friction)
     values = [0.0] * (len(unknowns) - 1) + [neighbour.velocity / equations.map.speed]
@@ -239,7 +240,7 @@ def _along_tangent(equations: OrbitEquations, neighbour: HeldOrbit) -> Vector | 
 
 
 def _vibration_alone(equations: OrbitEquations, direction: int) -> Vector:
-    """The vibration without friction at the section: where the search begins without neighbour."""
+    """The vibration without friction at the section: the first guess without a neighbour."""
     scales = equations.map
     frequency = scales.held.plant.drive_frequency
     displacement, rate = steady_swing(scales.fast.resonator, equations.theta, frequency)
@@ -298,9 +299,9 @@ def _solved(
 def _accepted(
     equations: OrbitEquations, unknowns: Vector, jacobian: Matrix, step: Vector | None, fresh: bool
 ) -> tuple[Vector, Trial, float] | None:
-    """The unknowns to which the largest part of a step leads that comes closer, and that part.
+    """The unknowns after the largest part of a step that contracts, and that part.
 
-    Parts are tried of the step of a fresh Jacobian alone.
+    Parts below 1 are tried only with a fresh Jacobian.
     """
     part, size = 1.0, largest(step)
     while step is not None and part > SMALLEST_PART and equations.maps < MAX_MAPS:
@@ -323,9 +324,9 @@ def _advanced(unknowns: Vector, step: Vector, part: float) -> Vector:
 def _updated(
     jacobian: Matrix, unknowns: Vector, trial: Trial, following: Vector, other: Trial
 ) -> Matrix:
-    """Broyden's update: the Jacobian that takes the move to the change of the values.
+    """Broyden's update: the Jacobian that maps the move to the change of the values.
 
-    It is else the same.
+    It is otherwise unchanged.
     """
     moved = [a - b for a, b in zip(following, unknowns, strict=True)]
     square = sum(a * a for a in moved)
