@@ -19,13 +19,14 @@
 /* Smallest damping factor of a Newton step. */
 #define SMALLEST_PART 0.015
 
-/* Broyden's update: the Jacobian that maps `moved` to the change of the values, and is otherwise
+/* Broyden's update: the Jacobian that maps the move to the change of the values, and is otherwise
  * unchanged. */
-static void update_jacobian(double jacobian[UNKNOWNS][UNKNOWNS], int count,
-                            const double moved[UNKNOWNS], const double before[UNKNOWNS],
+static void update_jacobian(double jacobian[UNKNOWNS][UNKNOWNS], int count, const Unknowns *from,
+                            const Unknowns *to, const double before[UNKNOWNS],
                             const double after[UNKNOWNS]) {
-    double square = 0.0;
+    double moved[UNKNOWNS] = {0.0}, square = 0.0;
     for (int j = 0; j < count; j++) {
+        moved[j] = to->at[j] - from->at[j];
         square += moved[j] * moved[j];
     }
     for (int i = 0; i < count; i++) {
@@ -47,6 +48,28 @@ static Unknowns advanced(const Unknowns *unknowns, const double step[UNKNOWNS], 
     return next;
 }
 
+/* The largest part of a step that contracts, with the unknowns (`next`) and the trial after it; 0 for none.
+ * Parts below 1 are tried only with a fresh Jacobian. `size` is that of the step. */
+static double accepted_part(OrbitEquations *equations, double jacobian[UNKNOWNS][UNKNOWNS],
+                            const Unknowns *unknowns, const double step[UNKNOWNS], double size,
+                            bool fresh, Unknowns *next, Trial *trial) {
+    double part = 1.0;
+    while (isfinite(size) && part > SMALLEST_PART && equations->maps < MAX_MAPS) {
+        double left[UNKNOWNS] = {0.0};
+        *next = advanced(unknowns, step, part);
+        if (try_unknowns(equations, next, trial) &&
+            newton_step(equations, jacobian, trial->values, next, left) / size <=
+                1.0 - 0.25 * part) {
+            return part;
+        }
+        if (!fresh || size <= ROUNDED) {
+            break;
+        }
+        part *= 0.25;
+    }
+    return 0.0;
+}
+
 /* Newton's method from `unknowns`, damped, with `jacobian` kept as long as it serves; `fresh` where
  * it was taken at `unknowns`. Leaves unknowns, trial and Jacobian at the orbit. */
 static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *trial,
@@ -55,7 +78,7 @@ static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *t
     double accuracy = equations->map->states > 3 ? LUGRE_CONVERGED : COULOMB_CONVERGED;
     double before = INFINITY;
     while (equations->maps < MAX_MAPS) {
-        double step[UNKNOWNS] = {0.0}, part = 1.0;
+        double step[UNKNOWNS] = {0.0};
         double size = newton_step(equations, jacobian, trial->values, unknowns, step);
         if (size <= accuracy || (size <= ROUNDED && size > 0.5 * before)) {
             *unknowns = advanced(unknowns, step, 1.0);
@@ -64,41 +87,24 @@ static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *t
             }
             return ORBIT_FOUND;
         }
-        while (equations->maps < MAX_MAPS) {
-            double left[UNKNOWNS] = {0.0}, contraction = INFINITY;
-            Unknowns next = advanced(unknowns, step, part);
-            Trial other;
-            if (isfinite(size) && try_unknowns(equations, &next, &other)) {
-                contraction = newton_step(equations, jacobian, other.values, &next, left) / size;
+        Unknowns next;
+        Trial other;
+        double part =
+            accepted_part(equations, jacobian, unknowns, step, size, fresh, &next, &other);
+        if (part > 0.0) {
+            if (part * size > DIFFERENCE) {
+                update_jacobian(jacobian, count, unknowns, &next, trial->values, other.values);
             }
-            if (contraction <= 1.0 - 0.25 * part) {
-                double moved[UNKNOWNS] = {0.0};
-                for (int i = 0; i < count; i++) {
-                    moved[i] = next.at[i] - unknowns->at[i];
-                }
-                if (part * size > DIFFERENCE) {
-                    update_jacobian(jacobian, count, moved, trial->values, other.values);
-                }
-                *unknowns = next;
-                *trial = other;
-                fresh = false;
-                before = size;
-                break;
-            }
-            if (size <= ROUNDED) {
-                return ORBIT_FOUND;
-            }
-            if (!fresh) {
-                if (!differentiate(equations, unknowns, trial, jacobian)) {
-                    return ORBIT_NOT_CONVERGED;
-                }
-                fresh = true;
-                break;
-            }
-            part *= 0.25;
-            if (!(part > SMALLEST_PART)) {
-                return ORBIT_NOT_CONVERGED;
-            }
+            *unknowns = next;
+            *trial = other;
+            fresh = false;
+            before = size;
+        } else if (size <= ROUNDED) {
+            return ORBIT_FOUND;
+        } else if (fresh || !differentiate(equations, unknowns, trial, jacobian)) {
+            return ORBIT_NOT_CONVERGED;
+        } else {
+            fresh = true;
         }
     }
     return ORBIT_NOT_CONVERGED;
