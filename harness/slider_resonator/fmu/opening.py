@@ -72,9 +72,10 @@ class Fmu:
         raise FmuError(unknown_name("variable", name, self.variables))
 
     def settings(self, values: Mapping[str, float]) -> Mapping[str, float]:
-        """Return the values to set, without those of variables that it lacks and counts as anyway.
+        """Return the values to set, without variables that the FMU lacks.
 
-        Raises NotApplicable for another value of such a variable.
+        A variable that it lacks must have the value that the interface assumes without it; raises
+        NotApplicable for another one.
         """
         lacking = [name for name in values if name in VARIABLES and name not in self.variables]
         for name in lacking:
@@ -126,7 +127,7 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
 
 
 def lacking(path: Path) -> tuple[str, ...]:
-    """Return the later variables of the interface that an FMU file lacks; of no usable FMU none."""
+    """Return the later variables of the interface that an FMU file lacks; none if unusable."""
     try:
         description = _read_description(path)
     except FmuError:

@@ -11,7 +11,7 @@ from slider_resonator.studies.sweep.measures import Task
 from slider_resonator.studies.sweep.worker import Point, Row, Rows, failed_row
 
 CHUNK_SECONDS = 0.2
-"""Work in a chunk: much more than it costs to send, and the most that a killed worker loses."""
+"""Work in a chunk: much longer than sending it takes; a killed worker loses no more than that."""
 LARGEST_CHUNK = 200
 CHUNKS_EACH = 2
 """Chunks queued for each worker, so that it never waits."""
