@@ -24,12 +24,13 @@ from slider_resonator.scenes.scene import built_in_scenes, read_scene
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11
+"""Largest difference of Coulomb signals, over their peak."""
+
 ORBITS = 1e-9
-"""Differences of the Newton iterations that find held orbits, over the peak."""
-"""Difference of Coulomb signals, as a share of their peak."""
+"""Largest difference along held orbits, over the peak: the twins' Newton iterations differ."""
 
 MIN_FAST_VELOCITY = 1e-4
-"""Of the devices below, in m/s."""
+"""Smallest fast velocity of the devices below, m/s."""
 
 SLIP_RESONANCE = {"resonator_mass": 3.0, "resonator_frequency": 1.0, "drive_frequency": 2.0}
 """wn^2 = (1 - r_m) w^2."""
