@@ -11,9 +11,6 @@
 #include "moment.h"
 #include "period_map.h"
 
-/* Largest number of period maps for an orbit, Jacobians included, before it counts as not found. */
-enum { MAX_MAPS = 120 };
-
 /* Whether there is an orbit, or why there is none:
  *
  * UNDAMPED: without damping the start of the resonator never decays. STILL: nothing vibrates, or

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from math import copysign, inf
+from math import copysign
 from typing import NamedTuple
 
 from .contact import BACKWARD, FORWARD, STICK
@@ -18,28 +18,14 @@ from .fast_vibration import steady_swing
 from .linear_system import Matrix, Vector
 from .moment import Moment
 from .motion import State
-from .orbit_equations import DIFFERENCE, OrbitEquations, Trial, largest
+from .orbit_equations import OrbitEquations
 from .orbit_linearisation import linearised
+from .orbit_newton import solved, unknowns_after
 from .oscillator import transfer
 from .period_map import PeriodMap
 
-MAX_MAPS = 120
-"""Largest number of period maps for an orbit, Jacobians included."""
-
-COULOMB_CONVERGED = 1e-13
-"""Correction of the unknowns, in their scales, below which an orbit is found."""
-
-LUGRE_CONVERGED = 1e-12
-"""The same under LuGre friction."""
-
-ROUNDED = 1e-9
-"""Correction up to which an orbit is found where corrections no longer decrease, by rounding."""
-
 SECTION_REACH = 0.5
 """Largest velocity against the direction of a section, in v_q, at which the section is used."""
-
-SMALLEST_PART = 0.015
-"""Smallest damping factor of a Newton step."""
 
 
 class OrbitStatus(IntEnum):
@@ -208,10 +194,11 @@ def _found(equations: OrbitEquations, direction: int, neighbour: HeldOrbit | Non
     trial = equations.attempt(unknowns)
     if trial is None:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
-    try:
-        unknowns, trial, mean_velocity, jacobian = _solved(equations, unknowns, trial, jacobian)
-    except NoOrbitError as error:
-        raise NoOrbitError(OrbitStatus.STILL) if _stays_at_rest(equations) else error from None
+    solution = solved(equations, unknowns, trial, jacobian)
+    if solution is None:
+        rests = _stays_at_rest(equations)
+        raise NoOrbitError(OrbitStatus.STILL if rests else OrbitStatus.NOT_CONVERGED)
+    unknowns, trial, mean_velocity, jacobian = solution
     velocity = scales.speed * (mean_velocity if equations.loaded else equations.given)
     friction = -scales.force * unknowns[-1]
     slides = trial.after.counts.reversals == 0 and trial.after.counts.sticks == 0
@@ -236,7 +223,7 @@ def _along_tangent(equations: OrbitEquations, neighbour: HeldOrbit) -> Vector | 
     unknowns = equations.unknowns(section.state, section.bristle, -neighbour.friction)
     values = [0.0] * (len(unknowns) - 1) + [neighbour.velocity / equations.map.speed]
     step = equations.newton_step(neighbour.jacobian, values, unknowns)
-    return None if step is None else _advanced(unknowns, step, 1.0)
+    return None if step is None else unknowns_after(unknowns, step, 1.0)
 
 
 def _vibration_alone(equations: OrbitEquations, direction: int) -> Vector:
@@ -259,79 +246,3 @@ def _stays_at_rest(equations: OrbitEquations) -> bool:
     rest = scales.enter(equations.lead, 0.0, State(0.0, displacement, rate), 0.0)
     after = scales.advance(equations.lead, load, rest, scales.period)
     return after is not None and after.mode == STICK and after.position == 0.0
-
-
-def _solved(
-    equations: OrbitEquations, unknowns: Vector, trial: Trial, known: Matrix | None
-) -> tuple[Vector, Trial, float, Matrix]:
-    """Newton's method from `unknowns`, damped, with the Jacobian kept as long as it serves.
-
-    Returns unknowns, trial, mean velocity and Jacobian at the orbit.
-    """
-    accuracy = LUGRE_CONVERGED if equations.map.states > 3 else COULOMB_CONVERGED
-    jacobian, fresh = known, False
-    before = inf
-    while equations.maps < MAX_MAPS:
-        if jacobian is None:
-            jacobian, fresh = equations.jacobian(unknowns, trial), True
-            if jacobian is None:
-                break
-        step = equations.newton_step(jacobian, trial.values, unknowns)
-        size = largest(step)
-        if step is not None and (size <= accuracy or (size <= ROUNDED and size > 0.5 * before)):
-            mean = trial.values[-1] + sum(a * b for a, b in zip(jacobian[-1], step, strict=True))
-            return _advanced(unknowns, step, 1.0), trial, mean, jacobian
-        accepted = _accepted(equations, unknowns, jacobian, step, fresh)
-        if accepted is not None:
-            following, other, part = accepted
-            if part * size > DIFFERENCE:
-                jacobian = _updated(jacobian, unknowns, trial, following, other)
-            unknowns, trial, fresh, before = following, other, False, size
-        elif size <= ROUNDED:
-            return unknowns, trial, trial.values[-1], jacobian
-        elif fresh:
-            break
-        else:
-            jacobian = None
-    raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
-
-
-def _accepted(
-    equations: OrbitEquations, unknowns: Vector, jacobian: Matrix, step: Vector | None, fresh: bool
-) -> tuple[Vector, Trial, float] | None:
-    """The unknowns after the largest part of a step that contracts, and that part.
-
-    Parts below 1 are tried only with a fresh Jacobian.
-    """
-    part, size = 1.0, largest(step)
-    while step is not None and part > SMALLEST_PART and equations.maps < MAX_MAPS:
-        following = _advanced(unknowns, step, part)
-        other = equations.attempt(following)
-        if other is not None:
-            left = largest(equations.newton_step(jacobian, other.values, following))
-            if left <= (1.0 - 0.25 * part) * size:
-                return following, other, part
-        if not fresh or size <= ROUNDED:
-            break
-        part *= 0.25
-    return None
-
-
-def _advanced(unknowns: Vector, step: Vector, part: float) -> Vector:
-    return [a + part * b for a, b in zip(unknowns, step, strict=True)]
-
-
-def _updated(
-    jacobian: Matrix, unknowns: Vector, trial: Trial, following: Vector, other: Trial
-) -> Matrix:
-    """Broyden's update: the Jacobian that maps the move to the change of the values.
-
-    It is otherwise unchanged.
-    """
-    moved = [a - b for a, b in zip(following, unknowns, strict=True)]
-    square = sum(a * a for a in moved)
-    updated = []
-    for row, after, before in zip(jacobian, other.values, trial.values, strict=True):
-        missed = after - before - sum(a * b for a, b in zip(row, moved, strict=True))
-        updated.append([a + missed * b / square for a, b in zip(row, moved, strict=True)])
-    return updated
