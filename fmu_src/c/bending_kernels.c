@@ -1,6 +1,6 @@
 #include "bending_kernels.h"
 
-#include <math.h>
+#include "elementary.h"
 
 /* |z t| below which exp(z t) - 1 - z t is a series, and its terms. */
 #define SOON 0.25

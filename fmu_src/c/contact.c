@@ -1,8 +1,7 @@
 #include "contact.h"
 
-#include <math.h>
-
 #include "angle.h"
+#include "elementary.h"
 #include "state.h"
 
 /* Angle [rad] before a boundary, or past it by rounding, at which it counts as just reached. The

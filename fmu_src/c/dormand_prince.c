@@ -1,6 +1,6 @@
 #include "dormand_prince.h"
 
-#include <math.h>
+#include "elementary.h"
 
 /* Change of velocity [m/s] and displacement [m] over a step, their error, and the slope at its
  * end. */

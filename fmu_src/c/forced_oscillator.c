@@ -1,6 +1,6 @@
 #include "forced_oscillator.h"
 
-#include <math.h>
+#include "elementary.h"
 
 /* Angle [rad] of the highest frequency for which bounds of responses from rest hold: more than what
  * most slides last. */

@@ -1,6 +1,6 @@
 #include "regular_slide.h"
 
-#include <math.h>
+#include "elementary.h"
 
 /* Share of the fastest frequency that counts as the least one in the scale of velocities. */
 #define SLOWEST 0.02

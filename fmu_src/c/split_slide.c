@@ -1,6 +1,6 @@
 #include "split_slide.h"
 
-#include <math.h>
+#include "elementary.h"
 #include <stddef.h>
 
 bool split_prepare(Split *split, const Plant *plant) {

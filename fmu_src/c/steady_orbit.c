@@ -1,9 +1,9 @@
 #include "steady_orbit.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "elementary.h"
 #include "state.h"
 
 /* Velocities at which orbits tell where steady motion is, and the most halvings in between. */

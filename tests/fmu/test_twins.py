@@ -24,9 +24,14 @@ from slider_resonator.scenes.scene import built_in_scenes, read_scene
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11
+"""Difference of Coulomb signals, as a share of their peak."""
+
 ORBITS = 1e-9
 """Differences of the Newton iterations that find held orbits, over the peak."""
-"""Difference of Coulomb signals, as a share of their peak."""
+
+PREDICTED = 1e-10
+"""Difference of the predicted steady velocity: near a degenerate pitchfork it is 1e5 times what the
+functions of Python's library and those of the C twin differ by in the last bit."""
 
 LEAST_FAST_VELOCITY = 1e-4
 """Of the devices below, in m/s."""
@@ -55,7 +60,8 @@ def assert_equal(native: Record, python: Record, allowed: float) -> None:
             np.testing.assert_array_equal(ours, other, f"{name}: the twins see other events")
         elif allowed <= ROUNDING or name != "last_event_time":
             gap = np.abs(ours - other).max()
-            assert gap <= allowed * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
+            bound = max(allowed, PREDICTED) if name == "steady_velocity" else allowed
+            assert gap <= bound * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
 
 
 def scale(name: str, record: Record) -> float:
