@@ -87,13 +87,12 @@ def _overview(matrices: Sequence[Matrix]) -> str:
 def _scale() -> str:
     shades = ", ".join(to_hex(SHADES(i / 8)) for i in range(9))
     return (
-        '<p class="scale">A cell is shaded by its largest deviation over the allowed one: '
-        f'{10.0**FAR:g} <i style="background: linear-gradient(to right, {shades})"></i> '
-        f"{10.0**NEAR:g}; "
-        f'<b style="background: {REFUSED_COLOUR}">r</b> is refused by name, '
-        f'<b style="background: {FAILED_COLOUR}">F</b> failed.</p>'
-        "<p>Columns are friction law and fidelity. A cell in the grid, or a point in the plot, "
-        "says its checks.</p>"
+        "<p>Columns are friction law and fidelity. A cell in the grid, or a point in the plot, says "
+        "its checks. A cell is shaded by its largest deviation over the allowed one; "
+        f'<b style="background: {REFUSED_COLOUR}">&nbsp;r&nbsp;</b> is refused by name, '
+        f'<b style="background: {FAILED_COLOUR}">&nbsp;F&nbsp;</b> failed.</p>'
+        f'<p class="scale">{10.0**FAR:g} '
+        f'<i style="background: linear-gradient(to right, {shades})"></i> {10.0**NEAR:g}</p>'
     )
 
 
