@@ -87,8 +87,8 @@ def _overview(matrices: Sequence[Matrix]) -> str:
 def _scale() -> str:
     shades = ", ".join(to_hex(SHADES(i / 8)) for i in range(9))
     return (
-        "<p>Columns are friction law and fidelity. A cell in the grid, or a point in the plot, says "
-        "its checks. A cell is shaded by its largest deviation over the allowed one; "
+        "<p>Columns are friction law and fidelity. A cell in the grid, or a point in the plot, "
+        "says its checks. A cell is shaded by its largest deviation over the allowed one; "
         f'<b style="background: {REFUSED_COLOUR}">&nbsp;r&nbsp;</b> is refused by name, '
         f'<b style="background: {FAILED_COLOUR}">&nbsp;F&nbsp;</b> failed.</p>'
         f'<p class="scale">{10.0**FAR:g} '
