@@ -39,6 +39,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         print(f"build_fmu.py: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print("build_fmu.py: interrupted; what is written above is kept", file=sys.stderr)
+        return 130
     return 0
 
 
@@ -74,7 +77,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog="The same sources give the same bytes, except for random padding in the binary for "
         "macOS. The environment variable SOURCE_DATE_EPOCH (seconds since 1970-01-01) sets the "
         f"date in the model description; without it the date is {EPOCH:%Y-%m-%d}. Exit code 0: "
-        "built; 2: could not be built.",
+        "built; 2: could not be built; 130: interrupted.",
     )
     parser.add_argument(
         "--out",

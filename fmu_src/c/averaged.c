@@ -1,9 +1,9 @@
 #include "averaged.h"
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "complex_number.h"
+#include "elementary.h"
 #include "fast_vibration.h"
 #include "friction_law.h"
 #include "plant.h"

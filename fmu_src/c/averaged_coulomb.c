@@ -1,7 +1,6 @@
 /* Averaged Coulomb friction (eqs 4 and 20): elementary integrals over the two arcs of sliding. */
-#include <math.h>
-
 #include "averaged_friction.h"
+#include "elementary.h"
 #include "state.h"
 
 static double grip(const Bristle *bristle, double amplitude, double frequency) {

@@ -3,10 +3,10 @@
  * Over one turn of tau the bristle response to the fast motion is periodic, and explicit in the path
  * between the two reversals, so the mean friction is a quadrature: soft bristles give the paper's
  * slow manifold (17), hard ones Coulomb friction (5). */
-#include <math.h>
 #include <stddef.h>
 
 #include "averaged_friction.h"
+#include "elementary.h"
 #include "state.h"
 
 enum { NODES = 12, EDGES = 6, MAX_BISECTIONS = 60 };

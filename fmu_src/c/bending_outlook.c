@@ -1,7 +1,6 @@
 #include "bending_outlook.h"
 
-#include <math.h>
-
+#include "elementary.h"
 #include "gauss_nodes.h"
 
 /* Exponent of E at which the decay of f is first estimated. */

@@ -1,7 +1,6 @@
 #include "bending_panel.h"
 
-#include <math.h>
-
+#include "elementary.h"
 #include "fast_decay.h"
 
 enum { MAX_CORRECTIONS = 6 };

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "device.h"
+#include "elementary_functions.h"
 
 /* Coefficient mu > 0 [1], stiffness sigma_0 [1/m] and damping sigma_1 [s/m]. */
 typedef struct {
@@ -19,7 +20,7 @@ static inline Bristle bristle_of(const Device *device) {
 /* sigma_0 z after `travel` [m] in one direction (its sign), from `friction` on. */
 static inline double bristle_after(const Bristle *bristle, double friction, double travel) {
     double limit = travel >= 0.0 ? bristle->coefficient : -bristle->coefficient;
-    double bent = expm1(-bristle->stiffness * fabs(travel) / bristle->coefficient);
+    double bent = elementary_expm1(-bristle->stiffness * fabs(travel) / bristle->coefficient);
     return friction - (limit - friction) * bent;
 }
 

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "elementary_functions.h"
+
 typedef struct {
     double re, im;
 } Complex;
@@ -15,7 +17,8 @@ static inline Complex complex_of(double re, double im) {
 
 /* length * exp(i angle) */
 static inline Complex complex_rect(double length, double angle) {
-    return complex_of(length * cos(angle), length * sin(angle));
+    SineCosine of = elementary_sine_cosine(angle);
+    return complex_of(length * of.cosine, length * of.sine);
 }
 
 static inline Complex complex_add(Complex a, Complex b) {
@@ -38,10 +41,8 @@ static inline Complex complex_conj(Complex a) {
     return complex_of(a.re, -a.im);
 }
 
-/* |a|, by hypot only where squares may leave the range of floating point. */
 static inline double complex_abs(Complex a) {
-    double square = a.re * a.re + a.im * a.im;
-    return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(a.re, a.im);
+    return elementary_hypot(a.re, a.im);
 }
 
 /* Smith's division: no overflow where the quotient has none. */

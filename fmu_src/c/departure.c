@@ -1,6 +1,6 @@
 #include "departure.h"
 
-#include <math.h>
+#include "elementary.h"
 
 double departure_time(const Plant *plant, int sign, const State *state, double theta, double chi) {
     double w = plant->drive_frequency, q = plant->normal_frequency;

@@ -1,6 +1,6 @@
 #include "dormand_prince.h"
 
-#include <math.h>
+#include "elementary.h"
 
 /* A step tried: `change` of the velocity and its estimated `error` [m/s], displacement `moved` [m], and
  * the acceleration `last` at the end [m/s^2]. */

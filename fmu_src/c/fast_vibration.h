@@ -6,6 +6,7 @@
 
 #include "complex_number.h"
 #include "device.h"
+#include "elementary_functions.h"
 #include "oscillator.h"
 #include "refusal.h"
 
@@ -18,12 +19,12 @@ typedef struct {
 
 /* Lag theta_1 [rad] of the equivalent `force`; adding 0 makes -0 a 0, which atan2 distinguishes. */
 static inline double force_lag(Complex force) {
-    return -atan2(force.im + 0.0, force.re);
+    return -elementary_atan2(force.im + 0.0, force.re);
 }
 
 /* Velocity amplitude v_q [m/s] that the equivalent `force` [N] gives to the pair. */
 static inline double fast_velocity(const Device *device, Complex force) {
-    return hypot(force.re, force.im) / (device_total_mass(device) * device->drive_frequency);
+    return complex_abs(force) / (device_total_mass(device) * device->drive_frequency);
 }
 
 /* Refuses where undamped resonance leaves no steady vibration. */
@@ -31,7 +32,8 @@ bool fast_vibration_prepare(FastVibration *fast, const Device *device, Refusal *
 
 /* Displacement [m] and velocity [m/s] of `amplitude` e at drive phase `theta` [rad]. */
 static inline Response steady_swing(Complex amplitude, double theta, double frequency) {
-    double sine = sin(theta), cosine = cos(theta);
+    SineCosine turn = elementary_sine_cosine(theta);
+    double sine = turn.sine, cosine = turn.cosine;
     return (Response){amplitude.re * sine + amplitude.im * cosine,
                       frequency * (amplitude.re * cosine - amplitude.im * sine)};
 }

@@ -1,6 +1,6 @@
 #include "forced_oscillator.h"
 
-#include <math.h>
+#include "elementary.h"
 
 /* Horizon of the bounds of responses from rest, as an angle [rad] of the highest frequency: longer than
  * most slides. */

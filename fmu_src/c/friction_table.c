@@ -1,8 +1,8 @@
 #include "friction_table.h"
 
-#include <math.h>
 #include <stdbool.h>
 
+#include "elementary.h"
 #include "state.h"
 
 enum { TABLE_NODES = TABLE_DEGREE + 1, CHECKS = 4 };

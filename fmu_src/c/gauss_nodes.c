@@ -1,7 +1,6 @@
 #include "gauss_nodes.h"
 
-#include <math.h>
-
+#include "elementary.h"
 #include "state.h"
 
 enum { MAX_NEWTON_STEPS = 8 };

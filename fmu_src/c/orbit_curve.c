@@ -1,9 +1,9 @@
 #include "orbit_curve.h"
 
-#include <math.h>
 #include <stddef.h>
 
 #include "contact.h"
+#include "elementary.h"
 #include "orbit_drift.h"
 #include "state.h"
 

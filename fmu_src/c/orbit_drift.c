@@ -1,7 +1,6 @@
 #include "orbit_drift.h"
 
-#include <math.h>
-
+#include "elementary.h"
 #include "state.h"
 
 /* Error of slow motion over the square of the change of V in a period, both in v_q: with the root

@@ -1,6 +1,6 @@
 #include "orbit_equations.h"
 
-#include <math.h>
+#include "elementary.h"
 #include <string.h>
 
 Moment section_of(const OrbitEquations *equations, const Unknowns *unknowns) {

@@ -1,11 +1,15 @@
 #include "orbit_linearisation.h"
 
-#include <math.h>
+#include "elementary.h"
 #include <stddef.h>
 #include <string.h>
 
 /* Decay in a period below which its series serves. */
 #define SMALL_DECAY 1e-3
+
+/* Decay in a period from which on motion is stopped, and not slow: where the slow multiplier goes through 0
+ * its logarithm makes much of rounding, and describes motion no better than none. */
+#define MAX_DECAY 0.5
 
 /* Iterations of the slow multiplier, each of which leaves the share of the coupling that is left,
  * and squarings of a matrix that leave its spectral radius to 1e-7. */
@@ -115,7 +119,7 @@ bool linearise_orbit(double jacobian[UNKNOWNS][UNKNOWNS], int states, OrbitLinea
     *result = (OrbitLinearisation){.slope = -tangent[states], .multiplier = 1.0 - decay};
     memcpy(result->tangent, tangent, (size_t)states * sizeof tangent[0]);
     result->fast_multiplier = fast_multiplier(jacobian, states, left);
-    result->is_slow = decay < 1.0;
+    result->is_slow = decay < MAX_DECAY;
     double stretch = result->is_slow && decay != 0.0 ? -log1p(-decay) / decay : 1.0;
     result->factor = result->is_slow ? gained / moved * stretch : 1.0;
     return !result->is_slow || find_lag(jacobian, states, result);

@@ -22,7 +22,7 @@
 #include "linear_system.h"
 
 /* In the scales of the period map. `factor` is 1 + kappa_m, 1 where `is_slow` is false: there the
- * motion is stopped within a period. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the
+ * motion is stopped within some periods. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the
  * largest of the others in absolute value. `tangent` is x_V, and `lag` xi, 0 where the motion is
  * not slow. */
 typedef struct {

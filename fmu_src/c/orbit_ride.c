@@ -1,9 +1,9 @@
 #include "orbit_ride.h"
 
-#include <math.h>
 #include <stddef.h>
 
 #include "contact.h"
+#include "elementary.h"
 #include "state.h"
 
 /* Rates of the motion over the drive frequency up to which a turn of the drive is resolved often enough to

@@ -1,9 +1,9 @@
 #include "orbit_tables.h"
 
-#include <math.h>
 #include <stddef.h>
 
 #include "contact.h"
+#include "elementary.h"
 #include "state.h"
 
 static bool same_device(const Device *a, const Device *b) {

@@ -1,7 +1,7 @@
 #include "oscillator.h"
 
 #include <float.h>
-#include <math.h>
+#include "elementary.h"
 
 /* Damping ratio below which the complex eigenvalue is used; hyperbolic forms are used above. */
 #define OSCILLATORY 0.9
@@ -45,7 +45,8 @@ Response free_response(const Oscillator *oscillator, double t) {
     double difference = stiffness - decay * decay;
     if (difference > 0.0) {
         double damped = sqrt(difference), envelope = exp(-decay * t);
-        return (Response){envelope * cos(damped * t), envelope * sin(damped * t) / damped};
+        SineCosine turn = elementary_sine_cosine(damped * t);
+        return (Response){envelope * turn.cosine, envelope * turn.sine / damped};
     }
     double spread = sqrt(-difference);
     double slow = decay > 0.0 ? exp(-stiffness / (decay + spread) * t) : 1.0;

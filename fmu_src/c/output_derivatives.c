@@ -1,8 +1,8 @@
 #include "output_derivatives.h"
 
-#include <math.h>
 #include <stddef.h>
 
+#include "elementary.h"
 #include "fast_vibration.h"
 #include "variables.h"
 

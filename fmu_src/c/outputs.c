@@ -1,8 +1,8 @@
 #include "outputs.h"
 
-#include <math.h>
 #include <stddef.h>
 
+#include "elementary.h"
 #include "fast_vibration.h"
 #include "prediction.h"
 #include "slow_phase.h"

@@ -1,10 +1,10 @@
 #include "period_map.h"
 
-#include <math.h>
 #include <stddef.h>
 
 #include "angle.h"
 #include "contact.h"
+#include "elementary.h"
 #include "events.h"
 #include "friction_law.h"
 #include "state.h"

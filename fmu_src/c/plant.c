@@ -1,7 +1,6 @@
 #include "plant.h"
 
-#include <math.h>
-
+#include "elementary.h"
 #include "refusal_texts.h"
 #include "state.h"
 

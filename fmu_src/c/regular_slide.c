@@ -1,6 +1,6 @@
 #include "regular_slide.h"
 
-#include <math.h>
+#include "elementary.h"
 
 /* Lower limit of frequencies in the scale of velocities, as a share of the fastest one. */
 #define SLOWEST 0.02

@@ -1,7 +1,6 @@
 #include "resolved_start.h"
 
-#include <math.h>
-
+#include "elementary.h"
 #include "slow_motion_error.h"
 #include "state.h"
 

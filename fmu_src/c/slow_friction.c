@@ -1,7 +1,6 @@
 #include "slow_friction.h"
 
-#include <math.h>
-
+#include "elementary.h"
 #include "friction_law.h"
 #include "slow_phase.h"
 #include "state.h"

@@ -1,10 +1,9 @@
 #include "slow_motion.h"
 
-#include <math.h>
-
 #include "angle.h"
 #include "constants.h"
 #include "dormand_prince.h"
+#include "elementary.h"
 #include "slow_friction.h"
 #include "slow_pass.h"
 

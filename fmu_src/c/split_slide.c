@@ -1,6 +1,6 @@
 #include "split_slide.h"
 
-#include <math.h>
+#include "elementary.h"
 #include <stddef.h>
 
 #include "split_turns.h"

@@ -1,9 +1,9 @@
 #include "steady_orbit.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "elementary.h"
 #include "state.h"
 
 /* Number of velocities at which steady motion is looked for, and largest number of halvings between two. */

@@ -1,6 +1,6 @@
 #include "stick.h"
 
-#include <math.h>
+#include "elementary.h"
 
 void stick_begin(Stick *stick, const Plant *plant, const State *state, double theta, double chi) {
     double w = plant->drive_frequency, q = plant->normal_frequency;

@@ -1,7 +1,6 @@
 #include "vibrating_load.h"
 
-#include <math.h>
-
+#include "elementary.h"
 #include "state.h"
 
 static double in_turn(const VibratingLoad *load, double angle) {

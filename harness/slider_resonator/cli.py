@@ -19,6 +19,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.limits import DEFAULTS, MEMORY, UNPACKED
 from slider_resonator.output.console import exit_with, open_closed_streams
 from slider_resonator.output.fitting_help import FittingHelp
+from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.terminal import escaped, indented
 
@@ -109,12 +110,17 @@ def _prints_json(arguments: Sequence[str]) -> bool:
     )
 
 
+def _echo(message: str) -> None:
+    """Print a message on stderr, wrapped where that is a terminal."""
+    click.echo(fitting(message, terminal_width(err=True)).rstrip("\n"), err=True)
+
+
 def _report(error: BaseException) -> str:
     """Print the error message on stderr and return it."""
     if isinstance(error, click.ClickException):
         shown = StringIO()
         error.show(shown)
-        click.echo(escaped(shown.getvalue()), err=True, nl=False)
+        _echo(escaped(shown.getvalue()))
         return error.format_message()
     if isinstance(error, KeyboardInterrupt):
         message = "\n".join(["interrupted", *getattr(error, "__notes__", [])])
@@ -125,7 +131,7 @@ def _report(error: BaseException) -> str:
     else:
         click.echo(escaped("".join(traceback.format_exception(error))), err=True, nl=False)
         return f"internal error: {error!r}"
-    click.echo(indented(message), err=True)
+    _echo(indented(message))
     return message.removeprefix("error: ")
 
 

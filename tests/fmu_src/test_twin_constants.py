@@ -18,8 +18,12 @@ OTHER_NAMES = {
 }
 """C constant -> Python constant, where the names differ."""
 
-MODULES_ONLY_IN_C = {"bending_kernels", "bending_outlook", "bending_panel", "gauss_nodes"}
-"""Panels of bending bristles: the Python twin follows these by series."""
+MODULES_ONLY_IN_C = {
+    *("bending_kernels", "bending_outlook", "bending_panel", "gauss_nodes"),
+    "elementary",
+}
+"""Panels of bending bristles, which the Python twin follows by series, and functions that it takes
+from Python."""
 
 ONLY_IN_C = {
     # Sizes of arrays and buffers, formats of bytes and texts.

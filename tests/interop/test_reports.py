@@ -30,8 +30,12 @@ from slider_resonator.studies.sweep.grid import grid_from
 from slider_resonator.studies.sweep.page import write_sweep_page
 from slider_resonator.studies.sweep.sweeping import run_sweep
 from slider_resonator.studies.trade.page import write_trades
+from slider_resonator.trials.campaign.page import write_campaigns
+from slider_resonator.trials.extremes.page import write_matrix_page
 from tests.harness.known_provenance import PROVENANCE
 from tests.harness.studies.trade.test_needs import TRADE
+from tests.harness.trials.campaign.test_page import CAMPAIGN
+from tests.harness.trials.extremes.test_page import MATRIX
 
 pytestmark = pytest.mark.interop
 
@@ -126,6 +130,25 @@ def test_trade(browser: Chrome, tmp_path: Path) -> None:
     text = hovered(browser)
     assert "CPU time" in text
     assert "error: " in text
+
+
+def test_campaign(browser: Chrome, tmp_path: Path) -> None:
+    page = tmp_path / "campaign.html"
+    write_campaigns(page, [CAMPAIGN], PROVENANCE)
+    assert opened(browser, page) == 1
+    text = hovered(browser)
+    assert "largest error over its tolerance [1]: " in text
+    assert "slider-resonator campaign " in text
+
+
+def test_extremes(browser: Chrome, tmp_path: Path) -> None:
+    page = tmp_path / "index.html"
+    write_matrix_page(page, [MATRIX], PROVENANCE)
+    assert opened(browser, page) == 1
+    assert "largest deviation over its bound [1]: " in hovered(browser)
+    cells = browser.find_elements("css selector", ".matrix td[title]")
+    assert [cell.text for cell in cells] == ["", "F", "r"]
+    assert all(cell.size["height"] > 10 for cell in cells)
 
 
 @pytest.mark.parametrize("phases", [3, 9])

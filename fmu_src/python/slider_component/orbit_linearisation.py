@@ -29,6 +29,13 @@ MULTIPLIER_ITERATIONS = 6
 SMALL_DECAY = 1e-3
 """Decay in a period below which its series serves."""
 
+MAX_DECAY = 0.5
+"""Decay in a period from which on motion is stopped, and not slow.
+
+Where the slow multiplier goes through 0 its logarithm makes much of rounding, and describes motion
+no better than none.
+"""
+
 SQUARINGS = 24
 """Squarings of a matrix that leave its spectral radius to 1e-7."""
 
@@ -37,8 +44,8 @@ SQUARINGS = 24
 class OrbitLinearisation:
     """The slow and the fast part of the departure, in the scales of the period map.
 
-    `factor` is 1 + kappa_m, 1 where `is_slow` is false: there the motion is stopped within a
-    period. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the largest of the others in
+    `factor` is 1 + kappa_m, 1 where `is_slow` is false: there the motion is stopped within some
+    periods. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the largest of the others in
     absolute value. `tangent` is x_V, and `lag` xi, 0 where the motion is not slow.
     """
 
@@ -64,7 +71,7 @@ def linearised(jacobian: Matrix) -> OrbitLinearisation | None:
     left, decay = slow
     gained = -sum(left[i] * jacobian[i][states] for i in range(states))
     moved = sum(left[i] * tangent[i] for i in range(states))
-    is_slow = decay < 1.0
+    is_slow = decay < MAX_DECAY
     lag = _lag(jacobian, decay, tangent) if is_slow else [0.0] * states
     if lag is None:
         return None

@@ -18,7 +18,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import progress_bar
+from slider_resonator.output.console import nothing_kept, noting_on_interrupt, progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
@@ -47,7 +47,11 @@ def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bo
     """
     path = default_fmu(fmu)
     provenance = provenance_of(path)
-    with progress_bar() as progress, open_fmu(path) as opened:
+    with (
+        noting_on_interrupt(nothing_kept),
+        progress_bar() as progress,
+        open_fmu(path) as opened,
+    ):
         if not opened.runs_without_python:
             raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host lacks")
         costs = measure_steps(opened.path, repeats, progress, time_limit)

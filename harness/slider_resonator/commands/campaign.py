@@ -17,9 +17,11 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.console import noting_on_interrupt, part_of, progress_bar
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.targets import distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.campaign.campaign_run import TIME_LIMIT, Campaign, run_campaign
 from slider_resonator.trials.campaign.listing import as_plain, sentences
@@ -61,6 +63,7 @@ from slider_resonator.trials.campaign.random_case import random_case
 )
 @time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.")
 @click.option("--out", type=Target((".json",)), help="Write the result as JSON, too.")
+@click.option("--html", type=Target((".html",)), help="One page with plots to point at.")
 @json_option
 @click.pass_context
 def campaign_command(
@@ -72,6 +75,7 @@ def campaign_command(
     number: int | None,
     time_limit: float,
     out: Path | None,
+    html: Path | None,
     as_json: bool,
 ) -> None:
     """Run FMUs with random devices and schedules, and compare them with the references.
@@ -81,41 +85,52 @@ def campaign_command(
     judged by the errors that its numerics state, and averages of second order, against resolved
     motion, by what they may lag behind it and slow_motion_error, too. Without FMUS: those in dist.
     Exit code: 0 when no case fails, 1 when one does, 2 when an FMU could not run. What is finished
-    when the command is interrupted is written to --out.
+    when the command is interrupted is written to --out and --html.
 
     \b
     Examples:
-      slider-resonator campaign --cases 10000 --out campaign.json
+      slider-resonator campaign --cases 10000 --out campaign.json --html campaign.html
       slider-resonator campaign my.fmu --seed 1 --case 44
     """
     chosen = fmus or default_fmus()
+    distinct({"--out": out, "--html": html}, {f"the FMU {path}": path for path in chosen})
     for path in chosen:
         with open_fmu(path):  # before any campaign runs: one takes minutes
             pass
     numbers = range(first, first + cases) if number is None else (number,)
     random_cases = [random_case(seed, one) for one in numbers]
+    provenance = provenance_of(*chosen)
     finished: list[Campaign] = []
+    files = [path for path in (out, html) if path is not None]
 
     def keep(campaign: Campaign) -> None:
         finished.append(campaign)
         if out is not None:
-            write_text(out, to_json(as_plain(finished)))
+            write_text(out, to_json(as_plain(finished), provenance))
+        if html is not None:
+            # Imported here: it takes longer to load than a case to run.
+            from slider_resonator.trials.campaign.page import write_campaigns
 
-    with noting_on_interrupt(partial(_kept, finished, out)), progress_bar() as progress:
+            write_campaigns(html, finished, provenance)
+
+    with noting_on_interrupt(partial(_kept, finished, files)), progress_bar() as progress:
         for index, fmu in enumerate(chosen):
             part = part_of(progress, index, len(chosen))
             keep(run_campaign(fmu, random_cases, part, time_limit, keep))
     lines = [
         sentences(campaign, random_cases if number is not None else ()) for campaign in finished
     ]
-    if out is not None:
-        lines.append(f"written {one_line(str(out))}")
-    print_result(as_plain(finished), "\n".join(lines), as_json=as_json)
+    lines += [f"written {one_line(str(path))}" for path in files]
+    text = "\n".join(lines)
+    print_result(as_plain(finished), text, as_json=as_json, provenance=provenance)
     context.exit(0 if all(campaign.passed for campaign in finished) else 1)
 
 
-def _kept(finished: Sequence[Campaign], out: Path | None) -> str:
-    if not finished or out is None:
+def _kept(finished: Sequence[Campaign], files: Sequence[Path]) -> str:
+    if not finished or not files:
         return "nothing is kept; --out FILE keeps what is finished"
     ran = sum(len(campaign.verdicts) for campaign in finished)
-    return f"the verdicts of {ran} cases are kept in {out}; the same command runs all cases again"
+    places = " and ".join(map(str, files))
+    return (
+        f"the verdicts of {ran} cases are kept in {places}; the same command runs all cases again"
+    )

@@ -17,7 +17,13 @@ from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import replacing
-from slider_resonator.output.console import counted, part_of, progress_bar
+from slider_resonator.output.console import (
+    counted,
+    nothing_kept,
+    noting_on_interrupt,
+    part_of,
+    progress_bar,
+)
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
@@ -91,7 +97,7 @@ def closed_loop_command(
     agreements: list[Agreement] = []
     records: list[LoopRecord] = []
     hosts = [host for host in HOSTS if host.name in (chosen or NAMES[:1])]
-    with progress_bar() as progress:
+    with noting_on_interrupt(nothing_kept), progress_bar() as progress:
         for index, host in enumerate(hosts):
             part = part_of(progress, index, len(hosts))
             share = partial(part, counted(host.name, index, len(hosts)))

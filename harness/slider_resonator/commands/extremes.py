@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
@@ -16,11 +17,13 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result
+from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, part_of, progress_bar
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
+from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.listing import as_plain, write_matrices
 from slider_resonator.trials.extremes.matrix import all_cells
 from slider_resonator.trials.extremes.run import TIME_LIMIT, Matrix, run_matrix
@@ -29,7 +32,7 @@ from slider_resonator.trials.extremes.verdict import PASSED
 
 @click.command("extremes", short_help="Run FMUs at the extremes of every parameter and input.")
 @fmus_argument
-@out_folder_option("extremes.json, extremes.md and a picture for each FMU")
+@out_folder_option("extremes.json, extremes.md, index.html and a picture for each FMU")
 @time_limit_option(TIME_LIMIT, "For each cell; one that hangs fails.", "--limit")
 @click.option(
     "--long",
@@ -38,6 +41,7 @@ from slider_resonator.trials.extremes.verdict import PASSED
     "1e6: minutes each in the native FMU, so give slower ones a --time-limit. Averaged motion "
     "always has 1e8.",
 )
+@click.option("--cell", "name", metavar="NAME", help="Run only the cell of this name.")
 @json_option
 @click.pass_context
 def extremes_command(
@@ -46,6 +50,7 @@ def extremes_command(
     out: Path,
     time_limit: float,
     long: bool,
+    name: str | None,
     as_json: bool,
 ) -> None:
     """Run FMUs at the extremes of every parameter, input and step, and check them by physics.
@@ -59,13 +64,14 @@ def extremes_command(
     Examples:
       slider-resonator extremes --out extremes
       slider-resonator extremes my.fmu --out extremes --json
+      slider-resonator extremes my.fmu --out one_cell --cell "r_m: 1e-12: Coulomb, fidelity 1"
     """
     chosen = fmus or default_fmus()
     for path in chosen:
         with open_fmu(path):  # before any matrix runs: one takes minutes
             pass
+    cells = _chosen(all_cells(long=long), name)
     make_folder(out)
-    cells = all_cells(long=long)
     provenance = provenance_of(*chosen)
     matrices: list[Matrix] = []
 
@@ -81,6 +87,19 @@ def extremes_command(
     text = "\n".join(lines)
     print_result(as_plain(matrices), text, as_json=as_json, provenance=provenance)
     context.exit(0 if all(matrix.passed for matrix in matrices) else 1)
+
+
+def _chosen(cells: Sequence[MatrixCell], name: str | None) -> Sequence[MatrixCell]:
+    """Return all cells, or the one of that name; HarnessError when there is none."""
+    chosen = [cell for cell in cells if name in (None, cell.name)]
+    if not chosen:
+        near = get_close_matches(name or "", [cell.name for cell in cells], n=1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise HarnessError(
+            f"--cell {name!r} refused: must be AXIS: VALUE: MODEL of a cell, as in extremes.json"
+            f"{hint}"
+        )
+    return chosen
 
 
 def _kept(matrices: Sequence[Matrix], out: Path) -> str:

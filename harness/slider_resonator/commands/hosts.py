@@ -17,7 +17,12 @@ from slider_resonator.commands.results import print_json, print_table, print_tex
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import counted, progress_bar
+from slider_resonator.output.console import (
+    counted,
+    nothing_kept,
+    noting_on_interrupt,
+    progress_bar,
+)
 from slider_resonator.output.table import Table, texts, verdict
 from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
 from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
@@ -104,7 +109,7 @@ def hosts_command(
     selected = [host for host in selected if host not in missing]
     provenance = provenance_of(native, python_fmu)
     results: list[HostResult] = []
-    with progress_bar() as progress:
+    with noting_on_interrupt(nothing_kept), progress_bar() as progress:
         for index, host in enumerate(selected):
             progress(counted(host.name, index, len(selected)), index / len(selected))
             results += run_host(host, everyone[0], native, python_fmu, fmi3_fmu, time_limit)

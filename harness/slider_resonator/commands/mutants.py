@@ -18,7 +18,12 @@ from slider_resonator.commands.results import print_json
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import output, progress_bar
+from slider_resonator.output.console import (
+    nothing_kept,
+    noting_on_interrupt,
+    output,
+    progress_bar,
+)
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene import files_of_scenes
 from slider_resonator.studies.sweep.local import available_cores
@@ -171,7 +176,7 @@ def mutants_command(
         else:
             print_mutants(output(), chosen)
         return
-    with progress_bar() as progress:
+    with noting_on_interrupt(nothing_kept), progress_bar() as progress:
         run = run_mutants(
             path,
             original,
@@ -222,7 +227,7 @@ def _native(
             print_changes(output(), changes)
         return 0
     provenance = provenance_of(path)
-    with progress_bar() as progress:
+    with noting_on_interrupt(nothing_kept), progress_bar() as progress:
         run = run_changes(
             path,
             changes,

@@ -18,6 +18,7 @@ from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.checks.verdict import place
 from slider_resonator.commands.options import Target
 from slider_resonator.output.console import output
+from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.targets import distinct
 from slider_resonator.output.terminal import indented
 
@@ -121,4 +122,5 @@ def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:
     for failure in run_failures:
         scene = f"{failure.scene}{place(failure.at, ' at ')}"
         where = f"{fmu}: scene {scene}: " if failure.scene else ""
-        click.echo(indented(f"error: {where}{failure.reason}"), err=True)
+        message = indented(f"error: {where}{failure.reason}")
+        click.echo(fitting(message, terminal_width(err=True)), err=True)

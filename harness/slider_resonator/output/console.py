@@ -71,6 +71,11 @@ def noting_on_interrupt(note: Callable[[], str]) -> Iterator[None]:
         raise
 
 
+def nothing_kept() -> str:
+    """Return the note of commands that write at their end."""
+    return "nothing is kept"
+
+
 MIN_SHARE = 0.02
 """Share of the work from which on the time left is estimated."""
 

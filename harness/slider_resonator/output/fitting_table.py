@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import rich.table
 from rich import box
@@ -26,6 +27,12 @@ MIN_PROSE = 20
 BETWEEN = 2
 """Columns between two columns of a table: padding and divider."""
 INDENT = "  "
+_UNIT = r"(?:[num]?s|min|h|[um]?m|[um]?m/s|m?N|N/s|kg|rad|rad/s|deg|k?Hz|1/m|s/m|[kM]B|[kMG]iB|%)"
+_BEFORE_UNIT = re.compile(
+    rf"(?<=\d) (?=(?:{_UNIT}|drive periods?)(?![\w/]))|(?<=\d drive) (?=periods?\b)"
+)
+"""The spaces between a number and its unit."""
+_NO_BREAK = "\N{NO-BREAK SPACE}"
 
 
 @dataclass(frozen=True)
@@ -48,11 +55,14 @@ class FittingTable:
 
 
 def words(text: str, width: int, indent: str = "") -> str:
-    """Return the text wrapped between words; one that is too long stays whole."""
+    """Return the text wrapped between words; one that is too long stays whole.
+
+    A number and its unit are one word.
+    """
     lines = text.splitlines() or [""]
-    return "\n".join(
+    wrapped = "\n".join(
         textwrap.fill(
-            line,
+            _BEFORE_UNIT.sub(_NO_BREAK, line),
             max(width, 1),
             subsequent_indent=indent,
             break_long_words=False,
@@ -60,6 +70,7 @@ def words(text: str, width: int, indent: str = "") -> str:
         )
         for line in lines
     )
+    return wrapped.replace(_NO_BREAK, " ")
 
 
 def aligned(table: Table) -> Iterator[Text]:
@@ -102,7 +113,8 @@ def _width(texts: Sequence[str]) -> int:
 
 
 def _longest_word(column: Column, cells: Sequence[Cell]) -> int:
-    every = (word for text in (column.heading, *(c.text for c in cells)) for word in text.split())
+    texts = (column.heading, *(cell.text for cell in cells))
+    every = (word for text in texts for word in _BEFORE_UNIT.sub("_", text).split())
     return max(map(cell_len, every), default=0)
 
 
@@ -114,7 +126,12 @@ def _columns(table: Table, widths: Sequence[int]) -> rich.table.Table:
     for row in table.cells:
         if row[0].style is Style.HEADING:
             shown.add_section()
-        shown.add_row(*map(_text, row))
+        shown.add_row(
+            *(
+                _text(replace(cell, text=words(cell.text, width)))
+                for cell, width in zip(row, widths[: len(row)], strict=True)
+            )
+        )
     return shown
 
 

@@ -40,6 +40,21 @@ def test_results_are_written(
     assert verdicts == ["passed", "refused by name"]
     assert "friction_coefficient = 0.0 refused" in (out / "extremes.md").read_text(encoding="utf-8")
     assert (out / "extremes_SliderResonator.png").read_bytes().startswith(b"\x89PNG")
+    assert "friction_coefficient = 0.0 refused" in (out / "index.html").read_text(encoding="utf-8")
+
+
+def test_one_cell_is_run_by_its_name(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cells, options = [GOOD, WRONG], (native_fmu, "--out", tmp_path / "out", "--cell")
+    code, text = extremes_of(monkeypatch, cells, *options, GOOD.name)
+    assert code == 0, text
+    assert "1 cells: 1 passed" in text
+    code, text = extremes_of(monkeypatch, cells, *options, GOOD.name.replace(",", ""))
+    assert code == 2
+    words = " ".join(text.split())
+    assert "refused: must be AXIS: VALUE: MODEL of a cell" in words
+    assert f"did you mean '{GOOD.name}'?" in words
 
 
 def test_a_failed_cell_exits_with_1(

@@ -13,6 +13,7 @@ from slider_resonator.output.atomic import replacing, write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Column, Row, Table, texts
 from slider_resonator.output.targets import make_folder
+from slider_resonator.trials.extremes.page import write_matrix_page
 from slider_resonator.trials.extremes.picture import draw_matrix
 from slider_resonator.trials.extremes.run import Matrix
 from slider_resonator.trials.extremes.verdict import PASSED, CellVerdict
@@ -24,7 +25,7 @@ AXIS_COLUMNS = (
 
 
 def write_matrices(matrices: Sequence[Matrix], out: Path, provenance: Provenance) -> None:
-    """Write extremes.json, extremes.md and a picture for each FMU into a folder.
+    """Write extremes.json, extremes.md, index.html and a picture for each FMU into a folder.
 
     Raises HarnessError when that is impossible.
     """
@@ -36,6 +37,7 @@ def write_matrices(matrices: Sequence[Matrix], out: Path, provenance: Provenance
     parts = ["# Stability at the extremes", *(_page(matrix) for matrix in matrices)]
     parts += [f"## {HEADING}", provenance_markdown(provenance)]
     write_text(out / "extremes.md", "\n\n".join(parts) + "\n")
+    write_matrix_page(out / "index.html", matrices, provenance)
 
 
 def as_plain(matrices: Sequence[Matrix]) -> dict[str, object]:

@@ -60,7 +60,8 @@ def margin(verdict: CellVerdict) -> float:
     return min(max(math.log10(found), FAR), NEAR) if found > 0.0 else FAR
 
 
-def _colour(verdict: CellVerdict) -> tuple[float, float, float, float] | str:
+def cell_colour(verdict: CellVerdict) -> tuple[float, float, float, float] | str:
+    """Return the colour of a cell: shaded by its margin where it passed."""
     if verdict.verdict == PASSED:
         return SHADES((margin(verdict) - FAR) / (NEAR - FAR))
     return {REFUSED: REFUSED_COLOUR, FAILED: FAILED_COLOUR}[verdict.verdict]
@@ -107,7 +108,7 @@ def _draw_block(axes: Axes, block: Groups, rows: float) -> None:
             axes.text(-0.3, top + row + 0.5, value, **_small("right", "0.2"))
         for one in group:
             corner = places[one.model] + 0.04, top + values.index(one.value) + 0.06
-            axes.add_patch(Rectangle(corner, 0.92, 0.88, color=_colour(one), linewidth=0.0))
+            axes.add_patch(Rectangle(corner, 0.92, 0.88, color=cell_colour(one), linewidth=0.0))
         top += len(values)
     axes.set_xlim(-LABEL, len(MODELS) + GAP)
     axes.set_ylim(rows, 0.0)

@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.text import Text
 
 from slider_resonator.output.fitting_table import STYLES
+from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import escaped, rendered
 from slider_resonator.trials.mutants.mutant import KINDS, Mutant
@@ -29,7 +30,8 @@ def print_run(console: Console, run: MutationRun) -> None:
         console.print(heading, reason, Text(escaped(verdict.mutant.diff)), sep="\n")
     for status, meaning in STATUSES.items():
         console.print(f"{status:12} {run.counts[status]:5}  {meaning}")
-    console.print(escaped(summary(run)), markup=False, soft_wrap=True)
+    words = fitting(escaped(summary(run)), terminal_width())
+    console.print(words, markup=False, soft_wrap=True)
 
 
 def summary(run: MutationRun) -> str:

@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.text import Text
 
 from slider_resonator.output.fitting_table import STYLES
+from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import escaped, rendered
 from slider_resonator.trials.mutants.native.changes import Change
@@ -33,7 +34,7 @@ def print_native_run(console: Console, run: NativeRun) -> None:
     for verdict in run.false_alarms:
         where = f"{verdict.scene}: {verdict.quantity}: {verdict.reason}"
         _print_verdict(console, "FALSE ALARM ", Style.FAIL, verdict, where)
-    console.print(summary(run), markup=False, soft_wrap=True)
+    console.print(fitting(summary(run), terminal_width()), markup=False, soft_wrap=True)
 
 
 def summary(run: NativeRun) -> str:

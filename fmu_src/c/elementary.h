@@ -1,0 +1,22 @@
+/* <math.h> with elementary functions that give the same bits on every platform, for .c files only: its
+ * macros would reach whoever includes a header. */
+#ifndef SLIDER_ELEMENTARY_H
+#define SLIDER_ELEMENTARY_H
+
+#include <math.h>
+
+#include "elementary_functions.h"
+
+#define sin(x) elementary_sin(x)
+#define cos(x) elementary_cos(x)
+#define asin(x) elementary_asin(x)
+#define acos(x) elementary_acos(x)
+#define atan2(a, b) elementary_atan2(a, b)
+#define hypot(a, b) elementary_hypot(a, b)
+#define exp(x) elementary_exp(x)
+#define expm1(x) elementary_expm1(x)
+#define log(x) elementary_log(x)
+#define log1p(x) elementary_log1p(x)
+#define pow(a, b) elementary_pow(a, b)
+
+#endif

@@ -1,0 +1,111 @@
+"""Commands on a pseudo terminal: lines that fit, progress, and an interruption by Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+pty = pytest.importorskip("pty", reason="pseudo terminals are of Unix")
+
+WIDTH = 60
+SECONDS = 120.0
+"""After which a command counts as hanging."""
+CONTROL = re.compile(r"\x1b\[[0-9;?]*[a-zA-Z]")
+ERASED = "\x1b[2K"
+"""Erases a line, as each frame of a progress bar does."""
+LONG = "a_folder_with_a_long_name_that_is_not_there"
+
+
+def on_terminal(*arguments: object, interrupt_at: str = "") -> tuple[int, str]:
+    """Run a command; return its exit code and what it showed, less control sequences.
+
+    Ctrl-C is pressed as soon as it shows `interrupt_at`.
+    """
+    child, screen = pty.fork()
+    if child == 0:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        # Without COLUMNS, which the line editor of the interpreter may have set behind its back.
+        environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+        command = [sys.executable, "-c", SIZED, *map(str, arguments)]
+        os.execve(sys.executable, command, environment | {"TERM": "xterm"})
+    shown, pressed, began = "", False, time.monotonic()
+    while time.monotonic() - began < SECONDS:
+        try:
+            read = os.read(screen, 65536)
+        except OSError:  # the other end is closed
+            break
+        if not read:
+            break
+        shown += CONTROL.sub("", read.decode(errors="replace").replace(ERASED, "\r"))
+        if interrupt_at and not pressed and interrupt_at in shown:
+            os.write(screen, b"\x03")
+            pressed = True
+    else:
+        os.kill(child, signal.SIGKILL)
+    _, status = os.waitpid(child, 0)
+    os.close(screen)
+    return os.waitstatus_to_exitcode(status), shown
+
+
+SIZED = f"""
+import fcntl, struct, sys, termios
+fcntl.ioctl(1, termios.TIOCSWINSZ, struct.pack("HHHH", 50, {WIDTH}, 0, 0))
+from slider_resonator.cli import main
+sys.argv[0] = "slider-resonator"
+main()
+"""
+
+
+def lines(shown: str) -> list[str]:
+    """The lines that stay, each as it is after the last return of the carriage."""
+    return [line.rstrip("\r").rsplit("\r", 1)[-1].rstrip() for line in shown.split("\n")]
+
+
+def test_an_error_is_wrapped_between_words() -> None:
+    code, shown = on_terminal("scenes", "--check", f"{LONG}/scene.toml")
+    assert code == 2, shown
+    assert f"{LONG}/scene.toml" in shown, "the name is whole"
+    assert all(len(line) <= WIDTH for line in lines(shown)), shown
+
+
+def test_an_interrupted_campaign_says_what_is_kept(native_fmu: Path, tmp_path: Path) -> None:
+    out = tmp_path / "campaign.json"
+    arguments = ("campaign", native_fmu, "--cases", 1000, "--out", out)
+    code, shown = on_terminal(*arguments, interrupt_at="4 of 1000: ")
+    assert code == 130, shown
+    assert "interrupted" in lines(shown)
+    words = " ".join(shown.split("interrupted", 1)[1].split())
+    assert re.match(rf"the verdicts of \d+ cases are kept in {re.escape(str(out))};", words), shown
+    long = [line for line in lines(shown.split("interrupted", 1)[1]) if len(line) > WIDTH]
+    assert all(str(out) in line for line in long), "only a path may be longer than a line"
+    assert out.is_file()
+
+
+def test_an_interrupted_build_ends_with_130(tmp_path: Path) -> None:
+    code, shown = on_terminal("build", "--out", tmp_path, interrupt_at="compiling")
+    assert code == 130, shown
+    assert "Traceback" not in shown
+    assert "interrupted" in shown
+
+
+def test_an_interrupted_loop_says_that_nothing_is_kept(
+    closed_loop_package: Path, tmp_path: Path
+) -> None:
+    arguments = ("closed-loop", closed_loop_package, "--out", tmp_path / "out")
+    code, shown = on_terminal(*arguments, interrupt_at="1 of 1: ")
+    assert code == 130, shown
+    assert shown.split("interrupted", 1)[1].split() == ["nothing", "is", "kept"]
+
+
+def test_progress_has_a_number_and_stays_on_its_line(native_fmu: Path) -> None:
+    code, shown = on_terminal("campaign", native_fmu, "--cases", 8)
+    assert code == 0, shown
+    assert re.search(r"8 of 8: .* 0:\d\d:\d\d", shown), "N of M, and the time"
+    frames = [frame.strip() for frame in re.split(r"[\r\n]", shown) if " of 8: " in frame]
+    assert max(map(len, frames)) <= WIDTH, shown
