@@ -64,7 +64,7 @@ def test_what_scenes_do_not_see_survives_with_a_reason(
     survivor, unreached = run.verdicts
     assert survivor.status == SURVIVED
     assert "probe_" in survivor.reason
-    assert "the 1 scenes that execute the statement pass" in survivor.reason
+    assert "the 1 scenes that execute it pass" in survivor.reason
     assert unreached.status == NOT_REACHED
     assert run.rate == 0.0
 
