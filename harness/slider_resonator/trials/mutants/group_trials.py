@@ -34,44 +34,57 @@ Try = Callable[[Sequence[Member], Sequence[int]], Outcome[Member]]
 
 
 def rejected_members(
-    attempt: Try[Member], points: Mapping[Member, Sequence[int]], order: Sequence[int]
-) -> dict[Member, Rejection]:
-    """Return the members that are rejected at one of their `points`, tried in the given order."""
-    rejected: dict[Member, Rejection] = {}
+    attempt: Try[Member],
+    points: Mapping[Member, Sequence[int]],
+    order: Sequence[int],
+    report: Callable[[Member, Rejection], None],
+) -> set[Member]:
+    """Return the members that are rejected at one of their `points`, tried in the given order.
+
+    `report` is called with each and its rejection as soon as it is found.
+    """
+    rejected: set[Member] = set()
     hidden: dict[Member, list[int]] = {}
 
-    def at(point: int) -> list[Member]:
-        return [m for m in points if m not in rejected and point in points[m]]
-
-    def note(outcome: Outcome[Member], tried: Sequence[Member]) -> None:
+    def tried(members: Sequence[Member], at: Sequence[int]) -> Outcome[Member]:
+        outcome = attempt(members, at)
         for point, took_part in outcome.passed.items():
-            for member in tried if len(tried) > 1 else ():
+            for member in members if len(members) > 1 else ():
                 if point in points[member] and member not in took_part:
                     hidden.setdefault(member, []).append(point)
+        return outcome
 
     def find(members: Sequence[Member], point: int, rejection: Rejection) -> None:
         if len(members) == 1:
-            rejected[members[0]] = rejection
+            rejected.add(members[0])
+            report(members[0], rejection)
             return
-        half = len(members) // 2
-        for some in (members[:half], members[half:]):
-            outcome = attempt(some, [point])
-            note(outcome, some)
+        for some in _halves(members):
+            outcome = tried(some, [point])
             if outcome.rejection is not None:
                 find(some, point, outcome.rejection)
 
-    left = [point for point in order if at(point)]
-    while left:
-        members = [m for m in points if m not in rejected]
-        outcome = attempt(members, left)
-        note(outcome, members)
+    def again(members: Sequence[Member], at: Mapping[Member, Sequence[int]]) -> None:
+        for some in _halves(members):
+            own = {member: at[member] for member in some}
+            rejected.update(rejected_members(attempt, own, order, report))
+
+    members, left = list(points), list(order)
+    while left := [point for point in left if any(point in points[m] for m in members)]:
+        outcome = tried(members, left)
         if outcome.rejection is None:
             break
         point = left[0] if outcome.at is None else outcome.at
-        find(at(point), point, outcome.rejection)
-        left = [later for later in left[left.index(point) + 1 :] if at(later)]
-    waiting = [member for member in hidden if member not in rejected]
-    half = (len(waiting) + 1) // 2
-    for some in filter(None, (waiting[:half], waiting[half:])):
-        rejected |= rejected_members(attempt, {m: hidden[m] for m in some}, order)
+        find([m for m in members if point in points[m]], point, outcome.rejection)
+        left = left[left.index(point) + 1 :]
+        if rejected.isdisjoint(members):  # they fail together only, and would at other points
+            again(members, {m: [p for p in left if p in points[m]] for m in members})
+            break
+        members = [m for m in members if m not in rejected]
+    again([member for member in hidden if member not in rejected], hidden)
     return rejected
+
+
+def _halves(members: Sequence[Member]) -> list[Sequence[Member]]:
+    half = (len(members) + 1) // 2
+    return [some for some in (members[:half], members[half:]) if some]

@@ -7,7 +7,8 @@ original's.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+import threading
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 
 from slider_resonator.output.temporary import temporary_folder
@@ -71,15 +72,20 @@ class StagedTrials:
                 keep(verdict)
             else:
                 left[mutant] = others
-        passed = []
-        for group, rejected in self._in_groups(left, self._scenes):
-            passed += [mutant for mutant in group if mutant not in rejected]
-            for mutant, rejection in rejected.items():
+        lock = threading.Lock()
+
+        def reject(mutant: Mutant, rejection: Rejection) -> None:
+            with lock:
                 keep(_rejected(mutant, rejection))
+
+        def differ(mutant: Mutant, rejection: Rejection) -> None:
+            with lock:
+                keep(self._survivor(mutant, rejection))
+
+        passed = self._in_groups(left, self._scenes, reject)
         probes = {mutant: self._through(mutant, self._probes) for mutant in passed}
-        for group, differing in self._in_groups(probes, self._probes):
-            for mutant in group:
-                keep(self._after_probes(mutant, differing.get(mutant)))
+        for mutant in self._in_groups(probes, self._probes, differ):
+            keep(self._equivalent(mutant))
 
     def _alone(self, mutant: Mutant) -> tuple[Mutant, MutantVerdict | None, list[int]]:
         """Try a mutant on a few scenes; return its verdict, if any, and the other scenes."""
@@ -126,17 +132,20 @@ class StagedTrials:
         return [point for point in points if place in self._reach[point]]
 
     def _in_groups(
-        self, points: Mapping[Mutant, Sequence[int]], order: Sequence[int]
-    ) -> Iterator[tuple[list[Mutant], dict[Mutant, Rejection]]]:
-        """Yield groups of mutants, with those that are rejected at some of their points."""
+        self,
+        points: Mapping[Mutant, Sequence[int]],
+        order: Sequence[int],
+        report: Callable[[Mutant, Rejection], None],
+    ) -> list[Mutant]:
+        """Try mutants in groups; return those that pass all of their points."""
 
-        def tried(group: list[Mutant]) -> tuple[list[Mutant], dict[Mutant, Rejection]]:
+        def tried(group: list[Mutant]) -> set[Mutant]:
             own = {mutant: points[mutant] for mutant in group}
-            return group, rejected_members(self._together, own, order)
+            return rejected_members(self._together, own, order, report)
 
         groups = groups_of(sorted(points, key=lambda mutant: mutant.name), GROUP)
-        for future in as_completed([self._pool.submit(tried, group) for group in groups]):
-            yield future.result()
+        rejected = set().union(*self._pool.map(tried, groups))
+        return [mutant for mutant in points if mutant not in rejected]
 
     def _together(self, mutants: Sequence[Mutant], points: Sequence[int]) -> Outcome[Mutant]:
         """Try mutants in one FMU."""
@@ -149,19 +158,21 @@ class StagedTrials:
         }
         return Outcome(found.rejection, found.at, passed)
 
-    def _after_probes(self, mutant: Mutant, difference: Rejection | None) -> MutantVerdict:
-        """Return the verdict on a mutant that all scenes accept; a probe may have rejected it."""
-        scenes = len(self._through(mutant, self._scenes))
-        if difference is None:
-            probes = len(self._through(mutant, self._probes))
-            reason = f"{scenes} scenes and {probes} probes execute the statement, and all pass"
-            return MutantVerdict(mutant, EQUIVALENT, reason)
+    def _survivor(self, mutant: Mutant, difference: Rejection) -> MutantVerdict:
+        """Return the verdict on a mutant that all scenes accept and a probe does not."""
         what = f"{difference.quantity or 'cannot be run'}: {difference.reason}"
+        scenes = len(self._through(mutant, self._scenes))
         if scenes == 0:
             reason = f"no scene executes the statement, but {difference.scene} does: {what}"
         else:
             reason = f"in {difference.scene}: {what}; the {scenes} scenes that execute it pass"
         return MutantVerdict(mutant, SURVIVED, reason)
+
+    def _equivalent(self, mutant: Mutant) -> MutantVerdict:
+        scenes = len(self._through(mutant, self._scenes))
+        probes = len(self._through(mutant, self._probes))
+        reason = f"{scenes} scenes and {probes} probes execute the statement, and all pass"
+        return MutantVerdict(mutant, EQUIVALENT, reason)
 
 
 def _rejected(mutant: Mutant, rejection: Rejection) -> MutantVerdict:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from slider_resonator.trials.mutants.group_trials import Outcome, rejected_members
+from slider_resonator.trials.mutants.group_trials import Outcome, Try, rejected_members
 from slider_resonator.trials.mutants.trial import Rejection
 
 FAULTY: Mapping[str, int] = {"c": 2, "f": 0, "h": 4}
@@ -10,6 +10,15 @@ FAULTY: Mapping[str, int] = {"c": 2, "f": 0, "h": 4}
 HIDES: Mapping[str, str] = {"a": "h"}
 """Members that keep another one from taking part."""
 POINTS = range(5)
+
+
+def rejections(
+    attempt: Try[str], points: Mapping[str, Sequence[int]], order: Sequence[int]
+) -> dict[str, Rejection]:
+    """Return what is reported, which must be what is returned."""
+    found: dict[str, Rejection] = {}
+    assert rejected_members(attempt, points, order, found.__setitem__) == set(found)
+    return found
 
 
 class Scripted:
@@ -33,7 +42,7 @@ class Scripted:
 def test_faulty_members_are_found_each_by_its_own_rejection() -> None:
     members = "abcdefgh"
     attempt = Scripted()
-    found = rejected_members(attempt, {m: list(POINTS) for m in members}, POINTS)
+    found = rejections(attempt, {m: list(POINTS) for m in members}, POINTS)
     assert {m: r.scene for m, r in found.items()} == {m: f"scene {p}" for m, p in FAULTY.items()}
     for member in FAULTY:
         assert (member,) in attempt.tried, f"{member} must have been tried alone"
@@ -42,7 +51,7 @@ def test_faulty_members_are_found_each_by_its_own_rejection() -> None:
 
 def test_only_points_of_a_member_count() -> None:
     attempt = Scripted()
-    assert rejected_members(attempt, {"b": [0, 1], "c": [0, 1]}, POINTS) == {}
+    assert rejections(attempt, {"b": [0, 1], "c": [0, 1]}, POINTS) == {}
     assert attempt.tried == [("b", "c")]
 
 
@@ -53,7 +62,7 @@ def test_members_that_only_fail_together_pass() -> None:
             return Outcome(Rejection("one", "", "both"), 1, {0: everyone})
         return Outcome(None, None, dict.fromkeys(points, everyone))
 
-    assert rejected_members(attempt, {m: [0, 1, 2] for m in "abcd"}, range(3)) == {}
+    assert rejections(attempt, {m: [0, 1, 2] for m in "abcd"}, range(3)) == {}
 
 
 def test_a_rejection_before_any_point_is_looked_for_at_the_first() -> None:
@@ -62,5 +71,5 @@ def test_a_rejection_before_any_point_is_looked_for_at_the_first() -> None:
             return Outcome(Rejection("", "", "cannot be loaded"), None, {})
         return Outcome(None, None, dict.fromkeys(points, frozenset(members)))
 
-    found = rejected_members(attempt, {m: [3, 4] for m in "abc"}, [3, 4])
+    found = rejections(attempt, {m: [3, 4] for m in "abc"}, [3, 4])
     assert list(found) == ["b"]
