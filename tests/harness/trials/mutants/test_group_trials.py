@@ -55,14 +55,34 @@ def test_only_points_of_a_member_count() -> None:
     assert attempt.tried == [("b", "c")]
 
 
-def test_members_that_only_fail_together_pass() -> None:
+def test_members_that_only_fail_together_pass_and_others_stay_together() -> None:
+    tried: list[str] = []
+
     def attempt(members: Sequence[str], points: Sequence[int]) -> Outcome[str]:
+        tried.append("".join(members))
         everyone = frozenset(members)
-        if len(members) == 4 and 1 in points:
+        if {"b", "g"} <= everyone and 1 in points:
             return Outcome(Rejection("one", "", "both"), 1, {0: everyone})
+        if "g" in everyone and 3 in points:
+            return Outcome(Rejection("three", "", "g"), 3, dict.fromkeys(points[:-2], everyone))
         return Outcome(None, None, dict.fromkeys(points, everyone))
 
-    assert rejections(attempt, {m: [0, 1, 2] for m in "abcd"}, range(3)) == {}
+    points = {m: list(POINTS) for m in "abcdefgh"}
+    for passed_before in "bg":
+        points[passed_before] = [0, 2, 3, 4]
+    found = rejections(attempt, points, POINTS)
+    assert {m: r.scene for m, r in found.items()} == {"g": "three"}, "only g fails alone"
+    assert "abcdefh" in tried, "only one of two that fail together is taken out"
+
+
+def test_one_that_is_tried_with_others_is_not_rejected_for_them() -> None:
+    def attempt(members: Sequence[str], points: Sequence[int]) -> Outcome[str]:
+        everyone = frozenset(members)
+        if {"a", "b"} <= everyone and 1 in points:
+            return Outcome(Rejection("one", "", "both"), 1, {})
+        return Outcome(None, None, dict.fromkeys(points, everyone))
+
+    assert rejections(attempt, {"a": [0], "b": [0], "c": [0, 1]}, POINTS) == {}
 
 
 def test_a_rejection_before_any_point_is_looked_for_at_the_first() -> None:
