@@ -77,7 +77,7 @@ def run_mutants(
             label = counted(f"{verdict.status}: {verdict.mutant.name}", done - 1, len(mutants))
             progress(label, done / len(mutants))
 
-        # What is done of a run that is cut off is a random sample.
+        # The finished batches of a run that is cut off are a random sample.
         in_random_order = Random(seed).sample(mutants, len(mutants))
         waiting = [mutant for mutant in in_random_order if mutant.name not in kept.verdicts]
         for begin in range(0, len(waiting), BATCH):
