@@ -100,7 +100,13 @@ MIN_NATIVE_RATE = 0.97
 @jobs_option
 @time_limit_option(
     TIME_LIMIT,
-    "For a mutant and each scene, or point of a sweep; a mutant that exceeds it is rejected.",
+    "CPU time of a mutant in each scene, or point of a sweep, but at most 3 s and 20 times the "
+    "original's; a mutant that exceeds it is rejected.",
+)
+@click.option(
+    "--journal",
+    type=Target([]),
+    help="Keep the verdicts in this file; a run that is stopped goes on from there.",
 )
 @click.option(
     "--html", type=Target([".html"]), help="One page with all mutants that were not rejected."
@@ -120,6 +126,7 @@ def mutants_command(
     probes: int,
     jobs: int | None,
     time_limit: float,
+    journal: Path | None,
     html: Path | None,
     as_json: bool,
 ) -> None:
@@ -128,9 +135,10 @@ def mutants_command(
     Each mutant is a copy of the Python FMU with one fault: a wrong operator, constant, sign,
     condition, statement, event, input or unit, or a parameter off by 1 %. It runs on the scenes
     that execute the changed statement, the cheapest first, in a process of its own, until a check
-    fails; a crash or a hang counts as rejected. A survivor runs on random probes beside the
-    original: it is equivalent if no result differs by more than the scenes allow. Without FMU: the
-    Python one in dist.
+    fails; a crash or a hang counts as rejected. What passes the cheapest runs on the others with
+    up to 127 other mutants in one FMU, and in ever smaller groups where that is rejected. A
+    survivor runs on random probes beside the original: it is equivalent if no result differs by
+    more than the scenes allow. Without FMU: the Python one in dist.
 
     With --native a C compiler of this machine builds copies of the native FMU from its sources,
     each with one fault written by hand, or with a harmless change that must pass.
@@ -187,6 +195,7 @@ def mutants_command(
             probes=probes,
             seed=seed,
             time_limit=time_limit,
+            journal=journal,
             progress=progress,
         )
     if html is not None:

@@ -1,52 +1,38 @@
-"""Try mutants: find the scenes that execute them, and whether and why they are rejected."""
+"""Try the mutants of an FMU on scenes and probes, in random order."""
 
 from __future__ import annotations
 
+import hashlib
+import pickle
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from pathlib import Path
+from random import Random
 
-from slider_resonator.checks.verdict import place
 from slider_resonator.errors import FmuError
 from slider_resonator.output.console import counted
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.archive import PythonFmu
+from slider_resonator.trials.mutants.attempt import Bench
+from slider_resonator.trials.mutants.kept_verdicts import KeptVerdicts
 from slider_resonator.trials.mutants.mutant import Mutant
 from slider_resonator.trials.mutants.points import probe_points, scene_points
 from slider_resonator.trials.mutants.probes import probe_scenes
-from slider_resonator.trials.mutants.reach import Reach, reaches
-from slider_resonator.trials.mutants.trial import ExpectedPoint, Passed, Rejection, trial
-from slider_resonator.trials.mutants.verdict import (
-    EQUIVALENT,
-    NOT_REACHED,
-    REJECTED,
-    SURVIVED,
-    MutantVerdict,
-    MutationRun,
-)
+from slider_resonator.trials.mutants.reach import reaches
+from slider_resonator.trials.mutants.staged_trials import StagedTrials
+from slider_resonator.trials.mutants.trial import ExpectedPoint, trial
+from slider_resonator.trials.mutants.trial_client import trial_servers
+from slider_resonator.trials.mutants.verdict import MutantVerdict, MutationRun
 
 TIME_LIMIT = 30.0
 """Seconds for a mutant and a scene or point of a sweep; the slowest built-in one takes a few."""
 PROBES = 39
+BATCH = 1024
+"""Mutants that get their verdicts before the next ones begin."""
 
 Progress = Callable[[str, float], None]
-
-
-Reached = Sequence[tuple[ExpectedPoint, Reach]]
-"""Points, the cheapest first, each with what it executes."""
-
-
-@dataclass(frozen=True)
-class _Bench:
-    """The points, probes and limits that all mutants share."""
-
-    fmu: PythonFmu
-    scenes: Reached
-    probes: Reached
-    time_limit: float
-    folder: Path
 
 
 def run_mutants(
@@ -60,111 +46,61 @@ def run_mutants(
     probes: int = PROBES,
     seed: int = 0,
     time_limit: float = TIME_LIMIT,
+    journal: Path | None = None,
     progress: Progress = lambda label, share: None,
 ) -> MutationRun:
     """Try mutants of the FMU at `path` on scenes, survivors on probes, `jobs` at a time.
 
-    Raises FmuError when the unchanged FMU is rejected, and SceneError as `scene_points` does.
+    Verdicts that `journal` holds from an earlier run are taken from there. Raises FmuError when
+    the unchanged FMU is rejected, SceneError as `scene_points` does, HarnessError as
+    `KeptVerdicts` does.
     """
     began = time.perf_counter()
-    with temporary_folder() as folder:
+    with ExitStack() as resources:
+        folder = resources.enter_context(temporary_folder())
         points = scene_points(scene_files, progress)
         progress("the unchanged FMU", 0.0)
         _check_original(path, points, time_limit)
         probing = probe_points(path, probe_scenes(probes, seed), time_limit)
-        reach = reaches(fmu, [*points, *probing], time_limit, jobs)
-        bench = _Bench(
-            fmu,
-            _by_cost(points, reach[: len(points)]),
-            _by_cost(probing, reach[len(points) :]),
-            time_limit,
-            folder,
-        )
-        verdicts = _all(bench, mutants, jobs, progress)
+        every = [*points, *probing]
+        kept = KeptVerdicts(journal or folder / "verdicts", _digest(path, every), mutants)
+        resources.callback(kept.close)
+        reach = reaches(fmu, every, time_limit, jobs)
+        bench = Bench(path.resolve(), every, [one.cost for one in reach], time_limit)
+        servers = resources.enter_context(trial_servers(bench, jobs, folder))
+        pool = resources.enter_context(ThreadPoolExecutor(jobs))
+        trials = StagedTrials(fmu, bench, [one.places for one in reach], len(points), servers, pool)
+
+        def keep(verdict: MutantVerdict) -> None:
+            kept.add(verdict)
+            done = len(kept.verdicts)
+            label = counted(f"{verdict.status}: {verdict.mutant.name}", done - 1, len(mutants))
+            progress(label, done / len(mutants))
+
+        # The finished batches of a run that is cut off are a random sample.
+        in_random_order = Random(seed).sample(mutants, len(mutants))
+        waiting = [mutant for mutant in in_random_order if mutant.name not in kept.verdicts]
+        for begin in range(0, len(waiting), BATCH):
+            trials.judge(waiting[begin : begin + BATCH], keep)
+        verdicts = tuple(kept.verdicts[mutant.name] for mutant in mutants)
     return MutationRun(str(path), made, len(probing), verdicts, time.perf_counter() - began)
 
 
-def _by_cost(points: Sequence[ExpectedPoint], reach: Sequence[Reach]) -> Reached:
-    return sorted(zip(points, reach, strict=True), key=lambda pair: pair[1].cost)
-
-
-def _through(reached: Reached, mutant: Mutant) -> list[ExpectedPoint]:
-    """Return the points at which a mutant can make a difference."""
-    place = (mutant.file, mutant.statement)
-    return [point for point, reach in reached if place[1] is None or place in reach.places]
+def _digest(path: Path, points: Sequence[ExpectedPoint]) -> str:
+    """Return a text that differs for another FMU, and for other points or expected values."""
+    content = hashlib.sha256(path.read_bytes())
+    for point in points:
+        content.update(repr((point.name, point.scene, point.share)).encode())
+        content.update(pickle.dumps(point.expected))
+    return content.hexdigest()
 
 
 def _check_original(path: Path, points: Sequence[ExpectedPoint], time_limit: float) -> None:
     """Raise FmuError unless the unchanged FMU passes: else a rejection would prove nothing."""
-    outcome = trial(path, points, time_limit)
-    if isinstance(outcome, Rejection):
-        where = f"scene {outcome.scene}: " if outcome.scene else ""
-        what = f"{outcome.quantity}: " if outcome.quantity else ""
+    rejection = trial(path, points, time_limit)
+    if rejection is not None:
+        where = f"scene {rejection.scene}: " if rejection.scene else ""
+        what = f"{rejection.quantity}: " if rejection.quantity else ""
         raise FmuError(
-            f"{path} is rejected before anything is changed: {where}{what}{outcome.reason}"
+            f"{path} is rejected before anything is changed: {where}{what}{rejection.reason}"
         )
-
-
-def _all(
-    bench: _Bench, mutants: Sequence[Mutant], jobs: int, progress: Progress
-) -> tuple[MutantVerdict, ...]:
-    with ThreadPoolExecutor(jobs) as pool:
-        futures = [
-            pool.submit(_verdict, bench, mutant, number) for number, mutant in enumerate(mutants)
-        ]
-        try:
-            for done, future in enumerate(as_completed(futures), start=1):
-                verdict = future.result()
-                progress(
-                    counted(f"{verdict.status}: {verdict.mutant.name}", done - 1, len(mutants)),
-                    done / len(mutants),
-                )
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
-    return tuple(future.result() for future in futures)
-
-
-def _verdict(bench: _Bench, mutant: Mutant, number: int) -> MutantVerdict:
-    scenes, probes = _through(bench.scenes, mutant), _through(bench.probes, mutant)
-    if not scenes and not probes:
-        return MutantVerdict(mutant, NOT_REACHED, "no scene and no probe executes the statement")
-    faulty = bench.folder / f"mutant_{number}.fmu"
-    bench.fmu.write(faulty, {mutant.path: mutant.new})
-    try:
-        seen = trial(faulty, scenes, bench.time_limit)
-        if isinstance(seen, Rejection):
-            return MutantVerdict(mutant, REJECTED, seen.reason, seen.scene, seen.quantity)
-        if mutant.kind == "unit":
-            return MutantVerdict(mutant, SURVIVED, "the interface is accepted with that unit")
-        probed = trial(faulty, probes, bench.time_limit)
-    finally:
-        faulty.unlink()
-    if isinstance(probed, Rejection):
-        return MutantVerdict(mutant, SURVIVED, _survival(scenes, seen, probed))
-    return MutantVerdict(mutant, EQUIVALENT, _equivalence(len(scenes), len(probes), seen, probed))
-
-
-def _survival(scenes: Sequence[ExpectedPoint], seen: Passed, probed: Rejection) -> str:
-    """Describe which probe differs, and what the scenes measured of it."""
-    what = f"{probed.quantity}: " if probed.quantity else "cannot be run: "
-    if not scenes:
-        return f"no scene executes the statement, but {probed.scene} does: {what}{probed.reason}"
-    return (
-        f"in {probed.scene}: {what}{probed.reason}; the {len(scenes)} scenes that execute the "
-        f"statement pass, {_nearest(seen)}"
-    )
-
-
-def _equivalence(scenes: int, probes: int, seen: Passed, probed: Passed) -> str:
-    return (
-        f"{scenes} scenes and {probes} probes execute the statement; nearest to its limit in a "
-        f"scene is {_nearest(seen)}; in a probe {_nearest(probed)}"
-    )
-
-
-def _nearest(passed: Passed) -> str:
-    check = passed.nearest
-    if check is None or check.severity == 0.0:
-        return "none: nothing differs"
-    where = f"{check.scene}{place(check.at, ' at ')}"
-    return f"{check.quantity} in {where} with {check.severity:.2g} of what is allowed"

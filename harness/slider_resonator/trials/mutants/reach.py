@@ -13,6 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measure_points import measure_points
@@ -96,20 +97,33 @@ def _observe(noting: Path, time_limit: float, points: Sequence[ExpectedPoint]) -
 
 def noted_while_measuring(side: FmuSide) -> Reach:
     """Measure what the scene expects, in the process of a noting FMU, and return its reach."""
-    modules = {
+    forget_noted()
+    began = time.process_time()
+    measure_all(side)
+    return Reach(noted_places(), time.process_time() - began)
+
+
+def forget_noted() -> None:
+    """Forget what noting modules of this process have noted since they were loaded."""
+    for name, module in _noting_modules().items():
+        module[_NOTED].clear()
+        if name != _SHELL:
+            _forget_results(module)
+
+
+def noted_places() -> frozenset[Place]:
+    """Return what noting modules of this process have noted, also while they were loaded."""
+    modules = _noting_modules().items()
+    return frozenset((n, line) for n, m in modules for line in m[_NOTED] | m[_LOADING])
+
+
+def _noting_modules() -> dict[str, dict[str, Any]]:
+    """Return the noting modules of this process by file name, with what they define."""
+    return {
         f"{name.rpartition('.')[2]}.py": vars(module)
         for name, module in sys.modules.items()
         if hasattr(module, _LOADING)
     }
-    for name, module in modules.items():
-        module[_NOTED].clear()
-        if name != _SHELL:
-            _forget_results(module)
-    began = time.process_time()
-    measure_all(side)
-    cost = time.process_time() - began
-    places = ((n, line) for n, m in modules.items() for line in m[_NOTED] | m[_LOADING])
-    return Reach(frozenset(places), cost)
 
 
 def _forget_results(namespace: Mapping[str, object]) -> None:

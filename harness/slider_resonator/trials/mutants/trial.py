@@ -77,21 +77,12 @@ class Rejection:
     reason: str
 
 
-@dataclass(frozen=True)
-class Passed:
-    """All checks have passed; `nearest` is the one nearest to its limit, if any."""
-
-    nearest: Check | None
-
-
-def trial(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> Rejection | Passed:
+def trial(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> Rejection | None:
     """Judge the points one after the other, in a process that may take `time_limit` (s) for each.
 
     Where the FMU crashes, hangs or refuses, that is a rejection as well.
     """
-    nearest: Check | None = None
-    reads_outputs = any(point.outputs for point in points)
-    measure = observe if reads_outputs else _observe_expected
+    measure = observe if any(point.outputs for point in points) else observe_expected
     with closing(measure_points(fmu, points, measure, time_limit)) as finished:
         for one in finished:
             point = one.item
@@ -99,12 +90,18 @@ def trial(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> Reje
                 continue
             if one.error is not None or point is None:
                 return Rejection(point.name if point else "", "", str(one.error))
-            for check in _checks(point, one.result):
-                if not check.passed:
-                    return Rejection(point.name, check.quantity, sentence(check))
-                if nearest is None or check.severity > nearest.severity:
-                    nearest = check
-    return Passed(nearest)
+            rejection = judge(point, one.result)
+            if rejection is not None:
+                return rejection
+    return None
+
+
+def judge(point: ExpectedPoint, seen: Observed) -> Rejection | None:
+    """Return the first check of the results of an FMU at a point that fails."""
+    for check in _checks(point, seen):
+        if not check.passed:
+            return Rejection(point.name, check.quantity, sentence(check))
+    return None
 
 
 def observe(fmu: FmuSide) -> Observed:
@@ -112,7 +109,8 @@ def observe(fmu: FmuSide) -> Observed:
     return Observed(measure_all(fmu), {name: fmu.record[name] for name in TRAJECTORY_OUTPUTS})
 
 
-def _observe_expected(fmu: FmuSide) -> Observed:
+def observe_expected(fmu: FmuSide) -> Observed:
+    """Measure what the scene expects."""
     return Observed(measure_all(fmu), {})
 
 

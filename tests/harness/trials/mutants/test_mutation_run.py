@@ -10,7 +10,14 @@ from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
 from slider_resonator.trials.mutants.enumerate_fmu import fmu_mutants
 from slider_resonator.trials.mutants.mutant import Mutant
 from slider_resonator.trials.mutants.mutation_run import run_mutants
-from slider_resonator.trials.mutants.verdict import EQUIVALENT, NOT_REACHED, REJECTED, SURVIVED
+from slider_resonator.trials.mutants.staged_trials import StagedTrials
+from slider_resonator.trials.mutants.verdict import (
+    EQUIVALENT,
+    NOT_REACHED,
+    REJECTED,
+    SURVIVED,
+    MutationRun,
+)
 from tests.harness import faulty_fmus
 
 SCENES = ("changing_inputs", "input_jumps", "initial_state", "stick_slip", "lugre", "lift_off")
@@ -54,19 +61,28 @@ def test_the_original_passes_and_known_faults_are_rejected(
     assert run.rate == 1.0
 
 
-def test_what_scenes_do_not_see_survives_with_a_reason(
-    fmu: PythonFmu, python_fmu: Path, tmp_path: Path
+def test_what_scenes_do_not_see_survives_with_a_reason_and_is_kept(
+    fmu: PythonFmu, python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     short = faulty_fmus.scene(tmp_path)  # neither a load nor bristles, and only the position
     load = next(m for m in fmu_mutants(fmu) if m.change == "load acts 1 % too large")
     refused = next(m for m in fmu_mutants(fmu, ["values.py"]) if "raise refused" in m.change)
-    run = run_mutants(python_fmu, fmu, [load, refused], [short], made=2, jobs=1, probes=2)
+
+    def run_kept() -> MutationRun:
+        chosen, journal = [load, refused], tmp_path / "verdicts"
+        return run_mutants(
+            python_fmu, fmu, chosen, [short], made=2, jobs=1, probes=2, journal=journal
+        )
+
+    run = run_kept()
     survivor, unreached = run.verdicts
     assert survivor.status == SURVIVED
     assert "probe_" in survivor.reason
-    assert "the 1 scenes that execute the statement pass" in survivor.reason
+    assert "the 1 scenes that execute it pass" in survivor.reason
     assert unreached.status == NOT_REACHED
     assert run.rate == 0.0
+    monkeypatch.delattr(StagedTrials, "judge")  # nothing is left to be judged
+    assert run_kept().verdicts == run.verdicts
 
 
 def test_an_fmu_that_is_rejected_itself_is_refused(fmu: PythonFmu, tmp_path: Path) -> None:

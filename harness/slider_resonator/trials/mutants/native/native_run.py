@@ -5,18 +5,28 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import ExitStack, closing
 from dataclasses import dataclass
 from pathlib import Path
 
+from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measure_points import measure_points
-from slider_resonator.checks.measuring import measure_all
 from slider_resonator.errors import FmuError
 from slider_resonator.output.console import counted
 from slider_resonator.output.temporary import temporary_folder
+from slider_resonator.trials.mutants.attempt import Attempt, Bench
 from slider_resonator.trials.mutants.native.changes import Change
 from slider_resonator.trials.mutants.native.workshop import Workshop, read_native_sources
 from slider_resonator.trials.mutants.points import scene_points
-from slider_resonator.trials.mutants.trial import ExpectedPoint, Rejection, trial
+from slider_resonator.trials.mutants.rejecting_points import RejectingPoints
+from slider_resonator.trials.mutants.trial import (
+    ExpectedPoint,
+    Observed,
+    Rejection,
+    judge,
+    observe_expected,
+)
+from slider_resonator.trials.mutants.trial_client import trial_servers
 
 Progress = Callable[[str, float], None]
 
@@ -87,22 +97,30 @@ def run_changes(
     began = time.perf_counter()
     sources = read_native_sources(path)
     texts = [change.applied(sources.files) for change in changes]
-    with temporary_folder() as folder:
+    rejecting = RejectingPoints()
+    with ExitStack() as resources:
+        folder = resources.enter_context(temporary_folder())
         workshop = Workshop(sources, folder)
         points = scene_points(scene_files, progress)
         progress("the unchanged FMU", 0.0)
-        points = _by_cost(workshop.build("unchanged", {}), points, time_limit)
+        unchanged = workshop.fmu(folder / "unchanged.fmu")
+        costs = _costs(unchanged, points, time_limit)
+        order = sorted(range(len(points)), key=costs.__getitem__)
+        bench = Bench(unchanged, points, costs, time_limit)
+        servers = resources.enter_context(trial_servers(bench, jobs, folder))
 
         def verdict(number: int) -> ChangeVerdict:
             change = changes[number]
-            faulty = workshop.build(change.name, {change.file: texts[number]})
-            try:
-                seen = trial(faulty, points, time_limit)
-            finally:
-                faulty.unlink()
-            if isinstance(seen, Rejection):
-                return ChangeVerdict(change, True, seen.scene, seen.quantity, seen.reason)
-            return ChangeVerdict(change, False)
+            library = workshop.library(change.name, {change.file: texts[number]})
+            seen = servers.attempt(
+                Attempt({workshop.binary: library}, rejecting.first(change.file, order))
+            )
+            if seen.rejection is None:
+                return ChangeVerdict(change, False)
+            if seen.at is not None:
+                rejecting.add(change.file, seen.at)
+            found = seen.rejection
+            return ChangeVerdict(change, True, found.scene, found.quantity, found.reason)
 
         with ThreadPoolExecutor(jobs) as pool:
             futures = [pool.submit(verdict, number) for number in range(len(changes))]
@@ -118,19 +136,28 @@ def run_changes(
     return NativeRun(str(path), verdicts, time.perf_counter() - began)
 
 
-def _by_cost(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> list[ExpectedPoint]:
-    """Return the points, the cheapest first; FmuError unless the unchanged FMU passes all."""
-    outcome = trial(fmu, points, time_limit)
-    if isinstance(outcome, Rejection):
-        where = f"scene {outcome.scene}: " if outcome.scene else ""
-        raise FmuError(
-            f"{fmu.name} is rejected before anything is changed: {where}{outcome.quantity}: "
-            f"{outcome.reason}"
-        )
+def _costs(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> list[float]:
+    """Return the CPU time (s) of the FMU at each point; FmuError unless it passes all."""
     costs = []
-    began = time.perf_counter()
-    for _ in measure_points(fmu, points, measure_all, time_limit):
-        costs.append(time.perf_counter() - began)
-        began = time.perf_counter()
-    order = sorted(range(len(points)), key=costs.__getitem__)
-    return [points[i] for i in order]
+    with closing(measure_points(fmu, points, _timed, time_limit)) as finished:
+        for one in finished:
+            rejection = None
+            if one.error is not None or one.item is None:
+                name = one.item.name if one.item is not None else ""
+                rejection = Rejection(name, "", str(one.error))
+            else:
+                seen, cost = one.result
+                costs.append(cost)
+                rejection = judge(one.item, seen)
+            if rejection is not None:
+                where = f"scene {rejection.scene}: " if rejection.scene else ""
+                raise FmuError(
+                    f"{fmu.name} is rejected before anything is changed: {where}"
+                    f"{rejection.quantity}: {rejection.reason}"
+                )
+    return costs
+
+
+def _timed(side: FmuSide) -> tuple[Observed, float]:
+    began = time.process_time()
+    return observe_expected(side), time.process_time() - began

@@ -76,7 +76,7 @@ def read_native_sources(path: Path) -> NativeSources:
 
 
 class Workshop:
-    """Compiled units of the unchanged sources in a folder, and FMUs with one file changed.
+    """Compiled units of the unchanged sources in a folder, and libraries with one file changed.
 
     Raises HarnessError when there is no C compiler or the sources do not compile.
     """
@@ -88,8 +88,14 @@ class Workshop:
         self._write(folder, sources.files)
         self._compile(folder, sources.units)
 
-    def build(self, name: str, changed: Mapping[str, str]) -> Path:
-        """Return an FMU for this machine with some of the sources, by file name, replaced.
+    @property
+    def binary(self) -> str:
+        """The path of the library for this machine in the FMU."""
+        name = f"{self._sources.model}{fmpy.sharedLibraryExtension}"
+        return f"binaries/{fmpy.platform}/{name}"
+
+    def library(self, name: str, changed: Mapping[str, str]) -> bytes:
+        """Return a library for this machine with some of the sources, by file name, replaced.
 
         Raises HarnessError when they do not compile.
         """
@@ -101,13 +107,17 @@ class Workshop:
         objects = [
             (place if unit in units else self._folder) / f"{unit}.o" for unit in self._sources.units
         ]
-        library = place / f"{self._sources.model}{fmpy.sharedLibraryExtension}"
+        library = place / "library"
         self._call(["-shared", "-o", str(library), *map(str, objects), "-lm"], place)
-        out = self._folder / f"{name}.fmu"
+        content = library.read_bytes()
+        shutil.rmtree(place)
+        return content
+
+    def fmu(self, out: Path) -> Path:
+        """Write an FMU for this machine of the unchanged sources."""
         with zipfile.ZipFile(out, "w") as archive:  # stored: it is unpacked again at once
             archive.writestr(DESCRIPTION, self._sources.description)
-            archive.write(library, f"binaries/{fmpy.platform}/{library.name}")
-        shutil.rmtree(place)
+            archive.writestr(self.binary, self.library("unchanged", {}))
         return out
 
     def _write(self, folder: Path, files: Mapping[str, str]) -> None:
