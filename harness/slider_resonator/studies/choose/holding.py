@@ -11,7 +11,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Model
 from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates
-from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
+from slider_resonator.studies.choose.input_grid import averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.stretch import Stretch, follow
 
 

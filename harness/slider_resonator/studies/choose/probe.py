@@ -24,8 +24,8 @@ from slider_resonator.studies.choose.coverage import (
     Coverage,
 )
 from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates, errors
-from slider_resonator.studies.choose.held_grid import HeldGrid, averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.holding import holding_errors, with_holding
+from slider_resonator.studies.choose.input_grid import InputGrid, averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.scales import scales_of
 from slider_resonator.studies.choose.stretch import Samples, Stretch, checkpoints_between, follow
 from slider_resonator.studies.choose.windows import Windows, lay_windows
@@ -238,7 +238,7 @@ class Probe:
         part = stretch.start > 0.0 or stretch.stop < self.duration
         return self.varying and self.covers == "windows" and part
 
-    def _sampled_inputs(self, model: Model, step: float, stop: float) -> HeldGrid:
+    def _sampled_inputs(self, model: Model, step: float, stop: float) -> InputGrid:
         """Return the inputs up to `stop` (s) as a run in this step (s) samples and holds them.
 
         Where they do not vary other than by jumps, steps that change nothing are left out, and all
@@ -247,7 +247,7 @@ class Probe:
         own = self.varying or not (model.any_step or stop / step > MAX_STEPS)
         return sampled_inputs(self.scene, stop, step if own else stop)
 
-    def _averaged_inputs(self, step: float, stretch: Stretch) -> HeldGrid:
+    def _averaged_inputs(self, step: float, stretch: Stretch) -> InputGrid:
         """Return the inputs without an error of holding them, for a candidate with this step (s).
 
         Within a window a few steps in a drive period serve; else there are some in its own step.
@@ -262,7 +262,7 @@ class Probe:
             fine *= 2.0
         return averaged_inputs(self.scene, stretch.stop, fine, stretch.start)
 
-    def _follow(self, candidate: Candidate, held: HeldGrid, stretch: Stretch) -> Samples:
+    def _follow(self, candidate: Candidate, held: InputGrid, stretch: Stretch) -> Samples:
         if candidate.model.fidelity > 0:
             self.drive_periods += (stretch.stop - stretch.start) / self.scales.period
         grid: Array = np.empty(0)

@@ -21,7 +21,7 @@ from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.held_grid import averaged_inputs
+from slider_resonator.studies.choose.input_grid import averaged_inputs
 from slider_resonator.studies.choose.scales import Scales
 from slider_resonator.studies.choose.stretch import GOLDEN, Stretch, follow
 

@@ -10,7 +10,7 @@ from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose import coverage
 from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.carrying import SAFETY
-from slider_resonator.studies.choose.held_grid import averaged_inputs
+from slider_resonator.studies.choose.input_grid import averaged_inputs
 from slider_resonator.studies.choose.probe import Probe
 from slider_resonator.studies.choose.stretch import Stretch, follow
 from tests.harness.scene_text import scene_of

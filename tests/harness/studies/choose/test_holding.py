@@ -7,8 +7,8 @@ import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.holding import holding_errors
+from slider_resonator.studies.choose.input_grid import averaged_inputs, sampled_inputs
 from tests.harness.scene_text import scene_of
 
 SCENE = "[inputs]\nload = { ramp = [[0, 0], [2.0, 0.04], [7.0, 0.04]] }\n"

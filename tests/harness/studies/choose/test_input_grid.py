@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs, vary
+from slider_resonator.studies.choose.input_grid import averaged_inputs, sampled_inputs, vary
 from tests.harness.scene_text import scene_of
 
 RAMP = (

@@ -14,7 +14,7 @@ from slider_resonator.scenes.scene import Scene
 
 
 @dataclass(frozen=True)
-class HeldGrid:
+class InputGrid:
     """Values (n, 3) of phase (rad), load (N) and frequency ratio, held from `times` (n,) (s) on."""
 
     times: Array
@@ -38,15 +38,15 @@ class HeldGrid:
         return Schedule(shifted, *signals)
 
 
-def sampled_inputs(scene: Scene, stop: float, step: float) -> HeldGrid:
+def sampled_inputs(scene: Scene, stop: float, step: float) -> InputGrid:
     """Return the inputs as a run with this step (s) samples and holds them up to `stop` (s)."""
     signals = [scene.signals[name] for name in INPUTS]
     jumps = [time for signal in signals for time in signal.jumps]
     times = communication_points(stop, step, jumps)
-    return HeldGrid(times, np.column_stack([signal.over(times) for signal in signals]))
+    return InputGrid(times, np.column_stack([signal.over(times) for signal in signals]))
 
 
-def averaged_inputs(scene: Scene, stop: float, step: float, start: float = 0.0) -> HeldGrid:
+def averaged_inputs(scene: Scene, stop: float, step: float, start: float = 0.0) -> InputGrid:
     """Return the inputs held at their mean over each small step (s).
 
     The impulse of the load and the angle psi are then exact at the points: the error is of second
@@ -56,7 +56,7 @@ def averaged_inputs(scene: Scene, stop: float, step: float, start: float = 0.0) 
     corners = [time - start for signal in signals for time in signal.times]
     times = start + communication_points(stop - start, step, corners)
     middles = times + 0.5 * np.diff(times, append=times[-1])
-    return HeldGrid(times, np.column_stack([signal.over(middles) for signal in signals]))
+    return InputGrid(times, np.column_stack([signal.over(middles) for signal in signals]))
 
 
 def vary(scene: Scene, duration: float) -> bool:
