@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from math import ceil, inf
+from math import inf
 from pathlib import Path
 
 from slider_resonator.errors import FmuError, SceneError
@@ -91,12 +91,11 @@ class _Choosing:
                 f"{scene.source}: scene {scene.name} has no [need]; must have a table of what it "
                 "needs, such as mean_velocity = { rel = 0.01 }"
             )
-        scene.check_plain("choose")
         check_magnitudes(scene)
         self.instance = instance
-        self.scene = scene.interpolating(False)
         self.needs = scene.need.needs
-        self.probe = Probe(instance, self.scene)
+        self.probe = Probe(instance, scene)
+        self.scene = self.probe.scene
         self.scales = self.probe.scales
         self.ladder: tuple[float | None, ...] = (None,)
         if self.probe.run_needs:
@@ -192,11 +191,7 @@ class _Choosing:
         """Return the cost of the run and of searches over that number of drive periods."""
         cost = 0.0
         if candidate.step is not None:
-            duration = self.probe.duration
-            steps = ceil(duration / candidate.step)
-            changes = steps if self.probe.varying else self.probe.jumps
-            leads = self.probe.leads(steps)
-            cost += run_cost(candidate, self.scales, duration, steps, changes, leads)
+            cost += run_cost(candidate, self.scales, self.probe.plan(candidate.step))
         if self.probe.steady_needs:
             cost += search_cost(candidate.model, candidate.tolerance, periods, self.scales)
         return cost
@@ -291,6 +286,7 @@ class _Choosing:
             probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods + self.periods,
             scales=self.scales,
+            inputs=self.probe.inputs,
         )
 
 

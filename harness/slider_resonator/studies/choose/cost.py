@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from math import log10
 
 from slider_resonator.studies.choose.candidate import COULOMB, LUGRE, Candidate, Model
+from slider_resonator.studies.choose.plan import Plan
 from slider_resonator.studies.choose.scales import BREAKS_LOOSE, Scales
 
 RUN = 40e-6
@@ -123,26 +124,16 @@ def _sticking_share(scales: Scales) -> float:
     return min(1.0, max(MIN_SHARE, share) ** 2)
 
 
-def run_cost(
-    candidate: Candidate,
-    scales: Scales,
-    duration: float,
-    steps: int,
-    changes: int = 0,
-    leads: int = 0,
-) -> float:
-    """Return the cost (s) of a run of `duration` (s) in so many steps, with changes of inputs.
-
-    `leads` is how many of these change phase or frequency ratio.
-    """
-    cost = RUN + STEP * steps + CHANGE * changes
+def run_cost(candidate: Candidate, scales: Scales, plan: Plan) -> float:
+    """Return the cost (s) of a run."""
+    cost = RUN + STEP * plan.steps + CHANGE * plan.settings
     model = candidate.model
     if model.fidelity == 0:
-        cost += _preparation_cost(candidate, scales, duration, leads)
-        return cost + _averaged_cost(model, scales, duration, steps, changes)
+        cost += _preparation_cost(candidate, scales, plan)
+        return cost + _averaged_cost(model, scales, plan)
     prices = RESOLVED[model.fidelity, model.friction_law]
-    periods = duration / scales.period
-    unsettled = min(periods, FORGETS * scales.memory * (1.0 + changes))
+    periods = plan.duration / scales.period
+    unsettled = min(periods, FORGETS * scales.memory * (1.0 + len(plan.kicks)))
     cost += prices.start + prices.unsettled * unsettled
     return cost + periods * period_cost(model, candidate.tolerance, scales)
 
@@ -152,7 +143,7 @@ def _averaged_prices(model: Model, scales: Scales) -> AveragedPrices:
     return AVERAGED[model.averaging_order or 1, model.friction_law, lifts]
 
 
-def _preparation_cost(candidate: Candidate, scales: Scales, duration: float, leads: int) -> float:
+def _preparation_cost(candidate: Candidate, scales: Scales, plan: Plan) -> float:
     """Return the cost (s) of the resolved start of second-order averages, and of their orbits."""
     model, prices = candidate.model, _averaged_prices(candidate.model, scales)
     if not prices.resolved:
@@ -160,19 +151,17 @@ def _preparation_cost(candidate: Candidate, scales: Scales, duration: float, lea
     full = Model(2, model.friction_law)
     each = period_cost(full, candidate.tolerance, scales)
     each += RESOLVED[2, model.friction_law].unsettled
-    resolved = min(duration / scales.period, prices.resolved * scales.memory)
-    return prices.start + prices.lead * leads + each * resolved
+    resolved = min(plan.duration / scales.period, prices.resolved * scales.memory)
+    return prices.start + prices.lead * len(plan.led) + each * resolved
 
 
-def _averaged_cost(
-    model: Model, scales: Scales, duration: float, steps: int, changes: int
-) -> float:
+def _averaged_cost(model: Model, scales: Scales, plan: Plan) -> float:
     prices = _averaged_prices(model, scales)
-    beats, relaxations = scales.beat * duration, duration / scales.relaxation
-    cost = prices.step * steps + prices.beat * beats
+    beats, relaxations = scales.beat * plan.duration, plan.duration / scales.relaxation
+    cost = prices.step * plan.steps + prices.beat * beats
     if beats:
         cost += prices.relaxation * relaxations
-    starts = 1 + changes
+    starts = 1 + len(plan.kicks)
     return cost + prices.transient * starts * min(relaxations / starts, FORGETS)
 
 

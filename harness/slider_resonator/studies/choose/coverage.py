@@ -115,7 +115,7 @@ class Coverage:
         events = self.varying and "event_times" in self.run_needs
         slow = self.scales.slowness is not None and self.scales.slowness <= MAX_SLOWNESS
         few = len(self.corners) <= MAX_CORNERS
-        calm = slow and settled and few and beats <= BEATS
+        calm = slow and settled and few and beats <= BEATS and not self.scene.tuning
         return calm and one_ratio and not events and self._covered() <= MAX_COVERED
 
     def _covered(self) -> float:

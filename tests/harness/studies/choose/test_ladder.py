@@ -49,3 +49,9 @@ def test_a_beat_is_sampled_often_enough_to_be_seen(instance: Instance) -> None:
     )
     assert step <= 20.0 * PERIOD / STEPS_PER_BEAT
     assert step <= 2000.0 * PERIOD / BEAT_POINTS
+
+
+def test_inputs_that_go_on_as_straight_lines_leave_the_longest_step(instance: Instance) -> None:
+    run = "[run]\nstop_time = 0.1\nstep_size = 0.003\ninterpolate = true\n[need]\n"
+    assert ladder(instance, f"{RAMP}{run}mean_velocity = {{ rel = 0.1 }}\n") == (0.1,)
+    assert ladder(instance, f"{RAMP}{run}position = {{ rel = 0.1 }}\n") == (0.003,)
