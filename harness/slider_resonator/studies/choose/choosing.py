@@ -21,7 +21,7 @@ from slider_resonator.studies.choose.candidate import (
     models,
 )
 from slider_resonator.studies.choose.choice import Choice, Evaluation, RuledOut
-from slider_resonator.studies.choose.cost import run_cost, search_cost
+from slider_resonator.studies.choose.cost import USUAL, run_cost, search_cost
 from slider_resonator.studies.choose.coverage import FINEST_TOLERANCE
 from slider_resonator.studies.choose.errors import Estimates
 from slider_resonator.studies.choose.ladder import step_ladder
@@ -191,7 +191,9 @@ class _Choosing:
         """Return the cost of the run and of searches over that number of drive periods."""
         cost = 0.0
         if candidate.step is not None:
-            cost += run_cost(candidate, self.scales, self.probe.plan(candidate.step))
+            plan, orbits = self.probe.plan(candidate.step), candidate.model.averaging_order == 2
+            slow = self.probe.slow_range if orbits else USUAL
+            cost += run_cost(candidate, self.scales, plan, slow)
         if self.probe.steady_needs:
             cost += search_cost(candidate.model, candidate.tolerance, periods, self.scales)
         return cost

@@ -9,11 +9,13 @@ between candidates; the seconds of another machine are another multiple of it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import log10
+from itertools import pairwise
+from math import inf, log10, sqrt
 
 from slider_resonator.studies.choose.candidate import COULOMB, LUGRE, Candidate, Model
+from slider_resonator.studies.choose.orbit_work import orbit_work
 from slider_resonator.studies.choose.plan import Plan
-from slider_resonator.studies.choose.scales import BREAKS_LOOSE, Scales
+from slider_resonator.studies.choose.scales import BREAKS_LOOSE, NEAR_AN_INTEGER, Scales
 
 RUN = 40e-6
 """Seconds of a run besides its steps: the start of the FMU, the record, one state."""
@@ -30,63 +32,149 @@ class ResolvedPrices:
     """Seconds of a drive period at fidelity 1 or 2, and what they are besides.
 
     `sliding` is for a period that repeats the one before, `unsettled` is added for one in which the
-    resonator still swings; `sticking` is that where friction stops the slider in each. Of LuGre
-    friction `stiffer` is for each decade of kappa from a tenth to a hundred, `digit` for each of
-    the tolerance, `turn` for an oscillation on the bristle of a slider that sticks, and `start` is
-    once.
+    resonator still swings, `lifting` where the contact lifts or the normal load turns
+    slowly, `damped` where the resonator hardly oscillates;
+    `sticking` is that where friction stops the slider in each. Of LuGre friction `digit` is for
+    each of the tolerance in such a period, `turn` for an oscillation on the bristle of a slider
+    that sticks, and `start` is once.
     """
 
     sliding: float
     unsettled: float
     sticking: float
-    stiffer: float = 0.0
+    lifting: float = 0.0
+    damped: float = 0.0
     digit: float = 0.0
     turn: float = 0.0
     start: float = 0.0
 
 
 RESOLVED = {
-    (1, COULOMB): ResolvedPrices(0.38e-6, 0.16e-6, 0.7e-6),
-    (2, COULOMB): ResolvedPrices(0.45e-6, 0.55e-6, 1.6e-6),
-    (1, LUGRE): ResolvedPrices(1.3e-6, 0.0, 0.9e-6, 0.25e-6, 0.19e-6, 2.1e-6),
-    (2, LUGRE): ResolvedPrices(1.2e-6, 1.5e-6, 1.3e-6, 0.44e-6, 0.21e-6, 2.4e-6, 80e-6),
+    (1, COULOMB): ResolvedPrices(0.42e-6, 0.16e-6, 0.75e-6, 0.3e-6, 0.7e-6),
+    (2, COULOMB): ResolvedPrices(0.48e-6, 0.4e-6, 1.6e-6, 0.4e-6, 1.4e-6),
+    (1, LUGRE): ResolvedPrices(0.0, 0.0, 2.2e-6, 0.2e-6, 0.7e-6, 0.19e-6, 2.1e-6),
+    (2, LUGRE): ResolvedPrices(0.0, 0.5e-6, 2.5e-6, 0.3e-6, 1.4e-6, 0.21e-6, 2.4e-6, 80e-6),
 }
-"""By fidelity and friction law."""
+"""By fidelity and friction law. LuGre friction that slides is in `BRISTLES`."""
+
+
+@dataclass(frozen=True)
+class BristlePrices:
+    """Seconds of a drive period of sliding LuGre friction at fidelity 2, where kappa is below `to`.
+
+    `digit` is for each digit of the tolerance. Bristles that bend in part of a period are followed
+    by series, stiffer ones by a panel of Gauss nodes.
+    """
+
+    to: float
+    period: float
+    digit: float
+
+
+BRISTLES = (
+    BristlePrices(3.0, 1.4e-6, 0.2e-6),
+    BristlePrices(30.0, 1.2e-6, 0.7e-6),
+    BristlePrices(150.0, 0.4e-6, 0.2e-6),
+    BristlePrices(inf, 0.95e-6, 0.08e-6),
+)
+FIRST_FIDELITY = 0.9
+"""Share of it at fidelity 1."""
+CHIRP = 2.4e-6
+"""Seconds of a drive period in which the frequency ratio grows along a line, besides."""
 
 
 @dataclass(frozen=True)
 class AveragedPrices:
     """Seconds of averaged motion.
 
-    `step` is added to each communication step, `transient` is for each relaxation time after a
-    change, until the motion has settled; `relaxation` is for each where beats keep it moving, and
-    `beat` for each of these. Of second order `start` is for the first orbits and `lead` for those
-    after each change of phase or frequency ratio, and the first `resolved` memories of the
-    resonator cost what resolved motion does.
+    `start` is for the start and each change of a parameter, `step` is added to each communication
+    step, and `MOVING` times as much to one that is long against the relaxation time; `transient` is
+    for each relaxation time after a change, until the motion has settled, and `beat` for each turn
+    of the slow phase.
     """
 
+    start: float
     step: float
     transient: float
-    relaxation: float
     beat: float
-    start: float = 0.0
-    lead: float = 0.0
-    resolved: float = 0.0
 
 
 AVERAGED = {
-    (1, COULOMB, False): AveragedPrices(0.4e-6, 2.4e-6, 1.5e-6, 0.5e-6),
-    (1, COULOMB, True): AveragedPrices(0.4e-6, 2.4e-6, 1.5e-6, 6e-6),
-    (1, LUGRE, False): AveragedPrices(0.4e-6, 2.6e-6, 1.9e-6, 15e-6),
-    (1, LUGRE, True): AveragedPrices(60e-6, 0.6e-3, 1.9e-6, 2.2e-3),
-    (2, COULOMB, False): AveragedPrices(5e-6, 5e-6, 1e-6, 130e-6, 0.1e-3, 3e-3, 16.0),
-    (2, COULOMB, True): AveragedPrices(5e-6, 5e-6, 1e-6, 1.3e-3, 0.2e-3, 3e-3, 16.0),
-    (2, LUGRE, False): AveragedPrices(15e-6, 10e-6, 2e-6, 0.4e-3, 2e-3, 2e-3, 16.0),
-    (2, LUGRE, True): AveragedPrices(15e-6, 20e-6, 2e-6, 2.2e-3, 4e-3, 4e-3, 16.0),
+    (COULOMB, False): AveragedPrices(10e-6, 0.4e-6, 3e-6, 12e-6),
+    (COULOMB, True): AveragedPrices(10e-6, 0.4e-6, 3e-6, 12e-6),
+    (LUGRE, False): AveragedPrices(0.4e-3, 1.7e-6, 3e-6, 15e-6),
+    (LUGRE, True): AveragedPrices(2e-3, 60e-6, 0.5e-3, 2.2e-3),
 }
-"""By averaging order, friction law and whether the contact lifts: then the mean friction of a
-bristle is integrated. An order is chosen from once it has its rows."""
-AVERAGING_ORDERS = tuple(sorted({order for order, _, _ in AVERAGED}))
+"""Of first order, by friction law and whether the contact lifts: then the mean friction of a
+bristle is integrated."""
+MOVING = {COULOMB: 4.0, LUGRE: 0.5}
+BENDING, MAX_BENDING = 0.45e-3, 2.2
+"""Seconds of a start for each decade of kappa from a third on, for so many: the mean friction of a
+bristle is tabulated."""
+
+
+@dataclass(frozen=True)
+class OrbitPrices:
+    """Seconds of averages of second order.
+
+    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts, and
+    `edge` is added for one in which the slider hardly turns back, and `curve` for each curve.
+    `step` is for a communication step, `mark` for an end of a period in it, of which the last two
+    count, `searched` for both where orbits are searched, `change` for going over to another lead,
+    and `beat` for one that follows tables, `searched_beat` for one that searches.
+    """
+
+    curve: float
+    panel: float
+    lifting: float
+    edge: float
+    step: float
+    mark: float
+    searched: float
+    change: float
+    beat: float
+    searched_beat: float
+
+
+ORBITS = {
+    COULOMB: OrbitPrices(
+        curve=0.0,
+        panel=0.15e-3,
+        lifting=3.0,
+        edge=1.1e-3,
+        step=1.65e-6,
+        mark=1.65e-6,
+        searched=18e-6,
+        change=8e-6,
+        beat=120e-6,
+        searched_beat=0.25e-3,
+    ),
+    LUGRE: OrbitPrices(
+        curve=1e-3,
+        panel=2.9e-3,
+        lifting=1.0,
+        edge=3e-3,
+        step=2.5e-6,
+        mark=6e-6,
+        searched=60e-6,
+        change=60e-6,
+        beat=300e-6,
+        searched_beat=2.2e-3,
+    ),
+}
+"""By friction law."""
+EDGE = 0.9
+"""Slow over fast velocity beyond which the slider hardly turns back."""
+PANELS = (-inf, -0.7, 0.0, 0.7, inf)
+"""Slow over fast velocities between which panels lie."""
+NEXT = 0.03
+"""Overlap with a panel that is not followed."""
+USUAL = (0.1, 0.6)
+"""Slow over fast velocity, where it is not known."""
+ROUGH = 2.0
+"""Root of the share of friction in the drive by which orbits cost more, up to twice as much."""
+AVERAGING_ORDERS = (1, 2)
+"""Orders of averaged motion to choose from."""
 NEVER_SLIDES, STUCK = 1.5, 0.02e-6
 """Friction over vibration that stops the slider for good, and seconds of such a drive period."""
 OUTPUT = {COULOMB: 13e-6, LUGRE: 60e-6}
@@ -95,7 +183,8 @@ SEARCH = 60e-6
 """Seconds of a search by shooting besides its drive periods."""
 SEARCH_PERIOD = {COULOMB: 16e-6, LUGRE: 34e-6}
 """Seconds to start, read and evaluate a drive period of a search; a bristle takes more readings."""
-MAX_DECADES = 3.0
+HARDLY_OSCILLATES = 0.85
+"""Damping ratio of the sliding resonator from which on its closed forms cost more."""
 SELDOM, ALWAYS, MIN_SHARE = 0.35, 0.8, 0.2
 """Friction over vibration at which the slider hardly sticks and does throughout, and the least
 share of the time, before it is squared."""
@@ -108,12 +197,20 @@ def period_cost(model: Model, tolerance: float, scales: Scales) -> float:
         return STUCK
     sticks = scales.slowness is not None and scales.slowness >= BREAKS_LOOSE
     cost = prices.sticking if sticks else prices.sliding
+    if scales.lifts or 0.0 < abs(scales.ratio) < NEAR_AN_INTEGER:
+        cost += prices.lifting
+    if scales.damping >= HARDLY_OSCILLATES:
+        cost += prices.damped
     if model.friction_law == COULOMB:
         return cost
-    if scales.kappa and not sticks:
-        cost += prices.stiffer * min(max(log10(scales.kappa) + 1.0, 0.0), MAX_DECADES)
+    digits = -log10(tolerance)
+    if not sticks:
+        kappa = scales.kappa or 0.0
+        bristle = next(prices for prices in BRISTLES if kappa < prices.to)
+        share = FIRST_FIDELITY if model.fidelity == 1 else 1.0
+        return cost + share * (bristle.period + bristle.digit * digits)
     turns = scales.bristle_turns * _sticking_share(scales)
-    return cost + prices.digit * -log10(tolerance) + prices.turn * turns
+    return cost + prices.digit * digits + prices.turn * turns
 
 
 def _sticking_share(scales: Scales) -> float:
@@ -124,45 +221,75 @@ def _sticking_share(scales: Scales) -> float:
     return min(1.0, max(MIN_SHARE, share) ** 2)
 
 
-def run_cost(candidate: Candidate, scales: Scales, plan: Plan) -> float:
-    """Return the cost (s) of a run."""
+def run_cost(
+    candidate: Candidate, scales: Scales, plan: Plan, slow: tuple[float, float] = USUAL
+) -> float:
+    """Return the cost (s) of a run.
+
+    `slow` are the least and the greatest slow velocity in it, in fast velocities.
+    """
     cost = RUN + STEP * plan.steps + CHANGE * plan.settings
     model = candidate.model
     if model.fidelity == 0:
-        cost += _preparation_cost(candidate, scales, plan)
+        if model.averaging_order == 2 and scales.has_orbits:
+            return cost + _orbit_cost(candidate, scales, plan, slow)
         return cost + _averaged_cost(model, scales, plan)
-    prices = RESOLVED[model.fidelity, model.friction_law]
     periods = plan.duration / scales.period
-    unsettled = min(periods, FORGETS * scales.memory * (1.0 + len(plan.kicks)))
-    cost += prices.start + prices.unsettled * unsettled
-    return cost + periods * period_cost(model, candidate.tolerance, scales)
+    return cost + _resolved_cost(model, candidate.tolerance, scales, plan, periods)
 
 
-def _averaged_prices(model: Model, scales: Scales) -> AveragedPrices:
-    lifts = scales.lifts and (scales.detuning == 0.0 or scales.beat > 0.0)
-    return AVERAGED[model.averaging_order or 1, model.friction_law, lifts]
-
-
-def _preparation_cost(candidate: Candidate, scales: Scales, plan: Plan) -> float:
-    """Return the cost (s) of the resolved start of second-order averages, and of their orbits."""
-    model, prices = candidate.model, _averaged_prices(candidate.model, scales)
-    if not prices.resolved:
-        return 0.0
-    full = Model(2, model.friction_law)
-    each = period_cost(full, candidate.tolerance, scales)
-    each += RESOLVED[2, model.friction_law].unsettled
-    resolved = min(plan.duration / scales.period, prices.resolved * scales.memory)
-    return prices.start + prices.lead * len(plan.led) + each * resolved
+def _resolved_cost(
+    model: Model, tolerance: float, scales: Scales, plan: Plan, periods: float
+) -> float:
+    """Return the cost (s) of so many drive periods of a run."""
+    prices = RESOLVED[model.fidelity, model.friction_law]
+    unsettled = min(periods, FORGETS * scales.memory * (1.0 + plan.shakes))
+    chirped = plan.chirped * periods * scales.period / plan.duration
+    cost = prices.start + prices.unsettled * unsettled + CHIRP * chirped
+    return cost + periods * period_cost(model, tolerance, scales)
 
 
 def _averaged_cost(model: Model, scales: Scales, plan: Plan) -> float:
-    prices = _averaged_prices(model, scales)
-    beats, relaxations = scales.beat * plan.duration, plan.duration / scales.relaxation
-    cost = prices.step * plan.steps + prices.beat * beats
-    if beats:
-        cost += prices.relaxation * relaxations
-    starts = 1 + len(plan.kicks)
+    prices = AVERAGED[model.friction_law, scales.lifts]
+    start = prices.start
+    if model.friction_law == LUGRE and scales.kappa:
+        start += BENDING * min(max(log10(scales.kappa) + 0.5, 0.0), MAX_BENDING)
+    starts, relaxations = 1 + plan.kicks, plan.duration / scales.relaxation
+    moving = min(1.0, relaxations / plan.steps)
+    cost = start * (1 + plan.tunings)
+    cost += (
+        prices.step * plan.steps * (1.0 + MOVING[model.friction_law] * moving)
+        + prices.beat * plan.beats
+    )
     return cost + prices.transient * starts * min(relaxations / starts, FORGETS)
+
+
+def _orbit_cost(
+    candidate: Candidate, scales: Scales, plan: Plan, slow: tuple[float, float]
+) -> float:
+    law = candidate.model.friction_law
+    prices, full = ORBITS[law], Model(2, law)
+    work = orbit_work(plan, scales, law)
+    periods = plan.duration / scales.period
+    cost = _resolved_cost(full, candidate.tolerance, scales, plan, work.resolved)
+    rough = 1.0 + min(1.0, ROUGH * sqrt(scales.slowness or 0.0))
+    cost += work.curves * _curve_cost(prices, scales, slow) + prices.change * work.changes
+    length = plan.duration / plan.steps / scales.period
+    steps, marks = rough * plan.steps / periods, min(2.0, length)
+    cost += steps * work.tabulated * (prices.step + marks * prices.mark)
+    cost += steps * work.searched * (1.0 + marks) * prices.searched
+    cost += prices.beat * work.tabulated_beats
+    return cost + prices.searched_beat * work.searched_beats
+
+
+def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) -> float:
+    """Return the cost (s) of the curve of orbits at a lead."""
+    low, high = slow
+    visited = [low < right - NEXT and high > left + NEXT for left, right in pairwise(PANELS)]
+    cost = prices.panel * max(1, sum(visited))
+    if scales.lifts:
+        cost *= prices.lifting
+    return prices.curve + cost + prices.edge * ((low < -EDGE) + (high > EDGE))
 
 
 def search_cost(model: Model, tolerance: float, periods: int, scales: Scales) -> float:

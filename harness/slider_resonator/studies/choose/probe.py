@@ -10,13 +10,14 @@ from math import inf
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.beat import lacking_beat, unseen_beat
 from slider_resonator.studies.choose.candidate import START_TOLERANCE, Candidate, Model
 from slider_resonator.studies.choose.carrying import Drift, carried, defect, over_the_scene
-from slider_resonator.studies.choose.cost import AVERAGING_ORDERS
+from slider_resonator.studies.choose.cost import AVERAGING_ORDERS, USUAL
 from slider_resonator.studies.choose.coverage import (
     FINEST_TOLERANCE,
     MAX_STEPS,
@@ -44,6 +45,8 @@ HOLDING_STEPS = 500
 """Steps of averaged motion from which the error of holding the inputs follows."""
 WINDOW_STEPS = 4
 """Steps in a drive period, in windows, that follow inputs as they vary."""
+RANGE_POINTS = 60
+"""Points at which averaged motion tells the range of the slow velocity."""
 CAUTION = 3.0
 """Safety factor on errors extrapolated from the beginning, besides their growth with time."""
 
@@ -91,8 +94,25 @@ class Probe:
     def plan(self, step: float) -> Plan:
         """Return what a run in this step (s) asks of the FMU."""
         if step not in self._plans:
-            self._plans[step] = plan_of(self.scene.with_step(step).schedule())
+            self._plans[step] = plan_of(self.scene.with_step(step).schedule(), self.scales.period)
         return self._plans[step]
+
+    @cached_property
+    def slow_range(self) -> tuple[float, float]:
+        """Least and greatest slow velocity of the scene, in fast velocities, by averaged motion."""
+        if not self.scales.fast_velocity:
+            return USUAL
+        points = self.duration * (np.arange(1, RANGE_POINTS + 1) / RANGE_POINTS) ** 3
+        stretch = Stretch(0.0, self.duration, points)
+        size = self.duration / RANGE_POINTS
+        try:
+            held = self._inputs_as_they_vary(size, stretch)
+            candidate = Candidate(self._averaged, START_TOLERANCE, size)
+            slow = self._follow(candidate, held, stretch)["mean_velocity"]
+        except FmuError:
+            return USUAL
+        fast = self.scales.fast_velocity
+        return float(slow.min()) / fast, float(slow.max()) / fast
 
     @property
     def inputs(self) -> str | None:

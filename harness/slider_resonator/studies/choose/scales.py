@@ -34,6 +34,8 @@ class Scales:
     largest change of an input in a drive period, in rad, mean frictions, or drive frequencies.
     `lifts` says whether the contact ever lifts off. `bristle_turns` are the oscillations of the
     slider on its bristle in a drive period, 0 where the vibration breaks the contact loose.
+    `ratio` is the starting frequency ratio, `damping` the damping ratio of the resonator beside a
+    slider that slides.
     """
 
     period: float
@@ -49,6 +51,13 @@ class Scales:
     input_rate: float
     lifts: bool
     bristle_turns: float
+    ratio: float
+    damping: float
+
+    @property
+    def has_orbits(self) -> bool:
+        """Whether averages of second order follow held orbits: slow motion under a slow phase."""
+        return self.has_slow_motion and (self.detuning == 0.0 or self.beat > 0.0 or self.lifts)
 
     @property
     def has_slow_motion(self) -> bool:
@@ -129,6 +138,8 @@ def scales_of(scene: Scene) -> Scales:
         input_rate=_input_rate(scene, period, friction),
         lifts=_highest(scene, "normal_amplitude") > _lowest(scene, "normal_preload"),
         bristle_turns=_bristle_turns(device, slowness),
+        ratio=ratio,
+        damping=device.damping_ratio / sqrt(1.0 - device.mass_ratio),
     )
 
 

@@ -1,19 +1,21 @@
 from __future__ import annotations
 
-import numpy as np
+from math import tau
+
 import pytest
 
 from slider_resonator.studies.choose.candidate import TOLERANCES, Candidate, Model
-from slider_resonator.studies.choose.cost import run_cost, search_cost
-from slider_resonator.studies.choose.plan import Plan
+from slider_resonator.studies.choose.cost import period_cost, run_cost, search_cost
+from slider_resonator.studies.choose.plan import Plan, Stay
 from slider_resonator.studies.choose.scales import scales_of
 from tests.harness.scene_text import scene_of
 
 
-def plan(duration: float, steps: int, kicks: int = 0, led: int = 0) -> Plan:
-    """Return the plan of so many changes at equal distances, of which the first lead."""
-    times = duration * np.arange(1.0, kicks + 1.0) / (kicks + 1.0)
-    return Plan(duration, steps, kicks, times, times[:led], lines=False, turning=False)
+def plan(duration: float, steps: int, kicks: int = 0, leads: int = 0) -> Plan:
+    """Return the plan of so many changes, of which some are of the phase, at equal distances."""
+    periods = duration * 3500.0 / tau / (leads + 1.0)
+    stays = tuple(Stay(periods, (0.1 * lead, 1.0), drifts=False) for lead in range(leads + 1))
+    return Plan(duration, steps, kicks, kicks, stays)
 
 
 def test_higher_accuracy_costs_more() -> None:
@@ -64,6 +66,20 @@ def test_second_order_costs_its_orbits_and_a_resolved_start() -> None:
     first, second = (Candidate(Model(0, 0, order), 1e-8, 100.0) for order in (1, 2))
     costs = [run_cost(second, scales, plan(10.0, 1)) for scales in (damped, weakly)]
     assert run_cost(first, damped, plan(10.0, 1)) < costs[0] < costs[1]
-    jumps = [run_cost(second, damped, plan(10.0, 1, 4, leads)) for leads in (0, 2, 4)]
-    assert jumps[2] - jumps[1] == pytest.approx(jumps[1] - jumps[0])
+    jumps = [run_cost(second, damped, plan(10.0, 1, 4, leads)) for leads in (0, 1, 2)]
+    assert jumps[2] - jumps[1] == pytest.approx(jumps[1] - jumps[0], rel=1e-6)
     assert jumps[0] < jumps[1]
+
+
+def test_stiff_bristles_cost_less_than_those_that_bend_in_part_of_a_period() -> None:
+    costs = [
+        period_cost(Model(2, 1), 1e-8, scales_of(scene_of(f"[device]\nbristle_stiffness = {s}\n")))
+        for s in (1e4, 1e5, 1e7)
+    ]
+    assert costs[0] > 2.0 * costs[1] > 2.0 * costs[2]
+
+
+def test_orbits_at_the_edge_of_turning_back_cost_more() -> None:
+    scales, second = scales_of(scene_of("")), Candidate(Model(0, 0, 2), 1e-8, 100.0)
+    costs = [run_cost(second, scales, plan(10.0, 1), slow) for slow in ((0.1, 0.6), (0.1, 0.99))]
+    assert costs[1] > 3.0 * costs[0]
