@@ -52,8 +52,8 @@ class ResolvedPrices:
 RESOLVED = {
     (1, COULOMB): ResolvedPrices(0.42e-6, 0.16e-6, 0.75e-6, 0.3e-6, 0.7e-6),
     (2, COULOMB): ResolvedPrices(0.48e-6, 0.4e-6, 1.6e-6, 0.4e-6, 1.4e-6),
-    (1, LUGRE): ResolvedPrices(0.0, 0.0, 2.2e-6, 0.2e-6, 0.7e-6, 0.19e-6, 2.1e-6),
-    (2, LUGRE): ResolvedPrices(0.0, 0.5e-6, 2.5e-6, 0.3e-6, 1.4e-6, 0.21e-6, 2.4e-6, 80e-6),
+    (1, LUGRE): ResolvedPrices(0.0, 0.0, 2.2e-6, 0.5e-6, 0.7e-6, 0.19e-6, 2.1e-6),
+    (2, LUGRE): ResolvedPrices(0.0, 0.5e-6, 2.5e-6, 0.6e-6, 1.4e-6, 0.21e-6, 2.4e-6, 80e-6),
 }
 """By fidelity and friction law. LuGre friction that slides is in `BRISTLES`."""
 
@@ -74,7 +74,7 @@ class BristlePrices:
 BRISTLES = (
     BristlePrices(3.0, 1.4e-6, 0.2e-6),
     BristlePrices(30.0, 1.2e-6, 0.7e-6),
-    BristlePrices(150.0, 0.4e-6, 0.2e-6),
+    BristlePrices(150.0, 0.5e-6, 0.2e-6),
     BristlePrices(inf, 0.95e-6, 0.08e-6),
 )
 FIRST_FIDELITY = 0.9
@@ -87,30 +87,34 @@ CHIRP = 2.4e-6
 class AveragedPrices:
     """Seconds of averaged motion.
 
-    `start` is for the start and each change of a parameter, `step` is added to each communication
-    step, and `MOVING` times as much to one that is long against the relaxation time; `transient` is
-    for each relaxation time after a change, until the motion has settled, and `beat` for each turn
-    of the slow phase.
+    `start` is for the start, `table` for the mean friction of a bristle, at the start and after
+    each change of a parameter. `step` is added to each communication step, and `MOVING` times as
+    much to one that is long against the relaxation time; `transient` is for each relaxation time
+    after a change, until the motion has settled, and `beat` for each turn of the slow phase,
+    `swing` for one in which the slow velocity follows it.
     """
 
     start: float
+    table: float
     step: float
     transient: float
     beat: float
+    swing: float
 
 
 AVERAGED = {
-    (COULOMB, False): AveragedPrices(10e-6, 0.4e-6, 3e-6, 12e-6),
-    (COULOMB, True): AveragedPrices(10e-6, 0.4e-6, 3e-6, 12e-6),
-    (LUGRE, False): AveragedPrices(0.4e-3, 1.7e-6, 3e-6, 15e-6),
-    (LUGRE, True): AveragedPrices(2e-3, 60e-6, 0.5e-3, 2.2e-3),
+    (COULOMB, False): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 7e-6, 14e-6),
+    (COULOMB, True): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 7e-6, 14e-6),
+    (LUGRE, False): AveragedPrices(10e-6, 0.4e-3, 1.7e-6, 3e-6, 10e-6, 14e-6),
+    (LUGRE, True): AveragedPrices(10e-6, 2e-3, 60e-6, 0.5e-3, 2.2e-3, 0.0),
 }
 """Of first order, by friction law and whether the contact lifts: then the mean friction of a
 bristle is integrated."""
+MAX_SWING = 2.0
+"""Largest number of relaxation times in a turn of the slow phase that counts."""
 MOVING = {COULOMB: 4.0, LUGRE: 0.5}
 BENDING, MAX_BENDING = 0.45e-3, 2.2
-"""Seconds of a start for each decade of kappa from a third on, for so many: the mean friction of a
-bristle is tabulated."""
+"""Seconds of a table for each decade of kappa from a third on, for so many."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +125,8 @@ class OrbitPrices:
     `edge` is added for one in which the slider hardly turns back, and `curve` for each curve.
     `step` is for a communication step, `mark` for an end of a period in it, of which the last two
     count, `searched` for both where orbits are searched, `change` for going over to another lead,
-    and `beat` for one that follows tables, `searched_beat` for one that searches.
+    `beat` and `swing` for a turn of the slow phase as with averages of first order, and
+    `searched_beat` for one that searches. Soft bristles need a share of that, `soft`.
     """
 
     curve: float
@@ -133,7 +138,9 @@ class OrbitPrices:
     searched: float
     change: float
     beat: float
+    swing: float
     searched_beat: float
+    soft: float = 1.0
 
 
 ORBITS = {
@@ -145,8 +152,9 @@ ORBITS = {
         step=1.65e-6,
         mark=1.65e-6,
         searched=18e-6,
-        change=8e-6,
-        beat=120e-6,
+        change=6e-6,
+        beat=70e-6,
+        swing=110e-6,
         searched_beat=0.25e-3,
     ),
     LUGRE: OrbitPrices(
@@ -158,11 +166,15 @@ ORBITS = {
         mark=6e-6,
         searched=60e-6,
         change=60e-6,
-        beat=300e-6,
+        beat=200e-6,
+        swing=200e-6,
         searched_beat=2.2e-3,
+        soft=0.6,
     ),
 }
 """By friction law."""
+SOFT_BRISTLE = 3.0
+"""Path of the vibration over that of the bristle below which it counts as soft."""
 EDGE = 0.9
 """Slow over fast velocity beyond which the slider hardly turns back."""
 PANELS = (-inf, -0.7, 0.0, 0.7, inf)
@@ -251,17 +263,21 @@ def _resolved_cost(
 
 def _averaged_cost(model: Model, scales: Scales, plan: Plan) -> float:
     prices = AVERAGED[model.friction_law, scales.lifts]
-    start = prices.start
+    table = prices.table
     if model.friction_law == LUGRE and scales.kappa:
-        start += BENDING * min(max(log10(scales.kappa) + 0.5, 0.0), MAX_BENDING)
+        table += BENDING * min(max(log10(scales.kappa) + 0.5, 0.0), MAX_BENDING)
     starts, relaxations = 1 + plan.kicks, plan.duration / scales.relaxation
     moving = min(1.0, relaxations / plan.steps)
-    cost = start * (1 + plan.tunings)
-    cost += (
-        prices.step * plan.steps * (1.0 + MOVING[model.friction_law] * moving)
-        + prices.beat * plan.beats
-    )
+    cost = prices.start + table * (1 + plan.tunings)
+    cost += prices.step * plan.steps * (1.0 + MOVING[model.friction_law] * moving)
+    cost += plan.beats * (prices.beat + prices.swing * _swing(scales, plan))
     return cost + prices.transient * starts * min(relaxations / starts, FORGETS)
+
+
+def _swing(scales: Scales, plan: Plan) -> float:
+    """Return how far the slow velocity follows the slow phase in its turns."""
+    relaxations = plan.duration / scales.relaxation
+    return sqrt(min(MAX_SWING, relaxations / plan.beats)) if plan.beats else 0.0
 
 
 def _orbit_cost(
@@ -278,7 +294,8 @@ def _orbit_cost(
     steps, marks = rough * plan.steps / periods, min(2.0, length)
     cost += steps * work.tabulated * (prices.step + marks * prices.mark)
     cost += steps * work.searched * (1.0 + marks) * prices.searched
-    cost += prices.beat * work.tabulated_beats
+    each = prices.beat + prices.swing * _swing(scales, plan)
+    cost += each * work.tabulated_beats
     return cost + prices.searched_beat * work.searched_beats
 
 
@@ -289,6 +306,8 @@ def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) 
     cost = prices.panel * max(1, sum(visited))
     if scales.lifts:
         cost *= prices.lifting
+    if (scales.kappa or inf) < SOFT_BRISTLE:
+        cost *= prices.soft
     return prices.curve + cost + prices.edge * ((low < -EDGE) + (high > EDGE))
 
 
