@@ -12,9 +12,9 @@ MAX_PERIODS = 10_000
 """Maximum drive periods in a step: beyond, the overhead of a step is negligible."""
 MAX_RELAXATIONS = 2000
 """The same for averaged motion, in relaxation times: FMUs bound the work of a step."""
-STEPS_PER_BEAT = 2.2, 8.0
+STEPS_PER_BEAT = 4.0, 8.0
 """Steps in a beat, from the fewest on, up to a number that shows its form, too."""
-BEAT_POINTS = 40, 128
+BEAT_POINTS = 64, 128
 """The same for the points of a run from which a beat is read."""
 FINEST = 64
 """Maximum steps in a drive period."""

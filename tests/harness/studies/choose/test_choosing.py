@@ -261,7 +261,7 @@ def test_a_beat_is_read_from_averaged_motion(instance: Instance) -> None:
     choice = choose_with(instance, scene)
     assert (choice.meets, choice.fidelity) == (True, 0)
     assert choice.step is not None
-    assert choice.step * choice.scales.beat <= 1.0 / 8.0
+    assert choice.step * choice.scales.beat <= 1.0 / 4.0
 
 
 def test_a_long_scene_is_not_resolved_as_a_whole(instance: Instance) -> None:
