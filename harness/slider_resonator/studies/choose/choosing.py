@@ -230,7 +230,7 @@ class _Choosing:
         return "; ".join(filter(None, (self._nearest(model).why, self._law_of(model))))
 
     def _nearest(self, model: Model | None = None) -> Evaluation:
-        """Return the evaluation nearest to the needs, of all or of one model; of equals the finest."""
+        """Return the evaluation nearest to the needs, of all or a model; the finest of equals."""
         evaluation = [t for t in self._evaluations.values() if model in (None, t.candidate.model)]
         return min(evaluation, key=lambda t: (t.excess, -t.candidate.model.fidelity))
 

@@ -72,7 +72,7 @@ class BristlePrices:
 
 
 BRISTLES = (
-    BristlePrices(3.0, 1.4e-6, 0.2e-6),
+    BristlePrices(2.5, 1.4e-6, 0.2e-6),
     BristlePrices(30.0, 1.2e-6, 0.7e-6),
     BristlePrices(150.0, 0.5e-6, 0.2e-6),
     BristlePrices(inf, 0.95e-6, 0.08e-6),
@@ -163,13 +163,13 @@ ORBITS = {
         lifting=1.0,
         edge=3e-3,
         step=2.5e-6,
-        mark=6e-6,
+        mark=5e-6,
         searched=60e-6,
         change=60e-6,
         beat=200e-6,
         swing=200e-6,
         searched_beat=2.2e-3,
-        soft=0.6,
+        soft=0.5,
     ),
 }
 """By friction law."""

@@ -99,6 +99,10 @@ class _Following:
         prices = {"search": self.paid.search, "series": self.paid.series}
         return prices.get(str(source), self.paid.curve)
 
+    def _buy(self, source: object) -> None:
+        if source != "search":
+            self.bought.add(source)
+
     def _change(self, stay: Stay) -> None:
         if stay.tuned:
             self.tunings += 1
@@ -110,6 +114,7 @@ class _Following:
                 self.to_go = max(self.to_go, price - self.waited)
         elif price > 0.0 or stay.driven:
             self.resolves, self.to_go, self.waited = True, price, 0.0
+            self._buy(self._source(stay))
         else:
             self.done.changes += stay.count
         if stay.driven:
@@ -135,6 +140,6 @@ class _Following:
         if source not in self.tables:
             self.done.curves += SERIES_CURVES if source == "series" else 1
             self.tables.add(source)
-        self.bought.add(source)
+        self._buy(source)
         self.done.tabulated += left
         self.done.tabulated_beats += beats

@@ -54,6 +54,12 @@ def test_leads_that_change_soon_do_not_prolong_resolved_motion() -> None:
     assert found.curves == 2
 
 
+def test_leads_that_alternate_are_paid_for_once() -> None:
+    found = work(*(stay(50.0, 0.5 * (i % 2)) for i in range(100)))
+    assert found.resolved == pytest.approx(START + PAID[0].curve)
+    assert found.curves == 2
+
+
 def test_many_leads_share_a_series() -> None:
     leads = [stay(10_000.0, 0.1 * i) for i in range(2 * CURVES)]
     found = work(*leads)
