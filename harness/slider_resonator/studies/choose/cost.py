@@ -103,8 +103,8 @@ class AveragedPrices:
 
 
 AVERAGED = {
-    (COULOMB, False): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 7e-6, 14e-6),
-    (COULOMB, True): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 7e-6, 14e-6),
+    (COULOMB, False): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
+    (COULOMB, True): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
     (LUGRE, False): AveragedPrices(10e-6, 0.4e-3, 1.7e-6, 3e-6, 10e-6, 14e-6),
     (LUGRE, True): AveragedPrices(10e-6, 2e-3, 60e-6, 0.5e-3, 2.2e-3, 0.0),
 }
@@ -121,12 +121,13 @@ BENDING, MAX_BENDING = 0.45e-3, 2.2
 class OrbitPrices:
     """Seconds of averages of second order.
 
-    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts, and
-    `edge` is added for one in which the slider hardly turns back, and `curve` for each curve.
-    `step` is for a communication step, `mark` for an end of a period in it, of which the last two
-    count, `searched` for both where orbits are searched, `change` for going over to another lead,
-    `beat` and `swing` for a turn of the slow phase as with averages of first order, and
-    `searched_beat` for one that searches. Soft bristles need a share of that, `soft`.
+    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts,
+    `soft` times where bristles are soft; `edge` is added for one in which the slider hardly turns
+    back, and `curve` for each curve. `step` is for a communication step, `mark` for an end of a
+    period in it, of which the last two count; `drifting` is added to a step in which the lead
+    drifts, `searched` is for step and marks where orbits are searched, `change` for going over to
+    another lead, `beat` and `swing` for a turn of the slow phase as with averages of first order,
+    and `searched_beat` for one that searches.
     """
 
     curve: float
@@ -135,6 +136,7 @@ class OrbitPrices:
     edge: float
     step: float
     mark: float
+    drifting: float
     searched: float
     change: float
     beat: float
@@ -151,10 +153,11 @@ ORBITS = {
         edge=1.1e-3,
         step=1.65e-6,
         mark=1.65e-6,
+        drifting=7e-6,
         searched=18e-6,
         change=6e-6,
-        beat=70e-6,
-        swing=110e-6,
+        beat=60e-6,
+        swing=170e-6,
         searched_beat=0.25e-3,
     ),
     LUGRE: OrbitPrices(
@@ -164,10 +167,11 @@ ORBITS = {
         edge=3e-3,
         step=2.5e-6,
         mark=5e-6,
+        drifting=18e-6,
         searched=60e-6,
         change=60e-6,
-        beat=200e-6,
-        swing=200e-6,
+        beat=100e-6,
+        swing=80e-6,
         searched_beat=2.2e-3,
         soft=0.5,
     ),
@@ -277,7 +281,7 @@ def _averaged_cost(model: Model, scales: Scales, plan: Plan) -> float:
 def _swing(scales: Scales, plan: Plan) -> float:
     """Return how far the slow velocity follows the slow phase in its turns."""
     relaxations = plan.duration / scales.relaxation
-    return sqrt(min(MAX_SWING, relaxations / plan.beats)) if plan.beats else 0.0
+    return min(MAX_SWING, relaxations / plan.beats) if plan.beats else 0.0
 
 
 def _orbit_cost(
@@ -293,6 +297,7 @@ def _orbit_cost(
     length = plan.duration / plan.steps / scales.period
     steps, marks = rough * plan.steps / periods, min(2.0, length)
     cost += steps * work.tabulated * (prices.step + marks * prices.mark)
+    cost += steps * work.drifting * prices.drifting
     cost += steps * work.searched * (1.0 + marks) * prices.searched
     each = prices.beat + prices.swing * _swing(scales, plan)
     cost += each * work.tabulated_beats
@@ -302,13 +307,16 @@ def _orbit_cost(
 def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) -> float:
     """Return the cost (s) of the curve of orbits at a lead."""
     low, high = slow
+    if low > 1.0 or high < -1.0:
+        return prices.curve
     visited = [low < right - NEXT and high > left + NEXT for left, right in pairwise(PANELS)]
     cost = prices.panel * max(1, sum(visited))
     if scales.lifts:
         cost *= prices.lifting
     if (scales.kappa or inf) < SOFT_BRISTLE:
         cost *= prices.soft
-    return prices.curve + cost + prices.edge * ((low < -EDGE) + (high > EDGE))
+    edges = (low < -EDGE and high > -1.0) + (high > EDGE and low < 1.0)
+    return prices.curve + cost + prices.edge * edges
 
 
 def search_cost(model: Model, tolerance: float, periods: int, scales: Scales) -> float:

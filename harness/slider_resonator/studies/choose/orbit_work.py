@@ -40,12 +40,14 @@ PAID = {COULOMB: Paid(400.0, 4300.0, 160.0), LUGRE: Paid(1800.0, 19_000.0, 600.0
 class OrbitWork:
     """Drive periods of a run that are resolved, that follow tables, and that search their orbits.
 
-    The beats are the turns of the slow phase in these. `curves` are tabulated, those of a series
+    Those that `drifting` counts are among the tabulated ones; the beats are the turns of the slow
+    phase in either. `curves` are tabulated, those of a series
     counted, too; `changes` are those of the lead that orbits follow.
     """
 
     resolved: float = 0.0
     tabulated: float = 0.0
+    drifting: float = 0.0
     searched: float = 0.0
     tabulated_beats: float = 0.0
     searched_beats: float = 0.0
@@ -58,9 +60,9 @@ def orbit_work(plan: Plan, scales: Scales, law: int) -> OrbitWork:
     return _Following(scales, law).work(plan)
 
 
-def resolved_start(scales: Scales) -> float:
-    """Return the drive periods of the resolved start."""
-    bristle = 0.25 / scales.kappa if scales.kappa else 0.0
+def resolved_start(scales: Scales, law: int) -> float:
+    """Return the drive periods of the resolved start under a friction law."""
+    bristle = 0.25 / scales.kappa if law == LUGRE and scales.kappa else 0.0
     return max(SMALLEST_START, MEMORIES * max(scales.memory, bristle))
 
 
@@ -69,7 +71,7 @@ class _Following:
 
     def __init__(self, scales: Scales, law: int) -> None:
         self.lifts = scales.lifts
-        self.start = resolved_start(scales)
+        self.start = resolved_start(scales, law)
         self.paid = PAID[law]
         self.done = OrbitWork()
         self.resolves, self.to_go, self.waited = True, self.start, 0.0
@@ -142,4 +144,5 @@ class _Following:
             self.tables.add(source)
         self._buy(source)
         self.done.tabulated += left
+        self.done.drifting += left if stay.drifts else 0.0
         self.done.tabulated_beats += beats

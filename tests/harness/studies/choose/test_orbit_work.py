@@ -18,7 +18,7 @@ from tests.harness.scene_text import scene_of
 
 TABLE_1 = scales_of(scene_of(""))
 FLIGHT = scales_of(scene_of("[device]\nnormal_amplitude = 1.5\n"))
-START = resolved_start(TABLE_1)
+START = resolved_start(TABLE_1, 0)
 
 
 def work(*stays: Stay, scales: Scales = TABLE_1) -> OrbitWork:
