@@ -1,9 +1,11 @@
 """The cost of a run, from counts alone, so that the same scene always has the same answer.
 
 The counts are communication steps, changes of the inputs, drive periods, and for averaged motion
-beats and relaxation times; their weights were fitted to the CPU time of the native FMU behind fmpy
-(`python -m tests.harness.studies.choose.pricing` measures them again). A model of cost decides
-between candidates; the seconds of another machine are another multiple of it.
+beats, relaxation times, and the orbits that are prepared and followed. Their weights were fitted to
+some 650 runs of the native FMU in a host in C: the shortest of several CPU times, in units of the
+instructions of a resolved run of table 1, at 0.095 ns each. Steps and changes are those of fmpy
+(`python -m tests.harness.studies.choose.pricing` compares with it). A model of cost decides between
+candidates; the seconds of another machine are another multiple of it.
 """
 
 from __future__ import annotations

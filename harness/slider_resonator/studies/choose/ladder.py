@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil, floor, inf, log2
 
 from slider_resonator.device import schedule
-from slider_resonator.studies.choose.coverage import MAX_STEPS, SIGNAL_NEEDS
+from slider_resonator.studies.choose.coverage import SIGNAL_NEEDS
 from slider_resonator.studies.choose.probe import Probe
 
 MAX_PERIODS = 10_000
@@ -45,6 +45,6 @@ def step_ladder(probe: Probe) -> tuple[float, ...]:
         return tuple(first * 2.0**-index for index in range(ceil(log2(first / shortest)) + 1))
     finest = max(scales.period / FINEST, probe.duration / schedule.MAX_STEPS)
     if probe.covers != "windows":
-        finest = max(finest, probe.probed_duration / MAX_STEPS)
+        finest = max(finest, probe.probed_duration / probe.max_steps)
     count = max(1, floor(log2(first / finest)) + 1)
     return tuple(first * 2.0**-index for index in range(count))

@@ -45,6 +45,8 @@ HOLDING_STEPS = 500
 """Steps of averaged motion from which the error of holding the inputs follows."""
 WINDOW_STEPS = 4
 """Steps in a drive period, in windows, that follow inputs as they vary."""
+MAX_FOLLOWED_STEPS = 100_000
+"""Steps of a candidate besides a reference that follows lines of inputs, where inputs vary."""
 RANGE_POINTS = 60
 """Points at which averaged motion tells the range of the slow velocity."""
 CAUTION = 3.0
@@ -85,6 +87,14 @@ class Probe:
     def covers(self) -> str:
         """The resolved part of the scene: whole, windows or beginning."""
         return self.coverage.part
+
+    @property
+    def max_steps(self) -> int:
+        """Largest number of steps that are tried, where inputs vary.
+
+        An FMU that follows their lines has a reference that needs no steps of its own.
+        """
+        return MAX_FOLLOWED_STEPS if self.can_interpolate else MAX_STEPS
 
     @property
     def probed_duration(self) -> float:
