@@ -7,8 +7,8 @@ from math import inf
 
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.cost import period_cost
 from slider_resonator.studies.choose.input_grid import vary
+from slider_resonator.studies.choose.resolved_cost import period_cost
 from slider_resonator.studies.choose.scales import Scales
 from slider_resonator.studies.choose.windows import (
     WINDOW_PERIODS,

@@ -1,7 +1,8 @@
 from __future__ import annotations
 
 from slider_resonator.studies.choose.candidate import COULOMB, LUGRE, Candidate, Model, models
-from slider_resonator.studies.choose.cost import AVERAGED, AVERAGING_ORDERS, ORBITS, RESOLVED
+from slider_resonator.studies.choose.cost import AVERAGED, AVERAGING_ORDERS, ORBITS
+from slider_resonator.studies.choose.resolved_cost import RESOLVED
 
 
 def test_orders_of_averaging_are_models_of_their_own() -> None:
