@@ -61,10 +61,11 @@ def choose_command(
     velocity, steady_velocity, blocking_force, event_times and beat, each with abs or rel, and
     friction_law = "free" if either law will do. Error estimates select candidates, and a short
     resolved run in the FMU confirms the choice. The scene's own fidelity and tolerance are ignored;
-    its step is the sampling step of signals. Inputs count as held over each step. A scene with a
-    sweep stands for its unvaried device. Exit code: 0 when a model meets the needs, 1 when none
-    does (then the nearest is shown), 2 when the scene could not run, the FMU crashed or exceeded
-    the time limit.
+    its step, of several the largest, is the sampling step of signals. Inputs are held over each
+    step, or go on as straight lines where [run] says interpolate and the FMU can; tuned parameters
+    are held. A scene with a sweep stands for its unvaried device. Exit code: 0 when a model meets
+    the needs, 1 when none does (then the nearest is shown), 2 when the scene could not run, the FMU
+    crashed or exceeded the time limit.
 
     \b
     Examples:

@@ -107,9 +107,9 @@ def test_tuned_parameters_start_as_the_tuning_says_and_a_value_replaces_it(tmp_p
 def test_commands_that_ignore_the_tuning_refuse_it(tmp_path: Path) -> None:
     run = "[run]\nstop_time = 1.0\nstep_sizes = [0.1, 0.2]\nstart_time = 3.0\n"
     scene = read_scene(write(tmp_path, HEAD + run))
-    with pytest.raises(SceneError, match="choose takes no scene with run"):
-        scene.check_plain("choose")
-    read_scene(write(tmp_path, HEAD + RUN)).check_plain("choose")
+    with pytest.raises(SceneError, match="trade takes no scene with run"):
+        scene.check_plain("trade")
+    read_scene(write(tmp_path, HEAD + RUN)).check_plain("trade")
 
 
 def test_every_tunable_parameter_has_a_key() -> None:

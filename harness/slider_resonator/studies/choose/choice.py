@@ -14,6 +14,13 @@ from slider_resonator.studies.choose.scales import Scales
 MARGIN = 0.99
 """Largest share of an allowed error that an estimate may take."""
 
+INPUTS = {
+    "interpolated": "inputs go on as straight lines between",
+    "held": "inputs are held over each; interpolate = true in [run] passes straight lines on",
+    "cannot": "inputs are held over each: the FMU has canInterpolateInputs = false",
+}
+"""How inputs that are straight lines reach an FMU, in words."""
+
 
 @dataclass(frozen=True)
 class Evaluation:
@@ -73,7 +80,8 @@ class Choice:
     needed, by need in its unit (m/s, m, s, N, Hz), None where there is no such thing. `cost` is in
     seconds of CPU time by the model in `slider_resonator.studies.choose.cost`. `probe` says what
     was resolved to confirm it: "whole" scene, "windows" or "beginning", and `probe_drive_periods`
-    how much.
+    how much. `inputs` is how inputs that are straight lines reach the FMU in the priced run, a key
+    of `INPUTS`, None without any.
     """
 
     fidelity: int
@@ -90,6 +98,7 @@ class Choice:
     probe: str
     probe_drive_periods: float
     scales: Scales
+    inputs: str | None
 
     @property
     def model(self) -> Model:
@@ -122,4 +131,5 @@ class Choice:
         if self.step is None:
             return f"none, nothing is run{tolerance}"
         periods = self.step / self.scales.period
-        return f"{self.step:.6g} s, {periods:.4g} drive periods{tolerance}"
+        inputs = f"; {INPUTS[self.inputs]}" if self.inputs else ""
+        return f"{self.step:.6g} s, {periods:.4g} drive periods{tolerance}{inputs}"

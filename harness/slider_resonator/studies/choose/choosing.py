@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from math import ceil, inf
+from math import inf
 from pathlib import Path
 
 from slider_resonator.errors import FmuError, SceneError
@@ -21,7 +21,7 @@ from slider_resonator.studies.choose.candidate import (
     models,
 )
 from slider_resonator.studies.choose.choice import Choice, Evaluation, RuledOut
-from slider_resonator.studies.choose.cost import run_cost, search_cost
+from slider_resonator.studies.choose.cost import USUAL, run_cost, search_cost
 from slider_resonator.studies.choose.coverage import FINEST_TOLERANCE
 from slider_resonator.studies.choose.errors import Estimates
 from slider_resonator.studies.choose.ladder import step_ladder
@@ -91,12 +91,11 @@ class _Choosing:
                 f"{scene.source}: scene {scene.name} has no [need]; must have a table of what it "
                 "needs, such as mean_velocity = { rel = 0.01 }"
             )
-        scene.check_plain("choose")
         check_magnitudes(scene)
         self.instance = instance
-        self.scene = scene.interpolating(False)
         self.needs = scene.need.needs
-        self.probe = Probe(instance, self.scene)
+        self.probe = Probe(instance, scene)
+        self.scene = self.probe.scene
         self.scales = self.probe.scales
         self.ladder: tuple[float | None, ...] = (None,)
         if self.probe.run_needs:
@@ -192,11 +191,9 @@ class _Choosing:
         """Return the cost of the run and of searches over that number of drive periods."""
         cost = 0.0
         if candidate.step is not None:
-            duration = self.probe.duration
-            steps = ceil(duration / candidate.step)
-            changes = steps if self.probe.varying else self.probe.jumps
-            leads = self.probe.leads(steps)
-            cost += run_cost(candidate, self.scales, duration, steps, changes, leads)
+            plan, orbits = self.probe.plan(candidate.step), candidate.model.averaging_order == 2
+            slow = self.probe.slow_range if orbits else USUAL
+            cost += run_cost(candidate, self.scales, plan, slow)
         if self.probe.steady_needs:
             cost += search_cost(candidate.model, candidate.tolerance, periods, self.scales)
         return cost
@@ -233,9 +230,9 @@ class _Choosing:
         return "; ".join(filter(None, (self._nearest(model).why, self._law_of(model))))
 
     def _nearest(self, model: Model | None = None) -> Evaluation:
-        """Return the evaluation nearest to the needs, of all or of one model."""
+        """Return the evaluation nearest to the needs, of all or a model; the finest of equals."""
         evaluation = [t for t in self._evaluations.values() if model in (None, t.candidate.model)]
-        return min(evaluation, key=lambda t: t.excess)
+        return min(evaluation, key=lambda t: (t.excess, -t.candidate.model.fidelity))
 
     def _evaluate(self, candidate: Candidate) -> Evaluation:
         if candidate not in self._evaluations:
@@ -291,6 +288,7 @@ class _Choosing:
             probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods + self.periods,
             scales=self.scales,
+            inputs=self.probe.inputs,
         )
 
 

@@ -1,18 +1,24 @@
 """The cost of a run, from counts alone, so that the same scene always has the same answer.
 
 The counts are communication steps, changes of the inputs, drive periods, and for averaged motion
-beats and relaxation times; their weights were fitted to the CPU time of the native FMU behind fmpy
-(`python -m tests.harness.studies.choose.pricing` measures them again). A model of cost decides
-between candidates; the seconds of another machine are another multiple of it.
+beats, relaxation times, and the orbits that are prepared and followed. Their weights were fitted to
+some 650 runs of the native FMU in a host in C: the shortest of several CPU times, in units of the
+instructions of a resolved run of table 1, at 0.095 ns each. Steps and changes are those of fmpy
+(`python -m tests.harness.studies.choose.pricing` compares with it). A model of cost decides between
+candidates; the seconds of another machine are another multiple of it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import log10
+from itertools import pairwise
+from math import inf, log10, sqrt
 
 from slider_resonator.studies.choose.candidate import COULOMB, LUGRE, Candidate, Model
-from slider_resonator.studies.choose.scales import BREAKS_LOOSE, Scales
+from slider_resonator.studies.choose.orbit_work import orbit_work
+from slider_resonator.studies.choose.plan import Plan
+from slider_resonator.studies.choose.resolved_cost import FORGETS, period_cost, resolved_cost
+from slider_resonator.studies.choose.scales import Scales
 
 RUN = 40e-6
 """Seconds of a run besides its steps: the start of the FMU, the record, one state."""
@@ -20,160 +26,193 @@ STEP = 2.6e-6
 """Seconds for a communication step through fmpy, with some outputs read."""
 CHANGE = 1.8e-6
 """Seconds to set inputs that have changed."""
-FORGETS = 6.0
-"""Memories of the resonator, or relaxation times of the slow motion, until it repeats itself."""
-
-
-@dataclass(frozen=True)
-class ResolvedPrices:
-    """Seconds of a drive period at fidelity 1 or 2, and what they are besides.
-
-    `sliding` is for a period that repeats the one before, `unsettled` is added for one in which the
-    resonator still swings; `sticking` is that where friction stops the slider in each. Of LuGre
-    friction `stiffer` is for each decade of kappa from a tenth to a hundred, `digit` for each of
-    the tolerance, `turn` for an oscillation on the bristle of a slider that sticks, and `start` is
-    once.
-    """
-
-    sliding: float
-    unsettled: float
-    sticking: float
-    stiffer: float = 0.0
-    digit: float = 0.0
-    turn: float = 0.0
-    start: float = 0.0
-
-
-RESOLVED = {
-    (1, COULOMB): ResolvedPrices(0.38e-6, 0.16e-6, 0.7e-6),
-    (2, COULOMB): ResolvedPrices(0.45e-6, 0.55e-6, 1.6e-6),
-    (1, LUGRE): ResolvedPrices(1.3e-6, 0.0, 0.9e-6, 0.25e-6, 0.19e-6, 2.1e-6),
-    (2, LUGRE): ResolvedPrices(1.2e-6, 1.5e-6, 1.3e-6, 0.44e-6, 0.21e-6, 2.4e-6, 80e-6),
-}
-"""By fidelity and friction law."""
 
 
 @dataclass(frozen=True)
 class AveragedPrices:
     """Seconds of averaged motion.
 
-    `step` is added to each communication step, `transient` is for each relaxation time after a
-    change, until the motion has settled; `relaxation` is for each where beats keep it moving, and
-    `beat` for each of these. Of second order `start` is for the first orbits and `lead` for those
-    after each change of phase or frequency ratio, and the first `resolved` memories of the
-    resonator cost what resolved motion does.
+    `start` is for the start, `table` for the mean friction of a bristle, at the start and after
+    each change of a parameter. `step` is added to each communication step, and `MOVING` times as
+    much to one that is long against the relaxation time; `transient` is for each relaxation time
+    after a change, until the motion has settled, and `beat` for each turn of the slow phase,
+    `swing` for one in which the slow velocity follows it.
     """
 
+    start: float
+    table: float
     step: float
     transient: float
-    relaxation: float
     beat: float
-    start: float = 0.0
-    lead: float = 0.0
-    resolved: float = 0.0
+    swing: float
 
 
 AVERAGED = {
-    (1, COULOMB, False): AveragedPrices(0.4e-6, 2.4e-6, 1.5e-6, 0.5e-6),
-    (1, COULOMB, True): AveragedPrices(0.4e-6, 2.4e-6, 1.5e-6, 6e-6),
-    (1, LUGRE, False): AveragedPrices(0.4e-6, 2.6e-6, 1.9e-6, 15e-6),
-    (1, LUGRE, True): AveragedPrices(60e-6, 0.6e-3, 1.9e-6, 2.2e-3),
-    (2, COULOMB, False): AveragedPrices(5e-6, 5e-6, 1e-6, 130e-6, 0.1e-3, 3e-3, 16.0),
-    (2, COULOMB, True): AveragedPrices(5e-6, 5e-6, 1e-6, 1.3e-3, 0.2e-3, 3e-3, 16.0),
-    (2, LUGRE, False): AveragedPrices(15e-6, 10e-6, 2e-6, 0.4e-3, 2e-3, 2e-3, 16.0),
-    (2, LUGRE, True): AveragedPrices(15e-6, 20e-6, 2e-6, 2.2e-3, 4e-3, 4e-3, 16.0),
+    (COULOMB, False): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
+    (COULOMB, True): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
+    (LUGRE, False): AveragedPrices(10e-6, 0.4e-3, 1.7e-6, 3e-6, 10e-6, 14e-6),
+    (LUGRE, True): AveragedPrices(10e-6, 2e-3, 60e-6, 0.5e-3, 2.2e-3, 0.0),
 }
-"""By averaging order, friction law and whether the contact lifts: then the mean friction of a
-bristle is integrated. An order is chosen from once it has its rows."""
-AVERAGING_ORDERS = tuple(sorted({order for order, _, _ in AVERAGED}))
-NEVER_SLIDES, STUCK = 1.5, 0.02e-6
-"""Friction over vibration that stops the slider for good, and seconds of such a drive period."""
+"""Of first order, by friction law and whether the contact lifts: then the mean friction of a
+bristle is integrated."""
+MAX_SWING = 2.0
+"""Largest number of relaxation times in a turn of the slow phase that counts."""
+MOVING = {COULOMB: 4.0, LUGRE: 0.5}
+BENDING, MAX_BENDING = 0.45e-3, 2.2
+"""Seconds of a table for each decade of kappa from a third on, for so many."""
+
+
+@dataclass(frozen=True)
+class OrbitPrices:
+    """Seconds of averages of second order.
+
+    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts,
+    `soft` times where bristles are soft; `edge` is added for one in which the slider hardly turns
+    back, and `curve` for each curve. `step` is for a communication step, `mark` for an end of a
+    period in it, of which the last two count; `drifting` is added to a step in which the lead
+    drifts, `searched` is for step and marks where orbits are searched, `change` for going over to
+    another lead, `beat` and `swing` for a turn of the slow phase as with averages of first order,
+    and `searched_beat` for one that searches.
+    """
+
+    curve: float
+    panel: float
+    lifting: float
+    edge: float
+    step: float
+    mark: float
+    drifting: float
+    searched: float
+    change: float
+    beat: float
+    swing: float
+    searched_beat: float
+    soft: float = 1.0
+
+
+ORBITS = {
+    COULOMB: OrbitPrices(
+        curve=0.0,
+        panel=0.15e-3,
+        lifting=3.0,
+        edge=1.1e-3,
+        step=1.65e-6,
+        mark=1.65e-6,
+        drifting=9e-6,
+        searched=18e-6,
+        change=6e-6,
+        beat=60e-6,
+        swing=170e-6,
+        searched_beat=0.25e-3,
+    ),
+    LUGRE: OrbitPrices(
+        curve=1e-3,
+        panel=2.9e-3,
+        lifting=1.0,
+        edge=3e-3,
+        step=2.5e-6,
+        mark=5e-6,
+        drifting=18e-6,
+        searched=60e-6,
+        change=60e-6,
+        beat=100e-6,
+        swing=80e-6,
+        searched_beat=2.2e-3,
+        soft=0.5,
+    ),
+}
+"""By friction law."""
+SOFT_BRISTLE = 3.0
+"""Path of the vibration over that of the bristle below which it counts as soft."""
+EDGE = 0.9
+"""Slow over fast velocity beyond which the slider hardly turns back."""
+PANELS = (-inf, -0.7, 0.0, 0.7, inf)
+"""Slow over fast velocities between which panels lie."""
+NEXT = 0.03
+"""Overlap with a panel that is not followed."""
+USUAL = (0.1, 0.6)
+"""Slow over fast velocity, where it is not known."""
+ROUGH = 2.0
+"""Root of the share of friction in the drive by which orbits cost more, up to twice as much."""
+AVERAGING_ORDERS = (1, 2)
+"""Orders of averaged motion to choose from."""
 OUTPUT = {COULOMB: 13e-6, LUGRE: 60e-6}
 """Seconds to start the FMU and read the steady velocity or the blocking force of the theory."""
 SEARCH = 60e-6
 """Seconds of a search by shooting besides its drive periods."""
 SEARCH_PERIOD = {COULOMB: 16e-6, LUGRE: 34e-6}
 """Seconds to start, read and evaluate a drive period of a search; a bristle takes more readings."""
-MAX_DECADES = 3.0
-SELDOM, ALWAYS, MIN_SHARE = 0.35, 0.8, 0.2
-"""Friction over vibration at which the slider hardly sticks and does throughout, and the least
-share of the time, before it is squared."""
-
-
-def period_cost(model: Model, tolerance: float, scales: Scales) -> float:
-    """Return the cost (s) of a drive period at fidelity 1 or 2, once the resonator has settled."""
-    prices = RESOLVED[model.fidelity, model.friction_law]
-    if model.friction_law == COULOMB and (scales.slowness or 0.0) >= NEVER_SLIDES:
-        return STUCK
-    sticks = scales.slowness is not None and scales.slowness >= BREAKS_LOOSE
-    cost = prices.sticking if sticks else prices.sliding
-    if model.friction_law == COULOMB:
-        return cost
-    if scales.kappa and not sticks:
-        cost += prices.stiffer * min(max(log10(scales.kappa) + 1.0, 0.0), MAX_DECADES)
-    turns = scales.bristle_turns * _sticking_share(scales)
-    return cost + prices.digit * -log10(tolerance) + prices.turn * turns
-
-
-def _sticking_share(scales: Scales) -> float:
-    """Return the share of the time that the slider spends on its bristle, where it has turns."""
-    if scales.slowness is None:
-        return 1.0
-    share = (scales.slowness - SELDOM) / (ALWAYS - SELDOM)
-    return min(1.0, max(MIN_SHARE, share) ** 2)
 
 
 def run_cost(
-    candidate: Candidate,
-    scales: Scales,
-    duration: float,
-    steps: int,
-    changes: int = 0,
-    leads: int = 0,
+    candidate: Candidate, scales: Scales, plan: Plan, slow: tuple[float, float] = USUAL
 ) -> float:
-    """Return the cost (s) of a run of `duration` (s) in so many steps, with changes of inputs.
+    """Return the cost (s) of a run.
 
-    `leads` is how many of these change phase or frequency ratio.
+    `slow` are the least and the greatest slow velocity in it, in fast velocities.
     """
-    cost = RUN + STEP * steps + CHANGE * changes
+    cost = RUN + STEP * plan.steps + CHANGE * plan.settings
     model = candidate.model
     if model.fidelity == 0:
-        cost += _preparation_cost(candidate, scales, duration, leads)
-        return cost + _averaged_cost(model, scales, duration, steps, changes)
-    prices = RESOLVED[model.fidelity, model.friction_law]
-    periods = duration / scales.period
-    unsettled = min(periods, FORGETS * scales.memory * (1.0 + changes))
-    cost += prices.start + prices.unsettled * unsettled
-    return cost + periods * period_cost(model, candidate.tolerance, scales)
+        if model.averaging_order == 2 and scales.has_orbits:
+            return cost + _orbit_cost(candidate, scales, plan, slow)
+        return cost + _averaged_cost(model, scales, plan)
+    periods = plan.duration / scales.period
+    return cost + resolved_cost(model, candidate.tolerance, scales, plan, periods)
 
 
-def _averaged_prices(model: Model, scales: Scales) -> AveragedPrices:
-    lifts = scales.lifts and (scales.detuning == 0.0 or scales.beat > 0.0)
-    return AVERAGED[model.averaging_order or 1, model.friction_law, lifts]
-
-
-def _preparation_cost(candidate: Candidate, scales: Scales, duration: float, leads: int) -> float:
-    """Return the cost (s) of the resolved start of second-order averages, and of their orbits."""
-    model, prices = candidate.model, _averaged_prices(candidate.model, scales)
-    if not prices.resolved:
-        return 0.0
-    full = Model(2, model.friction_law)
-    each = period_cost(full, candidate.tolerance, scales)
-    each += RESOLVED[2, model.friction_law].unsettled
-    resolved = min(duration / scales.period, prices.resolved * scales.memory)
-    return prices.start + prices.lead * leads + each * resolved
-
-
-def _averaged_cost(
-    model: Model, scales: Scales, duration: float, steps: int, changes: int
-) -> float:
-    prices = _averaged_prices(model, scales)
-    beats, relaxations = scales.beat * duration, duration / scales.relaxation
-    cost = prices.step * steps + prices.beat * beats
-    if beats:
-        cost += prices.relaxation * relaxations
-    starts = 1 + changes
+def _averaged_cost(model: Model, scales: Scales, plan: Plan) -> float:
+    prices = AVERAGED[model.friction_law, scales.lifts]
+    table = prices.table
+    if model.friction_law == LUGRE and scales.kappa:
+        table += BENDING * min(max(log10(scales.kappa) + 0.5, 0.0), MAX_BENDING)
+    starts, relaxations = 1 + plan.kicks, plan.duration / scales.relaxation
+    moving = min(1.0, relaxations / plan.steps)
+    cost = prices.start + table * (1 + plan.tunings)
+    cost += prices.step * plan.steps * (1.0 + MOVING[model.friction_law] * moving)
+    cost += plan.beats * (prices.beat + prices.swing * _swing(scales, plan))
     return cost + prices.transient * starts * min(relaxations / starts, FORGETS)
+
+
+def _swing(scales: Scales, plan: Plan) -> float:
+    """Return how far the slow velocity follows the slow phase in its turns."""
+    relaxations = plan.duration / scales.relaxation
+    return min(MAX_SWING, relaxations / plan.beats) if plan.beats else 0.0
+
+
+def _orbit_cost(
+    candidate: Candidate, scales: Scales, plan: Plan, slow: tuple[float, float]
+) -> float:
+    law = candidate.model.friction_law
+    prices, full = ORBITS[law], Model(2, law)
+    work = orbit_work(plan, scales, law)
+    periods = plan.duration / scales.period
+    cost = resolved_cost(full, candidate.tolerance, scales, plan, work.resolved)
+    rough = 1.0 + min(1.0, ROUGH * sqrt(scales.slowness or 0.0))
+    cost += work.curves * _curve_cost(prices, scales, slow) + prices.change * work.changes
+    length = plan.duration / plan.steps / scales.period
+    steps, marks = rough * plan.steps / periods, min(2.0, length)
+    cost += steps * work.tabulated * (prices.step + marks * prices.mark)
+    cost += steps * work.drifting * prices.drifting
+    cost += steps * work.searched * (1.0 + marks) * prices.searched
+    each = prices.beat + prices.swing * _swing(scales, plan)
+    cost += each * work.tabulated_beats
+    return cost + prices.searched_beat * work.searched_beats
+
+
+def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) -> float:
+    """Return the cost (s) of the curve of orbits at a lead."""
+    low, high = slow
+    if low > 1.0 or high < -1.0:
+        return prices.curve
+    visited = [low < right - NEXT and high > left + NEXT for left, right in pairwise(PANELS)]
+    cost = prices.panel * max(1, sum(visited))
+    if scales.lifts:
+        cost *= prices.lifting
+    if (scales.kappa or inf) < SOFT_BRISTLE:
+        cost *= prices.soft
+    edges = (low < -EDGE and high > -1.0) + (high > EDGE and low < 1.0)
+    return prices.curve + cost + prices.edge * edges
 
 
 def search_cost(model: Model, tolerance: float, periods: int, scales: Scales) -> float:

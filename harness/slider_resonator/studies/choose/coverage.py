@@ -7,8 +7,8 @@ from math import inf
 
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.cost import period_cost
-from slider_resonator.studies.choose.held_grid import vary
+from slider_resonator.studies.choose.input_grid import vary
+from slider_resonator.studies.choose.resolved_cost import period_cost
 from slider_resonator.studies.choose.scales import Scales
 from slider_resonator.studies.choose.windows import (
     WINDOW_PERIODS,
@@ -115,7 +115,7 @@ class Coverage:
         events = self.varying and "event_times" in self.run_needs
         slow = self.scales.slowness is not None and self.scales.slowness <= MAX_SLOWNESS
         few = len(self.corners) <= MAX_CORNERS
-        calm = slow and settled and few and beats <= BEATS
+        calm = slow and settled and few and beats <= BEATS and not self.scene.tuning
         return calm and one_ratio and not events and self._covered() <= MAX_COVERED
 
     def _covered(self) -> float:

@@ -11,7 +11,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Model
 from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates
-from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
+from slider_resonator.studies.choose.input_grid import inputs_as_they_vary, sampled_inputs
 from slider_resonator.studies.choose.stretch import Stretch, follow
 
 
@@ -23,7 +23,9 @@ def holding_errors(
     checkpoints = step * np.arange(1, int(duration / step))
     stretch = Stretch(0.0, duration, np.append(checkpoints[checkpoints < duration], duration))
     held = follow(instance, scene, slow, sampled_inputs(scene, duration, step), stretch)
-    meant = follow(instance, scene, slow, averaged_inputs(scene, duration, step / 4.0), stretch)
+    lines = instance.fmu.interpolates
+    varying = inputs_as_they_vary(scene, duration, step / 4.0, interpolates=lines)
+    meant = follow(instance, scene, slow, varying, stretch)
     apart = {name: np.abs(held[name] - meant[name]) for name in ("mean_velocity", "position")}
     return {
         "mean_velocity": float(apart["mean_velocity"][-1]),

@@ -10,13 +10,14 @@ from math import inf
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.beat import lacking_beat, unseen_beat
 from slider_resonator.studies.choose.candidate import START_TOLERANCE, Candidate, Model
 from slider_resonator.studies.choose.carrying import Drift, carried, defect, over_the_scene
-from slider_resonator.studies.choose.cost import AVERAGING_ORDERS
+from slider_resonator.studies.choose.cost import AVERAGING_ORDERS, USUAL
 from slider_resonator.studies.choose.coverage import (
     FINEST_TOLERANCE,
     MAX_STEPS,
@@ -24,8 +25,14 @@ from slider_resonator.studies.choose.coverage import (
     Coverage,
 )
 from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates, errors
-from slider_resonator.studies.choose.held_grid import HeldGrid, averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.holding import holding_errors, with_holding
+from slider_resonator.studies.choose.input_grid import (
+    InputGrid,
+    inputs_as_they_vary,
+    must_hold,
+    sampled_inputs,
+)
+from slider_resonator.studies.choose.plan import Plan, plan_of
 from slider_resonator.studies.choose.scales import scales_of
 from slider_resonator.studies.choose.stretch import Samples, Stretch, checkpoints_between, follow
 from slider_resonator.studies.choose.windows import Windows, lay_windows
@@ -38,6 +45,10 @@ HOLDING_STEPS = 500
 """Steps of averaged motion from which the error of holding the inputs follows."""
 WINDOW_STEPS = 4
 """Steps in a drive period, in windows, that follow inputs as they vary."""
+MAX_FOLLOWED_STEPS = 100_000
+"""Steps of a candidate besides a reference that follows lines of inputs, where inputs vary."""
+RANGE_POINTS = 60
+"""Points at which averaged motion tells the range of the slow velocity."""
 CAUTION = 3.0
 """Safety factor on errors extrapolated from the beginning, besides their growth with time."""
 
@@ -45,12 +56,15 @@ CAUTION = 3.0
 class Probe:
     """One scene in one FMU instance: the errors of its candidates.
 
-    `covers` is the part of the scene that is resolved: "whole", "windows" or "beginning".
+    An FMU that takes no derivatives of inputs has them held. `covers` is the part of the scene that
+    is resolved: "whole", "windows" or "beginning".
     """
 
     def __init__(self, instance: Instance, scene: Scene) -> None:
         self.instance = instance
-        self.scene = scene
+        self.can_interpolate = instance.fmu.interpolates
+        self._asks = scene.run is not None and scene.run.interpolate
+        self.scene = scene = scene if self.can_interpolate else scene.interpolating(False)
         self.scales = scales_of(scene)
         needs = scene.need.needs if scene.need else {}
         self.run_needs = [name for name in RUN_NEEDS if name in needs]
@@ -65,6 +79,7 @@ class Probe:
         self.drive_periods = 0.0
         self._references: dict[tuple[float, float, float], Samples] = {}
         self._extrapolations: dict[Candidate, Estimates] = {}
+        self._plans: dict[float, Plan] = {}
         self._holdings: dict[float, dict[str, float]] = {}
         self._final_velocity: float | None = None
 
@@ -74,24 +89,49 @@ class Probe:
         return self.coverage.part
 
     @property
+    def max_steps(self) -> int:
+        """Largest number of steps that are tried, where inputs vary.
+
+        An FMU that follows their lines has a reference that needs no steps of its own.
+        """
+        return MAX_FOLLOWED_STEPS if self.can_interpolate else MAX_STEPS
+
+    @property
     def probed_duration(self) -> float:
         """Length (s) of the longest stretch that is resolved."""
         return self.coverage.longest
 
-    @property
-    def jumps(self) -> int:
-        """Times at which inputs change in the run, where they do not vary between."""
-        return len(self.coverage.corners)
+    def plan(self, step: float) -> Plan:
+        """Return what a run in this step (s) asks of the FMU."""
+        if step not in self._plans:
+            self._plans[step] = plan_of(self.scene.with_step(step).schedule(), self.scales.period)
+        return self._plans[step]
 
-    def leads(self, steps: int) -> int:
-        """Return how often phase or frequency ratio change in a run of so many steps."""
-        found = 0
-        for name in ("phase", "frequency_ratio"):
-            signal = self.scene.signals[name]
-            if len(set(signal.values)) > 1:
-                inside = sum(0.0 < time < self.duration for time in signal.times)
-                found += inside if signal.hold else steps
-        return found
+    @cached_property
+    def slow_range(self) -> tuple[float, float]:
+        """Least and greatest slow velocity of the scene, in fast velocities, by averaged motion."""
+        if not self.scales.fast_velocity:
+            return USUAL
+        points = self.duration * (np.arange(1, RANGE_POINTS + 1) / RANGE_POINTS) ** 3
+        stretch = Stretch(0.0, self.duration, points)
+        size = self.duration / RANGE_POINTS
+        try:
+            held = self._inputs_as_they_vary(size, stretch)
+            candidate = Candidate(self._averaged, START_TOLERANCE, size)
+            slow = self._follow(candidate, held, stretch)["mean_velocity"]
+        except FmuError:
+            return USUAL
+        fast = self.scales.fast_velocity
+        return float(slow.min()) / fast, float(slow.max()) / fast
+
+    @property
+    def inputs(self) -> str | None:
+        """How inputs that are straight lines reach the FMU, as `Choice` says; None without any."""
+        if self.scene.run is None or not self.scene.interpolating(True).interpolates:
+            return None
+        if self.scene.run.interpolate:
+            return "interpolated"
+        return "cannot" if self._asks else "held"
 
     def resolve(self, step: float) -> None:
         """Run the resolved device as for a candidate with this step (s).
@@ -172,7 +212,7 @@ class Probe:
         self, candidate: Candidate, step: float, stretch: Stretch
     ) -> tuple[Samples, Samples]:
         """Return candidate and resolved device under the same inputs."""
-        held = self._averaged_inputs(step, stretch)
+        held = self._inputs_as_they_vary(step, stretch)
         return self._follow(candidate, held, stretch), self._reference(step, stretch)
 
     def _holding(self, step: float) -> dict[str, float]:
@@ -226,19 +266,26 @@ class Probe:
 
     def _reference(self, step: float, stretch: Stretch) -> Samples:
         """Return the resolved run at the points of a candidate with this step (s)."""
-        key = 0.0 if self._in_window(stretch) else step, stretch.start, stretch.stop
+        alike = self._in_window(stretch) or not self._reference_has_steps
+        key = 0.0 if alike else step, stretch.start, stretch.stop
         if key not in self._references:
-            held = self._averaged_inputs(step, stretch)
+            held = self._inputs_as_they_vary(step, stretch)
             finest = Candidate(self.reference_model, FINEST_TOLERANCE, step)
             self._references[key] = self._follow(finest, held, stretch)
         return self._references[key]
+
+    @property
+    def _reference_has_steps(self) -> bool:
+        """Whether the resolved run depends on the step of the candidate."""
+        holds = must_hold(self.scene, interpolates=self.can_interpolate)
+        return holds or "beat" in self.run_needs
 
     def _in_window(self, stretch: Stretch) -> bool:
         """Whether inputs that vary are followed as they do, and not as a candidate holds them."""
         part = stretch.start > 0.0 or stretch.stop < self.duration
         return self.varying and self.covers == "windows" and part
 
-    def _sampled_inputs(self, model: Model, step: float, stop: float) -> HeldGrid:
+    def _sampled_inputs(self, model: Model, step: float, stop: float) -> InputGrid:
         """Return the inputs up to `stop` (s) as a run in this step (s) samples and holds them.
 
         Where they do not vary other than by jumps, steps that change nothing are left out, and all
@@ -247,7 +294,7 @@ class Probe:
         own = self.varying or not (model.any_step or stop / step > MAX_STEPS)
         return sampled_inputs(self.scene, stop, step if own else stop)
 
-    def _averaged_inputs(self, step: float, stretch: Stretch) -> HeldGrid:
+    def _inputs_as_they_vary(self, step: float, stretch: Stretch) -> InputGrid:
         """Return the inputs without an error of holding them, for a candidate with this step (s).
 
         Within a window a few steps in a drive period serve; else there are some in its own step.
@@ -260,9 +307,11 @@ class Probe:
             fine = self.scales.period / WINDOW_STEPS
         while self.varying and length / fine > MAX_POINTS and fine < 0.5 * step:
             fine *= 2.0
-        return averaged_inputs(self.scene, stretch.stop, fine, stretch.start)
+        return inputs_as_they_vary(
+            self.scene, stretch.stop, fine, stretch.start, interpolates=self.can_interpolate
+        )
 
-    def _follow(self, candidate: Candidate, held: HeldGrid, stretch: Stretch) -> Samples:
+    def _follow(self, candidate: Candidate, held: InputGrid, stretch: Stretch) -> Samples:
         if candidate.model.fidelity > 0:
             self.drive_periods += (stretch.stop - stretch.start) / self.scales.period
         grid: Array = np.empty(0)

@@ -32,8 +32,10 @@ class Scales:
     starting frequency ratio from an integer, `beat` (Hz) the difference frequency where that is
     small, else 0. `saturation` is the greatest load over the mean friction. `input_rate` is the
     largest change of an input in a drive period, in rad, mean frictions, or drive frequencies.
-    `lifts` says whether the contact lifts off. `bristle_turns` are the oscillations of the slider
-    on its bristle in a drive period, 0 where the vibration breaks the contact loose.
+    `lifts` says whether the contact ever lifts off. `bristle_turns` are the oscillations of the
+    slider on its bristle in a drive period, 0 where the vibration breaks the contact loose.
+    `ratio` is the starting frequency ratio, `damping` the damping ratio of the resonator beside a
+    slider that slides.
     """
 
     period: float
@@ -49,6 +51,13 @@ class Scales:
     input_rate: float
     lifts: bool
     bristle_turns: float
+    ratio: float
+    damping: float
+
+    @property
+    def has_orbits(self) -> bool:
+        """Whether averages of second order follow held orbits: slow motion under a slow phase."""
+        return self.has_slow_motion and (self.detuning == 0.0 or self.beat > 0.0 or self.lifts)
 
     @property
     def has_slow_motion(self) -> bool:
@@ -86,7 +95,10 @@ MAX_MAGNITUDE = 1e50
 def check_magnitudes(scene: Scene) -> None:
     """Raise SceneError naming a parameter or input too large for the scales to be finite."""
     values = {name: float(value) for name, value in asdict(scene.device).items()}
-    values |= {name: max(map(abs, signal.values)) for name, signal in scene.signals.items()}
+    values |= {
+        name: max(map(abs, signal.values))
+        for name, signal in (*scene.signals.items(), *scene.tuning.items())
+    }
     for name, value in values.items():
         if not abs(value) <= MAX_MAGNITUDE:
             raise SceneError(
@@ -96,7 +108,7 @@ def check_magnitudes(scene: Scene) -> None:
 
 
 def scales_of(scene: Scene) -> Scales:
-    """Return the scales of a scene, the inputs as they start."""
+    """Return the scales of a scene, inputs and tuned parameters as they start."""
     device = scene.device
     period = 2.0 * pi / device.drive_frequency
     friction = device.friction_faces * device.friction_coefficient * device.normal_preload
@@ -124,9 +136,19 @@ def scales_of(scene: Scene) -> Scales:
         beat=detuning / period if detuning < NEAR_AN_INTEGER else 0.0,
         saturation=load / friction if friction > 0.0 else inf if load else 0.0,
         input_rate=_input_rate(scene, period, friction),
-        lifts=device.normal_amplitude > device.normal_preload,
+        lifts=_highest(scene, "normal_amplitude") > _lowest(scene, "normal_preload"),
         bristle_turns=_bristle_turns(device, slowness),
+        ratio=ratio,
+        damping=device.damping_ratio / sqrt(1.0 - device.mass_ratio),
     )
+
+
+def _highest(scene: Scene, name: str) -> float:
+    return max(scene.tuning[name].values if name in scene.tuning else [getattr(scene.device, name)])
+
+
+def _lowest(scene: Scene, name: str) -> float:
+    return min(scene.tuning[name].values if name in scene.tuning else [getattr(scene.device, name)])
 
 
 def _fast_velocity(device: Device) -> float | None:

@@ -12,7 +12,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.held_grid import HeldGrid
+from slider_resonator.studies.choose.input_grid import InputGrid
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 MAX_CHECKPOINTS = 20_000
@@ -70,7 +70,7 @@ def follow(
     instance: Instance,
     scene: Scene,
     parameters: Mapping[str, float],
-    held: HeldGrid,
+    held: InputGrid,
     stretch: Stretch,
     grid: Array = NO_POINTS,
 ) -> Samples:

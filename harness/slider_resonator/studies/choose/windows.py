@@ -21,7 +21,7 @@ from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.held_grid import averaged_inputs
+from slider_resonator.studies.choose.input_grid import inputs_as_they_vary
 from slider_resonator.studies.choose.scales import Scales
 from slider_resonator.studies.choose.stretch import GOLDEN, Stretch, follow
 
@@ -142,7 +142,9 @@ def lay_windows(
     """
     period = scales.period
     duration, slow = scene.stop_time or 0.0, averaged.parameters
-    held = averaged_inputs(scene, duration, duration / SLOW_STEPS)
+    held = inputs_as_they_vary(
+        scene, duration, duration / SLOW_STEPS, interpolates=instance.fmu.interpolates
+    )
     states = ("velocity", "resonator_displacement", "resonator_velocity")
 
     def record_at(points: Array) -> Record:

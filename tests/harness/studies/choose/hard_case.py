@@ -18,13 +18,15 @@ COSTLY = 8.0
 
 @dataclass
 class Case:
-    """A scene in the making: the device, inputs, drive periods, needs."""
+    """A scene in the making: device, inputs, tuning, drive periods, needs; what is passed on."""
 
     draw: Draw
     device: dict[str, float]
     periods: float = 0.0
     inputs: dict[str, Any] = field(default_factory=dict)
     needs: dict[str, Any] = field(default_factory=dict)
+    tuning: dict[str, Any] = field(default_factory=dict)
+    interpolates: bool = False
 
     @property
     def period(self) -> float:

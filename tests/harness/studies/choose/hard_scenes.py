@@ -230,6 +230,30 @@ def _load_that_overcomes_friction(case: Case) -> None:
     case.need_some()
 
 
+def _lines_passed_on(case: Case) -> None:
+    strong(case)
+    case.run(300.0, 3e4)
+    for name, size in (("load", 0.4 * case.friction), ("phase", 1.0)):
+        count = int(case.draw.log(1.0, 30.0))
+        times = np.linspace(0.0, case.duration, count + 1).tolist()
+        walk = [size * case.draw.uniform(-1.0, 1.0) for _ in times]
+        case.inputs[name] = {"ramp": list(zip(times, walk, strict=True))}
+    case.interpolates = True
+    case.need_some(tightest=1e-8)
+
+
+def _tuned(case: Case) -> None:
+    strong(case)
+    case.run(300.0, 1e4)
+    for name in ("friction_coefficient", "normal_amplitude"):
+        first = case.device.pop(name)
+        values = [first, first * case.draw.uniform(0.7, 1.3)]
+        kind = "ramp" if case.draw.chance(0.3) else "steps"
+        at = case.draw.uniform(0.2, 0.9) * case.duration
+        case.tuning[name] = {kind: list(zip((0.0, at), values, strict=True))}
+    case.need_some(tightest=1e-3)
+
+
 KINDS: Mapping[str, Callable[[Case], None]] = {
     "late_jump": _late_jump,
     "many_jumps": _many_jumps,
@@ -258,6 +282,8 @@ KINDS: Mapping[str, Callable[[Case], None]] = {
     "events": _events,
     "direct_drive": _direct_drive,
     "load_that_overcomes_friction": _load_that_overcomes_friction,
+    "lines_passed_on": _lines_passed_on,
+    "tuned": _tuned,
 }
 
 
@@ -272,9 +298,14 @@ def hard_scene(kind: str, seed: int) -> Scene:
         "title": name,
         "device": case.device,
         "inputs": case.inputs,
+        "tuning": case.tuning,
         "need": case.needs,
     }
     if case.periods:
         per_period = min(draw.one_of(1.0, 4.0, 16.0), MAX_CHECKPOINTS / case.periods)
-        content["run"] = {"stop_time": case.duration, "steps_per_period": per_period}
+        content["run"] = {
+            "stop_time": case.duration,
+            "steps_per_period": per_period,
+            "interpolate": case.interpolates,
+        }
     return scene_from(content, name)

@@ -12,7 +12,7 @@ from math import inf
 import numpy as np
 
 from slider_resonator.checks.measures.frequency import dominant_frequency
-from slider_resonator.device.schedule import Schedule, Signal, in_order, schedule
+from slider_resonator.device.schedule import Schedule, Signal, communication_points, in_order
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
@@ -126,26 +126,32 @@ class Judge:
         return self._records[candidate]
 
     def reference_record(self, step: float) -> Record:
-        """Return the resolved run with inputs nearly as they vary, at the points of a run too."""
+        """Return the resolved run with inputs as they vary, at the points of a run too.
+
+        Lines that the FMU cannot follow, and those of parameters, are held at their means.
+        """
         if step not in self._true_records:
             own = self.scene.with_step(step).schedule()
-            checkpoints = self.scene.schedule().times
-            signals = self.scene.signals
-            times = np.union1d(own.times, checkpoints)
-            if not all(signal.hold for signal in signals.values()):
-                stop, fine = float(own.times[-1]), step / FINE_STEPS
-                fine = max(fine, stop / MAX_POINTS)
+            stop, passes_on = float(own.times[-1]), self.instance.fmu.interpolates
+            inputs, tuning = dict(self.scene.signals), dict(self.scene.tuning)
+            held = tuning if passes_on else {**inputs, **tuning}
+            corners = [t for s in (*inputs.values(), *tuning.values()) for t in s.times]
+            points = [time for time in corners if 0.0 < time < stop]
+            times = np.unique(np.concatenate([own.times, self.scene.schedule().times, points]))
+            if not all(signal.hold for signal in held.values()):
+                fine = max(step / FINE_STEPS, stop / MAX_POINTS)
                 fine = step / max(2, round(step / fine))
-                grid = schedule(stop, fine, **signals).times
-                corners = [t for s in signals.values() for t in s.times if 0.0 < t < stop]
-                times = np.unique(np.concatenate([times, grid, corners]))
+                times = np.union1d(times, communication_points(stop, fine, points))
                 middles = np.append(0.5 * (times[1:] + times[:-1]), times[-1])
-                signals = {
-                    name: s if s.hold else Signal(tuple(times), tuple(map(s.at, middles)))
-                    for name, s in signals.items()
+                means = {
+                    name: Signal(tuple(times), tuple(map(s.at, middles)))
+                    for name, s in held.items()
+                    if not s.hold
                 }
+                inputs |= {name: s for name, s in means.items() if name in inputs}
+                tuning |= {name: s for name, s in means.items() if name in tuning}
             values = {**self.scene.parameters, **self.reference}
-            samples = Schedule(times, *in_order(signals))
+            samples = Schedule(times, *in_order(inputs), tuning=tuning, interpolates=passes_on)
             self._true_records[step] = run(self.instance, values, samples, outputs=SHOWN)
         return self._true_records[step]
 

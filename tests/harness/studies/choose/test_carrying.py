@@ -10,7 +10,7 @@ from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose import coverage
 from slider_resonator.studies.choose.candidate import Candidate, Model
 from slider_resonator.studies.choose.carrying import SAFETY
-from slider_resonator.studies.choose.held_grid import averaged_inputs
+from slider_resonator.studies.choose.input_grid import inputs_as_they_vary
 from slider_resonator.studies.choose.probe import Probe
 from slider_resonator.studies.choose.stretch import Stretch, follow
 from tests.harness.scene_text import scene_of
@@ -31,7 +31,7 @@ def _not_whole(monkeypatch: pytest.MonkeyPatch) -> None:
 def errors_of_the_whole(instance: Instance, scene: Scene, model: Model) -> dict[str, float]:
     """Return the errors of averaged motion in the whole scene, which is resolved here."""
     duration = scene.stop_time or 0.0
-    held = averaged_inputs(scene, duration, 0.01)
+    held = inputs_as_they_vary(scene, duration, 0.01, interpolates=False)
     stretch = Stretch(0.0, duration, scene.schedule().times[1:])
     found, true = (
         follow(instance, scene, {**one.parameters, "tolerance": 1e-12}, held, stretch)
@@ -97,7 +97,7 @@ def test_a_mean_velocity_near_zero_is_not_as_large_as_averaging_leaves_it(
     probe = Probe(instance, scene)
     assert probe.covers == "windows"
     size = probe.run_errors(Candidate(Model(2, 0), 1e-8, scene.step_size))["mean_velocity"]
-    held = averaged_inputs(scene, 14.0, 1.0)
+    held = inputs_as_they_vary(scene, 14.0, 1.0, interpolates=False)
     whole = follow(instance, scene, {"fidelity": 2.0}, held, Stretch(0.0, 14.0, np.array([14.0])))
     true = abs(float(whole["mean_velocity"][-1]))
     averaged = follow(

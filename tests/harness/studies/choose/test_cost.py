@@ -1,20 +1,32 @@
 from __future__ import annotations
 
+from math import tau
+
 import pytest
 
 from slider_resonator.studies.choose.candidate import TOLERANCES, Candidate, Model
 from slider_resonator.studies.choose.cost import run_cost, search_cost
+from slider_resonator.studies.choose.plan import Plan, Stay
 from slider_resonator.studies.choose.scales import scales_of
 from tests.harness.scene_text import scene_of
+
+
+def plan(duration: float, steps: int, kicks: int = 0, leads: int = 0) -> Plan:
+    """Return the plan of so many changes, of which some are of the phase, at equal distances."""
+    periods = duration * 3500.0 / tau / (leads + 1.0)
+    stays = tuple(Stay(periods, (0.1 * lead, 1.0), drifts=False) for lead in range(leads + 1))
+    return Plan(duration, steps, kicks, kicks, stays)
 
 
 def test_higher_accuracy_costs_more() -> None:
     scales = scales_of(scene_of(""))
     models = [Model(fidelity, law) for law in (0, 1) for fidelity in (0, 1, 2)]
-    costs = [run_cost(Candidate(model, 1e-8, 1.0), scales, 10.0, 10) for model in models]
+    costs = [run_cost(Candidate(model, 1e-8, 1.0), scales, plan(10.0, 10)) for model in models]
     assert costs[0] < costs[1] < costs[2] < costs[4] < costs[5]
     assert costs[0] < costs[3] < costs[4]
-    tolerances = [run_cost(Candidate(models[5], t, 1.0), scales, 10.0, 10) for t in TOLERANCES]
+    tolerances = [
+        run_cost(Candidate(models[5], t, 1.0), scales, plan(10.0, 10)) for t in TOLERANCES
+    ]
     assert tolerances == sorted(tolerances)
 
 
@@ -28,7 +40,7 @@ def test_resolved_motion_costs_by_the_period_and_averaged_motion_does_not() -> N
     )
     resolved, averaged = (Candidate(Model(fidelity, 0), 1e-8, 100.0) for fidelity in (2, 0))
     for candidate, ratio in ((resolved, 10.0), (averaged, 1.0)):
-        costs = [run_cost(candidate, scales, 100.0, 1) for scales in (fast, slow)]
+        costs = [run_cost(candidate, scales, plan(100.0, 1)) for scales in (fast, slow)]
         assert costs[0] / costs[1] == pytest.approx(ratio, rel=1e-2)
 
 
@@ -42,7 +54,7 @@ def test_a_search_costs_more_than_the_output_of_the_theory() -> None:
 def test_inputs_that_change_cost_averaged_motion_its_transients() -> None:
     scales = scales_of(scene_of(""))
     candidate = Candidate(Model(0, 0), 1e-8, 100.0)
-    costs = [run_cost(candidate, scales, 100.0, 10, changes) for changes in (0, 1, 5)]
+    costs = [run_cost(candidate, scales, plan(100.0, 10, changes)) for changes in (0, 1, 5)]
     assert costs == sorted(costs)
     assert costs[2] - costs[0] == pytest.approx(5.0 * (costs[1] - costs[0]), rel=0.1)
 
@@ -52,8 +64,14 @@ def test_second_order_costs_its_orbits_and_a_resolved_start() -> None:
         scales_of(scene_of(f"[device]\ndamping_ratio = {ratio}\n")) for ratio in (0.05, 0.005)
     )
     first, second = (Candidate(Model(0, 0, order), 1e-8, 100.0) for order in (1, 2))
-    costs = [run_cost(second, scales, 10.0, 1) for scales in (damped, weakly)]
-    assert run_cost(first, damped, 10.0, 1) < costs[0] < costs[1]
-    jumps = [run_cost(second, damped, 10.0, 1, 4, leads) for leads in (0, 2, 4)]
-    assert jumps[2] - jumps[1] == pytest.approx(jumps[1] - jumps[0])
+    costs = [run_cost(second, scales, plan(10.0, 1)) for scales in (damped, weakly)]
+    assert run_cost(first, damped, plan(10.0, 1)) < costs[0] < costs[1]
+    jumps = [run_cost(second, damped, plan(10.0, 1, 4, leads)) for leads in (0, 1, 2)]
+    assert jumps[2] - jumps[1] == pytest.approx(jumps[1] - jumps[0], rel=1e-6)
     assert jumps[0] < jumps[1]
+
+
+def test_orbits_at_the_edge_of_turning_back_cost_more() -> None:
+    scales, second = scales_of(scene_of("")), Candidate(Model(0, 0, 2), 1e-8, 100.0)
+    costs = [run_cost(second, scales, plan(10.0, 1), slow) for slow in ((0.1, 0.6), (0.1, 0.99))]
+    assert costs[1] > 3.0 * costs[0]

@@ -24,6 +24,7 @@ KNOWN_MISSES = (
     ("free_stiff_bristle", 1),
     ("polyline", 8),
     ("steady_coarse", 1),
+    ("slow_ratio_ramp", 60),
 )
 """Scenes for which the choice once did not meet the needs, or was more expensive than needed."""
 

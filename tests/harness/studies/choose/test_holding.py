@@ -7,8 +7,8 @@ import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.held_grid import averaged_inputs, sampled_inputs
 from slider_resonator.studies.choose.holding import holding_errors
+from slider_resonator.studies.choose.input_grid import inputs_as_they_vary, sampled_inputs
 from tests.harness.scene_text import scene_of
 
 SCENE = "[inputs]\nload = { ramp = [[0, 0], [2.0, 0.04], [7.0, 0.04]] }\n"
@@ -22,6 +22,7 @@ def test_holding_an_input_errs_in_proportion_to_the_step(instance: Instance) -> 
         for step in (0.02, 0.01)
     )
     assert coarse / fine == pytest.approx(2.0, rel=0.02)
-    held, meant = (grid(scene, 7.0, 0.02) for grid in (sampled_inputs, averaged_inputs))
+    held = sampled_inputs(scene, 7.0, 0.02)
+    meant = inputs_as_they_vary(scene, 7.0, 0.02, interpolates=False)
     impulses = [np.diff(g.times, append=7.0) @ g.values[:, 1] for g in (held, meant)]
     assert impulses[1] - impulses[0] == pytest.approx(0.04 * 0.01, rel=1e-2)

@@ -41,11 +41,20 @@ def test_inputs_that_vary_leave_powers_of_two_of_the_step(
     assert PERIOD / FINEST <= number[-1] < 2.0 * PERIOD / FINEST
 
 
-def test_a_beat_is_sampled_often_enough_to_be_seen(instance: Instance) -> None:
-    (step,) = ladder(
+def test_a_beat_is_tried_from_few_steps_to_enough_for_its_form(instance: Instance) -> None:
+    steps = ladder(
         instance,
         "[inputs]\nfrequency_ratio = 1.05\n[run]\ndrive_periods = 2000\nsteps_per_period = 0.1\n"
         "[need]\nbeat = { rel = 0.1 }\n",
     )
-    assert step <= 20.0 * PERIOD / STEPS_PER_BEAT
-    assert step <= 2000.0 * PERIOD / BEAT_POINTS
+    fewest, most = STEPS_PER_BEAT
+    assert 20.0 * PERIOD / (2.0 * fewest) < steps[0] <= 20.0 * PERIOD / fewest
+    assert steps[-1] <= 20.0 * PERIOD / most
+    assert steps[0] <= 2000.0 * PERIOD / BEAT_POINTS[0]
+    assert {coarse / fine for coarse, fine in pairwise(steps)} == {2.0}
+
+
+def test_inputs_that_go_on_as_straight_lines_leave_the_longest_step(instance: Instance) -> None:
+    run = "[run]\nstop_time = 0.1\nstep_size = 0.003\ninterpolate = true\n[need]\n"
+    assert ladder(instance, f"{RAMP}{run}mean_velocity = {{ rel = 0.1 }}\n") == (0.1,)
+    assert ladder(instance, f"{RAMP}{run}position = {{ rel = 0.1 }}\n") == (0.003,)
