@@ -7,6 +7,7 @@
 #include "constants.h"
 #include "contact.h"
 #include "events.h"
+#include "orbit_error.h"
 #include "orbit_price.h"
 #include "orbit_ride.h"
 #include "refusal_texts.h"
@@ -114,12 +115,11 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     } else {
         /* What is apart after resolved motion is how far it lags behind the orbit: it stays. */
         orbit->swing = (Response){0.0, 0.0};
-        orbit->grazed = 0;
+        error_begin(&ride, point, velocity, theta, now, orbit);
         now->position = centre;
     }
     orbit->stage = ON_ORBIT;
     orbit->to_go = orbit->waited = 0.0;
-    orbit->grazed = orbit->grazed || point->beyond;
     orbit->velocity = velocity;
     orbit->centre = centre - there.position;
     return true;
@@ -180,6 +180,9 @@ static bool adapt(const Law *law, Moment *now) {
     orbit->varied = HELD_INPUTS;
     orbit->turning = 0.0;
     orbit->loading = 0.0;
+    if (orbit->stage == AVERAGED) {
+        orbit->doubt = first_order_error(law);
+    }
     if ((shaken || tuned) && orbit->tunings < MAX_TUNINGS) {
         orbit->tunings++;
     }
@@ -308,6 +311,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         .sway = slow_friction_sway(&ride.first) / plant->total_mass,
     };
     ride_edges(&ride, plan.edge, &plan.margin);
+    ErrorPlace from = error_place(&ride, orbit->velocity, orbit_theta(&ride, 0.0, now->theta, chi));
     Reached reached = {.velocity = orbit->velocity, .step = plan.step};
     double last = period_last_end(now->theta, w, duration);
     Marks marks = {{last - length, last}, {0.0, 0.0}};
@@ -355,7 +359,8 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     orbit->velocity = reached.velocity;
     orbit->centre = centre + reached.moved;
     orbit->swing = swing;
-    orbit->grazed = orbit->grazed || point.beyond;
+    ErrorPlace to = error_place(&ride, reached.velocity, there_theta);
+    error_carry(&ride, &from, &to, &point, duration, orbit);
     orbit->lead = ride_lead(&ride, duration);
     if (slow_phase_drifts(&ride.slow)) {
         orbit->lead = within_turn(orbit->lead);
@@ -386,20 +391,19 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
 
 /* The estimate under held inputs. */
 static double standing_error(const Law *law, const Moment *moment) {
-    if (moment->orbit.stage == AVERAGED) {
+    const OrbitState *orbit = &moment->orbit;
+    if (orbit->stage == AVERAGED) {
         return first_order_error(law);
     }
-    if (moment->orbit.stage != ON_ORBIT) {
-        return second_order_error(law, 0.0, false, INFINITY);
+    if (orbit->stage != ON_ORBIT) {
+        return fabs(orbit->ahead) + orbit->doubt + orbit->unrest + resolution_error(law);
     }
     OrbitRide ride;
-    ride_begin(&ride, law, moment, moment->orbit.lead);
-    OrbitPoint point = ride_point(&ride, 0.0, moment->orbit.velocity);
-    if (!point.found) {
-        return first_order_error(law);
-    }
-    double force = point.of[ORBIT_FRICTION] + law->inputs.load;
-    return second_order_error(law, point.of[ORBIT_FACTOR] - 1.0, moment->orbit.grazed, force);
+    ride_begin(&ride, law, moment, orbit->lead);
+    double chi = law->inputs.phase + moment->psi;
+    double theta = orbit_theta(&ride, 0.0, moment->theta, chi);
+    ErrorPlace place = error_place(&ride, orbit->velocity, theta);
+    return error_at(&ride, &place, orbit);
 }
 
 double orbit_motion_error(const Law *law, const Moment *moment) {
