@@ -127,11 +127,25 @@ static double unmeasured_error(const Law *law, const OrbitPoint *point, double l
                         : first_order_error(law);
 }
 
+void error_leave(const Law *law, OrbitState *orbit) {
+    double swing = swing_by_inertia(law) * (1.0 + 1.0 / decay_in_turn(law));
+    orbit->unrest += velocity_of_swing(law, swing * fabs(orbit->acceleration));
+    bound(law, orbit);
+}
+
+void error_calm(const Law *law, double angle, OrbitState *orbit) {
+    orbit->unrest *= exp(-fmin(decay_in_turn(law), SEEN) * angle / TAU);
+}
+
 void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, double theta,
                  const Moment *now, OrbitState *orbit) {
     ErrorPlace place = error_place(ride, velocity, theta);
     orbit->unrest = error_of_swing(ride, velocity, theta, now);
     orbit->doubt += place.unsure * fabs(place.acceleration);
+    if (!place.measured) {
+        double added_mass = point->of[ORBIT_FACTOR] - 1.0;
+        orbit->doubt = fmax(orbit->doubt, second_order_error(ride->law, added_mass, INFINITY));
+    }
     orbit->acceleration = acceleration_on(ride->law, point, ride->law->inputs.load);
     bound(ride->law, orbit);
 }
@@ -140,8 +154,7 @@ void error_carry(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
                  const OrbitPoint *point, double duration, OrbitState *orbit) {
     const Law *law = ride->law;
     double gained, unsure;
-    double turns = duration * law->device.drive_frequency / TAU;
-    orbit->unrest *= exp(-fmin(decay_in_turn(law), SEEN) * turns);
+    double angle = duration * law->device.drive_frequency;
     if (!from->measured || !to->measured ||
         !orbit_shift_gained(law->orbits, ride->curve, from->velocity, to->velocity, &gained,
                             &unsure)) {
@@ -154,13 +167,14 @@ void error_carry(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
         orbit->doubt = fmax(left * (orbit->doubt + fabs(orbit->ahead)),
                             unmeasured_error(law, point, load));
         orbit->ahead = 0.0;
+        error_calm(law, angle, orbit);
         bound(law, orbit);
         return;
     }
     double a = to->acceleration, left = left_by_excess(ride, from, to, duration);
     double jump = fabs(from->acceleration - orbit->acceleration);
-    double shaken = velocity_of_swing(law, from->swing * jump);
-    orbit->unrest += shaken * exp(-fmin(decay_in_turn(law), SEEN) * turns);
+    orbit->unrest += velocity_of_swing(law, from->swing * jump);
+    error_calm(law, angle, orbit);
     orbit->acceleration = a;
     gained -= 0.5 * (from->left_out + to->left_out) * duration;
     double error = left * (orbit->ahead + from->lag * from->acceleration) + gained * a;

@@ -27,6 +27,12 @@ ErrorPlace error_place(OrbitRide *ride, double velocity, double theta);
 void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, double theta,
                  const Moment *now, OrbitState *orbit);
 
+/* Leave orbits for resolved motion, which begins without the lag of the resonator. */
+void error_leave(const Law *law, OrbitState *orbit);
+
+/* Let the resonator's swing decay for a drive angle [rad]. */
+void error_calm(const Law *law, double angle, OrbitState *orbit);
+
 /* Carry the error on over `duration` [s] to another place, whose orbit is `point`. */
 void error_carry(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
                  const OrbitPoint *point, double duration, OrbitState *orbit);

@@ -146,8 +146,9 @@ static bool is_loaded(const OrbitState *orbit, const OrbitValues *present) {
 }
 
 /* Resolve the motion for a drive angle [rad] at least. */
-static void resolve_for(OrbitState *orbit, double angle) {
+static void resolve_for(const Law *law, OrbitState *orbit, double angle) {
     if (orbit->stage != RESOLVED) {
+        error_leave(law, orbit);
         orbit->stage = RESOLVED;
         orbit->to_go = orbit->waited = 0.0;
     }
@@ -155,7 +156,8 @@ static void resolve_for(OrbitState *orbit, double angle) {
 }
 
 /* A drive angle [rad] of resolved motion is over. */
-static void resolved_for(OrbitState *orbit, double angle) {
+static void resolved_for(const Law *law, OrbitState *orbit, double angle) {
+    error_calm(law, angle, orbit);
     orbit->to_go = fmax(0.0, orbit->to_go - angle);
     orbit->waited += angle;
 }
@@ -191,7 +193,7 @@ static bool adapt(const Law *law, Moment *now) {
     }
     bool starts = orbit->stage == RESOLVED && orbit->waited == 0.0;
     if (shaken) {
-        resolve_for(orbit, resolved_angle(law, now));
+        resolve_for(law, orbit, resolved_angle(law, now));
     }
     bool resolved = orbit->stage == RESOLVED;
     if (resolved ? starts || !changed : !(changed || loaded || drifts)) {
@@ -200,11 +202,11 @@ static bool adapt(const Law *law, Moment *now) {
     double lead = tuned || led || resolved ? lead_of(law, now) : orbit->lead;
     double price = orbit_price(law, orbit, lead, changed);
     if (resolved) {
-        resolve_for(orbit, price - orbit->waited);
+        resolve_for(law, orbit, price - orbit->waited);
         return true;
     }
     if (price > 0.0) {
-        resolve_for(orbit, price);
+        resolve_for(law, orbit, price);
         orbit_pay(law, orbit, lead);
         return true;
     }
@@ -221,7 +223,7 @@ static bool adapt(const Law *law, Moment *now) {
     }
     double lag = lag_angle(law, point.of[ORBIT_FACTOR] - 1.0);
     if (lag > 0.0) {
-        resolve_for(orbit, lag);
+        resolve_for(law, orbit, lag);
     }
     return true;
 }
@@ -240,10 +242,10 @@ static bool resolve(const Law *law, double duration, EventSearch *search, Moment
         }
         *now = after;
         if (search != NULL && search->found) {
-            resolved_for(&now->orbit, w * search->elapsed);
+            resolved_for(law, &now->orbit, w * search->elapsed);
             return true;
         }
-        resolved_for(&now->orbit, w * *time);
+        resolved_for(law, &now->orbit, w * *time);
     } else {
         *time = 0.0;
     }

@@ -31,8 +31,9 @@
  * than 1 for the swing with which that begins. */
 #define LOADING 1.2
 
-/* Error of the integration and of the tables, in v_q. */
+/* Error of the integration and of the tables, in v_q; and the least that the rule of thumb gives. */
 #define RESOLUTION 1e-9
+#define LEAST_BY_RULE 1e-8
 
 double friction_share(const Law *law) {
     const Device *device = &law->device;
@@ -85,7 +86,7 @@ double second_order_error(const Law *law, double added_mass, double force) {
     }
     double squares = sensitivity * share * share +
                      ADDED_MASS * added_mass * added_mass;
-    return fmin(away * squares + RESOLUTION, 1.0) * law->fast.velocity;
+    return fmin(away * squares + LEAST_BY_RULE, 1.0) * law->fast.velocity;
 }
 
 double resolution_error(const Law *law) {

@@ -7,7 +7,7 @@ Under held inputs V errs by its acceleration times a time that grows by what orb
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, hypot, sqrt, tau
+from math import exp, hypot, inf, sqrt, tau
 
 from .device import Device
 from .fast_vibration import FastVibration
@@ -42,6 +42,22 @@ NEXT_TO_GRAZING = 0.05
 ROOT_SUM = 0.1
 """Error of a sum over periods of the root of what velocity lacks there, in the root of that of one:
 0.21 at the worst phase, 0.07 at most of them."""
+
+
+def left_orbits(device: Device, fast: FastVibration, orbit: OrbitState) -> OrbitState:
+    """The state where resolved motion begins, without the lag of the resonator."""
+    swing = swing_by_inertia(device) * (1.0 + 1.0 / decay_in_turn(device))
+    unrest = orbit.unrest + velocity_of_swing(device, swing * abs(orbit.acceleration))
+    return orbit._replace(unrest=min(unrest, fast.velocity))
+
+
+def calmed(device: Device, angle: float, orbit: OrbitState) -> OrbitState:
+    """The state when the resonator's swing has decayed for a drive angle [rad]."""
+    return orbit._replace(unrest=orbit.unrest * _calmed(device, angle))
+
+
+def _calmed(device: Device, angle: float) -> float:
+    return exp(-min(decay_in_turn(device), SEEN) * angle / tau)
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +126,10 @@ class ErrorRide:
         """
         place = self.place(velocity, theta)
         doubt = orbit.doubt + place.unsure * abs(place.acceleration)
+        if not place.measured:
+            added_mass = point.of.factor - 1.0
+            by_rule = second_order_error(self.device, self.fast, added_mass, inf)
+            doubt = max(doubt, by_rule)
         unrest = self._error_of_swing(velocity, theta, now)
         return self._bounded(orbit, orbit.ahead, doubt, unrest, self._acceleration_on(point))
 
@@ -123,16 +143,15 @@ class ErrorRide:
     ) -> OrbitState:
         """The state with the error carried on over `duration` [s], to the orbit `point`."""
         curve = self.ride.table.curve
-        turns = duration * self.device.drive_frequency / tau
-        calmed = exp(-min(decay_in_turn(self.device), SEEN) * turns)
+        calm = _calmed(self.device, duration * self.device.drive_frequency)
         gain = None
         if curve is not None and start.measured and end.measured:
             gain = gain_between(curve, start.velocity, end.velocity)
         if gain is None:
-            return self._unmeasured_after(end, point, duration, orbit, orbit.unrest * calmed)
+            return self._unmeasured_after(end, point, duration, orbit, orbit.unrest * calm)
         a = end.acceleration
         jump = abs(start.acceleration - orbit.acceleration)
-        unrest = (orbit.unrest + velocity_of_swing(self.device, start.swing * jump)) * calmed
+        unrest = (orbit.unrest + velocity_of_swing(self.device, start.swing * jump)) * calm
         left = self._left_by_excess(start, end, duration)
         gained = gain.gained - 0.5 * (start.left_out + end.left_out) * duration
         error = left * (orbit.ahead + start.lag * start.acceleration) + gained * a

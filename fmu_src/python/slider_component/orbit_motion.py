@@ -26,7 +26,7 @@ from .held import Held
 from .moment import Counts, Moment
 from .motion import State
 from .orbit_curve import OrbitPoint
-from .orbit_error import ErrorRide
+from .orbit_error import ErrorRide, calmed, left_orbits
 from .orbit_price import orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
 from .orbit_state import MAX_TUNINGS, OrbitState, OrbitValues, PaidTables, Stage, Swing
@@ -195,7 +195,7 @@ class OrbitLaw:
         starts = orbit.stage == Stage.RESOLVED and orbit.waited == 0.0
         if shaken:
             angle = resolved_angle(device, self.fast, now.state, now.theta)
-            orbit = orbit.resolved_for(angle)
+            orbit = self._resolved_for(orbit, angle)
         now.orbit = orbit
         ratio = self.full.inputs.frequency_ratio
         resolved = orbit.stage == Stage.RESOLVED
@@ -204,10 +204,10 @@ class OrbitLaw:
         lead = self._lead(now) if tuned or led or resolved else orbit.lead
         price = orbit_price(device, ratio, orbit, lead, changed=changed)
         if resolved:
-            now.orbit = orbit.resolved_for(price - orbit.waited)
+            now.orbit = self._resolved_for(orbit, price - orbit.waited)
             return now
         if price > 0.0:
-            now.orbit = with_paid(device, ratio, orbit.resolved_for(price), lead)
+            now.orbit = with_paid(device, ratio, self._resolved_for(orbit, price), lead)
             return now
         if tuned or led:
             now, factor = self._taken_over(now)
@@ -217,8 +217,14 @@ class OrbitLaw:
             return now
         lag = lag_angle(device, self.fast, factor - 1.0)
         if lag > 0.0:
-            now.orbit = now.orbit.resolved_for(lag)
+            now.orbit = self._resolved_for(now.orbit, lag)
         return now
+
+    def _resolved_for(self, orbit: OrbitState, angle: float) -> OrbitState:
+        """The state when motion is to be resolved for a drive angle [rad] at least."""
+        if orbit.stage != Stage.RESOLVED:
+            orbit = left_orbits(self.full.device, self.fast, orbit)
+        return orbit.resolved_for(angle)
 
     def _taken_over(self, now: Moment) -> tuple[Moment, float]:
         """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m."""
@@ -269,7 +275,8 @@ class OrbitLaw:
         if time * w > NOTHING or not ends:
             now = events.advance(self.friction, self.full, now, time)
             waited = now.orbit.waited + w * time
-            now.orbit = now.orbit._replace(to_go=max(0.0, to_go - w * time), waited=waited)
+            orbit = now.orbit._replace(to_go=max(0.0, to_go - w * time), waited=waited)
+            now.orbit = calmed(self.full.device, w * time, orbit)
         else:
             time = 0.0
         return (self._taken_over(now)[0] if ends else now), time

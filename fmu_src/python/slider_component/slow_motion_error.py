@@ -37,6 +37,9 @@ SOFT_FROM = 3.0
 RESOLUTION = 1e-9
 """Error of the integration and of the tables, in v_q."""
 
+LEAST_BY_RULE = 1e-8
+"""The least error that the rule of thumb gives, in v_q."""
+
 
 def friction_share(device: Device, fast: FastVibration) -> float:
     """Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q).
@@ -103,7 +106,7 @@ def second_order_error(
     if device.normal_amplitude > device.normal_preload:
         sensitivity *= BY_FLIGHT
     squares = sensitivity * share * share + ADDED_MASS * added_mass * added_mass
-    return min(away * squares + RESOLUTION, 1.0) * fast.velocity
+    return min(away * squares + LEAST_BY_RULE, 1.0) * fast.velocity
 
 
 def resolution_error(fast: FastVibration) -> float:
