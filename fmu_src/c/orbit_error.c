@@ -12,6 +12,9 @@
 /* Acceleration, over that by all friction, below which the motion has settled. */
 #define SETTLED 1e-8
 
+/* Error, over that of resolution, whose decay is not looked at once the motion has settled. */
+#define NEGLIGIBLE_ERROR 1e-3
+
 /* Difference of velocities, over the fast one, for the slope of the acceleration. */
 #define SLOPE_STEP 1e-6
 
@@ -84,13 +87,14 @@ static double left_by_slope(OrbitRide *ride, double velocity, double duration) {
 
 /* The same where inputs are held: that of the acceleration. */
 static double left_by_excess(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
-                             double duration) {
+                             double duration, const OrbitState *orbit) {
     const Law *law = ride->law;
     double full = friction_share(law) * law->device.drive_frequency * law->fast.velocity;
     if (fabs(from->acceleration) > SETTLED * full) {
         return fabs(to->acceleration / from->acceleration);
     }
-    return left_by_slope(ride, to->velocity, duration);
+    bool negligible = fabs(orbit->ahead) + orbit->doubt < NEGLIGIBLE_ERROR * resolution_error(law);
+    return negligible ? 1.0 : left_by_slope(ride, to->velocity, duration);
 }
 
 /* Chi at which friction next to grazing is looked up, and the error of a sum over periods of the root of what
@@ -171,7 +175,7 @@ void error_carry(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
         bound(law, orbit);
         return;
     }
-    double a = to->acceleration, left = left_by_excess(ride, from, to, duration);
+    double a = to->acceleration, left = left_by_excess(ride, from, to, duration, orbit);
     double jump = fabs(from->acceleration - orbit->acceleration);
     orbit->unrest += velocity_of_swing(law, from->swing * jump);
     error_calm(law, angle, orbit);

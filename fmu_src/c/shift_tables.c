@@ -40,8 +40,7 @@ typedef struct {
     double share;
 } Between;
 
-static Between between(const OrbitCurve *curve, double velocity) {
-    double place = orbit_place(curve, velocity);
+static Between between(const OrbitCurve *curve, double place, double velocity) {
     if (place < 0.0) {
         place = velocity > curve->middle ? 0.0 : BASE_PANELS;
     }
@@ -50,25 +49,32 @@ static Between between(const OrbitCurve *curve, double velocity) {
     return (Between){before, fmin(fmax(at - before, 0.0), 1.0)};
 }
 
+static double mean_of(const ShiftPoint *before, const ShiftPoint *after, double share,
+                      OrbitShift shift) {
+    return before->of[shift] + share * (after->of[shift] - before->of[shift]);
+}
+
 bool orbit_shifts_at(OrbitTables *tables, OrbitCurve *curve, double velocity, double phase,
                      ShiftsThere *shifts) {
+    double place = curve->found ? orbit_place(curve, velocity) : -1.0;
     *shifts = (ShiftsThere){0.0, 0.0, 0.0, 0.0, 0.0};
-    if (!curve->found || orbit_place(curve, velocity) < 0.0) {
+    if (place < 0.0) {
         return curve->found;
     }
-    Between there = between(curve, velocity);
+    Between there = between(curve, place, velocity);
     const ShiftPoint *before = shifts_of(tables, curve, there.before);
     const ShiftPoint *after = shifts_of(tables, curve, there.before + 1);
-    double parts = phase * LAG_PHASES, rest = parts - floor(parts), mean[ORBIT_SHIFTS];
-    int part = (int)parts % LAG_PHASES, next = (part + 1) % LAG_PHASES;
-    for (int shift = 0; shift < ORBIT_SHIFTS; shift++) {
-        mean[shift] = before->of[shift] + there.share * (after->of[shift] - before->of[shift]);
-    }
-    shifts->lag = mean[SHIFT_LAG + part] + rest * (mean[SHIFT_LAG + next] - mean[SHIFT_LAG + part]);
-    shifts->of_turn = mean[SHIFT_OF_TURN];
-    shifts->added_mass = mean[SHIFT_ADDED_MASS];
-    shifts->swing = mean[SHIFT_SWING];
-    shifts->unsure = mean[SHIFT_UNSURE] * (fabs(shifts->lag) + fabs(mean[SHIFT_SHOWN]));
+    double parts = phase * LAG_PHASES, rest = parts - floor(parts);
+    OrbitShift part = (OrbitShift)(SHIFT_LAG + (int)parts % LAG_PHASES);
+    OrbitShift next = (OrbitShift)(SHIFT_LAG + ((int)parts + 1) % LAG_PHASES);
+    double lag = mean_of(before, after, there.share, part);
+    shifts->lag = lag + rest * (mean_of(before, after, there.share, next) - lag);
+    shifts->of_turn = mean_of(before, after, there.share, SHIFT_OF_TURN);
+    shifts->added_mass = mean_of(before, after, there.share, SHIFT_ADDED_MASS);
+    shifts->swing = mean_of(before, after, there.share, SHIFT_SWING);
+    double shown = mean_of(before, after, there.share, SHIFT_SHOWN);
+    shifts->unsure =
+        mean_of(before, after, there.share, SHIFT_UNSURE) * (fabs(shifts->lag) + fabs(shown));
     return before->measured && after->measured;
 }
 
@@ -90,10 +96,11 @@ static bool gained_after(OrbitTables *tables, OrbitCurve *curve, int index, doub
 bool orbit_shift_gained(OrbitTables *tables, OrbitCurve *curve, double from, double to,
                         double *gained, double *unsure) {
     *gained = *unsure = 0.0;
-    if (!curve->found) {
-        return false;
+    if (!curve->found || from == to) {
+        return curve->found;
     }
-    Between start = between(curve, from), end = between(curve, to);
+    Between start = between(curve, orbit_place(curve, from), from);
+    Between end = between(curve, orbit_place(curve, to), to);
     bool forward = start.before < end.before || (start.before == end.before && start.share < end.share);
     const Between *low = forward ? &start : &end, *high = forward ? &end : &start;
     if (low->before == high->before && low->share == high->share) {

@@ -30,6 +30,9 @@ from .slow_motion_error import (
 SETTLED = 1e-8
 """Acceleration, over that by all friction, below which the motion has settled."""
 
+NEGLIGIBLE_ERROR = 1e-3
+"""Error, over that of resolution, whose decay is not looked at once the motion has settled."""
+
 SLOPE_STEP = 1e-6
 """Difference of velocities, over the fast one, for the slope of the acceleration."""
 
@@ -152,7 +155,7 @@ class ErrorRide:
         a = end.acceleration
         jump = abs(start.acceleration - orbit.acceleration)
         unrest = (orbit.unrest + velocity_of_swing(self.device, start.swing * jump)) * calm
-        left = self._left_by_excess(start, end, duration)
+        left = self._left_by_excess(start, end, duration, orbit)
         gained = gain.gained - 0.5 * (start.left_out + end.left_out) * duration
         error = left * (orbit.ahead + start.lag * start.acceleration) + gained * a
         doubt = left * (orbit.doubt + start.unsure * jump) + gain.unsure * abs(a)
@@ -225,11 +228,15 @@ class ErrorRide:
         slope = more - self.ride.acceleration(duration, velocity - step)
         return exp(min(0.5 * slope / step, 0.0) * duration)
 
-    def _left_by_excess(self, start: ErrorPlace, end: ErrorPlace, duration: float) -> float:
+    def _left_by_excess(
+        self, start: ErrorPlace, end: ErrorPlace, duration: float, orbit: OrbitState
+    ) -> float:
         """The same where inputs are held: that of the acceleration."""
         share, fast = friction_share(self.device, self.fast), self.fast.velocity
         if abs(start.acceleration) > SETTLED * share * self.device.drive_frequency * fast:
             return abs(end.acceleration / start.acceleration)
+        if abs(orbit.ahead) + orbit.doubt < NEGLIGIBLE_ERROR * resolution_error(self.fast):
+            return 1.0
         return self._left_by_slope(end.velocity, duration)
 
     def _grazing_error(self, beyond: ErrorPlace) -> float:
