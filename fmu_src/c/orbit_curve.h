@@ -10,6 +10,7 @@
 #include <stdbool.h>
 
 #include "held_orbit.h"
+#include "orbit_shifts.h"
 #include "period_map.h"
 
 /* Nodes of a panel, and panels that a curve keeps. */
@@ -59,6 +60,7 @@ typedef struct {
     OrbitPoint beyond[2];
     int next;
     OrbitPanel panel[CURVE_PANELS];
+    ShiftPoint shifts[SHIFT_POINTS];
 } OrbitCurve;
 
 /* An orbit as tables have it; false where a map fails. */

@@ -7,6 +7,7 @@
 #include "constants.h"
 #include "contact.h"
 #include "events.h"
+#include "orbit_error.h"
 #include "orbit_price.h"
 #include "orbit_ride.h"
 #include "refusal_texts.h"
@@ -114,12 +115,11 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     } else {
         /* What is apart after resolved motion is how far it lags behind the orbit: it stays. */
         orbit->swing = (Response){0.0, 0.0};
-        orbit->grazed = 0;
+        error_begin(&ride, point, velocity, theta, now, orbit);
         now->position = centre;
     }
     orbit->stage = ON_ORBIT;
     orbit->to_go = orbit->waited = 0.0;
-    orbit->grazed = orbit->grazed || point->beyond;
     orbit->velocity = velocity;
     orbit->centre = centre - there.position;
     return true;
@@ -146,8 +146,9 @@ static bool is_loaded(const OrbitState *orbit, const OrbitValues *present) {
 }
 
 /* Resolve the motion for a drive angle [rad] at least. */
-static void resolve_for(OrbitState *orbit, double angle) {
+static void resolve_for(const Law *law, OrbitState *orbit, double angle) {
     if (orbit->stage != RESOLVED) {
+        error_leave(law, orbit);
         orbit->stage = RESOLVED;
         orbit->to_go = orbit->waited = 0.0;
     }
@@ -155,7 +156,8 @@ static void resolve_for(OrbitState *orbit, double angle) {
 }
 
 /* A drive angle [rad] of resolved motion is over. */
-static void resolved_for(OrbitState *orbit, double angle) {
+static void resolved_for(const Law *law, OrbitState *orbit, double angle) {
+    error_calm(law, angle, orbit);
     orbit->to_go = fmax(0.0, orbit->to_go - angle);
     orbit->waited += angle;
 }
@@ -180,6 +182,9 @@ static bool adapt(const Law *law, Moment *now) {
     orbit->varied = HELD_INPUTS;
     orbit->turning = 0.0;
     orbit->loading = 0.0;
+    if (orbit->stage == AVERAGED) {
+        orbit->doubt = first_order_error(law);
+    }
     if ((shaken || tuned) && orbit->tunings < MAX_TUNINGS) {
         orbit->tunings++;
     }
@@ -188,7 +193,7 @@ static bool adapt(const Law *law, Moment *now) {
     }
     bool starts = orbit->stage == RESOLVED && orbit->waited == 0.0;
     if (shaken) {
-        resolve_for(orbit, resolved_angle(law, now));
+        resolve_for(law, orbit, resolved_angle(law, now));
     }
     bool resolved = orbit->stage == RESOLVED;
     if (resolved ? starts || !changed : !(changed || loaded || drifts)) {
@@ -197,11 +202,11 @@ static bool adapt(const Law *law, Moment *now) {
     double lead = tuned || led || resolved ? lead_of(law, now) : orbit->lead;
     double price = orbit_price(law, orbit, lead, changed);
     if (resolved) {
-        resolve_for(orbit, price - orbit->waited);
+        resolve_for(law, orbit, price - orbit->waited);
         return true;
     }
     if (price > 0.0) {
-        resolve_for(orbit, price);
+        resolve_for(law, orbit, price);
         orbit_pay(law, orbit, lead);
         return true;
     }
@@ -218,7 +223,7 @@ static bool adapt(const Law *law, Moment *now) {
     }
     double lag = lag_angle(law, point.of[ORBIT_FACTOR] - 1.0);
     if (lag > 0.0) {
-        resolve_for(orbit, lag);
+        resolve_for(law, orbit, lag);
     }
     return true;
 }
@@ -237,10 +242,10 @@ static bool resolve(const Law *law, double duration, EventSearch *search, Moment
         }
         *now = after;
         if (search != NULL && search->found) {
-            resolved_for(&now->orbit, w * search->elapsed);
+            resolved_for(law, &now->orbit, w * search->elapsed);
             return true;
         }
-        resolved_for(&now->orbit, w * *time);
+        resolved_for(law, &now->orbit, w * *time);
     } else {
         *time = 0.0;
     }
@@ -308,6 +313,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         .sway = slow_friction_sway(&ride.first) / plant->total_mass,
     };
     ride_edges(&ride, plan.edge, &plan.margin);
+    ErrorPlace from = error_place(&ride, orbit->velocity, orbit_theta(&ride, 0.0, now->theta, chi));
     Reached reached = {.velocity = orbit->velocity, .step = plan.step};
     double last = period_last_end(now->theta, w, duration);
     Marks marks = {{last - length, last}, {0.0, 0.0}};
@@ -355,7 +361,8 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     orbit->velocity = reached.velocity;
     orbit->centre = centre + reached.moved;
     orbit->swing = swing;
-    orbit->grazed = orbit->grazed || point.beyond;
+    ErrorPlace to = error_place(&ride, reached.velocity, there_theta);
+    error_carry(&ride, &from, &to, &point, duration, orbit);
     orbit->lead = ride_lead(&ride, duration);
     if (slow_phase_drifts(&ride.slow)) {
         orbit->lead = within_turn(orbit->lead);
@@ -386,20 +393,19 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
 
 /* The estimate under held inputs. */
 static double standing_error(const Law *law, const Moment *moment) {
-    if (moment->orbit.stage == AVERAGED) {
+    const OrbitState *orbit = &moment->orbit;
+    if (orbit->stage == AVERAGED) {
         return first_order_error(law);
     }
-    if (moment->orbit.stage != ON_ORBIT) {
-        return second_order_error(law, 0.0, false, INFINITY);
+    if (orbit->stage != ON_ORBIT) {
+        return fabs(orbit->ahead) + orbit->doubt + orbit->unrest + resolution_error(law);
     }
     OrbitRide ride;
-    ride_begin(&ride, law, moment, moment->orbit.lead);
-    OrbitPoint point = ride_point(&ride, 0.0, moment->orbit.velocity);
-    if (!point.found) {
-        return first_order_error(law);
-    }
-    double force = point.of[ORBIT_FRICTION] + law->inputs.load;
-    return second_order_error(law, point.of[ORBIT_FACTOR] - 1.0, moment->orbit.grazed, force);
+    ride_begin(&ride, law, moment, orbit->lead);
+    double chi = law->inputs.phase + moment->psi;
+    double theta = orbit_theta(&ride, 0.0, moment->theta, chi);
+    ErrorPlace place = error_place(&ride, orbit->velocity, theta);
+    return error_at(&ride, &place, orbit);
 }
 
 double orbit_motion_error(const Law *law, const Moment *moment) {

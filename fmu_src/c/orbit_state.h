@@ -39,7 +39,9 @@ typedef struct {
  * which it differs from the orbit. The step was made `under` these values; `tunings`
  * counts, up to MAX_TUNINGS, how often a parameter changed the orbits. `varied` is how inputs did during
  * it, `turning` [rad/s] how fast the lead then turned at most, and `loading` [N/s] how fast the load grew, both
- * 0 under held inputs. `grazed` is 1 once the slider went so fast that it did not turn back, else 0. */
+ * 0 under held inputs. W is `ahead` [m/s] of that of the full device, as far as that is known; what else V
+ * may err by is `doubt` [m/s], and the resonator's swing that nobody follows is `unrest` [m/s] of mean
+ * velocity. `acceleration` [m/s^2] is the slow one at the end of the step. */
 typedef struct {
     int stage;
     double to_go, waited, velocity, centre, lead;
@@ -48,8 +50,8 @@ typedef struct {
     VisitedLeads leads;
     PaidTables paid;
     int varied;
-    double turning, loading;
-    int tunings, grazed;
+    double turning, loading, ahead, doubt, unrest, acceleration;
+    int tunings;
 } OrbitState;
 
 #endif

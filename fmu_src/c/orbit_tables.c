@@ -54,7 +54,7 @@ static double lead_in_series(int index) {
 
 /* Weights of the leads of the series at one lead: the trigonometric cardinal functions, cosines by
  * Chebyshev's recurrence. */
-static void series_weights(double lead, double weight[SERIES_LEADS]) {
+void orbit_series_weights(double lead, double weight[SERIES_LEADS]) {
     for (int i = 0; i < SERIES_LEADS; i++) {
         double cosine = cos(lead - lead_in_series(i)), before = 1.0, now = cosine;
         double sum = 0.5;
@@ -72,7 +72,7 @@ static SlowPhase phase_of(const OrbitCurve *curve) {
     return (SlowPhase){.turns = curve->turns, .waves = curve->waves};
 }
 
-static OrbitCurve *curve_in_series(OrbitTables *tables, const OrbitCurve *curve, int index) {
+OrbitCurve *orbit_curve_in_series(OrbitTables *tables, const OrbitCurve *curve, int index) {
     SlowPhase slow = phase_of(curve);
     return orbit_curve_of(tables, &curve->device, &slow, lead_in_series(index), false);
 }
@@ -88,7 +88,7 @@ static void add_point(OrbitPoint *sum, double weight, const OrbitPoint *point) {
 
 static void combine_begin(OrbitTables *tables, OrbitCurve *curve) {
     double weight[SERIES_LEADS];
-    series_weights(curve->lead, weight);
+    orbit_series_weights(curve->lead, weight);
     curve->found = true;
     curve->middle = curve->reach = 0.0;
     curve->next = 0;
@@ -97,7 +97,7 @@ static void combine_begin(OrbitTables *tables, OrbitCurve *curve) {
         curve->panel[i].known = false;
     }
     for (int i = 0; i < SERIES_LEADS; i++) {
-        const OrbitCurve *part = curve_in_series(tables, curve, i);
+        const OrbitCurve *part = orbit_curve_in_series(tables, curve, i);
         curve->found = curve->found && part->found;
         curve->middle += weight[i] * part->middle;
         curve->reach += weight[i] * part->reach;
@@ -111,10 +111,10 @@ static const OrbitPanel *panel_of(OrbitTables *tables, OrbitCurve *curve, int de
 /* The combination of a panel of all curves of the series. It is rough where one of them is. */
 static void combine_panel(OrbitTables *tables, OrbitCurve *curve, OrbitPanel *panel) {
     double weight[SERIES_LEADS];
-    series_weights(curve->lead, weight);
+    orbit_series_weights(curve->lead, weight);
     panel->found = panel->holds = true;
     for (int i = 0; i < SERIES_LEADS; i++) {
-        OrbitCurve *part = curve_in_series(tables, curve, i);
+        OrbitCurve *part = orbit_curve_in_series(tables, curve, i);
         const OrbitPanel *made = panel_of(tables, part, panel->depth, panel->index);
         panel->found = panel->found && made->found;
         panel->holds = panel->holds && made->holds;
@@ -168,6 +168,9 @@ OrbitCurve *orbit_curve_of(OrbitTables *tables, const Device *device, const Slow
     curve->waves = slow->waves;
     curve->turns = slow->turns;
     curve->lead = lead;
+    for (int i = 0; i < SHIFT_POINTS; i++) {
+        curve->shifts[i].known = false;
+    }
     if (combined) {
         combine_begin(tables, curve);
     } else {
@@ -197,6 +200,10 @@ static double place_between(double middle, double reach, double velocity) {
     return fabs(share) < 1.0 ? acos(share) / PI * BASE_PANELS : -1.0;
 }
 
+double orbit_place(const OrbitCurve *curve, double velocity) {
+    return place_between(curve->middle, curve->reach, velocity);
+}
+
 static const OrbitPoint *point_beyond(const OrbitCurve *curve, double velocity) {
     return &curve->beyond[velocity > curve->middle];
 }
@@ -205,7 +212,7 @@ bool orbit_point_at(OrbitTables *tables, OrbitCurve *curve, double velocity, Orb
     if (!curve->found) {
         return false;
     }
-    double place = place_between(curve->middle, curve->reach, velocity);
+    double place = orbit_place(curve, velocity);
     if (place < 0.0) {
         *point = *point_beyond(curve, velocity);
         return true;
@@ -228,7 +235,7 @@ bool orbit_friction_at(OrbitTables *tables, OrbitCurve *curve, double velocity, 
     if (!curve->found) {
         return false;
     }
-    double place = place_between(curve->middle, curve->reach, velocity);
+    double place = orbit_place(curve, velocity);
     if (place < 0.0) {
         const OrbitPoint *beyond = point_beyond(curve, velocity);
         *friction = beyond->of[ORBIT_FRICTION];
@@ -276,7 +283,7 @@ static bool series_sum(OrbitTables *tables, const OrbitSeries *series, double le
     OrbitCurve *const *part = series->part;
     const OrbitPanel *panels[SERIES_LEADS];
     double middle = 0.0, reach = 0.0;
-    series_weights(lead, weight);
+    orbit_series_weights(lead, weight);
     *point = (OrbitPoint){.direction = 0};
     for (int i = 0; i < SERIES_LEADS; i++) {
         if (!part[i]->found) {

@@ -29,6 +29,13 @@ const PeriodMap *orbit_map_of(OrbitTables *tables, const Device *device, const S
 OrbitCurve *orbit_curve_of(OrbitTables *tables, const Device *device, const SlowPhase *slow,
                            double lead, bool combined);
 
+/* The curve of the series that has a share in one combined, and the weights [SERIES_LEADS] of those at a lead. */
+OrbitCurve *orbit_curve_in_series(OrbitTables *tables, const OrbitCurve *curve, int index);
+void orbit_series_weights(double lead, double weight[SERIES_LEADS]);
+
+/* Place of a velocity [m/s] among the base panels of a curve, from 0 on; negative beyond grazing. */
+double orbit_place(const OrbitCurve *curve, double velocity);
+
 /* All quantities at a velocity [m/s]; false where there is no orbit. */
 bool orbit_point_at(OrbitTables *tables, OrbitCurve *curve, double velocity, OrbitPoint *point);
 

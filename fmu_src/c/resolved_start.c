@@ -43,6 +43,15 @@ double resolved_angle(const Law *law, const Moment *moment) {
     return fmax(TAU * MIN_TURNS_RESOLVED, fmax(swing, bend));
 }
 
+double swing_by_inertia(const Law *law) {
+    double wn = law->device.resonator_frequency;
+    return law->device.resonator_mass > 0.0 ? 1.0 / (wn * wn) : 0.0;
+}
+
+double velocity_of_swing(const Law *law, double swing) {
+    return device_mass_fraction(&law->device) * swing * law->device.drive_frequency / PI;
+}
+
 double lag_angle(const Law *law, double added_mass) {
     double decay = fmin(decay_in_turn(law), bristle_decay(law));
     return angle_until(added_mass * added_mass, LAG_LEFT, decay);

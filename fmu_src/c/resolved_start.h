@@ -16,4 +16,10 @@ double resolved_angle(const Law *law, const Moment *moment);
 /* The same after a change of friction, which adds the share `added_mass` to the total mass. */
 double lag_angle(const Law *law, double added_mass);
 
+/* How far the resonator lags behind an acceleration by its inertia alone [s^2]. */
+double swing_by_inertia(const Law *law);
+
+/* What a swing [m] of the resonator adds at most to the slider's mean velocity of a turn [m/s]. */
+double velocity_of_swing(const Law *law, double swing);
+
 #endif

@@ -17,10 +17,6 @@
 #define BY_FLIGHT 2.0
 #define ADDED_MASS 0.5
 
-/* Error after grazing, where friction changes within a period, in the friction share to the power of 3/2
- * and v_q. */
-#define GRAZING 5.0
-
 /* Drive frequency over resonator frequency up to which the resonator counts as stiff, and from which on as
  * soft. */
 #define STIFF_UP_TO 1.5
@@ -35,8 +31,9 @@
  * than 1 for the swing with which that begins. */
 #define LOADING 1.2
 
-/* Error of the integration and of the tables, in v_q. */
-#define RESOLUTION 1e-8
+/* Error of the integration and of the tables, in v_q; and the least that the rule of thumb gives. */
+#define RESOLUTION 1e-9
+#define LEAST_BY_RULE 1e-8
 
 double friction_share(const Law *law) {
     const Device *device = &law->device;
@@ -75,7 +72,7 @@ double first_order_error(const Law *law) {
     return fmin(FIRST_ORDER * share * swing, 1.0) * law->fast.velocity;
 }
 
-double second_order_error(const Law *law, double added_mass, bool grazed, double force) {
+double second_order_error(const Law *law, double added_mass, double force) {
     const Device *device = &law->device;
     double share = friction_share(law);
     double inertia = device_total_mass(device) * device->drive_frequency * law->fast.velocity;
@@ -89,10 +86,11 @@ double second_order_error(const Law *law, double added_mass, bool grazed, double
     }
     double squares = sensitivity * share * share +
                      ADDED_MASS * added_mass * added_mass;
-    if (grazed) {
-        squares += GRAZING * share * sqrt(share);
-    }
-    return fmin(away * squares + RESOLUTION, 1.0) * law->fast.velocity;
+    return fmin(away * squares + LEAST_BY_RULE, 1.0) * law->fast.velocity;
+}
+
+double resolution_error(const Law *law) {
+    return RESOLUTION * law->fast.velocity;
 }
 
 double turning_error(const Law *law, double turning) {

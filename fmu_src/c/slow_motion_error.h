@@ -20,10 +20,12 @@ double bristle_decay(const Law *law);
 /* Error [m/s] of averages of first order. */
 double first_order_error(const Law *law);
 
-/* Error [m/s] of those of second order where friction adds `added_mass`, a share of the total mass, and
- * friction and load leave a mean `force` [N]: without it motion is steady, and its orbit exact. It is larger
- * once the motion has `grazed` the velocity from which on the slider turns back. */
-double second_order_error(const Law *law, double added_mass, bool grazed, double force);
+/* Error [m/s] of those of second order, by rule of thumb, where friction adds `added_mass`, a share of the total
+ * mass, and friction and load leave a mean `force` [N]: without it motion is steady, and its orbit exact. */
+double second_order_error(const Law *law, double added_mass, double force);
+
+/* Error [m/s] of the integration and of the tables. */
+double resolution_error(const Law *law);
 
 /* What averages of second order err by [m/s] while inputs turn the lead by `turning` [rad/s]; 0 under held
  * inputs. */

@@ -97,8 +97,11 @@ static const Field FIELDS[] = {
     FIELD(moment.orbit.varied, INTEGER, HELD_INPUTS, VARIED_LEAD),
     FIELD(moment.orbit.turning, FINITE, 0, 0),
     FIELD(moment.orbit.loading, FINITE, 0, 0),
+    FIELD(moment.orbit.ahead, FINITE, 0, 0),
+    FIELD(moment.orbit.doubt, FINITE, 0, 0),
+    FIELD(moment.orbit.unrest, FINITE, 0, 0),
+    FIELD(moment.orbit.acceleration, FINITE, 0, 0),
     FIELD(moment.orbit.tunings, INTEGER, 0, MAX_TUNINGS),
-    FIELD(moment.orbit.grazed, INTEGER, 0, 1),
 };
 
 enum { FIELD_COUNT = sizeof FIELDS / sizeof FIELDS[0] };

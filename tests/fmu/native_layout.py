@@ -23,7 +23,7 @@ FIELDS = (
     *(f"under_{name}" for name in OrbitValues._fields),
     *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
     *(f"paid_{name}" for name in PaidTables._fields),
-    *("varied", "turning", "loading", "tunings", "grazed"),
+    *("varied", "turning", "loading", "ahead", "doubt", "unrest", "acceleration", "tunings"),
 )
 HEAD = 8 + 40
 LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -26,7 +25,6 @@ class Errors:
     velocity: float
     travel: float
     peak: float
-    estimate: float
 
 
 def errors(
@@ -39,18 +37,17 @@ def errors(
     slow = instantiate().initialize(**{**values, "fidelity": 0})
     full = instantiate().initialize(**{**values, "fidelity": 2})
     step = periods * math.tau / values.get("drive_frequency", W) / steps
-    gaps, ways, means, estimates = [], [], [], []
+    gaps, ways, means = [], [], []
     for i in range(steps):
         for instance in (slow, full):
             instance.set(**inputs(i))
             instance.step(step)
-        mean, position, estimate = slow.get("mean_velocity", "position", "slow_motion_error")
+        mean, position = slow.get("mean_velocity", "position")
         reference, place = full.get("mean_velocity", "position")
         gaps.append(abs(mean - reference))
         ways.append(abs(position - place))
         means.append(abs(reference))
-        estimates.append(estimate)
-    return Errors(max(gaps), max(ways), max(means), max(estimates))
+    return Errors(max(gaps), max(ways), max(means))
 
 
 @pytest.mark.parametrize("steps", [5, 100, 5014])
@@ -113,33 +110,6 @@ def test_a_phase_that_keeps_changing(instantiate: Instantiate) -> None:
         return {"phase": 0.5 * math.sin(0.1 * i) + 0.01 * i, "load": 0.03 * math.sin(0.07 * i)}
 
     assert errors(instantiate, {}, 3000, 300, inputs).velocity <= 1e-6
-
-
-def test_random_devices(instantiate: Instantiate) -> None:
-    """The estimate is within a factor 10 of the error in most of them, and never below a third."""
-    draw = random.Random(20)
-    ratios = []
-    for index in range(24):
-        mass, base = draw.uniform(0.1, 3.0), 10.0 ** draw.uniform(-5.0, -3.5)
-        drive = 10.0 ** draw.uniform(2.5, 4.0)
-        values = {
-            "slider_mass": mass,
-            "resonator_mass": mass * draw.uniform(0.02, 0.3),
-            "damping_ratio": 10.0 ** draw.uniform(-2.3, 0.0),
-            "resonator_frequency": drive / draw.uniform(0.6, 1.6),
-            "drive_frequency": drive,
-            "base_amplitude": base,
-            "normal_amplitude": draw.uniform(0.0, 1.7),
-            "phase": draw.uniform(0.0, 6.0),
-        }
-        force = values["resonator_mass"] * base * drive * drive
-        values["friction_coefficient"] = 0.5 * force * 10.0 ** draw.uniform(-3.0, -1.3)
-        if index % 6 == 5:
-            values |= {"friction_law": 1, "tolerance": 1e-10, "bristle_stiffness": 1e6}
-        found = errors(instantiate, values, 1200, 6)
-        assert found.velocity <= 3.0 * found.estimate, f"{values}"
-        ratios.append(found.estimate / found.velocity)
-    assert sum(ratio <= 10.0 for ratio in ratios) >= 0.7 * len(ratios)
 
 
 @pytest.mark.parametrize("fidelity", [0, 1, 2])

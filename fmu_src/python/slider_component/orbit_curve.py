@@ -22,6 +22,7 @@ from .held_orbit import (
 )
 from .moment import Moment
 from .orbit_drift import held_orbit_offset
+from .orbit_shifts import ShiftPoint, shift_point
 from .period_map import PeriodMap
 
 ORBIT_NODES = 12
@@ -177,6 +178,13 @@ class OrbitCurve:
         self.middle, self.reach = 0.5 * (low + high), 0.5 * (high - low)
         self.beyond = backward, forward
         self._panels: dict[tuple[int, int], OrbitPanel] = {}
+        self._shifts: dict[int, ShiftPoint | None] = {}
+
+    def shift(self, index: int) -> ShiftPoint | None:
+        """A point of shifts, measured where it is missing; None where that fails."""
+        if index not in self._shifts:
+            self._shifts[index] = shift_point(self._map, self.lead, self.middle, self.reach, index)
+        return self._shifts[index]
 
     def panel(self, depth: int, index: int) -> OrbitPanel:
         """A panel, made where it is missing."""

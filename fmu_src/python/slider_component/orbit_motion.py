@@ -25,6 +25,8 @@ from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
+from .orbit_curve import OrbitPoint
+from .orbit_error import ErrorRide, calmed, left_orbits
 from .orbit_price import orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
 from .orbit_state import MAX_TUNINGS, OrbitState, OrbitValues, PaidTables, Stage, Swing
@@ -36,7 +38,7 @@ from .slow_motion_error import (
     decay_in_turn,
     first_order_error,
     friction_share,
-    second_order_error,
+    resolution_error,
 )
 from .slow_pass import SlowPass, first_step
 from .slow_phase import rounded_lead
@@ -125,13 +127,15 @@ class OrbitLaw:
         if orbit.stage == Stage.AVERAGED:
             return first_order_error(device, self.fast)
         if orbit.stage != Stage.ON_ORBIT:
-            return second_order_error(device, self.fast, 0.0, False, inf)
-        point = self._ride(moment, orbit.lead).point(0.0, orbit.velocity)
-        if not point.found:
-            return first_order_error(device, self.fast)
-        force = point.of.friction + self.full.inputs.load
-        added_mass = point.of.factor - 1.0
-        return second_order_error(device, self.fast, added_mass, orbit.grazed, force)
+            error = abs(orbit.ahead) + orbit.doubt + orbit.unrest + resolution_error(self.fast)
+            return min(error, self.fast.velocity)
+        ride = self._ride(moment, orbit.lead)
+        theta = ride.theta(0.0, moment.theta, self.full.inputs.phase + moment.psi)
+        errors = self._errors(ride)
+        return errors.error(errors.place(orbit.velocity, theta), orbit)
+
+    def _errors(self, ride: OrbitRide) -> ErrorRide:
+        return ErrorRide(ride, self.full.device, self.fast)
 
     def _values(self) -> OrbitValues:
         device, inputs = self.full.device, self.full.inputs
@@ -186,10 +190,12 @@ class OrbitLaw:
         changed = shaken or tuned or led or before.ratio != present.ratio
         paid = PaidTables() if driven or tuned else orbit.paid
         orbit = orbit._replace(under=present, tunings=tunings, paid=paid)
+        if orbit.stage == Stage.AVERAGED:
+            orbit = orbit._replace(doubt=first_order_error(device, self.fast))
         starts = orbit.stage == Stage.RESOLVED and orbit.waited == 0.0
         if shaken:
             angle = resolved_angle(device, self.fast, now.state, now.theta)
-            orbit = orbit.resolved_for(angle)
+            orbit = self._resolved_for(orbit, angle)
         now.orbit = orbit
         ratio = self.full.inputs.frequency_ratio
         resolved = orbit.stage == Stage.RESOLVED
@@ -198,10 +204,10 @@ class OrbitLaw:
         lead = self._lead(now) if tuned or led or resolved else orbit.lead
         price = orbit_price(device, ratio, orbit, lead, changed=changed)
         if resolved:
-            now.orbit = orbit.resolved_for(price - orbit.waited)
+            now.orbit = self._resolved_for(orbit, price - orbit.waited)
             return now
         if price > 0.0:
-            now.orbit = with_paid(device, ratio, orbit.resolved_for(price), lead)
+            now.orbit = with_paid(device, ratio, self._resolved_for(orbit, price), lead)
             return now
         if tuned or led:
             now, factor = self._taken_over(now)
@@ -211,8 +217,14 @@ class OrbitLaw:
             return now
         lag = lag_angle(device, self.fast, factor - 1.0)
         if lag > 0.0:
-            now.orbit = now.orbit.resolved_for(lag)
+            now.orbit = self._resolved_for(now.orbit, lag)
         return now
+
+    def _resolved_for(self, orbit: OrbitState, angle: float) -> OrbitState:
+        """The state when motion is to be resolved for a drive angle [rad] at least."""
+        if orbit.stage != Stage.RESOLVED:
+            orbit = left_orbits(self.full.device, self.fast, orbit)
+        return orbit.resolved_for(angle)
 
     def _taken_over(self, now: Moment) -> tuple[Moment, float]:
         """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m."""
@@ -237,13 +249,12 @@ class OrbitLaw:
                 break
         apart = now.state.displacement - there.state.displacement
         centre = now.position + share * apart
-        grazed = point.beyond
         if orbit.stage == Stage.ON_ORBIT:
             swing = Swing(apart, now.state.rate - there.state.rate)
-            grazed = grazed or orbit.grazed
         else:
             # What is apart after resolved motion is how far it lags behind the orbit: it stays.
             swing = Swing()
+            orbit = self._errors(ride).begun(point, velocity, theta, now, orbit)
             now.position = centre
         now.orbit = orbit._replace(
             stage=Stage.ON_ORBIT,
@@ -252,7 +263,6 @@ class OrbitLaw:
             velocity=velocity,
             centre=centre - there.position,
             swing=swing,
-            grazed=grazed,
         )
         return now, point.of.factor
 
@@ -265,7 +275,8 @@ class OrbitLaw:
         if time * w > NOTHING or not ends:
             now = events.advance(self.friction, self.full, now, time)
             waited = now.orbit.waited + w * time
-            now.orbit = now.orbit._replace(to_go=max(0.0, to_go - w * time), waited=waited)
+            orbit = now.orbit._replace(to_go=max(0.0, to_go - w * time), waited=waited)
+            now.orbit = calmed(self.full.device, w * time, orbit)
         else:
             time = 0.0
         return (self._taken_over(now)[0] if ends else now), time
@@ -304,15 +315,17 @@ class OrbitLaw:
             to_kink=ride.first.to_kink,
         )
         reached = Reached(0.0, orbit.velocity, 0.0, step)
+        errors = self._errors(ride)
+        begin = errors.place(orbit.velocity, ride.theta(0.0, now.theta, chi))
 
-        def moment_at(theta: float) -> tuple[Moment, Swing, bool]:
+        def moment_at(theta: float) -> tuple[Moment, Swing, OrbitPoint]:
             t = reached.t
             phase = ride.theta(t, theta, chi + q * t)
             found = ride.moment(t, phase, reached.velocity, orbit.centre + reached.moved)
             if found is None:
                 raise LostOrbitError
             swing = self._swing_after(orbit.swing, t)
-            return _with_swing(found[0], swing, plant.mass_fraction), swing, found[1].beyond
+            return _with_swing(found[0], swing, plant.mass_fraction), swing, found[1]
 
         last = (tau * floor((now.theta + w * duration + MARK_TOLERANCE) / tau) - now.theta) / w
         marks: list[tuple[float, float]] = []
@@ -324,7 +337,10 @@ class OrbitLaw:
                 marks.append((mark, moment_at(0.0)[0].position - start))
         reached = slow_pass.reach(duration, reached)
         reached = reached._replace(t=duration)
-        there, swing, beyond = moment_at((now.theta + w * duration) % tau)
+        end = (now.theta + w * duration) % tau
+        there, swing, point = moment_at(end)
+        place = errors.place(reached.velocity, ride.theta(duration, end, chi + q * duration))
+        orbit = errors.carried(begin, place, point, duration, orbit)
         travelled = there.position - start
 
         def travel_at(t: float) -> float:
@@ -350,7 +366,6 @@ class OrbitLaw:
                 centre=orbit.centre + reached.moved,
                 lead=lead % tau if drift != 0.0 else lead,
                 swing=swing,
-                grazed=orbit.grazed or beyond,
             ),
         )
 

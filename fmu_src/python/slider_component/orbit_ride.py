@@ -16,6 +16,7 @@ from .orbit_curve import OrbitPoint, Quantities, point_of
 from .orbit_state import MAX_LEADS, MAX_TUNINGS, OrbitState
 from .orbit_tables import OrbitTable, combined_table, curve_table, orbit_map, series_table
 from .period_map import PeriodMap
+from .shift_tables import ShiftCurve
 from .slow_friction import SlowFriction
 from .slow_phase import SlowPhase, slow_phase_of
 
@@ -78,6 +79,8 @@ def orbit_source_of(orbit: OrbitState, device: Device, *, drifts: bool) -> Orbit
 
 class _Search:
     """Orbits by Newton's method, each from the one found last, or else from none."""
+
+    curve: ShiftCurve | None = None
 
     def __init__(self, period_map: PeriodMap) -> None:
         self._map = period_map

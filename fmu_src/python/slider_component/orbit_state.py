@@ -132,7 +132,9 @@ class OrbitState(NamedTuple):
     orbit: slow velocity V [m/s], slow centre [m] and lead [rad] of the normal load, and what is
     left of the resonator's own `swing`, by which it differs from the orbit. The step was made
     `under` these values; `tunings` counts, up to MAX_TUNINGS, how often a parameter changed the
-    orbits. `grazed` says that the slider went so fast that it did not turn back.
+    orbits. W is `ahead` [m/s] of that of the full device, as far as that is known; what else V may
+    err by is `doubt` [m/s], and the resonator's swing that nobody follows is `unrest` [m/s] of mean
+    velocity. `acceleration` [m/s^2] is the slow one at the end of the step.
     """
 
     stage: int = Stage.AVERAGED
@@ -146,7 +148,10 @@ class OrbitState(NamedTuple):
     leads: VisitedLeads = VisitedLeads()
     paid: PaidTables = PaidTables()
     tunings: int = 0
-    grazed: bool = False
+    ahead: float = 0.0
+    doubt: float = 0.0
+    unrest: float = 0.0
+    acceleration: float = 0.0
 
     def resolved_for(self, angle: float) -> OrbitState:
         """The same when motion is to be resolved for a drive angle [rad] at least."""

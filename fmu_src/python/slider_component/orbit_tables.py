@@ -18,7 +18,9 @@ from .orbit_curve import (
     place_between,
     trimmed,
 )
+from .orbit_shifts import NO_SHIFT, ShiftPoint
 from .period_map import PeriodMap, period_map
+from .shift_tables import ShiftCurve
 
 SERIES_LEADS = 9
 """Leads between which orbits are interpolated by a Fourier series."""
@@ -28,7 +30,9 @@ CURVES = 14
 
 
 class OrbitTable(Protocol):
-    """Orbits over lead and slow velocity."""
+    """Orbits over lead and slow velocity; those at one lead are a `curve`."""
+
+    curve: ShiftCurve | None
 
     def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
         """Mean friction F2 [N] and 1 + kappa_m; None where there is no orbit."""
@@ -63,7 +67,7 @@ def series_table(device: Device, waves: float, turns: int) -> OrbitTable:
 
 
 class _Curve(Protocol):
-    """What OrbitCurve and a combination of them have in common."""
+    """What OrbitCurve and a combination of them have in common (see `shift_tables.ShiftCurve`)."""
 
     middle: float
     reach: float
@@ -73,9 +77,15 @@ class _Curve(Protocol):
         """A panel, made where it is missing."""
         ...
 
+    def shift(self, index: int) -> ShiftPoint | None:
+        """A point of shifts, measured where it is missing; None where that fails."""
+        ...
+
 
 class _NoTable:
     """A table without orbits."""
+
+    curve: ShiftCurve | None = None
 
     def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
         """See OrbitTable."""
@@ -90,6 +100,7 @@ class _CurveTable:
     """The table of a curve."""
 
     def __init__(self, curve: _Curve) -> None:
+        self.curve: ShiftCurve | None = curve
         self._curve = curve
 
     def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
@@ -124,6 +135,8 @@ def _panel_around(curve: _Curve, place: float) -> OrbitPanel:
 
 class _SeriesTable:
     """The table of curves at the leads of the series."""
+
+    curve: ShiftCurve | None = None
 
     def __init__(self, curves: tuple[OrbitCurve, ...]) -> None:
         self._curves = curves
@@ -183,6 +196,7 @@ class _Combination:
         self.reach = sum(weight * curve.reach for weight, curve in pairs)
         self.beyond = self._beyond(0), self._beyond(1)
         self._panels: dict[tuple[int, int], OrbitPanel] = {}
+        self._shifts: dict[int, ShiftPoint | None] = {}
 
     def panel(self, depth: int, index: int) -> OrbitPanel:
         """See _Curve."""
@@ -190,6 +204,16 @@ class _Combination:
         if key not in self._panels:
             self._panels[key] = self._made(depth, index)
         return self._panels[key]
+
+    def shift(self, index: int) -> ShiftPoint | None:
+        """See _Curve."""
+        if index not in self._shifts:
+            total: ShiftPoint | None = NO_SHIFT
+            for weight, curve in zip(self._weights, self._curves, strict=True):
+                point = curve.shift(index)
+                total = None if total is None or point is None else total.plus(weight, point)
+            self._shifts[index] = total
+        return self._shifts[index]
 
     def _beyond(self, side: int) -> OrbitPoint:
         points = [curve.beyond[side] for curve in self._curves]

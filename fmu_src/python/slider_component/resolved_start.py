@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, hypot, log, tau
+from math import ceil, hypot, log, pi, tau
 
 from .device import Device
 from .fast_vibration import FastVibration, steady_swing
@@ -45,6 +45,17 @@ def resolved_angle(device: Device, fast: FastVibration, state: State, theta: flo
     swing = _angle_until(min(apart, MAX_SWING), SWING_LEFT, decay_in_turn(device))
     bend = _angle_until(1.0, SWING_LEFT, bristle_decay(device, fast))
     return max(tau * MIN_TURNS_RESOLVED, swing, bend)
+
+
+def swing_by_inertia(device: Device) -> float:
+    """How far the resonator lags behind an acceleration by its inertia alone [s^2]."""
+    return 1.0 / device.resonator_frequency**2 if device.resonator_mass > 0.0 else 0.0
+
+
+def velocity_of_swing(device: Device, swing: float) -> float:
+    """What a swing [m] of the resonator adds at most to the slider's mean velocity [m/s]."""
+    share = device.resonator_mass / device.total_mass
+    return share * swing * device.drive_frequency / pi
 
 
 def lag_angle(device: Device, fast: FastVibration, added_mass: float) -> float:

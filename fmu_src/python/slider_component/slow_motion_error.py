@@ -28,18 +28,17 @@ BY_FLIGHT = 2.0
 ADDED_MASS = 0.5
 """Error of second order in squares of the added mass and v_q."""
 
-GRAZING = 5.0
-"""Error after grazing, where friction changes within a period, in the friction share to the power
-of 3/2 and v_q."""
-
 STIFF_UP_TO = 1.5
 """Drive frequency over resonator frequency up to which the resonator counts as stiff."""
 
 SOFT_FROM = 3.0
 """The same from which on it counts as soft."""
 
-RESOLUTION = 1e-8
+RESOLUTION = 1e-9
 """Error of the integration and of the tables, in v_q."""
+
+LEAST_BY_RULE = 1e-8
+"""The least error that the rule of thumb gives, in v_q."""
 
 
 def friction_share(device: Device, fast: FastVibration) -> float:
@@ -90,12 +89,12 @@ def first_order_error(device: Device, fast: FastVibration) -> float:
 
 
 def second_order_error(
-    device: Device, fast: FastVibration, added_mass: float, grazed: bool, force: float
+    device: Device, fast: FastVibration, added_mass: float, force: float
 ) -> float:
-    """Error [m/s] of averages of second order where friction adds a share `added_mass`.
+    """Error [m/s] of averages of second order, by rule of thumb.
 
-    Friction and load leave a mean `force` [N]: without it motion is steady, and its orbit exact. It
-    is larger once the motion has `grazed` the velocity from which on the slider turns back.
+    Friction adds a share `added_mass`, and friction and load leave a mean `force` [N]: without it
+    motion is steady, and its orbit exact.
     """
     share = friction_share(device, fast)
     inertia = device.total_mass * device.drive_frequency * fast.velocity
@@ -107,6 +106,9 @@ def second_order_error(
     if device.normal_amplitude > device.normal_preload:
         sensitivity *= BY_FLIGHT
     squares = sensitivity * share * share + ADDED_MASS * added_mass * added_mass
-    if grazed:
-        squares += GRAZING * share * sqrt(share)
-    return min(away * squares + RESOLUTION, 1.0) * fast.velocity
+    return min(away * squares + LEAST_BY_RULE, 1.0) * fast.velocity
+
+
+def resolution_error(fast: FastVibration) -> float:
+    """Error [m/s] of the integration and of the tables."""
+    return RESOLUTION * fast.velocity

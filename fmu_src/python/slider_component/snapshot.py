@@ -32,6 +32,17 @@ FORMAT = f"{__name__.rpartition('.')[0]} state"
 build does not fit another."""
 
 _PARTS_OF_ORBIT = ("swing", "under", "leads", "paid")
+_NUMBERS_OF_ORBIT = (
+    "to_go",
+    "waited",
+    "velocity",
+    "centre",
+    "lead",
+    "ahead",
+    "doubt",
+    "unrest",
+    "acceleration",
+)
 
 
 def moment_to_plain(moment: Moment) -> dict[str, Any]:
@@ -93,16 +104,12 @@ def _orbit_from_plain(plain: object) -> OrbitState:
     leads = [number(f"orbit.leads.{key}", visited[key]) for key in VisitedLeads._fields[1:]]
     return OrbitState(
         stage=integer_within("orbit.stage", orbit["stage"], Stage.AVERAGED, Stage.ON_ORBIT),
-        **{
-            key: number(f"orbit.{key}", orbit[key])
-            for key in ("to_go", "waited", "velocity", "centre", "lead")
-        },
+        **{key: number(f"orbit.{key}", orbit[key]) for key in _NUMBERS_OF_ORBIT},
         swing=Swing(*numbers("swing", Swing._fields)),
         under=OrbitValues(*numbers("under", OrbitValues._fields)),
         leads=VisitedLeads(visits, *leads),
         paid=_paid_from_plain(orbit["paid"]),
         tunings=integer_within("orbit.tunings", orbit["tunings"], 0, MAX_TUNINGS),
-        grazed=flag("orbit.grazed", orbit["grazed"]),
     )
 
 

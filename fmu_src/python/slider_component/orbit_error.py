@@ -1,0 +1,269 @@
+"""The error of slow motion along held orbits, carried on from step to step.
+
+Under held inputs V errs by its acceleration times a time that grows by what orbits have gained (see
+`orbit_shifts`). What a jump of inputs leaves as it is is the error of W, which `ahead` keeps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp, hypot, inf, sqrt, tau
+
+from .device import Device
+from .fast_vibration import FastVibration
+from .held_orbit import NoOrbitError, held_orbit_at, held_orbit_linearised
+from .moment import Moment
+from .orbit_curve import OrbitPoint, place_between
+from .orbit_drift import held_orbit_moment
+from .orbit_ride import OrbitRide
+from .orbit_state import OrbitState
+from .resolved_start import swing_by_inertia, velocity_of_swing
+from .shift_tables import gain_between, shifts_at
+from .slow_motion_error import (
+    decay_in_turn,
+    first_order_error,
+    friction_share,
+    resolution_error,
+    second_order_error,
+)
+
+SETTLED = 1e-8
+"""Acceleration, over that by all friction, below which the motion has settled."""
+
+NEGLIGIBLE_ERROR = 1e-3
+"""Error, over that of resolution, whose decay is not looked at once the motion has settled."""
+
+SLOPE_STEP = 1e-6
+"""Difference of velocities, over the fast one, for the slope of the acceleration."""
+
+SEEN = 1.0
+"""Decay of the resonator's swing in a turn that is seen in mean velocities of a turn."""
+
+NEXT_TO_GRAZING = 0.05
+"""Chi at which friction next to grazing is looked up."""
+
+ROOT_SUM = 0.1
+"""Error of a sum over periods of the root of what velocity lacks there, in the root of that of one:
+0.21 at the worst phase, 0.07 at most of them."""
+
+
+def left_orbits(device: Device, fast: FastVibration, orbit: OrbitState) -> OrbitState:
+    """The state where resolved motion begins, without the lag of the resonator."""
+    swing = swing_by_inertia(device) * (1.0 + 1.0 / decay_in_turn(device))
+    unrest = orbit.unrest + velocity_of_swing(device, swing * abs(orbit.acceleration))
+    return orbit._replace(unrest=min(unrest, fast.velocity))
+
+
+def calmed(device: Device, angle: float, orbit: OrbitState) -> OrbitState:
+    """The state when the resonator's swing has decayed for a drive angle [rad]."""
+    return orbit._replace(unrest=orbit.unrest * _calmed(device, angle))
+
+
+def _calmed(device: Device, angle: float) -> float:
+    return exp(-min(decay_in_turn(device), SEEN) * angle / tau)
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorPlace:
+    """What counts at one moment of a ride.
+
+    Slow velocity [m/s] and acceleration [m/s^2]; the time [s] by which mean velocity is ahead of
+    that of the motion with the same W, that by which single turns differ, and that which is
+    unsure; the added mass, over the mass, that the table leaves out; and how far the resonator
+    lags, over the acceleration [s^2]. `measured` is false where there are no shifts, `beyond` true
+    where the slider never turns back.
+    """
+
+    velocity: float
+    acceleration: float = 0.0
+    lag: float = 0.0
+    of_turn: float = 0.0
+    unsure: float = 0.0
+    left_out: float = 0.0
+    swing: float = 0.0
+    measured: bool = False
+    beyond: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorRide:
+    """A ride of a device whose vibration without friction is `fast`."""
+
+    ride: OrbitRide
+    device: Device
+    fast: FastVibration
+
+    def place(self, velocity: float, theta: float) -> ErrorPlace:
+        """The place at a velocity [m/s] and drive phase [rad] over all turns of the orbit.
+
+        Under the inputs with which the ride begins.
+        """
+        ride, curve = self.ride, self.ride.table.curve
+        found = ride.table.friction(ride.lead, velocity) if curve is not None else None
+        if curve is None or found is None:
+            return ErrorPlace(velocity)
+        friction, factor = found
+        beyond = place_between(curve.middle, curve.reach, velocity) < 0.0
+        acceleration = -factor * (friction + ride.load) / ride.map.held.plant.total_mass
+        shifts = shifts_at(curve, velocity, theta / (tau * ride.turns) % 1.0)
+        if shifts is None:
+            return ErrorPlace(velocity, acceleration, beyond=beyond)
+        return ErrorPlace(
+            velocity,
+            acceleration,
+            lag=shifts.lag,
+            of_turn=shifts.of_turn,
+            unsure=shifts.unsure,
+            left_out=shifts.added_mass if factor == 1.0 else 0.0,
+            swing=max(shifts.swing, swing_by_inertia(self.device)),
+            measured=True,
+            beyond=beyond,
+        )
+
+    def begun(
+        self, point: OrbitPoint, velocity: float, theta: float, now: Moment, orbit: OrbitState
+    ) -> OrbitState:
+        """The state with what resolved motion leaves at a moment.
+
+        Its W belongs to a velocity [m/s] and the orbit `point`.
+        """
+        place = self.place(velocity, theta)
+        doubt = orbit.doubt + place.unsure * abs(place.acceleration)
+        if not place.measured:
+            added_mass = point.of.factor - 1.0
+            by_rule = second_order_error(self.device, self.fast, added_mass, inf)
+            doubt = max(doubt, by_rule)
+        unrest = self._error_of_swing(velocity, theta, now)
+        return self._bounded(orbit, orbit.ahead, doubt, unrest, self._acceleration_on(point))
+
+    def carried(
+        self,
+        start: ErrorPlace,
+        end: ErrorPlace,
+        point: OrbitPoint,
+        duration: float,
+        orbit: OrbitState,
+    ) -> OrbitState:
+        """The state with the error carried on over `duration` [s], to the orbit `point`."""
+        curve = self.ride.table.curve
+        calm = _calmed(self.device, duration * self.device.drive_frequency)
+        gain = None
+        if curve is not None and start.measured and end.measured:
+            gain = gain_between(curve, start.velocity, end.velocity)
+        if gain is None:
+            return self._unmeasured_after(end, point, duration, orbit, orbit.unrest * calm)
+        a = end.acceleration
+        jump = abs(start.acceleration - orbit.acceleration)
+        unrest = (orbit.unrest + velocity_of_swing(self.device, start.swing * jump)) * calm
+        left = self._left_by_excess(start, end, duration, orbit)
+        gained = gain.gained - 0.5 * (start.left_out + end.left_out) * duration
+        error = left * (orbit.ahead + start.lag * start.acceleration) + gained * a
+        doubt = left * (orbit.doubt + start.unsure * jump) + gain.unsure * abs(a)
+        if start.beyond != end.beyond:
+            there = start if start.beyond else end
+            slower = abs(a) < abs(there.acceleration)
+            share = abs(a / there.acceleration) if slower else 1.0
+            doubt += self._grazing_error(there) * share
+        return self._bounded(orbit, error - end.lag * a, doubt, unrest, a)
+
+    def error(self, place: ErrorPlace, orbit: OrbitState) -> float:
+        """The estimate [m/s] for the mean velocity of the period that ends there."""
+        if not place.measured:
+            point = self.ride.point(0.0, place.velocity)
+            return max(orbit.doubt, self._unmeasured(point))
+        a = place.acceleration
+        jumped = velocity_of_swing(self.device, place.swing * abs(a - orbit.acceleration))
+        shifted = abs(orbit.ahead + place.lag * a) + (place.of_turn + place.unsure) * abs(a)
+        error = shifted + orbit.doubt + orbit.unrest + jumped + resolution_error(self.fast)
+        return min(error, self.fast.velocity)
+
+    def _bounded(
+        self, orbit: OrbitState, ahead: float, doubt: float, unrest: float, acceleration: float
+    ) -> OrbitState:
+        """The state with these: no velocity errs by more than the vibration."""
+        fast = self.fast.velocity
+        return orbit._replace(
+            ahead=max(min(ahead, fast), -fast),
+            doubt=min(doubt, fast),
+            unrest=min(unrest, fast),
+            acceleration=acceleration,
+        )
+
+    def _error_of_swing(self, velocity: float, theta: float, now: Moment) -> float:
+        """What the swing that resolved motion leaves adds to mean velocity [m/s]."""
+        scales = self.ride.map
+        try:
+            orbit = held_orbit_linearised(scales, held_orbit_at(scales, self.ride.lead, velocity))
+            there = held_orbit_moment(scales, orbit, self.ride.load, theta)
+        except NoOrbitError:
+            return 0.0
+        displacement = now.state.displacement - there.state.displacement
+        rate = (now.state.rate - there.state.rate) / self.device.drive_frequency
+        return velocity_of_swing(self.device, hypot(displacement, rate))
+
+    def _unmeasured_after(
+        self,
+        end: ErrorPlace,
+        point: OrbitPoint,
+        duration: float,
+        orbit: OrbitState,
+        unrest: float,
+    ) -> OrbitState:
+        """The state after `duration` [s] in which nothing is measured."""
+        a = self._acceleration_on(point)
+        if self.ride.searches:
+            left = abs(a / orbit.acceleration) if abs(a) < abs(orbit.acceleration) else 1.0
+        else:
+            left = self._left_by_slope(end.velocity, duration)
+        doubt = max(left * (orbit.doubt + abs(orbit.ahead)), self._unmeasured(point))
+        return self._bounded(orbit, 0.0, doubt, unrest, a)
+
+    def _left_by_slope(self, velocity: float, duration: float) -> float:
+        """The share of an error of V that is left after `duration` [s].
+
+        By the slope of the acceleration at the end.
+        """
+        step = SLOPE_STEP * self.fast.velocity
+        more = self.ride.acceleration(duration, velocity + step)
+        slope = more - self.ride.acceleration(duration, velocity - step)
+        return exp(min(0.5 * slope / step, 0.0) * duration)
+
+    def _left_by_excess(
+        self, start: ErrorPlace, end: ErrorPlace, duration: float, orbit: OrbitState
+    ) -> float:
+        """The same where inputs are held: that of the acceleration."""
+        share, fast = friction_share(self.device, self.fast), self.fast.velocity
+        if abs(start.acceleration) > SETTLED * share * self.device.drive_frequency * fast:
+            return abs(end.acceleration / start.acceleration)
+        if abs(orbit.ahead) + orbit.doubt < NEGLIGIBLE_ERROR * resolution_error(self.fast):
+            return 1.0
+        return self._left_by_slope(end.velocity, duration)
+
+    def _grazing_error(self, beyond: ErrorPlace) -> float:
+        """Error [m/s] of passing grazing, beyond which the orbit is `beyond`.
+
+        Next to it friction grows by the root of the distance, within a period.
+        """
+        ride, curve = self.ride, self.ride.table.curve
+        assert curve is not None
+        sign = 1.0 if beyond.velocity > curve.middle else -1.0
+        reach = curve.reach * (1.0 - 0.5 * NEXT_TO_GRAZING * NEXT_TO_GRAZING)
+        inside = ride.table.friction(ride.lead, curve.middle + sign * reach)
+        outside = ride.table.friction(ride.lead, beyond.velocity)
+        if inside is None or outside is None:
+            return 0.0
+        period, mass = ride.map.period, ride.map.held.plant.total_mass
+        chi = sqrt(2.0 * abs(beyond.acceleration) * period / curve.reach)
+        return ROOT_SUM * period / mass * abs(outside[0] - inside[0]) / NEXT_TO_GRAZING * chi
+
+    def _acceleration_on(self, point: OrbitPoint) -> float:
+        """Slow acceleration [m/s^2] on an orbit."""
+        force = point.of.friction + self.ride.load
+        return -point.of.factor * force / self.ride.map.held.plant.total_mass
+
+    def _unmeasured(self, point: OrbitPoint) -> float:
+        """The error [m/s] where nothing is measured."""
+        if not point.found:
+            return first_order_error(self.device, self.fast)
+        force = point.of.friction + self.ride.load
+        return second_order_error(self.device, self.fast, point.of.factor - 1.0, force)
