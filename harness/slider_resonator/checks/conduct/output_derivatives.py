@@ -25,8 +25,8 @@ differ by: far more than the third derivative adds over the steps."""
 
 
 SMALL = 1e-3
-"""Share of the peak of an output, over a radian of the drive, in whose units its derivative may be off
-by `ALLOWED`: what rounding leaves of an output next to zero is far less."""
+"""Share of the peak of an output, over a radian of the drive, in whose units its derivative may be
+off by `ALLOWED`: what rounding leaves of an output next to zero is far less."""
 ROUNDED = 1e-12
 """Share of a slow output, over a step, in whose units its derivative may be off by `ALLOWED`."""
 
@@ -36,8 +36,8 @@ def derivative_faults(
 ) -> Sequence[str]:
     """Compare derivatives of outputs with quotients over short steps; the state is restored.
 
-    Nothing is compared over an event. `frequency` is that of the drive, rad/s, and `peaks` are those
-    of the outputs in a run.
+    Nothing is compared over an event. `frequency` is that of the drive, rad/s, `peaks` are those of
+    the outputs in a run.
     """
     slave = instance.slave
     offered = instance.fmu.description.coSimulation.maxOutputDerivativeOrder or 0
