@@ -17,10 +17,11 @@ from slider_resonator.fmu.run import Running
 def other_device_differences(fmu: FmuSide) -> Findings:
     """Compare a run with those after runs of devices that differ in one parameter each.
 
-    A device that the FMU refuses is left out.
+    Each of them is the first on its instance. A device that the FMU refuses is left out.
     """
     instance, schedule, given = fmu.instance, fmu.scene.schedule(), fmu.scene.parameters
-    if not instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+    renews = not instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess
+    if renews:
         instance.recreate()
     plain = _rows(instance, schedule, given)
     found = NOTHING
@@ -28,6 +29,8 @@ def other_device_differences(fmu: FmuSide) -> Findings:
         if name not in instance.fmu.variables or name in schedule.tuning:
             continue
         value = given.get(name, VARIABLES[name].start or 0.0)
+        if renews:
+            instance.recreate()  # for the other device to be the first one that is prepared
         try:
             _rows(instance, schedule, {**given, name: other_value(name, value)})
         except Refusal:
