@@ -15,16 +15,16 @@ MAX_SLOW_STEPS = 2_000_000
 """Steps of averaged motion in one communication step up to which its work is accepted."""
 
 MAX_QUADRATURE_STEPS = 20_000
-"""The same where each costs quadratures, which take longer under many waves of the normal load."""
+"""The same if each step costs quadratures, which take longer the more waves the load has."""
 
 MAX_SEARCH_STEPS = 4_000
-"""The same where each stage of a step searches a held orbit, under few waves of the normal load."""
+"""The same if each stage of a step searches a held orbit, under few waves of the normal load."""
 
 SEARCH_WAVES = 10.0
 """Waves of the normal load in a drive turn that double the cost of such a search."""
 
 PYTHON_SLOWDOWN = 100
-"""In Python a leg takes so many times as long, and each of these bounds is so much lower."""
+"""Time of a leg in Python over that in C. The bounds above are divided by it in Python."""
 
 TIME_SLACK = 1e-6
 """Fraction of a step by which hosts may round their own time."""

@@ -20,18 +20,18 @@ from .steady_orbit import blocking_force, steady_orbit
 from .vibrating_load import EXACT, turns_to_repeat
 
 SAME = 0.05
-"""Distance from the steady velocity of first order, in fast velocities, up to which that of second
-order is taken for the same."""
+"""Largest difference, in fast velocities, between steady velocities of first and second order that
+belong to the same balance."""
 
 
 @lru_cache(maxsize=8)
 def prediction_of(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
     """The prediction of the averaging order of the device; `normal_lead` [rad] as for `averaged`.
 
-    By second order both are those of periodic motions of the full device. Where the normal load
-    never repeats there is no such motion, and the prediction is that of first order. So it is, but
-    not `valid`, where the vibration does not decay, where no steady motion or more than one is
-    found, and at fidelity 0 where the motion itself is averaged to first order.
+    By second order both belong to periodic motions of the full device. Where the normal load never
+    repeats there are none, and the prediction is that of first order. It is of first order and not
+    `valid` where the vibration does not decay, where no steady motion or more than one is found,
+    and at fidelity 0 where the motion itself is averaged to first order.
     """
     prediction = averaged(device, inputs, normal_lead)
     slow = orbit_phase_of(device, inputs.frequency_ratio)
@@ -55,7 +55,10 @@ def prediction_of(device: Device, inputs: Inputs, normal_lead: float) -> Average
 
 
 def _steady(period_map: PeriodMap, lead: float, load: float, first: float) -> HeldOrbit:
-    """The steady motion by that of first order, or by search. Raises NoOrbitError."""
+    """The steady motion, from the velocity of first order or else by a search over velocities.
+
+    Raises NoOrbitError.
+    """
     if _is_monotonic(period_map):
         try:
             orbit = held_orbit_at(period_map, lead, first)
@@ -68,7 +71,7 @@ def _steady(period_map: PeriodMap, lead: float, load: float, first: float) -> He
 
 
 def _is_monotonic(period_map: PeriodMap) -> bool:
-    """Whether friction falls everywhere with the slow velocity, so that there is one balance."""
+    """Whether friction is monotonic in the slow velocity, so that there is one balance."""
     device = period_map.held.device
     bristle = bristle_of(device)
     drag = friction_law_of(device.friction_law).averaged.drag(bristle, period_map.speed)
