@@ -31,8 +31,8 @@ def turns_until_repeat(amplitude_ratio: float, ratio: float, share: float = 1e-1
 
     A load that never lifts is a sine, which averages out over several turns: 1 for ratios next to
     an integer, else 0. A clipped load has harmonics, some of which keep step with the drive; up to
-    `MAX_TURNS` turns count. ``share`` is the largest distance of the ratio times the turns from an integer,
-    times the turns.
+    `MAX_TURNS` turns count. ``share`` is the largest distance of the ratio times the turns from an
+    integer, times the turns.
     """
     for turns in range(1, (MAX_TURNS if amplitude_ratio > 1.0 else 1) + 1):
         waves = turns * ratio
