@@ -108,6 +108,61 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         "step_size >= 0.0)",
         "interface",
     ),
+    "a description of another build is served": (
+        "instance.c",
+        "if (token == NULL || strcmp(token, MODEL_GUID) != 0) {",
+        "if (token == NULL) {",
+        "interface",
+    ),
+    "a damaged state is taken": (
+        "state_bytes.c",
+        "    return get_bits(bytes + checked) == checksum(bytes, checked)\n           ||",
+        "    return true\n           ||",
+        "interface",
+    ),
+    "a state got again is the old one": (
+        "state_access.c",
+        "    if (*state == NULL) {\n        *state = host_allocate",
+        "    if (*state != NULL) {\n        return true;\n    }\n"
+        "    {\n        *state = host_allocate",
+        "interface",
+    ),
+    "the last step of a sum of steps is refused": (
+        "experiment.c",
+        "if (time + step_size > stop_time + slack + STOP_TIME_SLACK * fabs(stop_time)) {",
+        "if (time + step_size > stop_time) {",
+        "interface",
+    ),
+    "bristles without friction are accepted": (
+        "lugre.c",
+        "    return device->friction_coefficient != 0.0 ||\n",
+        "    return device->friction_coefficient >= 0.0 ||\n",
+        "interface",
+    ),
+    "an input set anew goes on growing": (
+        "component.c",
+        "    hold_inputs(component->now.derivatives, references, count);\n    return true;",
+        "    return true;",
+        "ramps_conduct",
+    ),
+    "orbits serve a device of another damping": (
+        "orbit_tables.c",
+        "           a->damping_ratio == b->damping_ratio && ",
+        "           ",
+        "after_others_second_order",
+    ),
+    "bristles go on with the old drive": (
+        "bending_kernels.c",
+        "           tables->drive_frequency == plant->drive_frequency &&\n",
+        "",
+        "tuned_lugre_stiff",
+    ),
+    "a falling ratio does not chirp": (
+        "taylor_slide.c",
+        "        if (chirp != 0.0) {\n",
+        "        if (chirp > 0.0) {\n",
+        "chirp_falling",
+    ),
 }
 """What is wrong: the C file, what to replace by what, and the scene that must notice."""
 

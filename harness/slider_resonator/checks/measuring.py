@@ -10,7 +10,12 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.conduct.dependencies import dependency_faults
+from slider_resonator.checks.conduct.devices import device_faults
+from slider_resonator.checks.conduct.experiments import experiment_faults
 from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.conduct.host_calls import host_faults
+from slider_resonator.checks.conduct.input_rates import rate_differences
+from slider_resonator.checks.conduct.other_devices import other_device_differences
 from slider_resonator.checks.conduct.refusals import refusal_faults
 from slider_resonator.checks.conduct.replays import (
     beside_differences,
@@ -22,6 +27,7 @@ from slider_resonator.checks.conduct.replays import (
     transferred_differences,
 )
 from slider_resonator.checks.conduct.starts import start_faults
+from slider_resonator.checks.conduct.states import state_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
@@ -145,9 +151,15 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "overwritten_differences": overwritten_differences,
     "separate_differences": separate_differences,
     "reading_differences": reading_differences,
+    "rate_differences": rate_differences,
+    "other_device_differences": other_device_differences,
     "refusal_faults": refusal_faults,
     "start_faults": start_faults,
     "description_faults": lambda fmu: Findings.of(description_faults(fmu.instance.fmu.description)),
     "dependency_faults": dependency_faults,
+    "device_faults": device_faults,
+    "experiment_faults": experiment_faults,
+    "host_faults": host_faults,
+    "state_faults": state_faults,
 }
 """Quantity to the function that measures it; None stands for a value that does not exist."""

@@ -126,6 +126,24 @@ def check_times(times: Array, held: Sequence[HeldInputs]) -> None:
         )
 
 
+def turning_apart(held: Sequence[HeldInputs]) -> list[HeldInputs]:
+    """Return the same inputs cut where the angle of the normal load turns back.
+
+    Before the cut the ratio falls to 0, to rounding, and after it it starts from 0.
+    """
+    parts: list[HeldInputs] = []
+    for inputs in held:
+        first, rate = inputs.frequency_ratio, inputs.ratio_rate
+        turn = inputs.start - first / rate if first * rate < 0.0 else inputs.start
+        if inputs.start < turn < inputs.stop:
+            after = inputs.later(turn - inputs.start)
+            parts.append(replace(inputs, stop=turn))
+            parts.append(replace(after, start=turn, frequency_ratio=0.0))
+        else:
+            parts.append(inputs)
+    return parts
+
+
 def check_turns_on(inputs: HeldInputs) -> None:
     """Raise ValueError where the angle of the normal load turns back within the inputs."""
     first = inputs.frequency_ratio

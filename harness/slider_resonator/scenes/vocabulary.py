@@ -242,6 +242,13 @@ QUANTITIES: Mapping[str, Quantity] = {
     "reading_differences": _count(
         "outputs of the run that differ where everything is read again between the calls"
     ),
+    "rate_differences": _count(
+        "outputs of the run that differ where derivatives of inputs are set in another order, or "
+        "only at the corners of lines"
+    ),
+    "other_device_differences": _count(
+        "outputs of the run that differ after runs of devices that differ in one parameter"
+    ),
     "refusal_faults": _count(
         "values and calls that must be refused, by name and without a trace in the run, and are not"
     ),
@@ -253,6 +260,21 @@ QUANTITIES: Mapping[str, Quantity] = {
     ),
     "dependency_faults": _count(
         "outputs on which a variable acts that is not among their dependencies", needs_run=False
+    ),
+    "device_faults": _count(
+        "devices without a meaning that are not refused by name, at the start and in a run",
+        needs_run=False,
+    ),
+    "experiment_faults": _count(
+        "experiments with sums of steps and tolerances that are refused or change the motion",
+        needs_run=False,
+    ),
+    "host_faults": _count(
+        "wrong answers about the FMU itself: versions, instances that must not be made, logging",
+        needs_run=False,
+    ),
+    "state_faults": _count(
+        "states that are got again, damaged or freed, and wrong then", needs_run=False
     ),
 }
 """Every quantity by the name that scene files use."""

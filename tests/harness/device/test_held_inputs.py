@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from slider_resonator.device.held_inputs import (
     check_contiguous,
     check_times,
     check_turns_on,
+    turning_apart,
     with_steady_phase,
 )
 
@@ -67,6 +70,16 @@ def test_rates_are_refused_where_they_are_not_covered(rate: str) -> None:
     with pytest.raises(ValueError, match=f"held inputs 0: {rate} = .*: must be 0"):
         check_contiguous([LINE], rates=[name for name in RATES if name != rate])
     check_contiguous([LINE], rates=RATES)
+
+
+def test_inputs_are_cut_where_the_load_turns_back() -> None:
+    line = HeldInputs(1.0, 1.5, 0.3, 0.1, 0.4, load_rate=2.0, ratio_rate=-2.0)
+    before, after = turning_apart([line])
+    assert (before.start, before.stop, after.start, after.stop) == (1.0, 1.2, 1.2, 1.5)
+    assert after.frequency_ratio == 0.0
+    assert after.load == pytest.approx(0.5)
+    unturned = [replace(line, stop=1.2), replace(line, frequency_ratio=0.0), *HELD]
+    assert turning_apart(unturned) == unturned
 
 
 def test_a_rate_of_the_phase_is_a_shift_of_the_ratio() -> None:

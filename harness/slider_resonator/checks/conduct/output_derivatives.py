@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from ctypes import byref, c_double, c_int
 
 from fmpy.fmi2 import FMU2Slave, fmi2OK, fmi2ValueReference
@@ -13,6 +13,8 @@ from slider_resonator.fmu.saved_state import SavedState
 
 OUTPUTS = ("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force")
 """Outputs that are smooth between events."""
+SLOW = "mean_velocity"
+"""An output that is smooth, and slow, where motion is averaged to first order."""
 COUNTS = ("contact_mode", "reversals", "last_event_time")
 """Outputs that tell of an event."""
 SHORT = 1e-6
@@ -22,22 +24,33 @@ ALLOWED = 1e-3
 differ by: far more than the third derivative adds over the steps."""
 
 
-def derivative_faults(instance: Instance, state: SavedState, frequency: float) -> Sequence[str]:
+SMALL = 1e-3
+"""Share of the peak of an output, over a radian of the drive, in whose units its derivative may be
+off by `ALLOWED`: what rounding leaves of an output next to zero is far less."""
+ROUNDED = 1e-12
+"""Share of a slow output, over a step, in whose units its derivative may be off by `ALLOWED`."""
+
+
+def derivative_faults(
+    instance: Instance, state: SavedState, frequency: float, peaks: Mapping[str, float]
+) -> Sequence[str]:
     """Compare derivatives of outputs with quotients over short steps; the state is restored.
 
-    Nothing is compared over an event. `frequency` is that of the drive, rad/s.
+    Nothing is compared over an event. `frequency` is that of the drive, rad/s, `peaks` are those of
+    the outputs in a run.
     """
     slave = instance.slave
     offered = instance.fmu.description.coSimulation.maxOutputDerivativeOrder or 0
     if isinstance(slave, Fmi3Slave) or offered < 1:
         return []
     step = SHORT * 6.283185307179586 / frequency
-    references = {name: instance.fmu.variables[name].valueReference for name in OUTPUTS}
+    outputs = (*OUTPUTS, SLOW) if _is_averaged(instance) else OUTPUTS
+    references = {name: instance.fmu.variables[name].valueReference for name in outputs}
     told = {name: _derivative(slave, reference) for name, reference in references.items()}
-    rows = [instance.read((*OUTPUTS, *COUNTS))]
+    rows = [instance.read((*outputs, *COUNTS))]
     for _ in range(2):
         instance.step_by(step)
-        rows.append(instance.read((*OUTPUTS, *COUNTS)))
+        rows.append(instance.read((*outputs, *COUNTS)))
     state.restore()
     if any(row[name] != rows[0][name] for row in rows for name in COUNTS):
         return []
@@ -45,10 +58,19 @@ def derivative_faults(instance: Instance, state: SavedState, frequency: float) -
     for name, derivative in told.items():
         first, middle, last = (row[name] for row in rows)
         quotient = (4.0 * (middle - first) - (last - first)) / (2.0 * step)
-        size = max(abs(quotient), abs(middle - first) / step, frequency * abs(last))
+        natural = ROUNDED / step if name == SLOW else SMALL * frequency
+        scale = 0.0 if name == SLOW else frequency * abs(last)
+        size = max(abs(quotient), abs(middle - first) / step, scale, natural * peaks[name])
         if derivative is not None and not abs(derivative - quotient) <= ALLOWED * size:
             faults.append(f"the derivative of {name} is {derivative!r}, it grows by {quotient!r}")
     return faults
+
+
+def _is_averaged(instance: Instance) -> bool:
+    """Return whether motion is averaged to first order."""
+    order = "averaging_order"
+    first = order not in instance.fmu.variables or instance.value(order) == 1.0
+    return first and instance.value("fidelity") == 0.0
 
 
 def _derivative(slave: FMU2Slave, reference: int) -> float | None:

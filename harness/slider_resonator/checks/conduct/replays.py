@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 
+import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from slider_resonator.checks.conduct.findings import NOTHING, Findings, differences
@@ -96,7 +97,8 @@ def reset_differences(fmu: FmuSide) -> Findings:
 def restored_differences(fmu: FmuSide) -> Findings:
     """Save states in a run, and go on from each after the run and a detour.
 
-    From each saved state of resolved motion derivatives of outputs are compared with a short step.
+    From each saved state derivatives of outputs are compared with a short step, but not from the
+    start of averaged motion, whose fast part sets in with the first step.
     """
     fmu.instance.fmu.require("canGetAndSetFMUstate")
     plain = _Comparison(fmu)
@@ -104,6 +106,8 @@ def restored_differences(fmu: FmuSide) -> Findings:
     found = NOTHING
     wrong: list[str] = []
     resolved = fmu.scene.device.fidelity > 0
+    largest = np.abs(np.array(plain.rows)).max(axis=0).tolist()
+    peaks = dict(zip(instance.fmu.outputs, largest, strict=True))
     with instance.explained():
         running = _started(instance, plain.parameters, plain.schedule)
         steps = sorted({int(share * running.steps) for share in SAVED_AT})
@@ -112,9 +116,9 @@ def restored_differences(fmu: FmuSide) -> Findings:
             for step in range(running.steps):
                 if step in steps:
                     saved.append((step, len(running.rows), SavedState.of(instance)))
-                    if resolved:
+                    if resolved or step > 0:
                         frequency = instance.value("drive_frequency")
-                        wrong += derivative_faults(instance, saved[-1][-1], frequency)
+                        wrong += derivative_faults(instance, saved[-1][-1], frequency, peaks)
                 running.advance(step)
             found += plain.of("while states are saved", running.rows)
             for step, rows, state in reversed(saved):
@@ -194,7 +198,10 @@ def beside_differences(fmu: FmuSide) -> Findings:
 
 
 def overwritten_differences(fmu: FmuSide) -> Findings:
-    """Set another and a refused value before each value, at the start and in the run."""
+    """Set another and a refused value before each value, at the start and in the run.
+
+    Before the run outputs are read under the other values.
+    """
     plain = _Comparison(fmu)
     instance, schedule = fmu.instance, plain.schedule
     running = Running(instance, schedule)
@@ -210,6 +217,8 @@ def overwritten_differences(fmu: FmuSide) -> Findings:
         for name, value in reversed(wanted.items()):
             instance.set({name: other_value(name, value)})
             accepted += _refused(instance, name)
+            with suppress(FMICallException):  # some values have no meaning together
+                instance.read(instance.fmu.outputs)
             instance.set({name: value})
         instance.begin()
         running.read()

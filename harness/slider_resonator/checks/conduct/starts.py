@@ -31,6 +31,7 @@ def start_faults(fmu: FmuSide) -> Findings:
         for name, value in others.items():
             instance.set({name: value})
         faults += _unequal(instance, others, "after it was set")
+        faults += _in_one_call(instance, others)
         call(instance.slave, "fmi2EnterInitializationMode")
         instance.begin()
         faults += _unequal(instance, others, "in a run")
@@ -39,6 +40,18 @@ def start_faults(fmu: FmuSide) -> Findings:
         instance.set_up()
         faults += _unequal(instance, starts, "after a reset")
     return Findings.of(faults)
+
+
+def _in_one_call(instance: Instance, others: Mapping[str, float]) -> Iterator[str]:
+    """Set all Integers in one call, the last first, and read them in another one."""
+    variables = instance.fmu.variables
+    integers = [name for name in others if variables[name].type == "Integer"][::-1]
+    references = [variables[name].valueReference for name in integers]
+    instance.slave.setInteger(references, [int(others[name]) for name in integers])
+    for name, found in zip(integers, instance.slave.getInteger(references), strict=True):
+        if found != others[name]:
+            yield f"{name} is {found!r} among others in one call, must be {others[name]!r}"
+    yield from _unequal(instance, others, "after it was set with others")
 
 
 def _unequal(instance: Instance, values: Mapping[str, float], when: str) -> Iterator[str]:

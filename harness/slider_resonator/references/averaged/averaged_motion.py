@@ -11,13 +11,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import (
+    RATES,
     HeldInputs,
     check_contiguous,
     check_times,
@@ -28,7 +30,10 @@ from slider_resonator.references.averaged.averaged_coulomb import slow_start
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.averaged.block import slide_of_block
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
-from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
+from slider_resonator.references.averaged.vibrating_contact import (
+    MAX_TURNS,
+    turns_until_repeat,
+)
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
 
@@ -87,7 +92,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     """Return the averaged motion under held inputs at ``times`` (shape (n,), s).
 
     ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
-    start. Phase and load may have rates, the load only where there is vibration.
+    start. All inputs may have rates, load and ratio only under vibration.
 
     The initial values determine the momentum and the centre of mass of slider and resonator;
     directly after the start the fast motion is the steady vibration, whatever they are. Without
@@ -98,7 +103,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     Raises ValueError for inputs with gaps, times outside them, and as `equivalent_force` does;
     RuntimeError when the slow motion cannot be integrated.
     """
-    check_contiguous(held, rates=("phase_rate", "load_rate"))
+    check_contiguous(held, rates=RATES)
     check_times(times, held)
     start, share = device, device.mass_ratio
     drive = _Drive.of(held[0].tuned_device(device))
@@ -107,7 +112,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     theta = psi = 0.0
     rows = np.empty((0, 3))
     last = np.array([device.initial_position, device.initial_velocity])
-    for inputs in with_steady_phase(held, device):
+    for inputs in in_slow_phases(with_steady_phase(held, device), device):
         tuned = inputs.tuned_device(start)
         before, drive = drive, _Drive.of(tuned)
         slow += (drive.velocity - before.velocity) * math.cos(theta)
@@ -127,7 +132,8 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
         centre += float(moved[-1])
         slow = float(velocity[-1])
         turned = device.drive_frequency * float(grid[-1])
-        theta, psi = advanced(theta, turned), advanced(psi, inputs.frequency_ratio * turned)
+        theta = advanced(theta, turned)
+        psi = advanced(psi, inputs.turned(float(grid[-1]), device.drive_frequency))
     return AveragedMotion(times, *rows.T)
 
 
@@ -176,18 +182,55 @@ def _slow_acceleration(
     Both V are in units of the fast velocity. Time is that since the inputs were set, where base
     excitation and normal load have the angles ``theta`` and ``psi``.
     """
-    turns = turns_until_repeat(device.amplitude_ratio, inputs.frequency_ratio, MAX_DETUNING)
-    ratio = inputs.frequency_ratio
-    if turns:
-        ratio = round(turns * ratio) / turns
+    span = inputs.stop - inputs.start
+    turns, ratio = slow_ratio(device, inputs.frequency_ratio + 0.5 * inputs.ratio_rate * span)
     lead = inputs.phase + psi - ratio * theta
-    drift = (inputs.frequency_ratio - ratio) * device.drive_frequency
+    frequency = device.drive_frequency
+    first, last = inputs.frequency_ratio, inputs.frequency_ratio + inputs.ratio_rate * span
+    drift = max(abs(first - ratio), abs(last - ratio)) * frequency
     momentum = device.total_mass * force.velocity_amplitude
 
     def acceleration(time: float, velocity: float) -> float:
+        ahead = inputs.turned(time, frequency) - ratio * frequency * time
         friction = mean_friction(
-            device, force, force.velocity_amplitude * velocity, lead + drift * time, ratio
+            device, force, force.velocity_amplitude * velocity, lead + ahead, ratio
         )
         return -(friction + inputs.load + inputs.load_rate * time) / momentum
 
-    return acceleration, abs(drift) * max(turns, 1)
+    return acceleration, drift * max(turns, 1)
+
+
+def slow_ratio(device: Device, ratio: float) -> tuple[int, float]:
+    """Return after how many turns the load nearly repeats, and the ratio at which it does.
+
+    These are 0 and the ratio itself where the phase of the load is not slow.
+    """
+    turns = turns_until_repeat(device.amplitude_ratio, ratio, MAX_DETUNING)
+    return turns, round(turns * ratio) / turns if turns else ratio
+
+
+def in_slow_phases(held: Sequence[HeldInputs], device: Device) -> list[HeldInputs]:
+    """Return the same inputs cut where a ratio that grows comes near a slow phase or leaves one."""
+    parts: list[HeldInputs] = []
+    for inputs in held:
+        edges = [inputs.start, *_slow_edges(inputs, inputs.tuned_device(device)), inputs.stop]
+        for begin, end in pairwise(edges):
+            parts.append(replace(inputs.later(begin - inputs.start), start=begin, stop=end))
+    return parts
+
+
+def _slow_edges(inputs: HeldInputs, device: Device) -> list[float]:
+    """Return the times (s) inside at which the ratio is at the edge of a slow phase."""
+    if not inputs.ratio_rate:
+        return []
+    last = inputs.frequency_ratio + inputs.ratio_rate * (inputs.stop - inputs.start)
+    low, high = sorted((inputs.frequency_ratio, last))
+    most = MAX_TURNS if device.amplitude_ratio > 1.0 else 1
+    ratios = {
+        (whole + side * MAX_DETUNING / turns) / turns
+        for turns in range(1, most + 1)
+        for whole in range(math.floor(turns * low) - 1, math.ceil(turns * high) + 2)
+        for side in (-1.0, 1.0)
+    }
+    times = (inputs.start + (r - inputs.frequency_ratio) / inputs.ratio_rate for r in ratios)
+    return sorted(time for time in times if inputs.start < time < inputs.stop)

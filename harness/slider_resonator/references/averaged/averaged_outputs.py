@@ -16,12 +16,11 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, with_steady_phase
 from slider_resonator.references.averaged.averaged_motion import (
-    MAX_DETUNING,
     AveragedMotion,
     full_friction,
     mean_friction,
+    slow_ratio,
 )
-from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
 
@@ -60,30 +59,37 @@ def averaged_outputs(
         tuned = inputs.tuned_device(device)
         frequency = tuned.drive_frequency
         turned = frequency * (motion.time[here] - inputs.start)
-        at = theta + turned, psi + inputs.phase + inputs.frequency_ratio * turned
+        ratios = inputs.frequency_ratio + inputs.ratio_rate * (motion.time[here] - inputs.start)
+        middle = 0.5 * (inputs.frequency_ratio + ratios)
+        at = theta + turned, psi + inputs.phase + middle * turned, ratios
         rows[here] = _rows(tuned, inputs, at, motion.velocity[here], motion.mean_velocity[here])
         span = frequency * (inputs.stop - inputs.start)
-        theta, psi = advanced(theta, span), advanced(psi, inputs.frequency_ratio * span)
+        theta = advanced(theta, span)
+        psi = advanced(psi, inputs.turned(inputs.stop - inputs.start, frequency))
     displacement, rate, normal, friction, mode = rows.T
     return AveragedOutputs(displacement, rate, normal, friction, mode.astype(np.int64))
 
 
 def _rows(
-    device: Device, inputs: HeldInputs, angles: tuple[Array, Array], velocity: Array, slow: Array
+    device: Device,
+    inputs: HeldInputs,
+    phases: tuple[Array, Array, Array],
+    velocity: Array,
+    slow: Array,
 ) -> Array:
     """Return the outputs as columns under one of the held inputs, shape (n, 5).
 
-    ``angles`` (rad) are those of drive and normal load.
+    ``phases`` are the angles of drive and normal load (rad) and the frequency ratio.
     """
     force = equivalent_force(device)
-    theta, chi = angles
+    theta, chi, ratios = phases
     angle = theta - force.resonator_angle
     displacement = force.resonator_amplitude * np.sin(angle)
     rate = device.drive_frequency * force.resonator_amplitude * np.cos(angle)
     normal = np.maximum(0.0, device.normal_preload + device.normal_amplitude * np.sin(chi))
     friction = [
-        _friction(device, force, inputs, (float(t), float(c)), float(v))
-        for t, c, v in zip(theta, chi, slow, strict=True)
+        _friction(device, force, inputs, (float(t), float(c), float(r)), float(v))
+        for t, c, r, v in zip(theta, chi, ratios, slow, strict=True)
     ]
     mode = np.where(normal > 0.0, np.sign(velocity), float(_LIFTED))
     return np.column_stack([displacement, rate, normal, friction, mode])
@@ -93,15 +99,13 @@ def _friction(
     device: Device,
     force: EquivalentForce,
     inputs: HeldInputs,
-    angles: tuple[float, float],
+    phases: tuple[float, float, float],
     slow: float,
 ) -> float:
-    """Return the mean friction (N) at a slow velocity (m/s); angles as for `_rows`."""
-    theta, chi = angles
-    ratio = inputs.frequency_ratio
+    """Return the mean friction (N) at a slow velocity (m/s); phases as for `_rows`."""
+    theta, chi, ratio = phases
     if force.velocity_amplitude == 0.0:
         full = full_friction(device, chi, ratio)
         return float(np.clip(-inputs.load, -full, full) if slow == 0.0 else np.sign(slow) * full)
-    turns = turns_until_repeat(device.amplitude_ratio, ratio, MAX_DETUNING)
-    near = round(turns * ratio) / turns if turns else ratio
+    _, near = slow_ratio(device, ratio)
     return mean_friction(device, force, slow, chi - near * theta, near)

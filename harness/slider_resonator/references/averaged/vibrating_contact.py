@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import math
 
+MAX_TURNS = 4
+"""Turns of the drive up to which a clipped load that repeats after them has a slow phase."""
+
 
 def turning_angle(velocity: float, strength: float) -> float:
     """Return theta_1 = acos(velocity / q), at its bounds where the motion no longer reverses."""
@@ -28,10 +31,10 @@ def turns_until_repeat(amplitude_ratio: float, ratio: float, share: float = 1e-1
 
     A load that never lifts is a sine, which averages out over several turns: 1 for ratios next to
     an integer, else 0. A clipped load has harmonics, some of which keep step with the drive; up to
-    4 turns count. ``share`` is the largest distance of the ratio times the turns from an integer,
-    times the turns.
+    `MAX_TURNS` turns count. ``share`` is the largest distance of the ratio times the turns from an
+    integer, times the turns.
     """
-    for turns in range(1, 5 if amplitude_ratio > 1.0 else 2):
+    for turns in range(1, (MAX_TURNS if amplitude_ratio > 1.0 else 1) + 1):
         waves = turns * ratio
         if abs(waves - round(waves)) * turns <= share:
             return turns

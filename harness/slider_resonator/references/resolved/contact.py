@@ -34,16 +34,18 @@ def time_to_contact_change(
 
     That is upward, the touchdown, of a ``lifted`` contact and downward, the lift-off, of a closed
     one. Infinite if it never does. A contact that only touches zero does not lift. The angle
-    may have an ``acceleration`` (rad/s^2), as long as its rate keeps the sign.
+    may have an ``acceleration`` (rad/s^2), as long as its rate keeps the sign; one of 0 takes that
+    of the acceleration.
     """
-    if amplitude <= preload or rate == 0.0:
+    going = rate or acceleration
+    if amplitude <= preload or going == 0.0:
         return math.inf
-    half_flight = math.copysign(math.acos(preload / amplitude), rate)
+    half_flight = math.copysign(math.acos(preload / amplitude), going)
     target = 1.5 * math.pi + (half_flight if lifted else -half_flight)
-    way = math.copysign(1.0, rate) * (target - angle) % _TURN
+    way = math.copysign(1.0, going) * (target - angle) % _TURN
     if acceleration == 0.0:
         return way / abs(rate)
-    square = rate * rate + 2.0 * math.copysign(1.0, rate) * acceleration * way
+    square = rate * rate + 2.0 * math.copysign(1.0, going) * acceleration * way
     return 2.0 * way / (abs(rate) + math.sqrt(square)) if square >= 0.0 else math.inf
 
 

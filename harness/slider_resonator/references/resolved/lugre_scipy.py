@@ -20,7 +20,7 @@ from slider_resonator.device.held_inputs import (
     HeldInputs,
     check_contiguous,
     check_times,
-    check_turns_on,
+    turning_apart,
     with_steady_phase,
 )
 from slider_resonator.references.resolved.contact import LIFTED, is_lifted, time_to_contact_change
@@ -54,8 +54,7 @@ def simulate_lugre(
     check_contiguous(held, rates=RATES)
     check_times(times, held)
     run = _Run(device, times)
-    for inputs in with_steady_phase(held, device):
-        check_turns_on(inputs)
+    for inputs in turning_apart(with_steady_phase(held, device)):
         run.follow(inputs, solver, rtol, atol)
     return run.recorder.lugre_trajectory()
 

@@ -20,7 +20,7 @@ from slider_resonator.device.held_inputs import (
     HeldInputs,
     check_contiguous,
     check_times,
-    check_turns_on,
+    turning_apart,
     with_steady_phase,
 )
 from slider_resonator.references.phase import Elapsed, advanced
@@ -75,8 +75,7 @@ def simulate_lugre(
     check_contiguous(held, rates=RATES)
     check_times(times, held)
     run = _Run(device, times, bristle, tolerance)
-    for inputs in with_steady_phase(held, device):
-        check_turns_on(inputs)
+    for inputs in turning_apart(with_steady_phase(held, device)):
         run.follow(inputs)
     return run.recorder.lugre_trajectory()
 

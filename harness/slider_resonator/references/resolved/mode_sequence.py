@@ -14,7 +14,7 @@ from slider_resonator.device.held_inputs import (
     HeldInputs,
     check_contiguous,
     check_times,
-    check_turns_on,
+    turning_apart,
     with_steady_phase,
 )
 from slider_resonator.references.phase import Elapsed, advanced
@@ -54,12 +54,12 @@ class ModeSequence:
 
         A sample on a boundary between held inputs belongs to the inputs before it. Counts and
         event times cover the whole span of the inputs, whatever the times. Raises ValueError for
-        inputs with gaps or times outside them, or under which the normal load turns back,
-        RuntimeError for a contact that cannot be resolved in floating point numbers.
+        inputs with gaps or times outside them, RuntimeError for a contact that cannot be
+        resolved in floating point numbers.
         """
         check_contiguous(held, rates=RATES)
         check_times(self._recorder.times, held)
-        for inputs in with_steady_phase(held, self._device):
+        for inputs in turning_apart(with_steady_phase(held, self._device)):
             self._equations = equations_of(inputs.tuned_device(self._device))
             self._run_held(inputs)
         return self._recorder.trajectory()
@@ -67,7 +67,6 @@ class ModeSequence:
     def _run_held(self, inputs: HeldInputs) -> None:
         elapsed = Elapsed()
         span = inputs.stop - inputs.start
-        check_turns_on(inputs)
         mode = self._mode_now(inputs)
         self._contact.enter(mode, inputs.start)
         self._keep_present(mode, inputs, self._recorder.pending(inputs.start))

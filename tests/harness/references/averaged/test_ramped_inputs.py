@@ -1,4 +1,4 @@
-"""Averaged references under phases and loads that change at constant rates."""
+"""Averaged references under inputs that change at constant rates."""
 
 from __future__ import annotations
 
@@ -11,7 +11,11 @@ import pytest
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.averaged_motion import simulate_averaged
+from slider_resonator.references.averaged.averaged_motion import (
+    in_slow_phases,
+    simulate_averaged,
+    slow_ratio,
+)
 from slider_resonator.references.averaged.averaged_outputs import averaged_outputs
 from slider_resonator.references.averaged.motion_from_start import simulate_from_start
 from slider_resonator.references.resolved import taylor
@@ -21,6 +25,7 @@ TIMES = np.linspace(0.0, STOP, 40)
 LINE = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0, load_rate=0.3)
 LOAD = replace(LINE, phase_rate=0.0)
 DEVICE = Device(fidelity=0)
+FLIES = replace(DEVICE, normal_amplitude=1.4)
 LUGRE = replace(DEVICE, friction_law=1, bristle_stiffness=1e4)
 Simulate = Callable[[Device, Sequence[HeldInputs], Array], Array]
 
@@ -33,15 +38,16 @@ def second_order(device: Device, held: Sequence[HeldInputs], times: Array) -> Ar
     return simulate_from_start(device, held, times).position
 
 
-def staircase(count: int) -> list[HeldInputs]:
+def staircase(line: HeldInputs, count: int) -> list[HeldInputs]:
     size = STOP / count
     return [
         replace(
-            LINE.later((i + 0.5) * size),
+            line.later((i + 0.5) * size),
             start=i * size,
             stop=(i + 1) * size,
             phase_rate=0.0,
             load_rate=0.0,
+            ratio_rate=0.0,
         )
         for i in range(count)
     ]
@@ -50,7 +56,7 @@ def staircase(count: int) -> list[HeldInputs]:
 @pytest.mark.parametrize("device", [DEVICE, LUGRE])
 def test_held_steps_tend_to_the_line(device: Device) -> None:
     line = first_order(device, [LINE], TIMES)
-    errors = [np.abs(first_order(device, staircase(n), TIMES) - line).max() for n in (10, 40)]
+    errors = [np.abs(first_order(device, staircase(LINE, n), TIMES) - line).max() for n in (10, 40)]
     assert errors[1] < errors[0] / 10.0
     assert errors[1] < 1e-4 * np.abs(line).max()
 
@@ -77,9 +83,31 @@ def test_the_normal_force_has_the_phase_of_the_ramp() -> None:
     assert np.abs(found - (1.0 + np.sin(angle))).max() < 1e-11
 
 
+@pytest.mark.parametrize(("device", "rate", "order"), [(DEVICE, 0.5, 1.8), (FLIES, 0.9, 0.0)])
+def test_held_steps_tend_to_a_ratio_that_grows(device: Device, rate: float, order: float) -> None:
+    """Of second order within a slow phase; at its edges friction jumps."""
+    growing = HeldInputs(0.0, STOP, 0.2, 0.01, 0.93, ratio_rate=rate)
+    line = first_order(device, [growing], TIMES)
+    errors = [
+        np.abs(first_order(device, staircase(growing, n), TIMES) - line).max() for n in (100, 400)
+    ]
+    assert order == 0.0 or errors[1] < errors[0] / 4.0**order
+    assert errors[1] < 1e-3 * np.abs(line).max()
+
+
+def test_the_edges_of_slow_phases_are_cut() -> None:
+    growing = HeldInputs(0.0, 1.0, 0.2, 0.01, 0.95, ratio_rate=0.3)
+    closed, lifts = (in_slow_phases([growing], device) for device in (DEVICE, FLIES))
+    ratios = [inputs.frequency_ratio for inputs in closed]
+    assert ratios == pytest.approx([0.95, 1.1])
+    assert len(lifts) > len(closed), "fractions have slow phases in flight"
+    for inputs in lifts:
+        ends = (inputs.frequency_ratio, inputs.later(inputs.stop - inputs.start).frequency_ratio)
+        inside = [slow_ratio(FLIES, ends[0] + s * (ends[1] - ends[0])) for s in (0.01, 0.99)]
+        assert inside[0][0] == inside[1][0]
+
+
 def test_ramps_that_are_not_covered_are_refused() -> None:
-    with pytest.raises(ValueError, match=r"ratio_rate = 1\.0: must be 0"):
-        simulate_averaged(DEVICE, [replace(LINE, ratio_rate=1.0)], TIMES)
     block = replace(DEVICE, base_amplitude=0.0)
     with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
         simulate_averaged(block, [LOAD], TIMES)

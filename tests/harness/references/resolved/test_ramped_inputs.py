@@ -99,10 +99,21 @@ def test_contact_changes_of_a_chirp_are_exact() -> None:
     assert np.abs(1.0 + 1.6 * np.sin(angle)).max() < 1e-11
 
 
-def test_a_normal_load_that_turns_back_is_refused() -> None:
-    back = HeldInputs(0.0, STOP, frequency_ratio=0.1, ratio_rate=-10.0)
-    with pytest.raises(ValueError, match="must keep its sign"):
-        taylor.simulate(DEVICE, [back], TIMES)
+BACK = HeldInputs(0.0, STOP, 0.2, 0.01, frequency_ratio=0.4, ratio_rate=-40.0)
+
+
+@pytest.mark.parametrize("device", [LIFTS, replace(LUGRE, normal_amplitude=1.6)])
+def test_references_agree_under_a_normal_load_that_turns_back(device: Device) -> None:
+    one, other = (position(device, [BACK], taylor_series=series) for series in (True, False))
+    assert off(other, one) < 2e-9
+
+
+@pytest.mark.parametrize("device", [LIFTS, replace(LUGRE, normal_amplitude=1.6)])
+def test_held_steps_tend_to_a_normal_load_that_turns_back(device: Device) -> None:
+    line = position(device, [BACK])
+    coarse, fine = (off(position(device, staircase(BACK, n)), line) for n in (300, 1200))
+    assert fine < 1e-4
+    assert fine < coarse / 8.0, "sixteen, but for where steps lie in a period"
 
 
 def test_flight_under_a_chirp_that_fades_is_seen() -> None:

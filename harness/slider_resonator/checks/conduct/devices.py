@@ -1,0 +1,156 @@
+"""Devices without a meaning, which an FMU must refuse before or in a run, and the same with one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from math import isfinite, sqrt
+
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2Discard
+
+from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.fmu.instance import Instance, call
+
+STEP = 1e-3
+"""Size of a step, s."""
+
+
+@dataclass(frozen=True)
+class Meaningless:
+    """Values that together have no meaning: those of `cause` turn the device into one without."""
+
+    what: str
+    device: Mapping[str, float]
+    cause: Mapping[str, float]
+
+
+MEANINGLESS = (
+    Meaningless(
+        "LuGre friction without friction", {"friction_law": 1.0}, {"friction_coefficient": 0.0}
+    ),
+    Meaningless(
+        "the steady force of an undamped resonator at resonance",
+        {"fidelity": 1.0, "damping_ratio": 0.0, "resonator_frequency": 3500.0 / sqrt(1.1)},
+        {"drive_frequency": 3500.0},
+    ),
+    Meaningless(
+        "a drive beyond floating point numbers", {"fidelity": 1.0}, {"base_amplitude": 1e308}
+    ),
+)
+"""Devices that must be refused, each with one value that can be set in a run."""
+
+
+EXTREMES: tuple[Mapping[str, float], ...] = (
+    {"fidelity": 1.0, "friction_law": 1.0, "initial_resonator_velocity": 1e308},
+    {"fidelity": 1.0, "normal_amplitude": 1e300, "frequency_ratio": 1e200},
+    {
+        "fidelity": 1.0,
+        "drive_frequency": 3.5,
+        "resonator_frequency": 9.0,
+        "initial_position": 1.7e308,
+        "initial_velocity": 1e308,
+    },
+)
+"""Devices at the ends of floating point numbers: refused, or of finite outputs."""
+LONG_STEP = 0.2
+"""A step (s) that takes the last of them beyond."""
+
+
+def device_faults(fmu: FmuSide) -> Findings:
+    """Start each device, and turn a good one into it in a run; both must be refused by name.
+
+    Extreme devices may be refused, but what is accepted has finite outputs.
+    """
+    instance = fmu.instance
+    faults: list[str] = []
+    for one in MEANINGLESS:
+        faults += _at_the_start(instance, one)
+        faults += _in_a_run(instance, one)
+    for device in EXTREMES:
+        faults += _extreme(instance, device)
+    return Findings.of(faults)
+
+
+def _at_the_start(instance: Instance, one: Meaningless) -> Iterator[str]:
+    instance.set_up()
+    instance.messages.clear()
+    try:
+        instance.set({**one.device, **one.cause})
+        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.begin()
+        instance.step_by(STEP)
+    except FMICallException as error:
+        yield from _told(instance, one, error)
+    else:
+        yield f"{one.what} is accepted"
+
+
+def _extreme(instance: Instance, device: Mapping[str, float]) -> Iterator[str]:
+    """Start and step; outputs may be refused, but motion of a step that is accepted may not."""
+    values = ", ".join(f"{name} = {value:g}" for name, value in device.items())
+    instance.set_up()
+    try:
+        instance.set(device)
+        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.begin()
+        yield from _infinite(instance, values)
+        instance.step_by(LONG_STEP)
+    except FMICallException:
+        return
+    yield from _infinite(instance, values)
+    try:
+        instance.read(["position", "velocity"])
+    except FMICallException:
+        yield f"a step is accepted but its motion cannot be read: {values}"
+
+
+def _infinite(instance: Instance, values: str) -> Iterator[str]:
+    for name in instance.fmu.outputs:
+        with suppress(FMICallException):
+            value = instance.value(name)
+            if not isfinite(value):
+                yield f"{name} is {value!r} with {values}"
+
+
+def _in_a_run(instance: Instance, one: Meaningless) -> Iterator[str]:
+    """Turn a good device into the bad one; the run must then go on as if nothing was tried."""
+    good = {name: _harmless(name, value) for name, value in one.cause.items()}
+    with instance.explained():
+        instance.start({**one.device, **good})
+        instance.step_by(STEP)
+        before = instance.read([*one.cause, *instance.fmu.outputs])
+        instance.step_by(STEP)
+        expected = instance.read(instance.fmu.outputs)
+        instance.start({**one.device, **good})
+        instance.step_by(STEP)
+    instance.messages.clear()
+    try:
+        instance.set(one.cause)
+    except FMICallException as error:
+        yield from _told(instance, one, error)
+    else:
+        yield f"{one.what} is accepted in a run"
+        return
+    with instance.explained():
+        if instance.read([*one.cause, *instance.fmu.outputs]) != before:
+            yield f"{one.what} is refused in a run but changes it"
+        instance.step_by(STEP)
+        if instance.read(instance.fmu.outputs) != expected:
+            yield f"a run goes on differently after {one.what} is refused in it"
+
+
+def _harmless(name: str, bad: float) -> float:
+    start = VARIABLES[name].start or 0.0
+    return start if start != bad else 1.1 * start
+
+
+def _told(instance: Instance, one: Meaningless, error: FMICallException) -> Iterator[str]:
+    if error.status == fmi2Discard:  # the same number in each version of FMI
+        yield f"{one.what} gives a Discard, at which hosts end a run"
+    names = [*one.device, *one.cause]
+    if not any(name in " ".join(instance.messages) for name in names):
+        yield f"{one.what} is refused without naming any of {', '.join(names)}"

@@ -1,0 +1,59 @@
+"""Experiments as hosts set them up: sums of steps, a tolerance, outputs read at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.errors import Refusal
+from slider_resonator.fmu.instance import Instance, call
+
+STEP, STEPS = 0.01, 6
+"""Steps (s) that add up to more than their product, by rounding."""
+LONG_STEP = 4.0
+"""A long step (s), of some 2000 drive periods."""
+TOLERANCES = (1e-3, 1e-6, 1e-10)
+"""Tolerances that hosts define for an experiment."""
+
+
+def experiment_faults(fmu: FmuSide) -> Findings:
+    """Run a few steps in experiments that must be accepted and not change the motion."""
+    instance = fmu.instance
+    faults: list[str] = []
+    for what, experiment in (
+        ("up to a stop time that sums of steps exceed by rounding", (False, 0.0)),
+        *((f"with a tolerance of {tolerance:g}", (True, tolerance)) for tolerance in TOLERANCES),
+    ):
+        try:
+            with instance.explained():
+                faults += _run_faults(instance, what, experiment)
+        except Refusal as error:
+            faults.append(f"an experiment {what} is refused: {error}")
+    try:
+        with instance.explained():
+            instance.start({"fidelity": 1.0})
+            instance.step_by(LONG_STEP)
+    except Refusal as error:
+        faults.append(f"a step of {LONG_STEP:g} s is refused: {error}")
+    return Findings.of(faults)
+
+
+def _run_faults(instance: Instance, what: str, tolerance: tuple[bool, float]) -> Iterator[str]:
+    outputs = instance.fmu.outputs
+    instance.start({})
+    for _ in range(STEPS):
+        instance.step_by(STEP)
+    expected = instance.read(outputs)
+    instance.set_up()
+    call(instance.slave, "fmi2Reset")
+    call(instance.slave, "fmi2SetupExperiment", *tolerance, 0.0, True, STEPS * STEP)
+    call(instance.slave, "fmi2EnterInitializationMode")
+    instance.begin()
+    for _ in range(STEPS):
+        instance.step_by(STEP)
+    if instance.read(outputs) != expected:
+        yield f"an experiment {what} gives other outputs"
+    instance.terminate()
+    if instance.read(outputs) != expected:
+        yield f"outputs differ after the end of an experiment {what}"

@@ -1,0 +1,111 @@
+"""Answers of an FMU that belong to no run: what it is, whom it serves, and what it logs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+from ctypes import byref, c_char_p, c_int
+from pathlib import Path
+
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2CoSimulation, fmi2ModelExchange, fmi2OK
+
+from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.errors import NotApplicable
+from slider_resonator.fmu import fmu_log
+from slider_resonator.fmu.fmi3_slave import Fmi3Slave
+from slider_resonator.fmu.instance import Instance, call
+
+ANSWERS = {"fmi2GetVersion": "2.0", "fmi2GetTypesPlatform": "default"}
+"""Functions without an instance, and what FMI 2.0 demands of them."""
+
+OTHER_GUID = "{00000000-0000-0000-0000-000000000000}"
+"""The GUID of no description."""
+
+
+def host_faults(fmu: FmuSide) -> Findings:
+    """Ask for the version, try instances that must not be made, and switch logging off and on.
+
+    An FMU that runs in Python is not tried with bad instances: pythonfmu checks none of them.
+    """
+    instance = fmu.instance
+    slave = instance.slave
+    if isinstance(slave, Fmi3Slave):
+        raise NotApplicable("needs FMI 2.0, whose calls are tried")
+    faults = [*_version_faults(slave)]
+    if instance.fmu.runs_without_python:
+        faults += _instance_faults(instance, slave)
+    with instance.explained():
+        instance.start({})
+    faults += _logging_faults(instance)
+    faults += _offer_faults(instance, slave)
+    with instance.explained():
+        instance.terminate()
+    return Findings.of(faults)
+
+
+def _version_faults(slave: FMU2Slave) -> Iterator[str]:
+    for name, needed in ANSWERS.items():
+        function = getattr(slave.dll, name)
+        function.restype = c_char_p
+        found = (function() or b"").decode("utf-8", "replace")
+        if found != needed:
+            yield f"{name} returns {found!r}, must be {needed!r}"
+
+
+def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+    """Try to make instances that FMI 2.0 forbids, each with one argument wrong."""
+    guid = instance.fmu.description.guid
+    kinds = {"model exchange": fmi2ModelExchange}
+    if instance.fmu.description.modelExchange is not None:
+        kinds = {}
+    wrong = {
+        "of another GUID": ("other", fmi2CoSimulation, OTHER_GUID),
+        "without a name": ("", fmi2CoSimulation, guid),
+        **{f"for {what}": ("other", kind, guid) for what, kind in kinds.items()},
+    }
+    folder = Path(instance.fmu.folder, "resources").as_uri()
+    for what, (name, kind, token) in wrong.items():
+        messages, callbacks = fmu_log.collect(name)
+        made = slave.dll.fmi2Instantiate(
+            name.encode(), kind, token.encode(), folder.encode(), byref(callbacks), False, True
+        )
+        fmu_log.forget(name)
+        if made:
+            slave.dll.fmi2FreeInstance(made)
+            yield f"an instance {what} is made"
+        elif not messages:
+            yield f"an instance {what} is refused without a message"
+
+
+def _logging_faults(instance: Instance) -> Iterator[str]:
+    """Make a call that is refused, with logging off and on."""
+    slave = instance.slave
+    category = (c_char_p * 1)(b"logStatusError")
+    for on, arguments in ((False, (1, category)), (False, (0, None)), (True, (0, None))):
+        call(slave, "fmi2SetDebugLogging", on, *arguments)
+        del instance.messages[:]
+        with suppress(FMICallException):
+            instance.set({"load": math.nan})
+        if on and not instance.messages:
+            yield "a refusal is not logged after logging is switched on"
+        if not on and instance.messages:
+            yield "a refusal is logged after logging is switched off"
+
+
+def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+    """Ask about steps that are over, which were no success if refused, and for what is lacking."""
+    status = c_int(-1)
+    with suppress(FMICallException):
+        call(slave, "fmi2DoStep", instance.time, -1.0, True)
+    if slave.dll.fmi2GetStatus(slave.component, 0, byref(status)) == fmi2OK and status.value == 0:
+        yield "fmi2GetStatus calls a refused step a success"
+    with suppress(FMICallException):
+        call(slave, "fmi2CancelStep")
+        yield "fmi2CancelStep is accepted though no step is pending"
+    if not instance.fmu.description.coSimulation.providesDirectionalDerivative:
+        with suppress(FMICallException):
+            call(slave, "fmi2GetDirectionalDerivative", None, 0, None, 0, None, None)
+            yield "fmi2GetDirectionalDerivative is accepted though there are none"

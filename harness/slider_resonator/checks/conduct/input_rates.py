@@ -1,0 +1,116 @@
+"""The same ramps told in other ways, each of which must give the same outputs to the last bit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from slider_resonator.checks.conduct.findings import NOTHING, Findings, differences
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.interface import INPUTS
+from slider_resonator.device.schedule import Schedule
+from slider_resonator.fmu.instance import Derivatives, Instance
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Running, run
+from slider_resonator.fmu.saved_state import SavedState
+
+AWAY = 1e-4
+"""A step (s) that is taken back."""
+
+ROUNDING = 1e-9
+"""Share of the peak by which positions may differ where inputs are added up differently."""
+
+
+def rate_differences(fmu: FmuSide) -> Findings:
+    """Set derivatives before values; leave out those of inputs that are held; set one by one.
+
+    An input that is set without a derivative after a step is held from then on.
+    """
+    instance, schedule = fmu.instance, fmu.scene.schedule()
+    instance.fmu.require("canInterpolateInputs")
+    plain = run(instance, fmu.scene.parameters, schedule)
+    expected = np.column_stack([plain[name] for name in instance.fmu.outputs]).tolist()
+    found = NOTHING
+    for what, tell in WAYS.items():
+        running = Running(instance, schedule)
+        values = {**fmu.scene.parameters, **running.first}
+        instance.start(values, running.stop_time, start_time=schedule.start_time)
+        with instance.explained():
+            running.read()
+            for step in range(running.steps):
+                tell(instance, schedule, step)
+                instance.step_by(running.step_size(step))
+                running.read()
+        outputs, times = instance.fmu.outputs, schedule.readings()
+        found += differences(what, outputs, times, running.rows, expected)
+    return found + _kept(fmu, plain)
+
+
+def _kept(fmu: FmuSide, plain: Record) -> Findings:
+    """Set values and derivatives at the corners of lines only: derivatives last until then."""
+    instance, schedule = fmu.instance, fmu.scene.schedule()
+    rates = schedule.rates()
+    running = Running(instance, schedule, ["position"])
+    values = {**fmu.scene.parameters, **running.first}
+    instance.start(values, running.stop_time, start_time=schedule.start_time)
+    with instance.explained():
+        running.read()
+        for step in range(running.steps):
+            if step == 0 or not np.allclose(rates[step], rates[step - 1], rtol=1e-9, atol=1e-12):
+                running.instance.set_inputs(running.inputs[step].tolist())
+                instance.set_input_rates(rates[step].tolist())
+            _through_a_state(instance)
+            instance.step_by(running.step_size(step))
+            running.read()
+    position = np.array(running.rows)[:, 0]
+    off = float(np.abs(position - plain["position"]).max() / np.abs(plain["position"]).max())
+    if off <= ROUNDING:
+        return NOTHING
+    return Findings.of([f"position is off by {off:.2g} of its peak where derivatives are kept"])
+
+
+def _before_values(instance: Instance, schedule: Schedule, step: int) -> None:
+    instance.set_input_rates(schedule.rates()[step].tolist())
+    _through_a_state(instance)
+    instance.set_inputs(schedule.sampled()[step].tolist())
+
+
+def _through_a_state(instance: Instance) -> None:
+    """Serialise the state, set other derivatives, and go back, where the FMU offers that."""
+    offers = instance.fmu.description.coSimulation
+    if not (offers.canGetAndSetFMUstate and offers.canSerializeFMUstate):
+        return
+    state = SavedState.of(instance)
+    instance.step_by(AWAY)
+    instance.set_inputs([0.1, 0.2, 1.3])
+    instance.set_input_rates([1.0, 2.0, 3.0])
+    state.transfer(instance)
+    state.free()
+
+
+def _without_zeros(instance: Instance, schedule: Schedule, step: int) -> None:
+    instance.set_inputs(schedule.sampled()[step].tolist())
+    rates = schedule.rates()[step].tolist()
+    for name, rate in zip(INPUTS, rates, strict=True):
+        if rate:
+            _set_rate(instance, name, rate)
+
+
+def _one_by_one(instance: Instance, schedule: Schedule, step: int) -> None:
+    values, rates = schedule.sampled()[step].tolist(), schedule.rates()[step].tolist()
+    for name, value, rate in zip(INPUTS, values, rates, strict=True):
+        _set_rate(instance, name, rate)
+        instance.set({name: value})
+
+
+def _set_rate(instance: Instance, name: str, rate: float) -> None:
+    Derivatives(instance.slave, [instance.fmu.variables[name].valueReference]).write([rate])
+
+
+WAYS: dict[str, Callable[[Instance, Schedule, int], None]] = {
+    "with derivatives set before values": _before_values,
+    "without derivatives of 0": _without_zeros,
+    "with derivatives set one by one": _one_by_one,
+}
+"""What sets the values and derivatives of a step in another way than a run."""

@@ -1,0 +1,103 @@
+"""States of an FMU in the hands of a host: got again, freed, and damaged on their way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from ctypes import byref, c_void_p
+
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+
+from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.errors import NotApplicable
+from slider_resonator.fmu.fmi3_slave import Fmi3Slave
+from slider_resonator.fmu.instance import Instance, call
+
+STEP = 1.3e-3
+"""Size of a step, s."""
+DAMAGED = 24
+"""Places in a serialised state at which a bit is turned."""
+
+
+def state_faults(fmu: FmuSide) -> Findings:
+    """Get a state into the place of another, damage serialised ones, and free them."""
+    instance = fmu.instance
+    slave = instance.slave
+    instance.fmu.require("canGetAndSetFMUstate")
+    if isinstance(slave, Fmi3Slave):
+        raise NotApplicable("needs FMI 2.0, whose calls are tried")
+    with instance.explained():
+        instance.start(fmu.scene.parameters)
+        instance.step_by(STEP)
+        faults = [*_overwriting_faults(instance, slave)]
+        if instance.fmu.description.coSimulation.canSerializeFMUstate:
+            faults += _damage_faults(instance, slave)
+        faults += _freeing_faults(instance, slave)
+        instance.terminate()
+    return Findings.of(faults)
+
+
+def _overwriting_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+    """Get the state twice into one place, the second time after a step."""
+    state = c_void_p()
+    call(slave, "fmi2GetFMUstate", byref(state))
+    instance.step_by(STEP)
+    call(slave, "fmi2GetFMUstate", byref(state))
+    kept, time = instance.read(instance.fmu.outputs), instance.time
+    instance.step_by(STEP)
+    call(slave, "fmi2SetFMUstate", state)
+    instance.time = time
+    if instance.read(instance.fmu.outputs) != kept:
+        yield "a state that is got into the place of another is still the old one"
+    call(slave, "fmi2FreeFMUstate", byref(state))
+
+
+def _damage_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+    """Read back states with a bit turned or the end cut off, which must be refused.
+
+    Turned bits may also be of no account: the state is then the one that was written.
+    """
+    time, outputs = instance.time, instance.fmu.outputs
+    state = slave.getFMUstate()
+    content, before = bytes(slave.serializeFMUstate(state)), instance.read(outputs)
+    damaged = {f"cut off after {size} bytes": content[:size] for size in (0, len(content) // 2)}
+    for number in range(DAMAGED):
+        place, bit = (2 * number + 1) * len(content) // (2 * DAMAGED), number % 8
+        changed = bytearray(content)
+        changed[place] ^= 1 << bit
+        damaged[f"with bit {bit} of byte {place} turned"] = bytes(changed)
+    for what, content_then in damaged.items():
+        with suppress(FMICallException):
+            taken = slave.deSerializeFMUstate(content_then)
+            try:
+                slave.setFMUstate(taken)
+                again = slave.getFMUstate()
+                if bytes(slave.serializeFMUstate(again)) != content:
+                    yield f"a serialised state {what} is accepted"
+                slave.freeFMUstate(again)
+            finally:
+                slave.freeFMUstate(taken)
+        slave.setFMUstate(state)
+    instance.time = time
+    if instance.read(outputs) != before:
+        yield "a damaged state that is refused changes outputs"
+    slave.freeFMUstate(state)
+
+
+def _freeing_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+    """Free a state, whose pointer must then be null, and a null pointer, which is no error.
+
+    pythonfmu leaves the pointer as it is.
+    """
+    state = c_void_p()
+    call(slave, "fmi2GetFMUstate", byref(state))
+    call(slave, "fmi2FreeFMUstate", byref(state))
+    if state.value and instance.fmu.runs_without_python:
+        yield "the pointer to a state that is freed is not null"
+    state.value = None
+    try:
+        call(slave, "fmi2FreeFMUstate", byref(state))
+    except FMICallException:
+        yield "freeing a null pointer is refused"
