@@ -19,7 +19,8 @@ enum { MAX_MAPS = 120 };
  * UNDAMPED: without damping the resonator never forgets its start. STILL: nothing vibrates, or
  * friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not settle.
  * UNSTABLE: the vibration about the orbit does not decay. RUNS_AWAY: the load exceeds all friction,
- * so that no velocity is steady. UNDETERMINED: the load leaves several velocities steady. */
+ * so that no velocity is steady. UNDETERMINED: the load leaves several velocities steady, or several motions
+ * one velocity. NOT_SLOW: bristles follow no faster than the velocity changes. */
 typedef enum {
     ORBIT_FOUND,
     ORBIT_UNDAMPED,
@@ -27,7 +28,8 @@ typedef enum {
     ORBIT_NOT_CONVERGED,
     ORBIT_UNSTABLE,
     ORBIT_RUNS_AWAY,
-    ORBIT_UNDETERMINED
+    ORBIT_UNDETERMINED,
+    ORBIT_NOT_SLOW
 } OrbitStatus;
 
 /* A change of the state at the section and of the friction of the bristle there. */
@@ -71,5 +73,11 @@ OrbitStatus steady_orbit_at(const PeriodMap *map, double lead, double load,
 /* Adds what is known once an orbit is linearised, at the cost of as many maps as it has unknowns,
  * and one: needed under LuGre friction, and under Coulomb friction for slope, lag and low damping. */
 OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit);
+
+/* ORBIT_UNSTABLE where motion under the load of the orbit leaves it; at the same cost. */
+OrbitStatus held_orbit_check_stable(const PeriodMap *map, const HeldOrbit *orbit);
+
+/* Whether two orbits of one lead and velocity are the same: their friction is. */
+bool is_same_orbit(const PeriodMap *map, const HeldOrbit *one, const HeldOrbit *other);
 
 #endif

@@ -85,7 +85,17 @@ static double orbit_theta(const OrbitRide *ride, double t, double theta, double 
     return phase;
 }
 
-/* Go over to the orbit whose W and centre are those of a moment; tells the orbit. */
+/* Resolve the motion for a drive angle [rad] at least. */
+static void resolve_for(OrbitState *orbit, double angle) {
+    if (orbit->stage != RESOLVED) {
+        orbit->stage = RESOLVED;
+        orbit->to_go = orbit->waited = 0.0;
+    }
+    orbit->to_go = fmax(orbit->to_go, angle);
+}
+
+/* Go over to the orbit whose W and centre are those of a moment; tells the orbit. Where it is unknown, motion is
+ * resolved on. */
 static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     OrbitState *orbit = &now->orbit;
     OrbitRide ride;
@@ -102,6 +112,11 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     for (int i = 0; i < MAX_TAKING && !settled; i++) {
         if (!ride_moment(&ride, 0.0, theta, velocity, 0.0, &there, point)) {
             return false;
+        }
+        if (ride.unknown > 0.0) {
+            resolve_for(orbit, ride.unknown);
+            point->of[ORBIT_FACTOR] = 1.0;
+            return true;
         }
         double next = velocity + momentum - momentum_velocity(map, &there.state, theta);
         settled = fabs(next - velocity) <= TAKEN * map->speed;
@@ -145,15 +160,6 @@ static bool is_loaded(const OrbitState *orbit, const OrbitValues *present) {
                                         : fabs(present->load - before) > tolerance;
 }
 
-/* Resolve the motion for a drive angle [rad] at least. */
-static void resolve_for(OrbitState *orbit, double angle) {
-    if (orbit->stage != RESOLVED) {
-        orbit->stage = RESOLVED;
-        orbit->to_go = orbit->waited = 0.0;
-    }
-    orbit->to_go = fmax(orbit->to_go, angle);
-}
-
 /* A drive angle [rad] of resolved motion is over. */
 static void resolved_for(OrbitState *orbit, double angle) {
     orbit->to_go = fmax(0.0, orbit->to_go - angle);
@@ -191,6 +197,11 @@ static bool adapt(const Law *law, Moment *now) {
         resolve_for(orbit, resolved_angle(law, now));
     }
     bool resolved = orbit->stage == RESOLVED;
+    if (starts && drifts) {
+        /* Orbits over all leads cost more than most runs: also those of the start have to pay. */
+        resolve_for(orbit, orbit_price(law, orbit, 0.0, false));
+        return true;
+    }
     if (resolved ? starts || !changed : !(changed || loaded || drifts)) {
         return true;
     }
@@ -277,7 +288,8 @@ static double travel_at_mark(const void *motion, double t) {
     return fabs(t - marks->time[0]) < fabs(t - marks->time[1]) ? marks->travel[0] : marks->travel[1];
 }
 
-/* Go along orbits for `duration` [s], the last part of a step of `step_size` [s]. */
+/* Go along orbits for `duration` [s], the last part of a step of `step_size` [s]. Where one on the way is unknown,
+ * `now` stays as it is, to be resolved. */
 static bool follow(const Law *law, double duration, double step_size, Moment *now,
                    Refusal *refusal) {
     OrbitRide ride, *rider = &ride;
@@ -288,10 +300,8 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     double share = device_mass_fraction(&law->device);
     double chi = law->inputs.phase + now->psi, start = now->position, centre = orbit->centre;
     double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
-    double waves = fabs(law->inputs.frequency_ratio);
     double highest_load =
         fmax(fabs(plant->load), fabs(plant->load + plant->load_rate * duration));
-    int searches = (int)(MAX_SEARCH_STEPS / (1.0 + waves / SEARCH_WAVES));
     SlowPass plan = {
         .acceleration = ride_acceleration,
         .to_kink = ride_to_kink,
@@ -303,7 +313,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         .beat = slow_phase_beat(&ride.slow),
         .may_settle = !slow_phase_drifts(&ride.slow) && plant->load_rate == 0.0 &&
                       ride.source != FROM_SEARCH,
-        .most = ride.source == FROM_SEARCH ? searches : MAX_SLOW_STEPS,
+        .most = MAX_SLOW_STEPS,
         .jerk = -plant->load_rate / plant->total_mass,
         .sway = slow_friction_sway(&ride.first) / plant->total_mass,
     };
@@ -321,6 +331,10 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         if (!slow_pass(&plan, marks.time[i], &reached, refusal)) {
             return false;
         }
+        if (ride.unknown > 0.0) {
+            resolve_for(orbit, ride.unknown);
+            return true;
+        }
         reached.step = fmax(reached.step, step);
         double theta = orbit_theta(&ride, reached.t, 0.0, chi + turned_by(plant, reached.t));
         if (!ride_moment(&ride, reached.t, theta, reached.velocity, centre + reached.moved, &there,
@@ -334,11 +348,19 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     if (!slow_pass(&plan, duration, &reached, refusal)) {
         return false;
     }
+    if (ride.unknown > 0.0) {
+        resolve_for(orbit, ride.unknown);
+        return true;
+    }
     double theta = within_turn(now->theta + w * duration);
     double there_theta = orbit_theta(&ride, duration, theta, chi + turned_by(plant, duration));
     if (!ride_moment(&ride, duration, there_theta, reached.velocity, centre + reached.moved, &there,
                      &point)) {
         return refuse_infinite_motion(refusal, duration);
+    }
+    if (ride.unknown > 0.0) {
+        resolve_for(orbit, ride.unknown);
+        return true;
     }
     Response swing = swing_after(law, &orbit->swing, duration);
     add_swing(&there, &swing, share);
@@ -363,6 +385,29 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     return true;
 }
 
+/* Resolve the `left` [s] of a step `passed` [s] after its beginning, where orbits are unknown. */
+static bool resolve_rest(const Law *law, double passed, double left, EventSearch *search, Moment *now,
+                         Refusal *refusal) {
+    double w = law->device.drive_frequency;
+    Law full = law_after(law->resolved, passed);
+    Moment before = *now;
+    OrbitState orbit = now->orbit;
+    if (search != NULL) {
+        search->after -= passed;
+    }
+    if (!events_advance(&full, &before, left, search, now, refusal)) {
+        return false;
+    }
+    now->orbit = orbit;
+    bool early = search != NULL && search->found;
+    resolved_for(&now->orbit, w * (early ? search->elapsed : left));
+    if (search != NULL) {
+        search->after += passed;
+        search->elapsed += early ? passed : 0.0;
+    }
+    return true;
+}
+
 bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
                           EventSearch *search, Moment *after, Refusal *refusal) {
     double resolved = 0.0, w = law->device.drive_frequency;
@@ -374,14 +419,19 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
         return false;
     }
     double left = resolved < duration ? duration - resolved : 0.0;
-    if (after->orbit.stage == RESOLVED || !(left * w > 0.0)) {
+    if ((search != NULL && search->found) || !(left * w > 0.0)) {
         return true;
     }
-    if (!is_ramped(&law->held.plant)) {
-        return follow(law, left, duration, after, refusal);
+    if (after->orbit.stage == ON_ORBIT) {
+        Law later = is_ramped(&law->held.plant) ? law_after(law, resolved) : *law;
+        if (!follow(&later, left, duration, after, refusal)) {
+            return false;
+        }
+        if (after->orbit.stage == ON_ORBIT) {
+            return true;
+        }
     }
-    Law later = law_after(law, resolved);
-    return follow(&later, left, duration, after, refusal);
+    return resolve_rest(law, resolved, left, search, after, refusal);
 }
 
 /* The estimate under held inputs. */

@@ -11,12 +11,18 @@
  * combination of them, and the curves of MAX_LEADS leads. */
 enum { SERIES_LEADS = 9, CURVES = 14 };
 
-/* Zeroed memory holds no table. `map` is the one that was used last, of these `waves`. */
+/* Most halvings of panels between which orbits are interpolated over leads: each is one for all leads, and orbits
+ * that need smaller ones are searched. */
+enum { SERIES_DEPTH = 2 };
+
+/* Zeroed memory holds no table. `map` is the one that was used last, of these `waves`. `maps` counts the period
+ * maps of all that the ride of number `ride` has asked for, whether it was tabulated before or not. */
 typedef struct OrbitTables {
     bool mapped;
     PeriodMap map;
     Device device;
-    long clock;
+    long clock, ride;
+    int maps;
     OrbitCurve curve[CURVES];
 } OrbitTables;
 
@@ -29,7 +35,8 @@ const PeriodMap *orbit_map_of(OrbitTables *tables, const Device *device, const S
 OrbitCurve *orbit_curve_of(OrbitTables *tables, const Device *device, const SlowPhase *slow,
                            double lead, bool combined);
 
-/* All quantities at a velocity [m/s]; false where there is no orbit. */
+/* All quantities at a velocity [m/s]; false where there is no orbit, or where panels of a combined curve are not
+ * wide. */
 bool orbit_point_at(OrbitTables *tables, OrbitCurve *curve, double velocity, OrbitPoint *point);
 
 /* The `friction` [N] and `factor` alone. */
@@ -43,7 +50,11 @@ typedef struct {
 
 OrbitSeries orbit_series_of(OrbitTables *tables, const Device *device, const SlowPhase *slow);
 
-/* All quantities at a lead [rad] and a velocity [m/s] by the series; false where there is no orbit. */
+/* Whether there are orbits at all leads of the series. */
+bool orbit_series_found(const OrbitSeries *series);
+
+/* All quantities at a lead [rad] and a velocity [m/s] by the series; false where there is no orbit, or where
+ * their panels are not wide. */
 bool orbit_series_at(OrbitTables *tables, const OrbitSeries *series, double lead, double velocity,
                      OrbitPoint *point);
 

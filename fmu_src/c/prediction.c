@@ -26,7 +26,8 @@ static OrbitStatus find_steady(const Law *law, const PeriodMap *map, double lead
     if (is_monotonic(law, map) &&
         held_orbit_at(map, lead, velocity, NULL, orbit) == ORBIT_FOUND &&
         steady_orbit_at(map, lead, load, orbit, orbit) == ORBIT_FOUND &&
-        fabs(orbit->velocity - velocity) <= SAME * map->speed) {
+        fabs(orbit->velocity - velocity) <= SAME * map->speed &&
+        held_orbit_check_stable(map, orbit) == ORBIT_FOUND) {
         return ORBIT_FOUND;
     }
     return steady_orbit(map, lead, load, orbit);

@@ -97,11 +97,24 @@ OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrb
     if (scan.count != 1) {
         return scan.count == 0 ? failure : ORBIT_UNDETERMINED;
     }
-    return refine(map, lead, load, &scan.bracket, orbit);
+    OrbitStatus status = refine(map, lead, load, &scan.bracket, orbit);
+    if (status == ORBIT_FOUND) {
+        status = held_orbit_check_stable(map, orbit);
+    }
+    HeldOrbit other;
+    if (status == ORBIT_FOUND &&
+        held_orbit_at(map, lead, orbit->velocity, NULL, &other) == ORBIT_FOUND &&
+        !is_same_orbit(map, orbit, &other)) {
+        status = ORBIT_UNDETERMINED;
+    }
+    return status;
 }
 
 OrbitStatus blocking_orbit(const PeriodMap *map, double lead, HeldOrbit *orbit, double *force) {
     OrbitStatus status = held_orbit_at(map, lead, 0.0, NULL, orbit);
+    if (status == ORBIT_FOUND) {
+        status = held_orbit_check_stable(map, orbit);
+    }
     *force = status == ORBIT_FOUND ? -orbit->friction : 0.0;
     return status;
 }

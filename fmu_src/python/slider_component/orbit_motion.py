@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from math import floor, inf, remainder, tau
 
 from . import events
-from .constants import MAX_SEARCH_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN, SEARCH_WAVES
+from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, STICK
 from .device import Device, Inputs
 from .dormand_prince import Reached
@@ -103,9 +103,15 @@ class OrbitLaw:
         if now.orbit.stage == Stage.RESOLVED:
             now, time = self._resolved(now, duration)
             left = duration - time if time < duration else 0.0
-        if now.orbit.stage == Stage.RESOLVED or not left * self.full.plant.drive_frequency > 0.0:
+        if not left * self.full.plant.drive_frequency > 0.0:
             return now
-        return self._followed(now, left, duration)
+        if now.orbit.stage != Stage.RESOLVED:
+            ride = self._ride(now, now.orbit.lead)
+            followed = self._followed(now, ride, left, duration)
+            if followed is not None:
+                return followed
+            now.orbit = now.orbit.resolved_for(ride.unknown.angle)
+        return self._resolved_for(now, left)
 
     def mode(self, moment: Moment) -> int:
         """See Law."""
@@ -187,12 +193,18 @@ class OrbitLaw:
         paid = PaidTables() if driven or tuned else orbit.paid
         orbit = orbit._replace(under=present, tunings=tunings, paid=paid)
         starts = orbit.stage == Stage.RESOLVED and orbit.waited == 0.0
+        drifts = orbit_phase_of(device, present.ratio).drift != 0.0
         if shaken:
             angle = resolved_angle(device, self.fast, now.state, now.theta)
             orbit = orbit.resolved_for(angle)
         now.orbit = orbit
         ratio = self.full.inputs.frequency_ratio
         resolved = orbit.stage == Stage.RESOLVED
+        if starts and drifts:
+            # Orbits over all leads cost more than most runs: also those of the start have to pay.
+            price = orbit_price(device, ratio, orbit, 0.0, changed=False)
+            now.orbit = orbit.resolved_for(price)
+            return now
         if (starts or not changed) if resolved else not (changed or loaded):
             return now
         lead = self._lead(now) if tuned or led or resolved else orbit.lead
@@ -215,7 +227,10 @@ class OrbitLaw:
         return now
 
     def _taken_over(self, now: Moment) -> tuple[Moment, float]:
-        """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m."""
+        """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m.
+
+        Where there is no orbit, motion is resolved on.
+        """
         orbit, lead = now.orbit, self._lead(now)
         ratio = self.full.inputs.frequency_ratio
         orbit = with_paid(self.full.device, ratio, orbit, lead)
@@ -230,6 +245,9 @@ class OrbitLaw:
             if found is None:
                 raise LostOrbitError
             there, point = found
+            if ride.unknown.angle > 0.0:
+                now.orbit = orbit.resolved_for(ride.unknown.angle)
+                return now, 1.0
             following = velocity + momentum - ride.map.momentum_velocity(there.state, theta)
             settled = abs(following - velocity) <= TAKEN * ride.map.speed
             velocity = following
@@ -263,12 +281,18 @@ class OrbitLaw:
         ends = to_go <= w * duration + NOTHING
         time = min(to_go / w, duration) if ends else duration
         if time * w > NOTHING or not ends:
-            now = events.advance(self.friction, self.full, now, time)
-            waited = now.orbit.waited + w * time
-            now.orbit = now.orbit._replace(to_go=max(0.0, to_go - w * time), waited=waited)
+            now = self._resolved_for(now, time)
         else:
             time = 0.0
         return (self._taken_over(now)[0] if ends else now), time
+
+    def _resolved_for(self, now: Moment, time: float) -> Moment:
+        """The moment after a time [s] of resolved motion."""
+        turned = self.full.plant.drive_frequency * time
+        now = events.advance(self.friction, self.full, now, time)
+        to_go, waited = max(0.0, now.orbit.to_go - turned), now.orbit.waited + turned
+        now.orbit = now.orbit._replace(to_go=to_go, waited=waited)
+        return now
 
     def _swing_after(self, swing: Swing, t: float) -> Swing:
         """The resonator's own swing `t` [s] later: it moves the pair, but not its momentum."""
@@ -280,18 +304,19 @@ class OrbitLaw:
             u * (cosine - slip.decay * sine) - slip.stiffness * y * sine,
         )
 
-    def _followed(self, now: Moment, duration: float, step_size: float) -> Moment:
-        """Go along orbits for `duration` [s], the last part of a step of `step_size` [s]."""
+    def _followed(
+        self, now: Moment, ride: OrbitRide, duration: float, step_size: float
+    ) -> Moment | None:
+        """Go along orbits for `duration` [s], the last part of a step of `step_size` [s].
+
+        None where one on the way is unknown.
+        """
         plant, orbit, fast = self.full.plant, now.orbit, self.fast
         w, q = plant.drive_frequency, plant.normal_frequency
         chi, start = self.full.inputs.phase + now.psi, now.position
-        ride = self._ride(now, orbit.lead)
         drift = ride.slow.drift
         full = friction_share(self.full.device, fast) * plant.total_mass * w * fast.velocity
         step = first_step(fast.velocity, plant.total_mass, full + abs(plant.load), duration)
-        waves = abs(self.full.inputs.frequency_ratio)
-        searches = int(MAX_SEARCH_STEPS / (1.0 + waves / SEARCH_WAVES))
-        most = searches if ride.searches else MAX_SLOW_STEPS
         slow_pass = SlowPass(
             ride.acceleration,
             fast.velocity,
@@ -299,7 +324,7 @@ class OrbitLaw:
             step,
             step_size,
             may_settle=drift == 0.0 and not ride.searches,
-            most=most // PYTHON_SLOWDOWN,
+            most=MAX_SLOW_STEPS // PYTHON_SLOWDOWN,
             beat=ride.slow.beat,
             to_kink=ride.first.to_kink,
         )
@@ -320,11 +345,17 @@ class OrbitLaw:
             if 0.0 < mark < duration:
                 before = reached.step
                 reached = slow_pass.reach(mark, reached)
+                if ride.unknown.angle > 0.0:
+                    return None
                 reached = reached._replace(step=max(reached.step, before))
                 marks.append((mark, moment_at(0.0)[0].position - start))
         reached = slow_pass.reach(duration, reached)
+        if ride.unknown.angle > 0.0:
+            return None
         reached = reached._replace(t=duration)
         there, swing, beyond = moment_at((now.theta + w * duration) % tau)
+        if ride.unknown.angle > 0.0:
+            return None
         travelled = there.position - start
 
         def travel_at(t: float) -> float:

@@ -10,7 +10,7 @@ from .bristle import bristle_of
 from .device import Device, Inputs
 from .fast_vibration import fast_vibration
 from .friction_laws import friction_law_of
-from .held_orbit import HeldOrbit, NoOrbitError, held_orbit_at, steady_orbit_at
+from .held_orbit import HeldOrbit, NoOrbitError, check_stable, held_orbit_at, steady_orbit_at
 from .orbit_motion import has_slow_motion
 from .orbit_ride import orbit_phase_of
 from .orbit_tables import orbit_map
@@ -61,6 +61,7 @@ def _steady(period_map: PeriodMap, lead: float, load: float, first: float) -> He
             orbit = held_orbit_at(period_map, lead, first)
             orbit = steady_orbit_at(period_map, lead, load, orbit)
             if abs(orbit.velocity - first) <= SAME * period_map.speed:
+                check_stable(period_map, orbit)
                 return orbit
         except NoOrbitError:
             pass

@@ -8,7 +8,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import cos, pi
 
-from .held_orbit import HeldOrbit, NoOrbitError, OrbitStatus, held_orbit_at, steady_orbit_at
+from .held_orbit import (
+    HeldOrbit,
+    NoOrbitError,
+    OrbitStatus,
+    check_stable,
+    held_orbit_at,
+    is_same_orbit,
+    steady_orbit_at,
+)
 from .period_map import PeriodMap
 
 SAMPLES = 12
@@ -61,8 +69,9 @@ def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
     """The steady motion under `load` [N] to which motion at other velocities tends.
 
     Orbits at a few velocities tell how many there are. Raises NoOrbitError: RUNS_AWAY for none,
-    UNDETERMINED for several, NOT_CONVERGED beyond `MAX_SPEED`, and the reason of the last failure
-    where no orbit was found.
+    UNDETERMINED for several, at other velocities or at this one, UNSTABLE for one that motion
+    leaves, NOT_CONVERGED beyond `MAX_SPEED`, and the reason of the last failure where no orbit was
+    found.
     """
     if not period_map.speed < MAX_SPEED:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
@@ -81,12 +90,22 @@ def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
     scan.on(reach, load + sliding, sample)
     if len(scan.brackets) + scan.stretches != 1:
         raise NoOrbitError(OrbitStatus.UNDETERMINED if scan.brackets else failure)
-    return _refined(period_map, lead, load, *scan.brackets[0])
+    orbit = _refined(period_map, lead, load, *scan.brackets[0])
+    check_stable(period_map, orbit)
+    try:
+        other = held_orbit_at(period_map, lead, orbit.velocity)
+    except NoOrbitError:
+        return orbit
+    if not is_same_orbit(period_map, orbit, other):
+        raise NoOrbitError(OrbitStatus.UNDETERMINED)
+    return orbit
 
 
 def blocking_force(period_map: PeriodMap, lead: float) -> float:
     """The load [N] that stops the slider. Raises NoOrbitError."""
-    return -held_orbit_at(period_map, lead, 0.0).friction
+    orbit = held_orbit_at(period_map, lead, 0.0)
+    check_stable(period_map, orbit)
+    return -orbit.friction
 
 
 def _refined(
