@@ -102,7 +102,9 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     Moment there;
     orbit->lead = lead_of(law, now);
     orbit_visit(&orbit->leads, orbit->lead);
-    orbit_pay(law, orbit, orbit->lead);
+    if (orbit_is_due(law, orbit)) {
+        orbit_pay(law, orbit, orbit->lead);
+    }
     ride_begin(&ride, law, now, orbit->lead);
     const PeriodMap *map = ride.map;
     double share = map->law.held.plant.mass_fraction;
@@ -197,11 +199,6 @@ static bool adapt(const Law *law, Moment *now) {
         resolve_for(orbit, resolved_angle(law, now));
     }
     bool resolved = orbit->stage == RESOLVED;
-    if (starts && drifts) {
-        /* Orbits over all leads cost more than most runs: also those of the start have to pay. */
-        resolve_for(orbit, orbit_price(law, orbit, 0.0, false));
-        return true;
-    }
     if (resolved ? starts || !changed : !(changed || loaded || drifts)) {
         return true;
     }
@@ -380,6 +377,10 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     orbit->grazed = orbit->grazed || point.beyond;
     orbit->lead = ride_lead(&ride, duration);
     if (slow_phase_drifts(&ride.slow)) {
+        orbit->waited += w * duration;
+        if (orbit_is_due(law, orbit)) {
+            orbit_pay(law, orbit, orbit->lead);
+        }
         orbit->lead = within_turn(orbit->lead);
     }
     return true;

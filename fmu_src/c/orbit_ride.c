@@ -5,6 +5,7 @@
 
 #include "constants.h"
 #include "contact.h"
+#include "orbit_price.h"
 #include "state.h"
 
 /* Rates of the motion over the drive frequency up to which a turn of the drive is resolved often enough to
@@ -66,6 +67,9 @@ void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double le
     ride->map = orbit_map_of(law->orbits, device, &ride->slow);
     ride->lead = lead;
     ride->source = orbit_source_of(orbit, device, slow_phase_drifts(&ride->slow));
+    if (ride->source == FROM_SERIES && !orbit_has_series(&orbit->paid, ride->slow.waves)) {
+        ride->source = FROM_SEARCH;
+    }
     ride->first = slow_friction_of(law, moment->theta, moment->psi);
     ride->searched = false;
     ride->unknown = 0.0;

@@ -15,6 +15,11 @@ enum { SAMPLES = 12, MAX_HALVINGS = 60 };
 /* Amplitude [m/s] of the vibration from which on squares leave the range of numbers: no iteration ends. */
 #define MAX_SPEED 1e150
 
+/* Distance in v_q of velocities from which orbits lead to others of the velocity between them, and velocity
+ * from which on the slider does not turn back, of further ones. */
+#define BESIDE 0.1
+#define FAR 2.0
+
 /* Force, over full friction, that is rounding or the tolerance of a map. */
 #define NOISE 1e-9
 
@@ -101,12 +106,6 @@ OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrb
     if (status == ORBIT_FOUND) {
         status = held_orbit_check_stable(map, orbit);
     }
-    HeldOrbit other;
-    if (status == ORBIT_FOUND &&
-        held_orbit_at(map, lead, orbit->velocity, NULL, &other) == ORBIT_FOUND &&
-        !is_same_orbit(map, orbit, &other)) {
-        status = ORBIT_UNDETERMINED;
-    }
     return status;
 }
 
@@ -117,4 +116,19 @@ OrbitStatus blocking_orbit(const PeriodMap *map, double lead, HeldOrbit *orbit, 
     }
     *force = status == ORBIT_FOUND ? -orbit->friction : 0.0;
     return status;
+}
+
+bool is_unique(const PeriodMap *map, const HeldOrbit *orbit) {
+    double velocity = orbit->velocity;
+    const double starts[] = {velocity - BESIDE * map->speed, velocity + BESIDE * map->speed,
+                             -FAR * map->speed, FAR * map->speed};
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
+        HeldOrbit neighbour, other;
+        if (held_orbit_at(map, orbit->lead, starts[i], NULL, &neighbour) == ORBIT_FOUND &&
+            held_orbit_at(map, orbit->lead, velocity, &neighbour, &other) == ORBIT_FOUND &&
+            !is_same_orbit(map, orbit, &other)) {
+            return false;
+        }
+    }
+    return true;
 }

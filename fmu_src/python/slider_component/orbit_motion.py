@@ -25,7 +25,7 @@ from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
-from .orbit_price import orbit_price, with_paid
+from .orbit_price import is_due, orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
 from .orbit_state import MAX_TUNINGS, OrbitState, OrbitValues, PaidTables, Stage, Swing
 from .oscillator import free_response
@@ -193,18 +193,12 @@ class OrbitLaw:
         paid = PaidTables() if driven or tuned else orbit.paid
         orbit = orbit._replace(under=present, tunings=tunings, paid=paid)
         starts = orbit.stage == Stage.RESOLVED and orbit.waited == 0.0
-        drifts = orbit_phase_of(device, present.ratio).drift != 0.0
         if shaken:
             angle = resolved_angle(device, self.fast, now.state, now.theta)
             orbit = orbit.resolved_for(angle)
         now.orbit = orbit
         ratio = self.full.inputs.frequency_ratio
         resolved = orbit.stage == Stage.RESOLVED
-        if starts and drifts:
-            # Orbits over all leads cost more than most runs: also those of the start have to pay.
-            price = orbit_price(device, ratio, orbit, 0.0, changed=False)
-            now.orbit = orbit.resolved_for(price)
-            return now
         if (starts or not changed) if resolved else not (changed or loaded):
             return now
         lead = self._lead(now) if tuned or led or resolved else orbit.lead
@@ -233,7 +227,8 @@ class OrbitLaw:
         """
         orbit, lead = now.orbit, self._lead(now)
         ratio = self.full.inputs.frequency_ratio
-        orbit = with_paid(self.full.device, ratio, orbit, lead)
+        if is_due(self.full.device, ratio, orbit):
+            orbit = with_paid(self.full.device, ratio, orbit, lead)
         now.orbit = orbit = orbit._replace(lead=lead, leads=orbit.leads.visited(lead))
         ride = self._ride(now, lead)
         share = ride.map.held.plant.mass_fraction
@@ -366,6 +361,11 @@ class OrbitLaw:
 
         means, theta = now.means.advanced(duration, now.theta, w, False, travel_at, travelled)
         lead = ride.lead_at(duration)
+        if drift != 0.0:
+            orbit = orbit._replace(waited=orbit.waited + w * duration)
+            ratio = self.full.inputs.frequency_ratio
+            if is_due(self.full.device, ratio, orbit):
+                orbit = with_paid(self.full.device, ratio, orbit, lead)
         return replace(
             now,
             state=there.state,

@@ -194,6 +194,8 @@ def begin_ride(
     slow = orbit_phase_of(device, ratio)
     turns, waves, drift = slow.turns or 1, slow.waves, slow.drift
     source = orbit_source_of(orbit, device, drifts=drift != 0.0)
+    if source == OrbitSource.SERIES and not orbit.paid.has_series_of(waves):
+        source = OrbitSource.SEARCH
     period_map = orbit_map(device, waves, turns)
     searches = source == OrbitSource.SEARCH
     table: OrbitTable
