@@ -25,8 +25,11 @@ from slider_resonator.studies.trade.result import (
 PANELS = ("position", "mean_velocity")
 """The quantities in the picture."""
 OURS = {"native": "#1f5f8b", "Python": "#6fa8d0"}
-FIDELITY_MARKERS = {2: "o", 1: "s", 0: "^"}
-PEER_MARKERS = "DvPX*<>ph8dH"
+MARKERS = {(2, None): "o", (1, None): "s", (0, 1): "^", (0, 2): "d", (0, None): "^"}
+"""Markers of our FMUs, by fidelity and averaging order."""
+NAME_HEIGHTS = {(1, "native"): 17, (0, "native"): 7, (2, "native"): 7}
+"""Heights [pt] of the names of our FMUs over their cheapest points, by fidelity and build."""
+PEER_MARKERS = "DvPX*<>ph8|H"
 PEER_COLOURS = (
     *("#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"),
     *("#17becf", "#333333", "#b8860b", "#7a0177"),
@@ -93,6 +96,7 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
         )
     answers = all(row.answer != "run" for row in drawn)
     per = "answer" if answers else "simulated second"
+    axes.margins(y=0.1)
     axes.set(xscale="log", yscale="log", xlabel=f"CPU time per {per} [s]")
 
 
@@ -100,10 +104,11 @@ def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
     """Label our FMUs."""
     for family in families([row for row in rows if row.kind != PEER]):
         cheapest = min((row for row in rows if row.family == family), key=lambda row: row.cost)
+        build = family.split()[0]
         axes.annotate(
             family.replace(" FMU, fidelity ", " "),
             (cheapest.cost, _shown(cheapest, quantity)),
-            xytext=(0, 7) if family.startswith("native") else (0, -16),
+            xytext=(0, NAME_HEIGHTS.get((cheapest.fidelity or 0, build), -16)),
             textcoords="offset points",
             fontsize=8,
             color=_our_colour(family),
@@ -134,6 +139,6 @@ def _looks(trade: Trade) -> dict[str, _Look]:
         if row.kind != PEER:
             colour = _our_colour(row.family)
             other = "instead" in row.family or "output" in row.family
-            marker = "X" if other else FIDELITY_MARKERS[row.fidelity or 0]
+            marker = "X" if other else MARKERS[row.fidelity or 0, row.averaging_order]
             looks[row.family] = _Look(colour, marker, 0.8 if row.kind == AVERAGED else 2.0)
     return looks
