@@ -292,6 +292,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     OrbitRide ride, *rider = &ride;
     OrbitState *orbit = &now->orbit;
     ride_begin(&ride, law, now, orbit->lead);
+    ride_within(&ride, duration);
     const Plant *plant = &law->held.plant;
     double w = plant->drive_frequency, length = TAU / w;
     double share = device_mass_fraction(&law->device);

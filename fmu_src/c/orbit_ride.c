@@ -18,6 +18,11 @@
 /* Turns for which motion is resolved where there is no orbit, until one is looked for again. */
 #define MISSED_TURNS 100.0
 
+/* Period maps for searches up to which a step has them, however short it is, and further ones for each turn of
+ * the drive in it: where they take more, motion is resolved. */
+#define SEARCH_MAPS 300.0
+#define SEARCH_MAPS_IN_TURN 20.0
+
 /* Waves of the normal load in a turn of the drive up to which orbits are found in some seconds. */
 #define MAX_ORBIT_WAVES 30.0
 
@@ -82,6 +87,14 @@ void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double le
         ride->curve = orbit_curve_of(law->orbits, device, &ride->slow, lead, combined);
     } else if (ride->source == FROM_SERIES) {
         ride->series = orbit_series_of(law->orbits, device, &ride->slow);
+    }
+}
+
+void ride_within(OrbitRide *ride, double duration) {
+    double turns = ride->law->device.drive_frequency * duration / TAU;
+    if (ride->source == FROM_SEARCH && !(turns > ride->max_maps)) {
+        int most = (int)(SEARCH_MAPS + SEARCH_MAPS_IN_TURN * turns);
+        ride->max_maps = most < ride->max_maps ? most : ride->max_maps;
     }
 }
 

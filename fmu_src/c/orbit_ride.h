@@ -41,6 +41,9 @@ OrbitSource orbit_source_of(const OrbitState *orbit, const Device *device, bool 
 /* Begin a ride at `lead` [rad] with the phases of a moment. */
 void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead);
 
+/* Bound the maps of a ride that searches by the turns in `duration` [s]. */
+void ride_within(OrbitRide *ride, double duration);
+
 /* The lead [rad] at time `t` [s] from the beginning. */
 double ride_lead(const OrbitRide *ride, double t);
 

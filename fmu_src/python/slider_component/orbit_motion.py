@@ -106,7 +106,7 @@ class OrbitLaw:
         if not left * self.full.plant.drive_frequency > 0.0:
             return now
         if now.orbit.stage != Stage.RESOLVED:
-            ride = self._ride(now, now.orbit.lead)
+            ride = self._ride(now, now.orbit.lead).within(left)
             followed = self._followed(now, ride, left, duration)
             if followed is not None:
                 return followed

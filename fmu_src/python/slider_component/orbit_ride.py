@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum, auto
 from math import cos, floor, inf, nan, remainder, sin, sqrt, tau
 
@@ -81,6 +81,13 @@ MISSED_TURNS = 100.0
 """Turns for which motion is resolved where there is no orbit, until one is looked for again."""
 
 
+SEARCH_MAPS = 300.0
+"""Period maps for searches up to which a step has them, however short it is."""
+
+SEARCH_MAPS_IN_TURN = 20.0
+"""Further ones for each turn of the drive in it: where they take more, motion is resolved."""
+
+
 @dataclass(slots=True)
 class Unknown:
     """The drive `angle` [rad] for which motion has to be resolved instead; 0 where all is known."""
@@ -107,6 +114,14 @@ class OrbitRide:
     load: float
     max_maps: int
     unknown: Unknown = field(default_factory=Unknown)
+
+    def within(self, duration: float) -> OrbitRide:
+        """The ride over `duration` [s], in which searches may take so many maps a turn."""
+        turns = self.map.held.plant.drive_frequency * duration / tau
+        if not self.searches or turns > self.max_maps:
+            return self
+        most = int(SEARCH_MAPS + SEARCH_MAPS_IN_TURN * turns)
+        return replace(self, max_maps=min(self.max_maps, most))
 
     def lead_at(self, t: float) -> float:
         """The lead [rad] at time `t` [s] from the beginning."""
