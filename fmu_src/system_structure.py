@@ -15,6 +15,7 @@ from xml.etree import ElementTree as ET
 from fmu_src import __version__
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.units import UNITS
+from fmu_src.xml_text import xml_bytes
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _NAMESPACES = {
@@ -111,7 +112,7 @@ def structure(
     ET.SubElement(
         root, "ssd:DefaultExperiment", {"startTime": "0.0", "stopTime": repr(system.stop_time)}
     )
-    return _document(root)
+    return xml_bytes(root)
 
 
 def parameter_set(system: System, parameters: ParameterValues) -> bytes:
@@ -121,7 +122,7 @@ def parameter_set(system: System, parameters: ParameterValues) -> bytes:
     """
     root = _root("ssv:ParameterSet", parameters.name, f"Parameters of {system.name}")
     _add_parameters(root, {end: (system.variable(end), v) for end, v in parameters.values.items()})
-    return _document(root)
+    return xml_bytes(root)
 
 
 def _bind(
@@ -199,9 +200,3 @@ def _add_units(root: ET.Element, variables: Iterable[Variable], prefix: str = "s
         if name in used:
             element = ET.SubElement(units, "ssc:Unit", {"name": name})
             ET.SubElement(element, "ssc:BaseUnit", {b: str(e) for b, e in unit.exponents.items()})
-
-
-def _document(root: ET.Element) -> bytes:
-    ET.indent(root)
-    text = ET.tostring(root, encoding="unicode")
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()

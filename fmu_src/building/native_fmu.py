@@ -20,7 +20,7 @@ from fmu_src.building.compiling import (
 )
 from fmu_src.building.content import digest_of, guid_of, icon_and_licences
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
-from fmu_src.building.platforms import HOST, host_platform, platforms_named
+from fmu_src.building.platforms import HOST, Platform, host_platform, platforms_named
 from fmu_src.building.web_page import NAME as PAGE
 from fmu_src.building.web_page import UPLOT_LICENCE, page_files, web_page
 from fmu_src.documentation import documentation_page
@@ -99,8 +99,8 @@ def build_model(
     """Build a native FMU in the folder `dest` (created if missing) and return its path.
 
     `platforms` are names of `platforms_of` or `host`; none means all and the page for browsers, or
-    `host` with a `compiler`.
-    The default compiler is ziglang, which compiles for all; `compiler` is one for this machine.
+    `host` with a `compiler`. The default compiler is ziglang, which compiles for all; `compiler` is
+    one for this machine.
 
     The file is replaced atomically. Its bytes depend on the sources, the compiler, the FMI headers
     of fmpy, the version of zlib and the environment variable SOURCE_DATE_EPOCH, which sets the date
@@ -110,15 +110,7 @@ def build_model(
     """
     check_folder(dest)
     date = date_of_build()
-    here = host_platform(model.version) if compiler else None
-    chosen = platforms_named([HOST] if compiler and not platforms else platforms, model.version)
-    tool = default_compiler() if compiler is None else named_compiler(compiler)
-    if here is not None and chosen != [here]:
-        names = ", ".join(p.name for p in chosen)
-        raise BuildError(
-            f"compiler {compiler!r} refused for {names}: must be {here.name}, the "
-            "platform of this machine; ziglang compiles for the others"
-        )
+    tool, chosen = _toolchain(model.version, platforms, compiler)
     generation_tool = _generation_tool(tool)
     files = _FILES[model.version](model)
     files["documentation/index.html"] = documentation_page(
@@ -142,6 +134,24 @@ def build_model(
     files |= compile_binaries(code, model.name, chosen, tool, progress, model.version)
     files["modelDescription.xml"] = _description(model, generation_tool, guid, date)
     return write_archive(dest, model.name, files)
+
+
+def _toolchain(
+    version: FmiVersion, platforms: Sequence[str], compiler: str | None
+) -> tuple[Compiler, list[Platform]]:
+    """Return the compiler and the platforms for which it compiles; see `build_model`."""
+    if compiler is None:
+        return default_compiler(), platforms_named(platforms, version)
+    here = host_platform(version)
+    chosen = platforms_named(platforms or [HOST], version)
+    tool = named_compiler(compiler)
+    if chosen != [here]:
+        names = ", ".join(p.name for p in chosen)
+        raise BuildError(
+            f"compiler {compiler!r} refused for {names}: must be {here.name}, the platform of this "
+            "machine; ziglang compiles for the others"
+        )
+    return tool, chosen
 
 
 def _encoded(code: Mapping[str, str]) -> dict[str, bytes]:

@@ -6,7 +6,7 @@
 
 #include "state.h"
 
-/* `angle` [rad] modulo 2 pi, from 0 up to 2 pi; exact for angles from 0 up. */
+/* `angle` [rad] modulo 2 pi, in [0, 2 pi); exact for angles >= 0. */
 static inline double within_turn(double angle) {
     if (angle >= 0.0 && angle < 2.0 * TAU) {
         return angle < TAU ? angle : angle - TAU;

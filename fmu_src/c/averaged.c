@@ -10,25 +10,27 @@
 #include "refusal.h"
 #include "state.h"
 
-/* Halvings of [0, pi] in which the angle of balance is found, and those that settle which of
- * several it is. */
+/* Halvings of [0, pi] in which bisection finds the angle of balance; the first of these, which select
+ * one of several balances; evaluations of Chandrupatla's method; halvings that locate the edge of a
+ * flat balance. */
 enum { BISECTIONS = 52, SORTING = 4, MAX_EVALUATIONS = 100, EDGE_HALVINGS = 40 };
 
-/* Width [rad] to which the angle of balance is closed in upon first. */
+/* Width [rad] of the bracket at which Chandrupatla's method ends. */
 #define CLOSE 2e-15
 
-/* Width [rad] below which it does not matter where in the bracket the angle of balance is. */
+/* Width [rad] of a bracket below which any angle in it serves as the balance. */
 #define STEEP 1e-12
 
-/* Width [rad] from which on a balance is flat, and not only a weak one. */
+/* Width [rad] of a balance from which on it is flat, not just uncertain by rounding. */
 #define FLAT 3e-3
 
 /* Rounding error of a mean friction, in units of the last place of the largest friction. */
 #define ROUNDING 8.0
 
-/* Friction and load over the angle Theta at which sliding turns forward, and the `noise` of their
- * sum by rounding [N]. Where friction has a `closed` form it is that of `preload`, `sine` and
- * `cosine` [N] times its means. Where it `rises` with the angle, there may be several balances. */
+/* Friction and load as functions of the angle Theta at which sliding turns forward; `noise` is the
+ * rounding error of their sum [N]. Where friction has a `closed` form it is the sum of `preload`,
+ * `sine` and `cosine` [N] times its means. Where it `rises` with the angle there may be several
+ * balances. */
 typedef struct {
     const Law *law;
     double opposing, noise;
@@ -38,13 +40,13 @@ typedef struct {
     VibratingLoad load;
 } Balance;
 
-/* The sum of friction and load [N] at an angle Theta [rad]. */
+/* The sum of friction and load (`excess`) [N] at an angle Theta (`turning`) [rad]. */
 typedef struct {
     double turning, excess;
 } Point;
 
-/* Below `positive` friction and load together are above 0 beyond rounding, from `negative` on they
- * are below; in between they are 0, most likely at `root` [rad]. */
+/* Angles [rad]: up to `positive` the excess is above 0 beyond rounding, from `negative` on it is below
+ * 0. In between it is 0 within rounding; `root` is the best estimate. */
 typedef struct {
     double positive, negative, root;
 } Bracket;
@@ -81,7 +83,7 @@ static Point point_at(const Balance *balance, double turning) {
     return (Point){turning, friction_at(balance, turning) + balance->opposing};
 }
 
-/* The same, by a form that takes less time where there is one. */
+/* The same, by the closed form where there is one: it takes less time. */
 static Point point_near(const Balance *balance, double turning) {
     if (!balance->closed) {
         return point_at(balance, turning);
@@ -93,7 +95,7 @@ static Point point_near(const Balance *balance, double turning) {
                                 balance->cosine * means.cosine + balance->opposing};
 }
 
-/* Takes in a point; returns whether its sign is certain. */
+/* Narrows the bracket by a point; returns whether the sign of its excess is certain. */
 static bool bracket_narrows(Bracket *bracket, const Balance *balance, Point point) {
     if (!(fabs(point.excess) > balance->noise)) {
         return false;
@@ -106,8 +108,8 @@ static bool bracket_narrows(Bracket *bracket, const Balance *balance, Point poin
     return true;
 }
 
-/* Whether inverse quadratic interpolation from the newest point `a` on the way to `b` may be
- * trusted, `c` being the point before; gives the `share` of the way. */
+/* Inverse quadratic interpolation through the newest point `a`, the opposite one `b` and the one before,
+ * `c`: gives the `share` of the way from a to b, and returns whether Chandrupatla's criterion accepts it. */
 static bool interpolates(Point a, Point b, Point c, double *share) {
     double xi = (a.turning - b.turning) / (c.turning - b.turning);
     double phi = (a.excess - b.excess) / (c.excess - b.excess);
@@ -117,9 +119,8 @@ static bool interpolates(Point a, Point b, Point c, double *share) {
     return phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
 }
 
-/* Closes in on the balance by Chandrupatla's method: inverse quadratic interpolation where three
- * points allow it, and bisection otherwise. The excess is above 0 at `low` and not at `high`;
- * `next` is between. */
+/* Chandrupatla's method: inverse quadratic interpolation where its criterion accepts it, bisection
+ * otherwise. The excess is above 0 at `low` and not at `high`; `next` is between. */
 static Bracket close_in(const Balance *balance, Point low, Point next, Point high) {
     Point newest = high, other = low;
     Bracket bracket = {low.turning, high.turning, 0.0};
@@ -130,12 +131,12 @@ static Bracket close_in(const Balance *balance, Point low, Point next, Point hig
             other = newest;
         }
         newest = next;
-        double width = other.turning - newest.turning, least = CLOSE / fabs(width), share;
-        if (!bracket_narrows(&bracket, balance, newest) || !(least < 0.5)) {
+        double width = other.turning - newest.turning, min_share = CLOSE / fabs(width), share;
+        if (!bracket_narrows(&bracket, balance, newest) || !(min_share < 0.5)) {
             break;
         }
         share = interpolates(newest, other, before, &share) ? share : 0.5;
-        share = fmin(fmax(share, least), 1.0 - least);
+        share = fmin(fmax(share, min_share), 1.0 - min_share);
         next = point_near(balance, newest.turning + share * width);
     }
     bracket.root = fabs(newest.excess) < fabs(other.excess) ? newest.turning : other.turning;
@@ -159,7 +160,8 @@ static double flat_edge(const Balance *balance, double outside, double inside, d
     return inside;
 }
 
-/* Where a range begins in which friction and load balance at all angles [rad]; NAN without one. */
+/* The lower end [rad] of the range in which friction and load balance; NAN where it is narrower than
+ * FLAT. */
 static double flat_from(const Balance *balance, const Bracket *bracket) {
     if (fabs(point_at(balance, bracket->root).excess) > balance->noise) {
         return NAN;
@@ -169,9 +171,9 @@ static double flat_from(const Balance *balance, const Bracket *bracket) {
     return end - begin > FLAT ? begin : NAN;
 }
 
-/* Angle at which friction and load balance [rad]: that of plain bisection, less the evaluations
- * whose outcome is known. On a flat balance (even ratios, with flight while sliding turns) it is the
- * end of the highest velocity; a weak one is as uncertain as rounding makes it. */
+/* Angle at which friction and load balance [rad]: the result of plain bisection, but signs that the
+ * bracket already implies are not evaluated. On a flat balance (even ratios, with flight while sliding
+ * turns) it is the end of the highest velocity. On a weak one it is uncertain by rounding. */
 static double balanced_turning(const Balance *balance, Point low, Point halfway, Point high) {
     int done = 0;
     for (; done < (balance->rises ? SORTING : 0); done++) {
@@ -227,8 +229,8 @@ TheoryRange theory_range(const Law *law) {
     return range;
 }
 
-/* Whether the vibration overcomes the mean `friction` [N] of sliding by itself, with the amplitude
- * `force` [N] with which it moves the pair, and with that on a held slider. */
+/* Whether the vibration alone overcomes the mean `friction` [N] of sliding: the amplitude `force` [N] of
+ * its force on the pair must, and so must that of its force on a held slider. */
 static bool breaks_loose(const Balance *balance, double force, double friction) {
     const Bristle *bristle = &balance->law->bristle;
     double w = balance->fast.frequency, amplitude = balance->fast.velocity / w;
@@ -247,7 +249,7 @@ Averaged averaged(const Law *law, double normal_lead) {
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
     double load = law->inputs.load;
     if (first == last) {
-        /* Nothing holds the slider back: every velocity is steady, or with a load none. */
+        /* No friction: every velocity is steady without a load, and none with one. */
         double fastest = load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
         return (Averaged){fastest, 0.0, false};
     }

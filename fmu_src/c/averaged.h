@@ -18,9 +18,9 @@ typedef struct {
     bool valid;
 } Averaged;
 
-/* Numbers that are all finite where averaged theory stays in the range of floating point: the fast
- * velocity [m/s]; the drag of that or of the start, whichever is faster, over mu; and a bound on
- * integrals of load and friction [N], with bristles bent as at the start. */
+/* Averaged theory stays in the range of floating point where all of these are finite: the fast velocity
+ * [m/s]; the drag over mu at the fast or the initial velocity, whichever is larger; and a bound on
+ * integrals of load and friction [N], with the initial bristle deflection. */
 typedef struct {
     double velocity, drag, strongest;
 } TheoryRange;
@@ -29,10 +29,10 @@ TheoryRange theory_range(const Law *law);
 
 /* Averaged theory of the device and inputs of a law (eqs 20-22 with both faces).
  *
- * `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where the
- * load exceeds full friction the velocity is the limit v_q of the theory, with its sign; both are 0
- * without vibration, and where undamped resonance leaves no steady vibration. In these cases, and
- * where the vibration does not break the contact loose, they are not `valid`. */
+ * `normal_lead` [rad] is psi - n theta, which earlier changes of the ratio make different from 0. Where
+ * the load exceeds full friction the velocity is the limit v_q of the theory, with its sign. Both
+ * results are 0 without vibration, and where undamped resonance leaves no steady vibration. In these
+ * cases, and where the vibration does not break the contact loose, they are not `valid`. */
 Averaged averaged(const Law *law, double normal_lead);
 
 #endif

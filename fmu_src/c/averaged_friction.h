@@ -1,4 +1,4 @@
-/* What a friction law is to averaged motion: its means over a turn of the drive under fast vibration.
+/* The interface of a friction law to averaged motion: means over a turn of the drive.
  *
  * The slider moves with V - v_q cos(tau), so that it slides forward while tau is in (Theta, 2 pi -
  * Theta) with Theta = arccos(V / v_q). */
@@ -15,14 +15,14 @@ typedef struct {
     double velocity, frequency;
 } FastMotion;
 
-/* Friction per unit load over a turn of tau, times 1, sin(n tau) and cos(n tau): its means. */
+/* Means over a turn of tau of the friction per unit load, times 1, sin(n tau) and cos(n tau). */
 typedef struct {
     double plain, sine, cosine;
 } FrictionMeans;
 
 /* `turning` is Theta [rad], in [0, pi]. */
 typedef struct {
-    /* Whether means cost a quadrature each, and are better tabulated. */
+    /* Whether each mean costs a quadrature, so that a table of means pays. */
     bool is_expensive;
 
     /* Largest friction per unit load that resists a vibration of this amplitude [m] and frequency
@@ -37,8 +37,8 @@ typedef struct {
     double (*mean)(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
                    double turning);
 
-    /* What the mean friction is made of under a load N0 + dN sin(n tau + delta), n not 0: per face it
-     * is N0 plain + dN (cos(delta) sine + sin(delta) cosine). */
+    /* The parts of the mean friction under a load N0 + dN sin(n tau + delta), n not 0: per face it is
+     * N0 plain + dN (cos(delta) sine + sin(delta) cosine). */
     FrictionMeans (*means)(const Bristle *bristle, const FastMotion *fast, double n,
                            double turning);
 } AveragedFriction;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* |z t| below which exp(z t) - 1 - z t is a series, and its terms. */
+/* |z t| up to which exp(z t) - 1 - z t is summed as a series, and the terms of that. */
 #define SOON 0.25
 enum { TERMS = 12 };
 
@@ -97,7 +97,7 @@ static void prepare(BendingKernels *kernels, const GaussNodes *gauss, const Plan
     kernels->end_free = turned[count];
 }
 
-/* Whether the tables are of this plant; normal frequency apart. */
+/* Whether the tables are those of this plant, at any normal frequency. */
 static bool fit(const BendingTables *tables, const Plant *plant) {
     Complex eigenvalue = plant->slip.eigenvalue;
     return tables->slider_mass == plant->slider_mass &&

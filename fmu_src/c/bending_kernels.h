@@ -1,5 +1,5 @@
-/* What a panel of sliding on a bending bristle needs of the device: closed forms at its Gauss nodes,
- * and how the slider responds to forces at them.
+/* Tables for a panel of sliding on a bending bristle: closed forms of the motion at its Gauss nodes, and
+ * the response of the slider to forces at these nodes.
  *
  * A force f on the slider adds to its displacement the integral of G(t - tau) f(tau), with
  *
@@ -15,7 +15,7 @@
 #include "gauss_nodes.h"
 #include "plant.h"
 
-/* Points and the end once more, for their number to be even. */
+/* The points of a panel, with the end repeated to make their number even. */
 enum { MAX_ROW = MAX_POINTS + 1 };
 
 /* Complex numbers at the points of a panel. */
@@ -23,17 +23,17 @@ typedef struct {
     double re[MAX_ROW], im[MAX_ROW];
 } ComplexRow;
 
-/* What is left of forces over a panel: impulse [N s], its moment about the start [N s^2], and the real and
- * imaginary part of int exp(-lambda t) f dt [N s]. */
+/* Integrals of a force f over a panel that decide on the motion after it: impulse [N s], moment of the
+ * impulse about the start [N s^2], real and imaginary part of int exp(-lambda t) f dt [N s]. */
 enum { IMPULSE, LEVER, BACK_RE, BACK_IM, LEFT };
 
 /* At the points of a panel of one `length` [s], its nodes and its end: `time` [s], `response` G [m/(N s)],
  * `turn` exp(i q t), and `drive`, `normal` and `free`, int (exp(z s) - 1) ds from 0 to t [s] for
  * z = i w, i q and lambda; `end_drive` and `end_free` are exp(z t) at the end.
  *
- * Of forces at the nodes, first index, `travel` [m/N] makes displacements by G at the points, and of
- * impulses b that change them by b', `speed` [m/(N s)] by G'; so do `left_even` and `left_late` what is left
- * of them. `back` is exp(-lambda t) at the nodes. */
+ * Matrices, the node as first index: `travel` [m/N] turns forces a into displacements at the points (by
+ * G), `speed` [m/(N s)] does so for impulses b, which act as forces b' (by G'). `left_even` and
+ * `left_late` turn a and b into the integrals over the panel. `back` is exp(-lambda t) at the nodes. */
 typedef struct {
     const GaussNodes *gauss;
     bool has_normal;
@@ -44,15 +44,15 @@ typedef struct {
     double left_even[MAX_NODES][LEFT], left_late[MAX_NODES][LEFT];
 } BendingKernels;
 
-/* Longest panel over what is asked for. */
+/* Largest length of a panel over the length asked for. */
 #define MAX_KERNELS_STEP 1.0906
 
-/* Lengths per octave, and tables that are kept. */
+/* Panel lengths per octave, and number of tables kept. */
 enum { LENGTHS_PER_OCTAVE = 8, KEPT_KERNELS = 12 };
 
-/* A cache of kernels, for use at one place in memory; zeroed memory holds none. Those of another plant are
- * dropped, with another normal frequency only what depends on it. `key` tells length and nodes of those
- * kept, 0 of none, and `oldest` is replaced next. */
+/* A cache of kernels, which must not move in memory; zeroed memory is an empty cache. A change of the plant
+ * empties it; a change of the normal frequency drops only what depends on that. `key` encodes length and
+ * nodes of each kernel kept, 0 for none; `oldest` is the one to be replaced next. */
 typedef struct BendingTables {
     GaussNodes gauss[NODE_COUNTS];
     double slider_mass, total_mass, mass_fraction, drive_frequency, normal_frequency;
@@ -61,12 +61,13 @@ typedef struct BendingTables {
     BendingKernels kept[KEPT_KERNELS];
 } BendingTables;
 
-/* The row of what is left of a force a and of an impulse b at `time` [s] that act with a `weight` [s]. */
+/* The integrals of a unit force a and of a unit impulse b at `time` [s], with a `weight` [s] of the
+ * quadrature. */
 void bending_left(Complex eigenvalue, Complex back, double time, double weight, double even[LEFT],
                   double late[LEFT]);
 
-/* The kernels of the shortest panel of the grid that lasts `length` > 0 [s] or longer, for one of the
- * numbers of nodes that there are. They stay until others are asked for. */
+/* The kernels of the shortest panel of the grid of lengths that lasts at least `length` > 0 [s], with
+ * `nodes` nodes. They are valid until the next call. */
 BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length,
                                    int nodes);
 

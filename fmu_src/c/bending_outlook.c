@@ -4,40 +4,42 @@
 
 #include "gauss_nodes.h"
 
-/* Exponent of E at which its decay is looked at first. */
+/* Exponent of E at which the decay of f is first estimated. */
 #define GUESSED_EXPONENT 16.0
 
-/* Share of the tolerance that may be left of f: it has the same sign at each reversal, and adds up. */
+/* Share of the tolerance for the part of f after the panel, which is dropped. It is small because this
+ * error has the same sign at each reversal, and adds up. */
 #define LEFT_OUT 0.2
 
-/* How much longer than the time expected a panel is, to be sure. */
+/* Safety factor on the estimated length of a panel. */
 #define LONGER 1.02
 
-/* Largest force of the bristle over what moves the slider otherwise for which panels are tried. */
+/* Largest ratio of the bristle's force f to the force that moves the slider for which panels are tried. */
 #define MAX_CONTRACTION 0.3
 
-/* Largest angle [rad] of drive and normal load by which damping may lag. */
+/* Largest angle [rad] that drive or normal load may turn by within rho, the time by which damping lags. */
 #define MAX_LAG 1.0
 
-/* Angles [rad] of the fastest oscillation between which a panel is long. */
+/* Shortest and longest panel, as angles [rad] of the fastest oscillation. */
 #define MIN_ARC 1e-9
 #define MAX_ARC 2.0
 
-/* Exponent of E that must be passed, and share of a panel that must be used, for series not to be as cheap;
- * the exponent at once where the fastest oscillation turns by less than MIN_SLIDE [rad]. */
+/* Series are as cheap as a panel of which less than MIN_SHARE is used, and where E does not fall to
+ * exp(-MIN_EXPONENT): within MAX_ARC, or within the whole motion if that is shorter than MIN_SLIDE [rad] of
+ * the fastest oscillation. */
 #define MIN_SHARE 0.5
 #define MIN_SLIDE 1.0
 #define MIN_EXPONENT 5.0
 
-/* Share of its velocity under full friction that a slider must surely have left. */
+/* Share of its velocity under full friction that the slider is guaranteed to keep in a panel. */
 #define SURE 0.1
 
-/* Of what interpolation misses: what of it displaces the slider within the panel, and what of it is in
- * the velocity there. */
+/* Shares of the interpolation error of f that appear in the displacement, and in the velocity, within the
+ * panel. */
 #define DISPLACING 0.05
 #define WITHIN 0.1
 
-/* Share of the tolerance for which nodes are chosen. */
+/* Share of the tolerance that the number of nodes is chosen for. */
 #define NODES_SHARE 0.3
 
 /* Derivative of the acceleration under full friction [m/s^3]. */
@@ -53,8 +55,8 @@ static double jerk_of(const Plant *plant, int direction, double acceleration, co
     return jerk / plant->slider_mass;
 }
 
-/* Time [s] for `path` [m]: by speed and acceleration, then corrected by the jerk. NAN if it is not
- * travelled. */
+/* Time [s] to travel `path` [m]: from speed and acceleration, with one correction for the jerk. NAN if the
+ * slider stops before. */
 static double time_for(const BendingOutlook *outlook, double path) {
     double speed = outlook->speed, half = 0.5 * outlook->acceleration;
     double t = 2.0 * path / (speed + sqrt(speed * speed + 4.0 * half * path));
@@ -140,8 +142,8 @@ static double response_bound(const Plant *plant, double length) {
     return swing < share || slip->frequency * length < 0.5 ? share + swing : NAN;
 }
 
-/* A parabola is below the velocity under full friction. f takes from it at most what comes with E' < 0,
- * push rho (1 - E), and 1 - E is at most k times the path. */
+/* A parabola bounds the velocity under full friction from below. Of f only the part with E' < 0 decreases
+ * the velocity: by push rho (1 - E), where 1 - E is at most k times the path. */
 bool bending_goes_on(const BendingOutlook *outlook, const SplitSlide *slide, double length) {
     double bound = slide->bound + slide->free_bound;
     double push = outlook->push * response_bound(slide->plant, length);
@@ -153,8 +155,8 @@ bool bending_goes_on(const BendingOutlook *outlook, const SplitSlide *slide, dou
            gained - lost > SURE * gained + slide->noise;
 }
 
-/* E is entire, so its Legendre coefficients fall ever faster: those of twice the order, which integrals up
- * to the end miss, are below the square of the last one by 2^(-nodes) and more. */
+/* E is an entire function, so its Legendre coefficients fall ever faster. Integrals up to the end miss only
+ * those of twice the order, which are below 2^(-nodes) times the square of the last one. */
 double bending_error(double weight, double share, double contraction, int nodes, bool ends_within) {
     double error = weight * share * (DISPLACING * contraction + ldexp(share, -nodes / 2));
     return ends_within ? fmax(error, WITHIN * weight * share) : error;

@@ -6,11 +6,11 @@
 
 enum { MAX_CORRECTIONS = 6 };
 
-/* Share of the tolerance that ending the iteration may take. */
+/* Share of the tolerance for the error of the last iterate. */
 #define ITERATION_SHARE 0.3
 
-/* Change by a correction, over that by the one before and contraction: f acts on the path as long as E
- * remains, and ever later. */
+/* Change by a correction over the change by the one before, in units of the contraction. It is below 1
+ * because f acts on the path only while E lasts, and later with each correction. */
 #define NEXT 0.25
 
 /* Friction limit [N] (re) and its derivative [N/s] (im) at a turn of the normal load. */
@@ -50,7 +50,7 @@ static void follow_path(const BendingPanel *panel, const BendingOutlook *outlook
     }
 }
 
-/* a and b per E at the points. */
+/* a / E and b / E at the points. */
 static void prepare_forces(BendingPanel *panel, double *even, double *late) {
     const BendingKernels *kernels = panel->kernels;
     const Plant *plant = panel->slide.plant;
@@ -64,7 +64,8 @@ static void prepare_forces(BendingPanel *panel, double *even, double *late) {
     }
 }
 
-/* Adds to `sum` what forces at the nodes make of it. Constant numbers of nodes let a compiler unroll it. */
+/* Adds the product of `matrix` and the forces at the nodes to `sum`. Constant numbers of nodes let a
+ * compiler unroll the loops. */
 static inline void add_products(double *restrict sum, double (*restrict matrix)[MAX_ROW],
                                 const double *restrict forces, int nodes) {
     for (int j = 0; j < nodes; j++) {
@@ -106,14 +107,14 @@ static void displace(const BendingPanel *panel, double change[MAX_ROW]) {
     }
 }
 
-/* How strongly the first correction contracts, and E at the end; `done` where the iteration converged. */
+/* Contraction of the first correction, and E at the end (`left`); `done` where the iteration converged. */
 typedef struct {
     bool done;
     double contraction, left;
 } Iteration;
 
-/* Corrects E, and f by it, from the path under full friction on until another correction would change
- * the velocity by less than `tolerance` [m/s]; `weight` [m/s] is the largest that f could bring. */
+/* Corrects E and f, beginning with the path under full friction, until another correction would change the
+ * velocity by less than `tolerance` [m/s]; `weight` [m/s] bounds the change by f. */
 static Iteration iterate(BendingPanel *panel, const double *exponent, double weight,
                          double tolerance) {
     int count = panel->kernels->gauss->count;
@@ -146,7 +147,7 @@ static Iteration iterate(BendingPanel *panel, const double *exponent, double wei
     return at;
 }
 
-/* Adds what impulses b leave that end at `t` [s] with `late` [N s]. */
+/* Adds the integrals of the value `late` [N s] that b has at its end `t` [s]. */
 static void add_end(const Plant *plant, double left[LEFT], double t, double late) {
     Complex eigenvalue = plant->slip.eigenvalue;
     Complex back = complex_rect(late * exp(-eigenvalue.re * t), -eigenvalue.im * t);
@@ -156,7 +157,7 @@ static void add_end(const Plant *plant, double left[LEFT], double t, double late
     left[BACK_IM] += back.im;
 }
 
-/* What is left of f by what is left of forces at the nodes, b at the end apart. */
+/* The integrals of f from those of forces at the nodes, without the value of b at the end. */
 static void sum_up(const BendingPanel *panel, double (*even)[LEFT], double (*late)[LEFT],
                    double left[LEFT]) {
     int count = panel->kernels->gauss->count;
@@ -245,7 +246,7 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
     return BY_PANEL;
 }
 
-/* The motion that would go on if f were what it has been up to now. */
+/* The motion that goes on if f has given no more than `given`. */
 static SplitSlide slide_with(const BendingPanel *panel, const Given *given) {
     SplitSlide slide = panel->slide;
     split_slide_change(&slide, given->momentum - panel->all.momentum,
@@ -253,7 +254,8 @@ static SplitSlide slide_with(const BendingPanel *panel, const Given *given) {
     return slide;
 }
 
-/* The motion that goes on from `t` [s] within the panel if f ends there; `offset` [m] is to be added. */
+/* The motion that goes on if f ends at `t` [s] within the panel; `offset` [m] is to be added to its
+ * displacement. */
 static SplitSlide slide_from(const BendingPanel *panel, double t, double *offset) {
     const BendingKernels *kernels = panel->kernels;
     const Plant *plant = panel->slide.plant;

@@ -2,7 +2,7 @@
 #ifndef SLIDER_CLOCK_H
 #define SLIDER_CLOCK_H
 
-/* What is left of a step of `duration` [s], after any number of advances. */
+/* Time `elapsed` [s] of a step of `duration` [s], with the rounding error of that sum in `carry`. */
 typedef struct {
     double duration, elapsed, carry;
 } Clock;
@@ -11,7 +11,7 @@ static inline Clock clock_of(double duration) {
     return (Clock){duration, 0.0, 0.0};
 }
 
-/* Counts `t` [s] and returns what is left [s]; two-sum keeps the rounding. */
+/* Advances by `t` [s] and returns the time left [s]; two-sum keeps the rounding errors. */
 static inline double clock_advance(Clock *clock, double t) {
     double before = clock->elapsed;
     double total = before + t;

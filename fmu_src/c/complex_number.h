@@ -1,5 +1,5 @@
-/* Complex numbers as a plain struct: C99's own are missing from some compilers, and slow in others
- * for the sake of infinities that do not occur here. */
+/* Complex numbers as a plain struct. C99's complex types are missing from some compilers, and slow in
+ * others because they treat infinities, which do not occur here. */
 #ifndef SLIDER_COMPLEX_NUMBER_H
 #define SLIDER_COMPLEX_NUMBER_H
 
@@ -38,7 +38,7 @@ static inline Complex complex_conj(Complex a) {
     return complex_of(a.re, -a.im);
 }
 
-/* By hypot only where squares may leave the range of floating point. */
+/* |a|, by hypot only where squares may leave the range of floating point. */
 static inline double complex_abs(Complex a) {
     double square = a.re * a.re + a.im * a.im;
     return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(a.re, a.im);

@@ -10,7 +10,7 @@
 #include "state.h"
 #include "values.h"
 
-/* Prepare the law of `values` beside the present one, which it replaces unless it is refused. */
+/* Prepare the law of `values`; it replaces the present law unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
     if (!prepare_law(values, &component->table, &component->orbits, &component->laws[next],
@@ -82,7 +82,7 @@ static bool changes_in_place(const Component *component, const unsigned *referen
     return in_place;
 }
 
-/* The law of changed values, for a component that runs. */
+/* Change the law of a running component to `values`, which differ at `references` only. */
 static bool change(Component *component, const double values[SETTABLE_COUNT],
                    const unsigned *references, size_t count, Refusal *refusal) {
     if (!changes_in_place(component, references, count)) {
@@ -128,7 +128,8 @@ bool component_set_derivatives(Component *component, const unsigned *references,
     return true;
 }
 
-/* The moment that outputs are read from: until initialization ends the first one, put into `first`. */
+/* The moment from which outputs are read. Until initialization ends it is the first one, which is written
+ * to `first`. */
 static bool moment_to_read(Component *component, unsigned reference, Moment *first,
                            const Moment **moment, Refusal *refusal) {
     if (!reading_check(component->now.lifecycle, reference, refusal)
@@ -162,7 +163,7 @@ bool component_get(Component *component, const unsigned *references, double *val
             return refuse_infinite_output(refusal, VARIABLES[references[i]].name, found[i]);
         }
     }
-    if (count > 0) { /* of none `values` may be null */
+    if (count > 0) { /* `values` may be null for a count of 0 */
         memcpy(values, found, count * sizeof *values);
     }
     return true;
@@ -189,25 +190,25 @@ bool component_get_derivatives(Component *component, const unsigned *references,
     return true;
 }
 
-/* Time [s] that later times surely differ by from `time` [s], as numbers. */
+/* Smallest time [s] by which a later time must differ from `time` [s] to be another number. */
 static double time_resolution(double time) {
     return 2.0 * (nextafter(fabs(time), INFINITY) - fabs(time));
 }
 
-/* What rounding takes from `time` + `elapsed` [s]. */
+/* The rounding error of `time` + `elapsed` [s]. */
 static double lost_in_sum(double time, double elapsed) {
     double end = time + elapsed, added = end - time;
     return (time - (end - added)) + (elapsed - added);
 }
 
-/* How much [s] of the carry a step makes up for: at most half its size. */
+/* The part of the carry [s] that a step makes up for: at most half its size. */
 static double owed_time(double carry, double step_size) {
     double half = 0.5 * step_size;
     return carry == 0.0 ? 0.0 : fmax(-half, fmin(carry, half));
 }
 
 static void go_on(Snapshot *now, const Moment *after, double time, double elapsed) {
-    /* Without an event the age grows by the step; rounding makes up far less than half of that. */
+    /* Without an event the age grows by the step size, up to rounding. */
     if (after->event_age < elapsed + 0.5 * now->moment.event_age) {
         now->last_event_time = time + fmax(0.0, elapsed - after->event_age);
     }
@@ -216,7 +217,7 @@ static void go_on(Snapshot *now, const Moment *after, double time, double elapse
     derivatives_used(now->derivatives);
 }
 
-/* The moment after a step; with a `search`, that of the event that it finds. */
+/* The moment after a step or, with a `search`, at the event that it finds. */
 static bool advance(Component *component, double step_size, double duration, EventSearch *search,
                     Moment *after, Refusal *refusal) {
     const Snapshot *now = &component->now;

@@ -15,11 +15,10 @@
 #include "refusal.h"
 #include "snapshot.h"
 
-/* A slider-resonator. `now` is its complete state; the rest is a cache of what follows from it:
- * laws[present] is the law of the present values where `prepared`, the other place serves to try the
- * next one; `resolved` are the laws of the full device where averages of second order need them; `ramped`
- * is the step made last under inputs that vary. A component must not move in memory: its laws point to its
- * table. */
+/* A slider-resonator. `now` is its complete state, the rest a cache of what follows from it: laws[present]
+ * is the law of the present values if `prepared`, the other entry is for the law tried next; `resolved` are
+ * the laws of the full device, which averages of second order need; `ramped` is the last step under inputs
+ * that vary. A component must not move in memory: its laws point to its tables. */
 typedef struct {
     Snapshot now;
     bool prepared;
@@ -35,7 +34,7 @@ typedef struct {
 #include "component_functions.h"
 
 /* Like component_step, but end at the first reversal, stick, release, lift-off or touchdown after the
- * start, with `event` true; the present time then tells when. */
+ * start; `event` is then true, and the present time is that of the event. */
 bool component_step_to_event(Component *component, double time, double step_size, bool *event,
                              Refusal *refusal);
 

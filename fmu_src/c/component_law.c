@@ -31,8 +31,8 @@ static bool law_is_finite(const Law *law) {
     return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
 }
 
-/* Refuse values that together leave the range of floating point numbers; the text names the one that
- * is most decades away from its start. */
+/* Refuse values that together leave the range of floating point numbers; the text names the value that is
+ * the most decades away from its start value. */
 static bool refuse_extreme(const double values[SETTABLE_COUNT], Refusal *refusal) {
     size_t furthest = 0;
     double largest = -1.0;
@@ -57,7 +57,8 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
     return inputs;
 }
 
-/* Give a law what averages of second order need; the law of the full device goes to `resolved`. */
+/* Give a law its `orbits` and the law of the full device (`resolved`) if averages of second order need
+ * them. */
 static bool prepare_orbits(OrbitTables *orbits, Law *law, Law *resolved, Refusal *refusal) {
     if (law_follows_orbits(law)) {
         Device full = law->device;

@@ -13,16 +13,16 @@
 
 bool all_finite(const double *numbers, size_t count);
 
-/* The inputs among `values`, the phase within half a turn of 0 [rad]. */
+/* The inputs among `values`, with the phase reduced to [-pi, pi]. */
 Inputs reduced_inputs(const double values[SETTABLE_COUNT]);
 
-/* Prepare the law of `values`, and where it follows orbits that of the full device in `resolved`.
- * `table` and `orbits` are caches that outlive the laws. Refuse values that do not fit together; `law`
- * and `resolved` are then undefined. */
+/* Prepare the law of `values` and, if it follows orbits, the law of the full device (`resolved`). `table`
+ * and `orbits` are caches that outlive the laws. Refuse values that do not fit together; `law` and
+ * `resolved` are then undefined. */
 bool prepare_law(const double values[SETTABLE_COUNT], FrictionTable *table, OrbitTables *orbits,
                  Law *law, Law *resolved, Refusal *refusal);
 
-/* Refuse a step of `step_size` [s] over too many turns of the fastest oscillation. */
+/* Refuse a step of `step_size` [s] that spans too many turns of the fastest oscillation. */
 bool bounded_work_check(const Law *law, double step_size, Refusal *refusal);
 
 #endif

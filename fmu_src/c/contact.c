@@ -5,8 +5,8 @@
 #include "angle.h"
 #include "state.h"
 
-/* Angle [rad] before a boundary, or past it by rounding, at which it counts as just reached. The
- * shortest flight that floating point numbers can ask for is 3e-8 rad long. */
+/* Distance [rad] from a boundary within which it counts as reached: rounding. The shortest flight that
+ * floating point numbers can describe is 3e-8 rad long. */
 #define REACHED 1e-12
 
 FlightWindow flight_window(const Plant *plant) {

@@ -14,8 +14,8 @@ static inline int direction_of(double velocity) {
     return (velocity > 0.0) - (velocity < 0.0);
 }
 
-/* Range of chi [rad] in which the contact is lifted, where it ever is (`exists`): a whole turn from 0
- * on if there is no normal load at all. */
+/* Range of chi [rad] in which the contact is lifted, if there is one (`exists`): [0, 2 pi] if there is no
+ * normal load at all. */
 typedef struct {
     bool exists;
     double first, last;
@@ -25,22 +25,22 @@ FlightWindow flight_window(const Plant *plant);
 
 /* Whether the contact is lifted at normal phase `chi` [rad].
  *
- * On a boundary that depends on where the phase goes: `frequency` [rad/s] is its rate. At rate 0 the
- * contact is lifted where the normal load is 0. */
+ * On a boundary this depends on the direction in which the phase moves: `frequency` [rad/s] is its rate.
+ * At rate 0 the contact is lifted where the normal load is 0. */
 bool is_lifted(const FlightWindow *window, double chi, double frequency);
 
 /* Time [s] until the contact lifts, or touches down when `lifted`; infinite if never. `frequency`
  * [rad/s] is that of the normal load and may be negative. */
 double time_to_switch(const FlightWindow *window, double chi, double frequency, bool lifted);
 
-/* The same while the frequency grows by `rate` [rad/s^2], up to the time at which it changes its sign. */
+/* The same under a frequency that grows by `rate` [rad/s^2], valid until it changes its sign. */
 double time_to_switch_chirped(const FlightWindow *window, double chi, double frequency, double rate,
                               bool lifted);
 
-/* Contact mode by what can be seen: lifted, or the direction of sliding; STICK only at rest. */
+/* Contact mode by load and velocity alone: lifted, or the direction of sliding; STICK at rest. */
 int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velocity, double psi);
 
-/* Friction force [N] of all faces at normal phase `psi` [rad] when sliding steadily; 0 in flight. */
+/* Limit of the friction force [N] of all faces at normal phase `psi` [rad]; 0 in flight. */
 double friction_limit(const Plant *plant, double psi);
 
 #endif

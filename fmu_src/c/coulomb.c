@@ -7,10 +7,10 @@
 #include "departure.h"
 #include "friction_law.h"
 
-/* Part of the longest arc within which a release and a lift-off may be the same event. */
+/* Share of the longest arc within which a release and a lift-off may be the same event. */
 #define SAME 1e-6
 
-/* Part of the forces up to which those on a slider that is just released count as balanced. */
+/* Relative difference of the forces on a slider up to which they count as balanced. */
 #define BALANCED 1e-12
 
 static bool check(const Device *device, Refusal *refusal) {
@@ -52,8 +52,8 @@ static int mode_in_contact(const Plant *plant, const Moment *moment) {
     return mode_at_rest(friction_limit(plant, moment->psi), plant, moment);
 }
 
-/* Whether the slider was released right now: friction still balances the other forces, and only the
- * mode that the moment keeps tells on which side of the balance it is. */
+/* Whether the slider was released at this moment: friction still balances the other forces, and only the
+ * mode of the moment shows in which direction the slider departs. */
 static bool just_released(const Plant *plant, const Moment *moment) {
     if (moment->state.velocity != 0.0 ||
         !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
@@ -82,7 +82,7 @@ static double force(const Law *law, const Moment *moment, int mode) {
     return mode * friction_limit(&law->held.plant, moment->psi);
 }
 
-/* Whether a stick ends only because the contact lifts: all friction is gone by then. */
+/* Whether a stick ends because the contact lifts: friction is 0 there. */
 static bool lifts_first(const Plant *plant, double chi) {
     double limit = plant->friction_preload + plant->friction_amplitude * sin(chi);
     return limit <= 16.0 * EPSILON * (plant->friction_preload + plant->friction_amplitude);

@@ -9,7 +9,8 @@
 #include "plant.h"
 #include "state.h"
 
-/* A time [s] up to which a slider released in direction `sign` moves on; 0 if none is sure. */
+/* A time [s] up to which a slider released in direction `sign` is guaranteed to move on; 0 if there is no
+ * guarantee. */
 double departure_time(const Plant *plant, int sign, const State *state, double theta, double chi);
 
 #endif

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Change of velocity [m/s] and displacement [m] over a step, their error, and the slope at its
- * end. */
+/* A step tried: `change` of the velocity and its estimated `error` [m/s], displacement `moved` [m], and
+ * the acceleration `last` at the end [m/s^2]. */
 typedef struct {
     double change, moved, error, last;
 } Stage;
@@ -26,17 +26,17 @@ static Stage try_step(AccelerationFunction acceleration, const void *motion, dou
     stage.last = acceleration(motion, t + h, v + stage.change);
     stage.error = h * fabs(71 * k1 / 57600 - 71 * k3 / 16695 + 71 * k4 / 1920 -
                            17253 * k5 / 339200 + 22 * k6 / 525 - stage.last / 40);
-    /* The weights of the pair, applied to the velocities at its stages. */
+    /* The weights of the fifth order, applied to the velocities at the stages. */
     stage.moved = h * v + h * h * (35 * k1 / 384 + 50 * k3 / 159 + 25 * k4 / 192 -
                                    243 * k5 / 6784);
     return stage;
 }
 
 Reached integrate(AccelerationFunction acceleration, const void *motion, Reached from, double end,
-                  double tolerance, double longest, int most) {
+                  double tolerance, double longest, int max_steps) {
     Reached now = from;
     double first = acceleration(motion, now.t, now.velocity);
-    for (int count = 0; count < most && now.t < end && isfinite(now.velocity); count++) {
+    for (int count = 0; count < max_steps && now.t < end && isfinite(now.velocity); count++) {
         double left = end - now.t, h = fmin(fmin(now.step, longest), left);
         Stage stage = try_step(acceleration, motion, now.t, now.velocity, h, first);
         if (!(stage.error > tolerance)) {

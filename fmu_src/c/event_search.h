@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-/* Events up to `after` [s] from the start are passed over, none if that is negative: an event at which
- * the motion begins is none of its own. If one is `found`, the motion ended there, `elapsed` + `carry` [s] from its start;
- * `carry` is what rounding takes from `elapsed`. */
+/* A search ignores events up to `after` [s] from the start of the motion, so that it does not find the
+ * event at which the motion begins; a negative `after` ignores none. If an event is `found` the motion ends
+ * there, `elapsed` + `carry` [s] after its start; `carry` is the rounding error of `elapsed`. */
 typedef struct {
     double after;
     bool found;

@@ -8,7 +8,7 @@
 #include "friction_law.h"
 #include "leg.h"
 
-/* Legs in a turn of the fastest oscillation up to which work is accepted: several times what
+/* Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
  * presliding on the hardest bristles takes. */
 enum { MAX_LEGS = 20000 };
 
@@ -19,7 +19,7 @@ typedef struct {
     double began, turn;
 } Work;
 
-/* Counts a leg that begins at `time` [s] in a step of `duration` [s]. Refuses too much work. */
+/* Counts a leg that begins at `time` [s] in a step of `duration` [s]. Refuses too many legs. */
 static bool work_count(Work *work, double time, double duration, Refusal *refusal) {
     if (time - work->began > work->turn) {
         work->began = time;
@@ -35,7 +35,7 @@ static bool work_count(Work *work, double time, double duration, Refusal *refusa
            || refuse_work(refusal, duration, time, MAX_STEP_LEGS, "legs of motion");
 }
 
-/* Ends a search with the event at the time of the clock, unless that is too soon. */
+/* Ends a search with the event at the time of the clock, unless the search ignores that time. */
 static bool found_at(EventSearch *search, const Clock *clock) {
     if (search == NULL || !(clock->elapsed > search->after)) {
         return false;
@@ -46,9 +46,9 @@ static bool found_at(EventSearch *search, const Clock *clock) {
     return true;
 }
 
-/* Whether the slider turned where the finished leg began, at the moment `begin`, which is then gone
- * back to: only the leg shows whether a stop was a reversal. What sets out from rest at the start of the
- * search does not turn. */
+/* Whether the slider reversed at the moment `begin`, where the finished leg began; `now` then goes back to
+ * that moment. Only the leg after a stop shows whether the stop was a reversal. A slider that sets out
+ * from rest at the start of the search does not reverse. */
 static bool found_reversal(EventSearch *search, const Clock *clock, const Leg *leg,
                            const Moment *begin, Moment *now) {
     bool turns = leg->turns && begin->state.velocity == 0.0 && begin->event_age != 0.0;
@@ -61,8 +61,8 @@ static bool found_reversal(EventSearch *search, const Clock *clock, const Leg *l
     return true;
 }
 
-/* Takes the end of a motion for an event if it is one within rounding, or a stop: no further leg will
- * show whether that is a reversal. */
+/* Makes the end of a motion an event if it is one within rounding, or if it is a stop: no further leg
+ * follows that would show whether the stop is a reversal. */
 static void end_at_event(const Leg *leg, const Law *law, Moment *now) {
     if (leg->direction * now->state.velocity < 0.0) {
         now->state.velocity = 0.0;
@@ -73,7 +73,7 @@ static void end_at_event(const Leg *leg, const Law *law, Moment *now) {
     }
 }
 
-/* The sign change [s] of a normal frequency ahead; infinite without one. */
+/* Time [s] until the normal frequency changes its sign; infinite if it never does. */
 static double time_to_turn(const Plant *plant) {
     if (plant->normal_rate == 0.0) {
         return INFINITY;
@@ -82,8 +82,8 @@ static double time_to_turn(const Plant *plant) {
     return t > 0.0 ? t : INFINITY;
 }
 
-/* What inputs that vary have become `elapsed` [s] after `begin`, at the end of a leg; `turned` where the
- * normal frequency changes its sign there. */
+/* Sets load and normal frequency to their values `elapsed` [s] after `begin`, at the end of a leg;
+ * `turned`: the normal frequency changes its sign there. */
 static void ramp_to(Plant *plant, const Plant *begin, double elapsed, bool turned) {
     plant->load = begin->load + begin->load_rate * elapsed;
     plant->normal_frequency =

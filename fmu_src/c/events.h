@@ -9,9 +9,9 @@
 #include "moment.h"
 #include "refusal.h"
 
-/* Brings `now` to what it is `duration` > 0 [s] after `moment`, another one, under the inputs of the law,
- * or to the event that a `search` finds before; NULL searches for none. Refuses, with `now` undefined, where
- * time does not get on. Where numbers leave the range of floating point, entries of `now` are not
+/* Advance by `duration` > 0 [s] from `moment` to `now`, another moment, under the inputs of the law, or to
+ * the event that a `search` finds before; NULL searches for none. Refuses, with `now` undefined, where the
+ * motion takes too many legs. Where numbers leave the range of floating point, entries of `now` are not
  * finite. */
 bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Moment *now, Refusal *refusal);

@@ -1,4 +1,4 @@
-/* The steady vibration on which slow motion rides, in closed form (32)-(34). */
+/* The steady vibration of slider and resonator without friction, in closed form (32)-(34). */
 #ifndef SLIDER_FAST_VIBRATION_H
 #define SLIDER_FAST_VIBRATION_H
 
@@ -9,14 +9,14 @@
 #include "oscillator.h"
 #include "refusal.h"
 
-/* Velocity amplitudes [m/s], lag theta_1 [rad], and the resonator's amplitude [m] of e. `velocity`
- * is v_q, that of the slider; `pair_velocity` that of the drive force on the pair. */
+/* Velocity amplitudes [m/s]: v_q of the slider (`velocity`), and the one that the drive force gives to the
+ * pair (`pair_velocity`). `lag` theta_1 [rad]. `resonator`: complex amplitude of e [m]. */
 typedef struct {
     double velocity, pair_velocity, lag;
     Complex resonator;
 } FastVibration;
 
-/* Lag theta_1 [rad] of the equivalent `force`; 0 and -0 are the same imaginary part. */
+/* Lag theta_1 [rad] of the equivalent `force`; adding 0 makes -0 a 0, which atan2 distinguishes. */
 static inline double force_lag(Complex force) {
     return -atan2(force.im + 0.0, force.re);
 }

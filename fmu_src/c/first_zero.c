@@ -7,15 +7,16 @@
  * rounding of zero. */
 enum { FLOOR_DOUBLING = 1000 };
 
-/* Evaluations after which a search ends without a zero: of motion that is hardly a number any more. */
+/* Evaluations after which a search ends without a zero: reached only by motion at the limits of floating
+ * point. */
 enum { MAX_SEARCH_EVALUATIONS = 1000000 };
 
 enum { MAX_NEWTON_STEPS = 60, MAX_EXPECTING_STEPS = 4 };
 
-/* Share of what two parabolas cover that must do: keeps rounding out of the argument. */
+/* Share of the interval that two parabolas cover that is relied on: a margin for rounding. */
 #define SURE 0.99
 
-/* Time [s] to which two zeros or two steps of Newton's method are distinguished. */
+/* Smallest difference [s] between two zeros, or two steps of Newton's method. */
 static double resolution(const Watch *watch) {
     return 1e-16 / watch->fastest;
 }
@@ -42,7 +43,7 @@ static double newton(const Watch *watch, double t, Signal at) {
     return t;
 }
 
-/* How far ahead [s] of a point with this `value` and slope the signal is sure to be positive. */
+/* Time [s] from a point with this `value` and slope during which the signal is guaranteed to be positive. */
 static double sure_ahead(double value, Signal at) {
     double root_term = sqrt(at.slope * at.slope + 2.0 * at.bound * value);
     if (at.slope < 0.0) {
@@ -56,8 +57,8 @@ typedef struct {
     double time, slope;
 } Candidate;
 
-/* The downward zero near `expected` if Newton's method finds one soon, before `limit`: beyond it the
- * signal may not have its bound. */
+/* The downward zero near `expected`, if Newton's method finds one in a few steps and before `limit`: beyond
+ * that the bound of the signal may not hold. */
 static Candidate zero_near(const Watch *watch, double start, double limit, double expected) {
     double resolved = resolution(watch);
     for (int i = 0; i < MAX_EXPECTING_STEPS && expected > start && expected < limit; i++) {
@@ -74,9 +75,8 @@ static Candidate zero_near(const Watch *watch, double start, double limit, doubl
     return (Candidate){NO_ZERO, 0.0};
 }
 
-/* Whether the candidate is the first zero after `t`, where the signal is `at` and sure to be
- * positive for `ahead` [s]: it must be so from there to the candidate too, and not by rounding
- * only. */
+/* Whether the candidate is the first zero after `t`, where the signal is `at` and guaranteed to be positive
+ * for `ahead` [s]: the parabola from the candidate backwards must cover the rest, beyond rounding. */
 static bool is_first(Candidate candidate, const Watch *watch, double t, Signal at, double ahead) {
     double distance = candidate.time - t, back = -2.0 * candidate.slope / at.bound;
     return distance > 0.0 && distance < SURE * (ahead + back) && distance < watch->horizon &&
@@ -113,7 +113,7 @@ double first_zero_near(const Watch *watch, double limit, double start, double ex
             shortest *= 2.0;
         }
         step = step < shortest ? shortest : step;
-        t += step > horizon ? horizon : step; /* not a number stays so, and ends the search */
+        t += step > horizon ? horizon : step; /* NaN stays NaN, and ends the search */
     }
     return NO_ZERO;
 }

@@ -1,4 +1,4 @@
-/* The first zero of a smooth signal, found so that none can be passed over.
+/* The first zero of a smooth signal, by a search that cannot miss one.
  *
  * From a point where the signal f is positive, f(t + d) >= f + f' d - B d^2 / 2 while B bounds
  * |f''|. The search advances by the zero of that parabola: it approaches the first zero from the
@@ -11,7 +11,7 @@
 #ifndef SLIDER_FIRST_ZERO_H
 #define SLIDER_FIRST_ZERO_H
 
-/* Signal f, f' and a bound of |f''| from now on, over the horizon that goes with the signal. */
+/* Signal f, f', and a bound of |f''| from this time on, over the horizon of the signal. */
 typedef struct {
     double value, slope, bound;
 } Signal;
@@ -27,7 +27,7 @@ typedef struct {
     double noise, fastest, horizon;
 } Watch;
 
-/* What stands for no zero; times are not negative. */
+/* Returned where there is no zero; times are not negative. */
 #define NO_ZERO (-1.0)
 
 /* Time of the first downward zero in [start, limit) [s], or NO_ZERO.
@@ -36,8 +36,7 @@ typedef struct {
  * rounding and count as a touch, which is no zero. */
 double first_zero(const Watch *watch, double limit, double start);
 
-/* The same, with a zero expected near `expected` [s], or anywhere if that is NO_ZERO: the same
- * zero, found sooner if it is there. */
+/* The same zero, found with fewer evaluations if it is near `expected` [s]; NO_ZERO expects none. */
 double first_zero_near(const Watch *watch, double limit, double start, double expected);
 
 #endif

@@ -32,8 +32,8 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
                   "(providesDirectionalDerivative is false)");
 }
 
-/* Refuse a null pointer, and any status but a `known` one: with fmi2Discard, which FMI 2.0 demands and
- * because of which no run ends. */
+/* Refuse a null pointer, and with fmi2Discard any status that is not `known`: FMI 2.0 demands fmi2Discard,
+ * and it ends no run. */
 static fmi2Status status_check(fmi2Component c, const void *value, bool known, const char *text) {
     if (c == NULL || value == NULL) {
         return report(c, fmi2Error,

@@ -41,7 +41,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     return answer(own, done, &refusal);
 }
 
-/* Refuse what needs event mode where the host announced that it does not use it. */
+/* Refuse a call that needs event mode if the host announced that it does not use it. */
 static bool event_mode_check(const Instance *instance, const char *call, Refusal *refusal) {
     return instance->event_mode_used
            || refuse(refusal, "%s refused: eventModeUsed = false; must be true at instantiation",
@@ -64,7 +64,7 @@ fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
     return answer(own, done, &refusal);
 }
 
-/* Nothing is left to do at an event: the step that ended there has changed the contact mode. */
+/* There is nothing to update at an event: the step that ended there has changed the contact mode. */
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
                                     fmi3Boolean *terminateSimulation,
                                     fmi3Boolean *nominalsOfContinuousStatesChanged,

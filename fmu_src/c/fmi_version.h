@@ -1,4 +1,4 @@
-/* What versions of FMI name differently. */
+/* Names that differ between versions of FMI. */
 #ifndef SLIDER_FMI_VERSION_H
 #define SLIDER_FMI_VERSION_H
 
@@ -31,8 +31,8 @@ typedef enum {
     VALUE_TYPES
 } ValueType;
 
-/* `states` are the first so many of Lifecycle. The reference of a variable is its place in the table
- * plus `reference_offset`; `min_reference` is the lowest that any variable has. */
+/* The version has the first `states` entries of Lifecycle. The value reference of a variable is its place in
+ * the table plus `reference_offset`; `min_reference` is the lowest one. */
 typedef struct {
     unsigned min_reference, reference_offset;
     int states;

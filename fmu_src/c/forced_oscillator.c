@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Angle [rad] of the highest frequency for which bounds of responses from rest hold: more than what
- * most slides last. */
+/* Horizon of the bounds of responses from rest, as an angle [rad] of the highest frequency: longer than
+ * most slides. */
 #define AHEAD 5.0
 
 static Following how_to_follow(const Oscillator *oscillator, double frequency, bool slow,
@@ -52,7 +52,7 @@ void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscilla
     motion->horizon = motion->from_rest ? AHEAD / highest : INFINITY;
 }
 
-/* Motion without forcing but the linear one; `free` is the free response of the oscillator. */
+/* Motion under the linear forcing alone; `free` is the free response of the oscillator. */
 static Response free_motion(const ForcedOscillator *motion, double t, Response free) {
     const Oscillator *oscillator = motion->oscillator;
     double y0 = motion->free_displacement, u0 = motion->free_rate;

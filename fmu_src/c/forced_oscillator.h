@@ -1,8 +1,7 @@
-/* A damped oscillator under a linear and sinusoidal forcing, from any state, regular everywhere.
+/* A damped oscillator under linear and sinusoidal forcing, from any state, regular everywhere.
  *
- * The steady responses are split off where they are of moderate size. What is left is a free motion
- * plus responses from rest: to the linear forcing, to forcing that resonates, and to slow forcing of a
- * slow oscillator. */
+ * Steady responses of moderate size are split off. The rest is a free motion plus responses from rest: to
+ * the linear forcing, to forcing that resonates, and to slow forcing of a slow oscillator. */
 #ifndef SLIDER_FORCED_OSCILLATOR_H
 #define SLIDER_FORCED_OSCILLATOR_H
 
@@ -52,12 +51,10 @@ static inline void turns_of(const Forcing *forcing, int count, double t, Complex
     }
 }
 
-/* The motion from displacement `y0` [m] and rate `u0` [m/s] on under `forcings` <= FORCINGS
- * forcings.
+/* The motion from displacement `y0` [m] and rate `u0` [m/s] on under `forcings` <= FORCINGS forcings.
  *
- * Slow forcing of a slow oscillator, both by the measure of `fastest` [rad/s], is followed from
- * rest too. Samples are good for times up to LONGEST_ARC / fastest. `oscillator` must outlive the
- * motion. */
+ * Slow forcing of a slow oscillator, both compared with `fastest` [rad/s], is followed from rest too.
+ * Samples are valid up to LONGEST_ARC / fastest. `oscillator` must outlive the motion. */
 void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscillator,
                              double constant, double slope, const Forcing *forcing, int forcings,
                              double y0, double u0, double fastest);
@@ -65,7 +62,7 @@ void forced_oscillator_begin(ForcedOscillator *motion, const Oscillator *oscilla
 /* Displacement and rate at `t` >= 0 [s]; `turn` as in a Sample. */
 Response forced_oscillator_response(const ForcedOscillator *motion, double t, const Complex *turn);
 
-/* Motion at `t` >= 0 [s]. The free part loses energy, so its present energy bounds it. */
+/* Motion at `t` >= 0 [s]. The energy of the free part never grows, so that at `t` bounds it later. */
 Sample forced_oscillator_sample(const ForcedOscillator *motion, double t);
 
 /* Bounds on |displacement| and |rate| while samples are taken; infinite without a steady response. */

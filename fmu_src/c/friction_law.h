@@ -1,6 +1,6 @@
-/* The interface of a friction law: a table row of functions.
+/* The interface of a friction law: a table of functions.
  *
- * A new law is a file of its own that ends with its row, and a line in friction_laws.c. */
+ * A new law is a file that ends with its table, and an entry in friction_laws.c. */
 #ifndef SLIDER_FRICTION_LAW_H
 #define SLIDER_FRICTION_LAW_H
 
@@ -13,7 +13,7 @@
 #include "refusal.h"
 
 typedef struct FrictionLaw {
-    /* Refuses a device for which the law has no meaning. */
+    /* Refuses a device for which the law is not defined. */
     bool (*check)(const Device *device, Refusal *refusal);
 
     /* Friction of the bristle at the start, per unit load. */
@@ -25,8 +25,8 @@ typedef struct FrictionLaw {
     /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
     double (*force)(const Law *law, const Moment *moment, int mode);
 
-    /* Begin the leg that starts at `now`, in its contact mode, and follow it for up to `longest`
-     * [s]. The contact switches after `switching` [s]. */
+    /* Begin the leg that starts at `now`, in the contact mode of `now`, and follow it for up to `longest`
+     * [s]. The contact lifts or touches down after `switching` [s]. */
     void (*follow)(Leg *leg, const Law *law, Moment *now, double longest, double switching);
 
     /* Change from the end of a finished leg to the next contact mode; `switches` is true where the

@@ -6,7 +6,7 @@
 
 enum { MAX_NEWTON_STEPS = 8 };
 
-/* Step of Newton's method after which another one changes nothing. */
+/* Size of a step of Newton's method after which another step changes nothing but rounding. */
 #define CONVERGED 1e-9
 
 /* Legendre polynomials P_0 to P_count at x in [-1, 1]. */

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Time [s] after which a motion is anchored anew, under a normal frequency up to `highest` [rad/s]. */
+/* The longest leg [s], under a normal frequency up to `highest` [rad/s]. */
 static double arc_of(const Plant *plant, double highest) {
     double fastest = fmax(plant->drive_frequency, highest);
     if (plant->resolves_resonator && plant->slip.oscillatory) {

@@ -1,4 +1,4 @@
-/* What stays the same while inputs and parameters do. */
+/* A device under held inputs: all that depends on parameters and inputs alone. */
 #ifndef SLIDER_HELD_H
 #define SLIDER_HELD_H
 
@@ -8,8 +8,8 @@
 #include "plant.h"
 #include "split_slide.h"
 
-/* `splits`: whether `split` serves sliding and flight; `arc` [s]: the time after which a motion is
- * anchored anew. */
+/* `splits`: whether sliding and flight use `split`; `arc` [s]: the longest leg, after which a motion begins
+ * anew from its state. */
 typedef struct {
     Plant plant;
     bool splits;

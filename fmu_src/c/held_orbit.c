@@ -5,13 +5,8 @@
 
 #include "orbit_equations.h"
 #include "orbit_linearisation.h"
+#include "orbit_newton.h"
 #include "state.h"
-
-/* Correction of the unknowns in their scales up to which an orbit is found, and that up to which it
- * is where rounding ends its decrease. */
-#define COULOMB_CONVERGED 1e-13
-#define LUGRE_CONVERGED 1e-12
-#define ROUNDED 1e-9
 
 /* Difference of mean friction, over that of sliding, up to which orbits are the same. */
 #define SAME_FRICTION 1e-6
@@ -19,98 +14,10 @@
 /* Multiplier from which on motion leaves an orbit; 1, but for differences, where it slides on. */
 #define NEUTRAL (1.0 + 1e-4)
 
-/* Velocity against the direction of a section, in v_q, up to which the section serves. */
+/* Largest velocity against the direction of a section, in v_q, at which the section is used. */
 #define SECTION_REACH 0.5
 
-/* Smallest part of a step that is tried. */
-#define SMALLEST_PART 0.015
-
-/* Broyden's update: the Jacobian that takes `moved` to the change of the values, and is else the
- * same. */
-static void update_jacobian(double jacobian[UNKNOWNS][UNKNOWNS], int count,
-                            const double moved[UNKNOWNS], const double before[UNKNOWNS],
-                            const double after[UNKNOWNS]) {
-    double square = 0.0;
-    for (int j = 0; j < count; j++) {
-        square += moved[j] * moved[j];
-    }
-    for (int i = 0; i < count; i++) {
-        double missed = after[i] - before[i];
-        for (int j = 0; j < count; j++) {
-            missed -= jacobian[i][j] * moved[j];
-        }
-        for (int j = 0; j < count; j++) {
-            jacobian[i][j] += missed * moved[j] / square;
-        }
-    }
-}
-
-static Unknowns advanced(const Unknowns *unknowns, const double step[UNKNOWNS], double part) {
-    Unknowns next;
-    for (int i = 0; i < UNKNOWNS; i++) {
-        next.at[i] = unknowns->at[i] + part * step[i];
-    }
-    return next;
-}
-
-/* Newton's method from `unknowns`, damped, with `jacobian` kept as long as it serves; `fresh` where
- * it was taken at `unknowns`. Leaves unknowns, trial and Jacobian at the orbit. */
-static OrbitStatus solve(OrbitEquations *equations, Unknowns *unknowns, Trial *trial,
-                         double jacobian[UNKNOWNS][UNKNOWNS], bool fresh) {
-    int count = equations->map->states + 1;
-    double accuracy = equations->map->states > 3 ? LUGRE_CONVERGED : COULOMB_CONVERGED;
-    double before = INFINITY;
-    while (equations->maps < MAX_MAPS) {
-        double step[UNKNOWNS] = {0.0}, part = 1.0;
-        double size = newton_step(equations, jacobian, trial->values, unknowns, step);
-        if (size <= accuracy || (size <= ROUNDED && size > 0.5 * before)) {
-            *unknowns = advanced(unknowns, step, 1.0);
-            for (int j = 0; j < count; j++) {
-                trial->values[count - 1] += jacobian[count - 1][j] * step[j];
-            }
-            return ORBIT_FOUND;
-        }
-        while (equations->maps < MAX_MAPS) {
-            double left[UNKNOWNS] = {0.0}, contraction = INFINITY;
-            Unknowns next = advanced(unknowns, step, part);
-            Trial other;
-            if (isfinite(size) && try_unknowns(equations, &next, &other)) {
-                contraction = newton_step(equations, jacobian, other.values, &next, left) / size;
-            }
-            if (contraction <= 1.0 - 0.25 * part) {
-                double moved[UNKNOWNS] = {0.0};
-                for (int i = 0; i < count; i++) {
-                    moved[i] = next.at[i] - unknowns->at[i];
-                }
-                if (part * size > DIFFERENCE) {
-                    update_jacobian(jacobian, count, moved, trial->values, other.values);
-                }
-                *unknowns = next;
-                *trial = other;
-                fresh = false;
-                before = size;
-                break;
-            }
-            if (size <= ROUNDED) {
-                return ORBIT_FOUND;
-            }
-            if (!fresh) {
-                if (!differentiate(equations, unknowns, trial, jacobian)) {
-                    return ORBIT_NOT_CONVERGED;
-                }
-                fresh = true;
-                break;
-            }
-            part *= 0.25;
-            if (!(part > SMALLEST_PART)) {
-                return ORBIT_NOT_CONVERGED;
-            }
-        }
-    }
-    return ORBIT_NOT_CONVERGED;
-}
-
-/* The vibration without friction at the section: where the search begins that has no neighbour. */
+/* The vibration without friction at the section: the first guess without a neighbour. */
 static Unknowns vibration_alone(const OrbitEquations *equations, int direction) {
     const PeriodMap *map = equations->map;
     const Plant *plant = &map->law.held.plant;
@@ -124,7 +31,7 @@ static Unknowns vibration_alone(const OrbitEquations *equations, int direction) 
     return unknowns_of(equations, &section, load);
 }
 
-/* Where the tangent at a neighbour leads, and its Jacobian; false where it has none. */
+/* The first guess on the tangent at a neighbour, and its Jacobian; false where that is singular. */
 static bool along_tangent(OrbitEquations *equations, const HeldOrbit *neighbour,
                           Unknowns *unknowns, double jacobian[UNKNOWNS][UNKNOWNS]) {
     double values[UNKNOWNS] = {0.0}, step[UNKNOWNS] = {0.0};
@@ -135,7 +42,7 @@ static bool along_tangent(OrbitEquations *equations, const HeldOrbit *neighbour,
     if (!isfinite(newton_step(equations, jacobian, values, unknowns, step))) {
         return false;
     }
-    *unknowns = advanced(unknowns, step, 1.0);
+    *unknowns = unknowns_after(unknowns, step, 1.0);
     return true;
 }
 
@@ -170,9 +77,8 @@ static OrbitStatus find(OrbitEquations *equations, int direction, const HeldOrbi
         (!follows && !differentiate(equations, &unknowns, &trial, jacobian))) {
         return ORBIT_NOT_CONVERGED;
     }
-    OrbitStatus status = solve(equations, &unknowns, &trial, jacobian, !follows);
-    if (status != ORBIT_FOUND) {
-        return stays_at_rest(equations) ? ORBIT_STILL : status;
+    if (!solve_orbit(equations, &unknowns, &trial, jacobian, !follows)) {
+        return stays_at_rest(equations) ? ORBIT_STILL : ORBIT_NOT_CONVERGED;
     }
     equations->stops = trial.after.stops;
     memset(orbit, 0, sizeof *orbit);
@@ -192,7 +98,7 @@ static OrbitStatus find(OrbitEquations *equations, int direction, const HeldOrbi
     return ORBIT_FOUND;
 }
 
-/* Why there can be no orbit at all. */
+/* The reason why no orbit can exist, or ORBIT_FOUND. */
 static OrbitStatus precondition(const PeriodMap *map) {
     if (!(map->law.device.damping_ratio > 0.0)) {
         return ORBIT_UNDAMPED;
@@ -200,7 +106,7 @@ static OrbitStatus precondition(const PeriodMap *map) {
     return map->speed > 0.0 ? ORBIT_FOUND : ORBIT_STILL;
 }
 
-/* Whether the section in `direction` serves orbits at `velocity` [m/s]. */
+/* Whether the section in `direction` may be used for orbits at `velocity` [m/s]. */
 static bool section_serves(const PeriodMap *map, int direction, double velocity) {
     return direction * velocity > -SECTION_REACH * map->speed;
 }

@@ -1,9 +1,9 @@
 /* Held orbits: the periodic motion of the full device whose mean velocity is held at V.
  *
- * The load that holds it is L = -F2(V), F2 the mean friction. Unknown are the state at the section
- * and L, given that the state repeats after a period and that the way in it is V times the period:
- * a fixed point of the period map, found by Newton's method, with sliding, sticking and flight
- * alike. */
+ * The load that holds it is L = -F2(V), F2 the mean friction. The unknowns are the state at the section
+ * and L; the equations are that the state repeats after a period, and that the displacement in a period
+ * is V times the period. This fixed point of the period map is found by Newton's method, with sliding,
+ * sticking and flight alike. */
 #ifndef SLIDER_HELD_ORBIT_H
 #define SLIDER_HELD_ORBIT_H
 
@@ -11,13 +11,10 @@
 #include "moment.h"
 #include "period_map.h"
 
-/* Maps that an orbit may take, Jacobians included, before it counts as not found. */
-enum { MAX_MAPS = 120 };
-
 /* Whether there is an orbit, or why there is none:
  *
- * UNDAMPED: without damping the resonator never forgets its start. STILL: nothing vibrates, or
- * friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not settle.
+ * UNDAMPED: without damping the start of the resonator never decays. STILL: nothing vibrates, or
+ * friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not converge.
  * UNSTABLE: the vibration about the orbit does not decay. RUNS_AWAY: the load exceeds all friction,
  * so that no velocity is steady. UNDETERMINED: the load leaves several velocities steady, or several motions
  * one velocity. NOT_SLOW: bristles follow no faster than the velocity changes. */
@@ -41,14 +38,14 @@ typedef struct {
 /* An orbit of mean velocity [m/s] and mean friction F2 [N], `lead` [rad] being the phase of the
  * normal load at drive phase 0.
  *
- * `section` is the moment at the section, in `direction`: motion under the load -friction goes on
- * from there. `reversals` in a period, and whether the slider `sticks` in it. `maps` is how often
- * the period was mapped for this orbit. `jacobian` is that of its equations, in their scales.
+ * `section` is the moment at the section, in `direction`; motion from there on under the load -friction
+ * is the orbit. `reversals` is their number in a period; `sticks`: the slider sticks in a period. `maps`
+ * is the number of period maps that it took. `jacobian` is that of its equations, in their scales.
  *
  * Known once it is `linearised`: `factor` 1 + kappa_m, 1 until then and where the slider sticks;
- * `slope` F2' = dF2/dV [N s/m]; `fast_multiplier`, the largest one by which vibration about the
- * orbit decays in a period; `tangent` by velocity [m/s]; and the `lag` of a motion that drifts, by
- * the excess F2 + load [N] of force. */
+ * `slope` F2' = dF2/dV [N s/m]; `fast_multiplier`, the largest multiplier of a period of the vibration
+ * about the orbit; `tangent`, the derivative of the section by velocity [m/s]; `lag`, the change of the
+ * section in a motion that drifts, per excess force F2 + load [N]. */
 typedef struct {
     double lead, velocity, friction;
     int direction;
@@ -61,17 +58,17 @@ typedef struct {
     SectionRate tangent, lag;
 } HeldOrbit;
 
-/* Finds the orbit at `velocity` [m/s], from that of a neighbour unless it is NULL; `orbit` may be
- * the neighbour. It is undefined unless the status is ORBIT_FOUND. */
+/* Finds the orbit at `velocity` [m/s], starting from a neighbour unless that is NULL; `orbit` may be the
+ * neighbour. It is undefined unless the status is ORBIT_FOUND. */
 OrbitStatus held_orbit_at(const PeriodMap *map, double lead, double velocity,
                           const HeldOrbit *neighbour, HeldOrbit *orbit);
 
-/* Finds the orbit in which `load` [N] is the one that holds: the steady motion under it. */
+/* Finds the orbit that `load` [N] holds: the steady motion under this load. */
 OrbitStatus steady_orbit_at(const PeriodMap *map, double lead, double load,
                             const HeldOrbit *neighbour, HeldOrbit *orbit);
 
-/* Adds what is known once an orbit is linearised, at the cost of as many maps as it has unknowns,
- * and one: needed under LuGre friction, and under Coulomb friction for slope, lag and low damping. */
+/* Linearises an orbit, at the cost of one map more than it has unknowns. LuGre friction needs this always,
+ * Coulomb friction for slope, lag and low damping. */
 OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit);
 
 /* ORBIT_UNSTABLE where motion under the load of the orbit leaves it; at the same cost. */

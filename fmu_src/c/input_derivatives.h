@@ -1,4 +1,4 @@
-/* First derivatives of inputs, with which they vary linearly over a step.
+/* First derivatives of inputs: over a step inputs vary linearly.
  *
  * Like a value, a derivative holds until it is set again. An input that is set after a step without its
  * derivative is held from then on. */
@@ -20,10 +20,10 @@ typedef struct {
     bool is_new;
 } InputDerivative;
 
-/* Whether inputs vary. */
+/* Whether any input varies: has a derivative other than 0. */
 bool inputs_vary(const InputDerivative derivatives[INPUT_COUNT]);
 
-/* Change derivatives by reference. Refuse those of other variables than inputs, any after the end, and
+/* Change derivatives by reference. Refuse derivatives of other variables, any derivative after the end, and
  * values that are not finite; `derivatives` are then undefined. */
 bool change_derivatives(InputDerivative derivatives[INPUT_COUNT], Lifecycle lifecycle,
                         const unsigned *references, const double *values, size_t count,
@@ -33,7 +33,7 @@ bool change_derivatives(InputDerivative derivatives[INPUT_COUNT], Lifecycle life
 void hold_inputs(InputDerivative derivatives[INPUT_COUNT], const unsigned *references,
                  size_t count);
 
-/* Take note that a step was made. */
+/* Note that a step was made: no derivative is new any more. */
 void derivatives_used(InputDerivative derivatives[INPUT_COUNT]);
 
 #endif

@@ -72,7 +72,7 @@ Instance *instance_create(const Host *host, const char *call, const char *name, 
     memcpy(instance->name, name, length + 1);
     instance->host = *host;
     enable_all(instance, debugging);
-    /* Nothing else says why a call failed. */
+    /* The log is the only place that says why a call failed. */
     instance->enabled[STATUS_ERROR] = instance->enabled[STATUS_FATAL] = true;
     component_reset(&instance->component);
     return instance;

@@ -18,8 +18,8 @@ typedef enum {
     STATUSES
 } Status;
 
-/* What a host provides. `allocate` and `release` are NULL if it has no memory to give. `logger`, NULL
- * for none, has the type of the FMI version, whose `log` calls it. */
+/* Functions of the host. `allocate` and `release` are NULL if it offers no memory. `logger`, NULL for none,
+ * has the type of the FMI version; `log` is the function of that version that calls it. */
 typedef struct Host {
     void *environment;
     void *(*allocate)(size_t count, size_t size);

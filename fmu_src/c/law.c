@@ -13,7 +13,7 @@ static bool is_averaged(const Device *device) {
     return device->fidelity == 0;
 }
 
-/* The law under which a moment is what it is: that of the full device along orbits. */
+/* The law that a moment belongs to: along orbits that of the full device. */
 static const Law *law_of_moment(const Law *law) {
     return law->resolved != NULL ? law->resolved : law;
 }
@@ -74,8 +74,9 @@ bool law_follows_orbits(const Law *law) {
     return is_averaged(device) && device->averaging_order == 2 && has_slow_motion(law);
 }
 
-/* Velocity [m/s] at the start. A resonator that is not followed vibrates at once, without extra
- * momentum; that of averaged motion only until its first step. */
+/* Velocity [m/s] at the start. A resonator that is not resolved vibrates steadily at once; the velocity is
+ * chosen so that the momentum of the pair is that of the initial values. In averaged motion the first step
+ * does so. */
 static double start_velocity(const Law *law) {
     const Device *device = &law->device;
     const Plant *plant = &law->held.plant;

@@ -1,4 +1,4 @@
-/* A device under held inputs, resolved or averaged, by one face: start, advance, contact mode and
+/* A device under held inputs, resolved or averaged, behind one interface: start, advance, contact mode,
  * friction force. */
 #ifndef SLIDER_LAW_H
 #define SLIDER_LAW_H
@@ -15,12 +15,11 @@
 #include "refusal.h"
 #include "slow_phase.h"
 
-/* `friction` is the row of its friction law, see friction_law.h. `table` is a cache that outlives
- * the law and may be shared by those of one instance; it is filled when averaged motion first needs
- * it.
+/* `friction` is the table of functions of its friction law, see friction_law.h. `table` is a cache that
+ * outlives the law and is shared by the laws of one instance; averaged motion fills it when first needed.
  *
- * `bending` is a cache for panels of LuGre friction, kept by the component; NULL where series follow it,
- * as they do while inputs vary.
+ * `bending` is a cache for panels of LuGre friction, kept by the component; NULL where series are used
+ * instead, as while inputs vary.
  *
  * `middle_ratio` is the frequency ratio in the middle of a step in which it grows.
  *
@@ -45,16 +44,15 @@ typedef struct Law {
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, FrictionTable *table,
                  Refusal *refusal);
 
-/* Gives a law of resolved motion another phase [rad] and load [N], on which nothing else that is
- * prepared depends. */
+/* Changes phase [rad] and load [N] of a law of resolved motion; nothing else prepared depends on these. */
 void law_change(Law *law, double phase, double load);
 
-/* Inputs that grow, per s, from a frequency ratio on. */
+/* Inputs that grow: the frequency `ratio` at first, and the rates of load [N/s] and ratio [1/s]. */
 typedef struct {
     double ratio, load_rate, ratio_rate;
 } Ramp;
 
-/* Lets inputs grow for `duration` [s], from now on. The law was prepared with the frequency ratio in the
+/* Lets inputs grow for `duration` [s]. The law must have been prepared with the frequency ratio in the
  * middle of that time. */
 void law_ramp(Law *law, const Ramp *ramp, double duration);
 
@@ -64,17 +62,17 @@ Law law_after(const Law *law, double t);
 /* The slow phase of the normal load. */
 SlowPhase law_slow_phase(const Law *law);
 
-/* Whether the law needs `resolved` and `orbits`: fidelity 0 by averages of second order, where motion
- * becomes slow. */
+/* Whether the law needs `resolved` and `orbits`: at fidelity 0 with averages of second order, if the
+ * device has slow motion. */
 bool law_follows_orbits(const Law *law);
 
 /* The first moment, at drive and normal phase 0, from the initial values of the device. */
 Moment law_start(const Law *law);
 
-/* The moment `duration` > 0 [s] later, another than `moment`, or that of the event that a `search`
- * finds before; NULL searches for none, and averaged motion has none. Refuses, with `after`
- * undefined, where time does not get on or averaged motion needs too many steps. Numbers that leave
- * the range of floating point show as non-finite entries of `after`, never as an endless loop. */
+/* Advance by `duration` > 0 [s] from `moment` to `after`, another moment, or to the event that a `search`
+ * finds before; NULL searches for none, and averaged motion has no events. Refuses, with `after`
+ * undefined, a motion of too many legs or steps. Where numbers leave the range of floating point, entries
+ * of `after` are not finite; loops end all the same. */
 bool law_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                  Moment *after, Refusal *refusal);
 

@@ -6,7 +6,7 @@
 #include "angle.h"
 #include "velocity_scale.h"
 
-/* Error of one series in velocity scales: that of rounding. */
+/* Tolerance of a series, in velocity scales: rounding. */
 #define SERIES_ROUNDING (2.0 * EPSILON)
 
 void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
@@ -31,7 +31,7 @@ void leg_reset(Leg *leg) {
     forget(&leg->forward);
 }
 
-/* Lets a slide take turns from the last one in its direction. */
+/* Lets a slide reuse the turns of the last slide in its direction. */
 static void remember(Leg *leg, SplitSlide *slide) {
     slide->memory = slide->direction < 0 ? &leg->backward : &leg->forward;
 }
@@ -42,8 +42,8 @@ void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now) {
     }
 }
 
-/* Sliding or flight under a normal load whose frequency changes. A stiff bristle that is fully bent is
- * full friction. */
+/* Sliding or flight under a normal load whose frequency changes: series with a bristle that is fully bent,
+ * which gives full friction. */
 static void begin_chirped(Leg *leg, const Plant *plant, const Moment *now, int sign) {
     const Bristle bent = {1.0, 0.0, 0.0};
     double tolerance = SERIES_ROUNDING * velocity_scale(plant, &now->state);
@@ -51,7 +51,7 @@ static void begin_chirped(Leg *leg, const Plant *plant, const Moment *now, int s
     leg_know_phasors(leg, plant, now);
     taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign,
                        &leg->known.phasors, tolerance);
-    leg->motion.series.direction = leg->direction; /* watched in flight, too */
+    leg->motion.series.direction = leg->direction; /* the velocity is watched in flight, too */
 }
 
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction) {
@@ -117,8 +117,8 @@ bool leg_departs(Leg *leg) {
     return watch.signal(watch.motion, 0.0).slope >= 0.0;
 }
 
-/* Ends rest at the release that comes first. One release is searched for over a turn at most, as the
- * other may come soon. */
+/* Ends rest at the first release. With two candidates the search for one is limited to a turn, as the other
+ * may come soon. */
 static void follow_rest(Leg *leg, double turn) {
     Watch watches[2];
     int count = stick_watches(&leg->motion.stick, leg->t, watches);
@@ -134,8 +134,8 @@ static void follow_rest(Leg *leg, double turn) {
     }
 }
 
-/* Whether a watched signal exceeds its noise before `t` [s]. A parabola that is below it shows that at
- * once, most often. */
+/* Whether a watched signal exceeds its noise before `t` [s]. In most cases its lower bound, a parabola, shows
+ * that without another evaluation. */
 static bool moves(const Watch *watch, double t) {
     Signal at = watch->signal(watch->motion, 0.0);
     double rising = at.bound * fmin(t, watch->horizon);
@@ -146,7 +146,7 @@ static bool moves(const Watch *watch, double t) {
     return watch->signal(watch->motion, 0.5 * t).value > watch->noise;
 }
 
-/* The velocity in the direction of sliding, from where it is watched on. */
+/* The watched signal: the velocity in the direction of sliding. */
 static Watch watch_of(Leg *leg) {
     if (leg->kind == FOLLOWS_SERIES) {
         return taylor_slide_watch(&leg->motion.series, leg->t);
@@ -155,7 +155,7 @@ static Watch watch_of(Leg *leg) {
                                : split_slide_watch(&leg->motion.panel.slide);
 }
 
-/* How long the motion holds [s]. */
+/* Time [s] up to which the form of the motion holds. */
 static double reach_of(const Leg *leg) {
     if (leg->kind == FOLLOWS_SERIES) {
         return leg->motion.series.reach;
@@ -163,7 +163,7 @@ static double reach_of(const Leg *leg) {
     return leg->kind == BENDS_AND_SLIDES ? leg->motion.panel.reach : INFINITY;
 }
 
-/* Ends sliding at a stop; tells whether it goes in another direction than `before`. */
+/* Ends sliding at a stop; sets `turns` if it moves in another direction than `before`. */
 static void follow_sliding(Leg *leg, double expected, int before) {
     Watch watch = watch_of(leg);
     double zero = first_zero_near(&watch, leg->t, leg->watched_from, expected);
@@ -207,7 +207,7 @@ static double travel_at(const void *motion, double t) {
     return NAN;
 }
 
-/* The state at the end of the leg; takes down how far it goes. */
+/* The state at the end of the leg; sets its displacement `travelled` too. */
 static State end_of(Leg *leg) {
     State state = {NAN, NAN, NAN};
     leg->known.known = false;

@@ -19,10 +19,10 @@ typedef enum { RESTS, SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } LegKind;
 /* Begun by a friction law: the contact `mode`, and the `direction` of sliding, in which the velocity
  * is watched (0 for none) from `watched_from` [s] on.
  *
- * Followed, it ends after `t` [s] and `travelled` [m], at the zero of a watched signal (`zero_of` >=
- * 0) or not; `turns` tells whether the slider really moves, beyond rounding, in another direction
- * than it slid before. `departs` is known before it begins: from rest, and not thrown back by a reversal. So are
- * the phasors, or unknown, which after it are those of its end. */
+ * Once followed, it ends after `t` [s] and `travelled` [m]; `zero_of` is the index of the watched signal
+ * whose zero ends it, or -1. `turns`: the slider moves, beyond rounding, in another direction than it slid
+ * before. Two entries are set before it begins: `departs`, whether it starts from rest and not at a
+ * reversal, and the phasors if they are `known`; at its end these are those of the end. */
 typedef struct {
     LegKind kind;
     int mode, direction;
@@ -40,7 +40,7 @@ typedef struct {
     TurnMemory backward, forward;
 } Leg;
 
-/* A leg from whose end the next one can be begun, with nothing known yet. */
+/* Empty the memory of a leg, before the first one of a step. */
 void leg_reset(Leg *leg);
 
 /* Computes the phasors at `now`, where the leg begins, unless they are known. */
@@ -53,8 +53,8 @@ void leg_begin_rest(Leg *leg, const Held *held, const Moment *now);
  * series while the normal frequency changes. */
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction);
 
-/* Sliding in `direction` while a bristle bends, to `tolerance` [m/s], for up to `longest` [s]. By series
- * alone without tables. */
+/* Sliding in `direction` while a bristle bends, to `tolerance` [m/s], for up to `longest` [s]. Series alone
+ * are used if `tables` is NULL. */
 void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
                        const Moment *now, int direction, double longest, double tolerance);
 

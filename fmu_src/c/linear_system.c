@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Smallest pivot, over the largest entry of the matrix, that counts as different from 0. */
+/* Smallest pivot that counts as different from 0, relative to the largest entry of the matrix. */
 #define SMALLEST_PIVOT 1e-13
 
 static double largest_entry(double matrix[UNKNOWNS][UNKNOWNS], int count) {

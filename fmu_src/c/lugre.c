@@ -1,20 +1,20 @@
 /* LuGre friction (eq. 8): from one reversal to the next along the bristle's path.
  *
- * Soon after a reversal the bristle is fully bent and friction is Coulomb's: closed forms take
- * over. Until then Taylor series follow the path, whose length shrinks with the bristle stiffness,
- * so the cost does not grow with it. There is no sticking; presliding is resolved as what it is, an
- * oscillation on the bristles. */
+ * Soon after a reversal the bristle is fully bent and friction is Coulomb's: closed forms take over. Until
+ * then a panel (bending_panel.h) or Taylor series (taylor_slide.h) follow the path. Its length falls with
+ * the bristle stiffness, so the cost does not grow with that. There is no sticking: presliding is resolved
+ * as an oscillation on the bristles. */
 #include <math.h>
 
 #include "friction_law.h"
 #include "refusal_texts.h"
 #include "velocity_scale.h"
 
-/* Share of the tolerance that one series may use up, and that the bend of the bristle may still be
- * away from full when closed forms take over. */
+/* Share of the tolerance for the error of one leg, and for the bend that a bristle still lacks when closed
+ * forms take over. */
 #define TOLERANCE_SHARE 0.01
 
-/* Without friction (8) has no meaning. */
+/* (8) divides by mu. */
 static bool check(const Device *device, Refusal *refusal) {
     return device->friction_coefficient != 0.0 ||
            refuse_lugre_without_friction(refusal, device->friction_coefficient);
@@ -53,7 +53,7 @@ static void begin(Leg *leg, const Law *law, const Moment *now, int direction, do
     leg_begin_bending(leg, law->bending, held, bristle, now, direction, longest, tolerance);
 }
 
-/* The direction that the slider has, or by the force on it at rest takes. */
+/* The direction of the velocity or, at rest, of the force on the slider. */
 static int likely_direction(Leg *leg, const Law *law, const Moment *now) {
     const Plant *plant = &law->held.plant;
     if (now->state.velocity != 0.0 || now->mode == LIFTED) {
@@ -65,7 +65,6 @@ static int likely_direction(Leg *leg, const Law *law, const Moment *now) {
     return force_by(plant, &now->state, &leg->known.phasors) < resisting ? BACKWARD : FORWARD;
 }
 
-/* In the direction that the slider has, or at rest takes. */
 static void follow(Leg *leg, const Law *law, Moment *now, double longest, double switching) {
     (void)switching;
     begin(leg, law, now, likely_direction(leg, law, now), longest);

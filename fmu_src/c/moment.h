@@ -1,4 +1,4 @@
-/* Everything that a motion carries on from one step to the next. */
+/* A moment of a motion: all that the motion carries from one step to the next. */
 #ifndef SLIDER_MOMENT_H
 #define SLIDER_MOMENT_H
 
@@ -8,8 +8,8 @@
 #include "state.h"
 #include "stops.h"
 
-/* Direction of the last sliding (0 before any), reversals of it, and sticks begun. Counts are
- * doubles, exact far beyond what a run can reach. */
+/* Direction of the last sliding (0 before any), number of reversals, and number of sticks begun. Counts are
+ * doubles: exact for more events than any run has. */
 typedef struct {
     int sliding;
     double reversals, sticks;
@@ -17,8 +17,8 @@ typedef struct {
 
 /* Position [m], phases [rad], contact mode. `event_age` is the time [s] since the last event,
  * infinite before any; `bristle` is the friction sigma_0 z of the bristle per unit normal load, 0 with
- * Coulomb friction. `stops` decide where a stop is looked for first, and so the last digit of the
- * time that is found: they are part of the state for a replay to be equal to the last bit. */
+ * Coulomb friction. `stops` determine where the search for a stop begins, and so the last digit of the
+ * time that it finds: as part of the state they make a replay equal to the last bit. */
 typedef struct {
     State state;
     double position, theta, psi;
@@ -31,14 +31,14 @@ typedef struct {
     OrbitState orbit;
 } Moment;
 
-/* The counts once the slider has moved on in `direction`. */
+/* The counts after the slider has moved in `direction`. */
 static inline Counts counts_slid(Counts counts, int direction) {
     counts.reversals += counts.sliding == -direction;
     counts.sliding = direction;
     return counts;
 }
 
-/* Goes over to contact mode `mode`, which is an event where it is another one. */
+/* Changes to contact mode `mode`; that is an event unless it is the present mode. */
 static inline void moment_enter(Moment *moment, int mode) {
     if (mode != moment->mode) {
         moment->mode = mode;

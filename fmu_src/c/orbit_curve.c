@@ -5,6 +5,7 @@
 
 #include "contact.h"
 #include "orbit_drift.h"
+#include "orbit_newton.h"
 #include "state.h"
 
 /* Size of the last coefficients up to which a panel holds, in the scale of their quantity. */

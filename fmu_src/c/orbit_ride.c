@@ -6,6 +6,7 @@
 #include "constants.h"
 #include "contact.h"
 #include "orbit_price.h"
+#include "orbit_newton.h"
 #include "state.h"
 
 /* Rates of the motion over the drive frequency up to which a turn of the drive is resolved often enough to

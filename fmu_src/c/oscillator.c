@@ -3,13 +3,13 @@
 #include <float.h>
 #include <math.h>
 
-/* Damping ratio below which the complex eigenvalue is used; above, hyperbolic forms. */
+/* Damping ratio below which the complex eigenvalue is used; hyperbolic forms are used above. */
 #define OSCILLATORY 0.9
 
-/* Angle [rad] up to which a few terms of a series in time say all. */
+/* Angle [rad] up to which power series in time are used. */
 #define SOON 0.3
 
-/* Most terms of a series, and their size in the sum at which it ends. */
+/* Largest number of terms of a series, and relative size of terms at which it ends. */
 enum { TERMS = 40 };
 #define NEGLIGIBLE 1e-19
 

@@ -9,16 +9,16 @@
 
 #include "complex_number.h"
 
-/* Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady
- * response would be far larger than what it reaches between two reversals. */
+/* Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady response
+ * would be far larger than the response between two reversals. */
 #define SLOW 0.02
 
-/* Angle [rad] of the fastest oscillation after which a motion is anchored anew: keeps the rounding
- * of large arguments of sine and cosine out. */
+/* The longest leg, as an angle [rad] of the fastest oscillation: avoids the rounding errors of large
+ * arguments of sine and cosine. */
 #define LONGEST_ARC 60.0
 
-/* `decay` [1/s] and `stiffness` [1/s^2]; what follows from them is kept beside: `frequency`
- * [rad/s], undamped, and the `eigenvalue` [1/s] of positive imaginary part where `oscillatory`. */
+/* `decay` [1/s] and `stiffness` [1/s^2]; derived from these: the undamped `frequency` [rad/s] and, where
+ * `oscillatory`, the `eigenvalue` [1/s] of positive imaginary part. */
 typedef struct {
     double decay, stiffness, frequency;
     bool oscillatory;
@@ -52,13 +52,13 @@ Response free_response(const Oscillator *oscillator, double t);
 ComplexResponse response_from_rest(const Oscillator *oscillator, double frequency, double t,
                                    Response free, Complex turn);
 
-/* Response to 1 from rest, free of cancellation for soft oscillators; `free` as above. */
+/* Response to a unit step from rest, without cancellation for soft oscillators; `free` as above. */
 Response step_response(const Oscillator *oscillator, double t, Response free);
 
-/* Response to t from rest, likewise. */
+/* Response to a unit ramp from rest, likewise. */
 Response ramp_response(const Oscillator *oscillator, double t, Response free);
 
-/* Response to exp(i frequency t) from rest while little of any period has passed, by series. */
+/* Response to exp(i frequency t) from rest, by a power series, for t far below all periods. */
 ComplexResponse slow_response_from_rest(const Oscillator *oscillator, double frequency, double t);
 
 /* Integral of exp(i frequency s) over s from 0 to t [s], regular at frequency 0; `turn` is

@@ -8,9 +8,9 @@
 #include "moment.h"
 #include "refusal.h"
 
-/* The derivative of the output `reference`, per s, towards later times: 0 for outputs that change at
- * events and at the ends of periods only. `phase_rate` [rad/s] is that of the input. Refuses variables
- * that have none. */
+/* The right-hand derivative of the output `reference`, per s: 0 for outputs that change only at events and
+ * at the ends of periods. `phase_rate` [rad/s] is the derivative of the input `phase`. Refuses variables
+ * without derivative. */
 bool output_derivative(unsigned reference, const Law *law, const Moment *moment, double phase_rate,
                        double *derivative, Refusal *refusal);
 

@@ -8,7 +8,7 @@
 #include "law.h"
 #include "moment.h"
 
-/* The prediction of a law, kept while `normal_lead` [rad] stays. To be forgotten with the law. */
+/* A cache of the prediction of a law at `normal_lead` [rad]; its owner clears `known` when the law changes. */
 typedef struct {
     bool known;
     double normal_lead;

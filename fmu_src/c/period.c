@@ -4,12 +4,12 @@
 
 #include "state.h"
 
-/* Angle [rad] by which a period may end after the present moment and still count as ended: steps of
- * whole periods, rounded, then end on the period that they complete. */
+/* Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps of whole
+ * periods complete their last period in spite of rounding. */
 #define MARK_TOLERANCE 1e-7
 
-/* Displacement [m] at time `t` [s]; close to the end, as steps of whole periods have it, it follows
- * from that at the end. */
+/* Displacement [m] at time `t` [s]. Close to the end of the segment, where steps of whole periods ask for
+ * it, it follows from the displacement at the end. */
 static double travel_until(const Segment *segment, double t, double frequency) {
     double rest = segment->duration - t;
     if (fabs(rest) * frequency <= MARK_TOLERANCE) {

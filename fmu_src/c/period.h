@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* What was gathered since the last period ended, and the means of the last whole period.
+/* Sums since the last period ended, and the means of the last whole period.
  *
  * `travel` [m], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);
  * `mean_velocity` [m/s] and `stick_fraction` of the last whole period once `complete`. */
@@ -26,18 +26,19 @@ typedef struct {
     const void *motion;
 } Segment;
 
-/* Time [s] at which the last period ends in a motion of `duration` [s] from drive phase `theta` [rad] on;
- * not above 0 where none does. */
+/* Time [s] of the last end of a period in a motion of `duration` [s] from drive phase `theta` [rad] on; <= 0
+ * where no period ends. */
 double period_last_end(double theta, double frequency, double duration);
 
 /* Add a segment that began at drive phase `theta` [rad]. Return the drive phase at its end, modulo
  * 2 pi. */
 double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency);
 
-/* Mean of the last whole period, or since the start, or at the start `velocity` [m/s]. */
+/* Mean velocity [m/s] of the last whole period; before one has ended the mean since the start, and at the
+ * start `velocity`. */
 double period_mean_velocity(const PeriodMeans *means, double velocity);
 
-/* Fraction sticking of the last whole period, or since the start, or at the start. */
+/* Fraction of time that the slider sticks, likewise. */
 double period_stick_fraction(const PeriodMeans *means, bool sticks);
 
 #endif

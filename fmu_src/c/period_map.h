@@ -1,12 +1,11 @@
-/* The map of the full device over the period of a periodic motion, under a load that is held.
+/* The period map: the state of the full device after one period under a constant load.
  *
- * A period is `turns` of the drive, after which the normal load repeats too; at drive phase theta =
- * 0 the phase of the normal load is `lead`. The loop over events resolves the motion with two
- * degrees of freedom, whatever the fidelity of the device.
+ * A period is `turns` of the drive, after which the normal load repeats too; at drive phase theta = 0 the
+ * phase of the normal load is `lead`. The motion is resolved event by event with two degrees of freedom,
+ * whatever the fidelity of the device.
  *
- * The map begins at a section, where the vibration without friction is fastest forward, or
- * backward: next to it the slider neither turns back nor sticks, and a bristle has forgotten how it
- * was bent. */
+ * The map begins at a section, the drive phase at which the vibration without friction is fastest forward,
+ * or backward: near it the slider neither reverses nor sticks, and a bristle is fully bent. */
 #ifndef SLIDER_PERIOD_MAP_H
 #define SLIDER_PERIOD_MAP_H
 
@@ -17,10 +16,9 @@
 /* Largest tolerance of a map under LuGre friction. */
 #define MAP_TOLERANCE 1e-10
 
-/* `law` is that of the full device, `fast` its vibration without friction. `period` [s]; `speed`
- * [m/s], `swing` [m] and `force` [N] are the scales of velocity (v_q), resonator and load (what
- * stops v_q in a period). `states` is the number of states that a period maps: the bristle is one
- * under LuGre friction. */
+/* `law` is that of the full device, `fast` its vibration without friction. `period` [s]; `speed` [m/s],
+ * `swing` [m] and `force` [N] are the scales of velocity (v_q), resonator displacement and load (the force
+ * that stops v_q in a period). `states` is the number of states that are mapped: 3, with LuGre friction 4. */
 typedef struct {
     Law law;
     FastVibration fast;
@@ -28,7 +26,7 @@ typedef struct {
     double period, speed, swing, force;
 } PeriodMap;
 
-/* The map of `device` under `turns * ratio` waves, an integer, of the normal load. Refuses where
+/* Prepare the map of `device` at a frequency ratio for which `turns * ratio` is an integer. Refuses where
  * device and friction law do not fit, and where undamped resonance leaves no steady vibration. */
 bool period_map_prepare(PeriodMap *map, const Device *device, double ratio, int turns,
                         Refusal *refusal);
@@ -36,19 +34,20 @@ bool period_map_prepare(PeriodMap *map, const Device *device, double ratio, int 
 /* Drive phase [rad] of the section where the vibration is fastest in `direction`, 1 or -1. */
 double section_phase(const PeriodMap *map, int direction);
 
-/* Momentum over total mass without that of the drive, W = X' + r Y' + D / (Mt w) cos(theta) [m/s]. */
+/* Momentum of the pair over total mass, without the part that the drive makes:
+ * W = X' + r Y' + D / (Mt w) cos(theta) [m/s]. */
 double momentum_velocity(const PeriodMap *map, const State *state, double theta);
 
-/* Begin at drive phase `theta` [rad] with the state, the bristle and the stops that `moment` has:
- * its phases, mode and counts; its position is 0. */
+/* Set phases, contact mode and counts of a `moment` for a motion that begins at drive phase `theta` [rad],
+ * at position 0; its state, bristle and stops are kept. */
 void orbit_enter(const PeriodMap *map, double lead, double theta, Moment *moment);
 
-/* The moment `duration` [s] after one that orbit_enter began, under `load` [N]. False where time
- * does not get on or numbers leave the range of floating point. */
+/* Advance by `duration` [s] from a moment that orbit_enter prepared, under `load` [N]. False where the motion
+ * takes too many legs or numbers leave the range of floating point. */
 bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment *moment,
                    double duration, Moment *after);
 
-/* Friction [N] while the slider slides forward all the time: its mean over a period. */
+/* Mean friction [N] over a period in which the slider slides forward throughout. */
 double sliding_friction(const PeriodMap *map, double lead);
 
 #endif

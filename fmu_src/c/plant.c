@@ -5,8 +5,8 @@
 #include "refusal_texts.h"
 #include "state.h"
 
-/* Distance of the squares of two frequencies that is due to rounding: undamped, the steady force has
- * no correct digit there. */
+/* Relative difference of two squared frequencies that is due to rounding: without damping the steady force
+ * has no correct digit there. */
 #define AT_RESONANCE (8.0 * EPSILON)
 
 /* The resonator against a free slider (eq. 31 divided by 1 - r_m). */

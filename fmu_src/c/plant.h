@@ -20,11 +20,11 @@
 
 /* Coefficients under held inputs (SI units; complex numbers are amplitudes of e).
  *
- * At fidelity 1 (and 0) `slider_mass` is the total and `mass_fraction`, `spring` and `damper` are 0,
- * for the resonator then acts by its steady force only; `resonator_amplitude` holds its steady
- * displacement [m], and `resolves_resonator` is false. `preload_share` is N0 / dN: below 1 the contact
- * lifts, and -1 stands for no normal load at all. `holding_drive` is the part of the force on a held
- * slider that follows the drive directly [N], `drive` that on the pair per total mass [m/s^2].
+ * At fidelity 1 (and 0) the resonator acts by its steady force only: `slider_mass` is the total mass,
+ * `mass_fraction`, `spring` and `damper` are 0, `resonator_amplitude` is the steady displacement of the
+ * resonator [m], and `resolves_resonator` is false. `preload_share` is N0 / dN: the contact lifts below 1;
+ * -1 stands for no normal load at all. `holding_drive` is the part of the force on a held slider that
+ * follows the drive directly [N], `drive` the force of the drive on the pair per total mass [m/s^2].
  *
  * While inputs vary, the load grows by `load_rate` [N/s] and the normal frequency by `normal_rate`
  * [rad/s^2]; both are 0 under held inputs. */

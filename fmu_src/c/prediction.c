@@ -9,18 +9,18 @@
 #include "steady_orbit.h"
 #include "vibrating_load.h"
 
-/* Distance from the steady velocity of first order, in fast velocities, up to which that of second order
- * is taken for the same. */
+/* Largest difference, in fast velocities, between steady velocities of first and second order that belong
+ * to the same balance. */
 #define SAME 0.05
 
-/* Whether friction falls everywhere with the slow velocity, so that there is one balance. */
+/* Whether friction is monotonic in the slow velocity, so that there is one balance. */
 static bool is_monotonic(const Law *law, const PeriodMap *map) {
     const Device *device = &law->device;
     double drag = law->friction->averaged->drag(&law->bristle, map->speed);
     return device->normal_amplitude <= device->normal_preload && drag <= law->bristle.coefficient;
 }
 
-/* The steady motion by that of first order, or by search. */
+/* The steady motion: found from the velocity of first order, or else by a search over all velocities. */
 static OrbitStatus find_steady(const Law *law, const PeriodMap *map, double lead, double velocity,
                                HeldOrbit *orbit) {
     double load = law->inputs.load;

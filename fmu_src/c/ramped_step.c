@@ -8,10 +8,10 @@
 #include "values.h"
 #include "vibrating_load.h"
 
-/* Slow phases that one step may pass through. */
+/* Largest number of slow phases in a step. */
 enum { MAX_SLOW_PHASES = 1000 };
 
-/* Let inputs grow from their present values for `t` [s]. */
+/* Values after inputs have grown for `t` [s]. */
 static void grow(const Snapshot *now, double t, double values[SETTABLE_COUNT]) {
     memcpy(values, now->values, sizeof now->values);
     for (size_t i = 0; i < INPUT_COUNT; i++) {
@@ -37,14 +37,14 @@ static bool reached_check(const Snapshot *now, const double reached[SETTABLE_COU
     return true;
 }
 
-/* Inputs that grow from `values` on; a phase that grows belongs to the frequency ratio. */
+/* The ramp from `values` on; the rate of the phase is added to the frequency ratio. */
 static Ramp ramp_from(const double values[SETTABLE_COUNT], const InputDerivative *derivatives) {
     double turning = derivatives[VR_PHASE].value / values[VR_DRIVE_FREQUENCY];
     return (Ramp){values[VR_FREQUENCY_RATIO] + turning, derivatives[VR_LOAD].value,
                   derivatives[VR_FREQUENCY_RATIO].value};
 }
 
-/* How much of the `left` time [s] averaged motion sees one slow phase. */
+/* The part [s] of the time `left` during which averaged motion has one slow phase. */
 static double time_of_slow_phase(const double values[SETTABLE_COUNT], const Ramp *ramp,
                                  double left) {
     Device device = device_of(values);
@@ -52,7 +52,7 @@ static double time_of_slow_phase(const double values[SETTABLE_COUNT], const Ramp
         return left;
     }
     double boundary = next_slow_boundary(&device, ramp->ratio, copysign(1.0, ramp->ratio_rate));
-    /* Rounding may leave a boundary just ahead that was reached. */
+    /* By rounding, a boundary that was reached may be just ahead. */
     double ahead = fmax(fabs(boundary - ramp->ratio), EXACT * fmax(1.0, fabs(ramp->ratio)));
     return fmin(left, ahead / fabs(ramp->ratio_rate));
 }
@@ -73,8 +73,8 @@ static bool prepare_piece(RampedStep *step, const double values[SETTABLE_COUNT],
     return bounded_work_check(&step->law, duration, refusal);
 }
 
-/* Give a moment the phases of inputs that are held: `begin` were the values `duration` [s] before, `end`
- * are those now. */
+/* Give the moment after a ramp the phases that belong to held inputs: `begin` are the values before,
+ * `duration` [s] ago, and `end` those now. */
 static void settle_phases(const Law *law, const double begin[SETTABLE_COUNT],
                           const double end[SETTABLE_COUNT], const Ramp *ramp, double duration,
                           Moment *after) {

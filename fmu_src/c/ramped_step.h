@@ -1,8 +1,8 @@
 /* A step during which inputs vary linearly.
  *
- * A phase that grows is another frequency of the normal load: during the step its rate belongs to psi,
- * and at the end the phase has what psi gained. So such a step is one of a law whose load and normal
- * frequency may grow. */
+ * A phase that grows is a shift of the normal frequency: during the step psi grows instead, and at the end
+ * that growth is moved to the phase. So the law of the step has a load and a normal frequency that may
+ * grow. */
 #ifndef RAMPED_STEP_H
 #define RAMPED_STEP_H
 
@@ -11,7 +11,8 @@
 #include "component_law.h"
 #include "snapshot.h"
 
-/* The law during the step, where it follows orbits that of the full device, and the values at the end. */
+/* The law during the step, the law of the full device if it follows orbits (`resolved`), and the values at
+ * the end (`reached`). */
 typedef struct {
     Law law, resolved;
     double reached[SETTABLE_COUNT];

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Share of the fastest frequency that counts as the least one in the scale of velocities. */
+/* Lower limit of frequencies in the scale of velocities, as a share of the fastest one. */
 #define SLOWEST 0.02
 
 void regular_slide_begin(RegularSlide *slide, const Plant *plant, int sign, const State *state,
@@ -42,8 +42,8 @@ static double velocity_at(const RegularSlide *slide, double t, double rate, cons
     return velocity - slide->plant->mass_fraction * (rate - slide->start.rate);
 }
 
-/* Bound on the second derivative of the velocity [m/s^3]: by the momentum of the pair, or for a
- * slider that hardly feels its resonator by the force between them. */
+/* Bound on the second derivative of the velocity [m/s^3]: the smaller one of those from the momentum of the
+ * pair and from the force between slider and resonator, which is better for a light resonator. */
 static double bound_of(const RegularSlide *slide, const Sample *sample) {
     const Plant *plant = slide->plant;
     double by_pair = slide->pair_bound + plant->mass_fraction * sample->jerk_bound;

@@ -10,10 +10,10 @@
 #include "plant.h"
 #include "state.h"
 
-/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight. `pair` are the sinusoidal
- * parts of the acceleration [m/s^2] that outer forces give to the pair; the rest is a
- * `deceleration` that grows by `deceleration_rate` [m/s^3]. `pair_bound` and `own_bound` [m/s^3] bound how fast outer forces change the acceleration of
- * the pair and of the slider by itself. */
+/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight. `pair` are the sinusoidal parts of
+ * the acceleration [m/s^2] of the pair by outer forces; the rest is a `deceleration` that grows by
+ * `deceleration_rate` [m/s^3]. `pair_bound` and `own_bound` [m/s^3] bound the rate at which outer forces
+ * change the acceleration of the pair, and of the slider alone. */
 typedef struct {
     const Plant *plant;
     int direction;

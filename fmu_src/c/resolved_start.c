@@ -5,23 +5,23 @@
 #include "slow_motion_error.h"
 #include "state.h"
 
-/* What may be left of the swing, over the steady one, and of the bend of a bristle. */
+/* Relative size to which the resonator's transient and the transient of a bristle must have decayed. */
 #define SWING_LEFT 1e-7
 
-/* What may be left of a lag, over v_q. */
+/* Size, over v_q, to which a lag must have decayed. */
 #define LAG_LEFT 1e-9
 
-/* Most turns of the drive. */
+/* Largest number of turns of the drive that are resolved. */
 #define MAX_TURNS_RESOLVED 1e5
 
-/* Fewest turns: from rest under a direct drive motion begins where the slider just turns back, and its
- * friction is not slow until it has left that velocity. */
+/* Smallest number of turns that are resolved: from rest under a direct drive the motion begins at grazing,
+ * and its mean friction is not smooth until it has left that velocity. */
 #define MIN_TURNS_RESOLVED 8.0
 
-/* Largest swing, over the steady one, that counts. */
+/* Limit of the transient, relative to the steady vibration. */
 #define MAX_SWING 1e6
 
-/* Drive angle [rad] until a `size` has become `left` at a decay in a turn. */
+/* Drive angle [rad], whole turns, in which `size` decays to `left`; `decay` is that of a turn. */
 static double angle_until(double size, double left, double decay) {
     return size > left ? TAU * ceil(log(size / left) / decay) : 0.0;
 }

@@ -1,4 +1,4 @@
-/* For how long motion has to be resolved until what shook the resonator has decayed. */
+/* How long motion must be resolved: until the transient of the resonator has decayed. */
 #ifndef SLIDER_RESOLVED_START_H
 #define SLIDER_RESOLVED_START_H
 
@@ -6,14 +6,14 @@
 
 #include "law.h"
 
-/* Whether the vibration decays at all, in a number of turns that can be resolved. */
+/* Whether transients decay within the largest number of turns that are resolved. */
 bool resolved_is_bounded(const Law *law);
 
-/* Drive angle [rad], whole turns, until the resonator's swing at a moment has become the steady one, and
- * the bristle the periodic one. */
+/* Drive angle [rad], whole turns, until resonator and bristle have become periodic, from their state at a
+ * moment. */
 double resolved_angle(const Law *law, const Moment *moment);
 
-/* The same after friction has changed while it adds a share `added_mass` of the total mass. */
+/* The same after a change of friction, which adds the share `added_mass` to the total mass. */
 double lag_angle(const Law *law, double added_mass);
 
 #endif

@@ -2,17 +2,17 @@
 
 #include <math.h>
 
-/* Distance from balance, in fast velocities: well above the error of the steps before, and so short
- * that forces are linear over it. */
+/* Distance from balance, in fast velocities, at which motion settles: well above the error of the steps
+ * before, and so short that forces are linear over it. */
 #define NEAR 1e-7
 
-/* Time constants of the approach that must fit into what is left. */
+/* Number of time constants of the approach that the time left must exceed. */
 #define SETTLED 20.0
 
 enum { MAX_SECANTS = 40 };
 
-/* Where the acceleration falls through 0 between `low` and `high` [m/s]: false position, in which an
- * end that stays loses half of its weight (the Illinois rule). */
+/* The velocity between `low` and `high` [m/s] at which the acceleration falls through 0: regula falsi with
+ * the Illinois rule, which halves the weight of an end that stays. */
 static double balance_between(AccelerationFunction acceleration, const void *motion, double low,
                               double at_low, double high, double at_high) {
     double root = low, before;

@@ -1,4 +1,4 @@
-/* The end of averaged motion that is steady but for a last approach, without following it. */
+/* The last approach of averaged motion to a steady velocity, in closed form. */
 #ifndef SLIDER_SETTLING_H
 #define SLIDER_SETTLING_H
 
@@ -6,8 +6,9 @@
 
 #include "dormand_prince.h"
 
-/* Advance `now` to time `end` [s] if its velocity is close to one at which forces balance, relative
- * to the `fast` velocity [m/s], and reaches it well before `end`; return whether that is so. The acceleration must not depend on time. */
+/* Advance `now` to time `end` [s] if its velocity is close to one at which forces balance, relative to the
+ * `fast` velocity [m/s], and reaches that well before `end`. Return whether that is so. The acceleration
+ * must not depend on time. */
 bool settle(AccelerationFunction acceleration, const void *motion, double fast, double end,
             Reached *now);
 

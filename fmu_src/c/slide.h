@@ -1,4 +1,4 @@
-/* Sliding or flight in closed form, by the form that serves the device. */
+/* Sliding or flight in closed form: the fast form if it serves the device, otherwise the regular one. */
 #ifndef SLIDER_SLIDE_H
 #define SLIDER_SLIDE_H
 

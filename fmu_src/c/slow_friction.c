@@ -6,7 +6,7 @@
 #include "slow_phase.h"
 #include "state.h"
 
-/* Angle tau at which sliding turns forward [rad]; 0 or pi once it no longer turns. */
+/* Angle tau at which sliding turns forward [rad]; 0 or pi where it never reverses. */
 static double turning_at(double velocity, double fast_velocity) {
     if (fabs(velocity) >= fast_velocity) {
         return velocity > 0.0 ? 0.0 : PI;
@@ -25,7 +25,7 @@ static SlowForm form_of(const Law *law, const AveragedFriction *friction, int tu
     return lifts || too_many ? UNDER_ANY_LOAD : UNDER_SINE;
 }
 
-/* Whether the load is constant to averages while its frequency grows. */
+/* Whether the load counts as constant in averages while its frequency grows. */
 static bool is_steady_in_chirp(const SlowFriction *slow) {
     bool averaged = slow->form == UNDER_MEAN_LOAD && !slow->stands;
     return slow->slow.chirp != 0.0 && (averaged || slow->law->device.normal_amplitude == 0.0);
@@ -37,7 +37,7 @@ SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     double n = phase.waves;
     SlowFriction slow = {.law = law, .friction = law->friction->averaged};
     if (law->fast.velocity == 0.0) {
-        /* Without vibration a bristle is always fully bent, and friction Coulomb's. */
+        /* Without vibration a bristle is always fully bent: friction is Coulomb's. */
         slow.friction = &AVERAGED_COULOMB;
     }
     slow.form = form_of(law, slow.friction, phase.turns, n);
@@ -115,8 +115,8 @@ double slow_friction_to_kink(const SlowFriction *slow, double t) {
 
 double slow_friction_sway(const SlowFriction *slow) {
     const Device *device = &slow->law->device;
-    double most = device->friction_faces * device->friction_coefficient * device->normal_amplitude;
-    return slow->stands ? most * slow->slow.fastest : 0.0;
+    double amplitude = device->friction_faces * device->friction_coefficient * device->normal_amplitude;
+    return slow->stands ? amplitude * slow->slow.fastest : 0.0;
 }
 
 double slow_friction_at(const SlowFriction *slow, double t, double velocity) {

@@ -1,4 +1,4 @@
-/* Mean friction under fast vibration, as slow motion sees it: at a slow velocity and a slow phase.
+/* Mean friction under fast vibration as a function of the slow velocity and the slow phase.
  *
  * The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
  * (ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact
@@ -8,13 +8,14 @@
 
 #include "law.h"
 
-/* How the mean friction follows from its law: by the means under a sine, under a load that counts
- * with its mean, or as the mean under a load of any shape. */
+/* How mean friction is computed: from the means under a sine, under a load that counts with its mean, or
+ * as the mean under a load of any shape. */
 typedef enum { UNDER_SINE, UNDER_MEAN_LOAD, UNDER_ANY_LOAD } SlowForm;
 
-/* `waves` of the normal load over a turn of the drive, its `phase` [rad] now, how that drifts, and the `table` of means where they are expensive. Under a sine `sine` and `cosine` of the
- * phase now, else the `load` of now. The phase repeats after `beat` [s]; `stands` where the load
- * itself is slow. */
+/* `waves` of the normal load over a turn of the drive, its present `phase` [rad] and drift (`slow`); `table`
+ * of the means where they are expensive. `sine` and `cosine` are those of the present phase, under a sine;
+ * `load` is the present load otherwise. The phase repeats after `beat` [s]. `stands`: the load itself is
+ * slow, at a frequency ratio near 0. */
 typedef struct {
     const Law *law;
     const AveragedFriction *friction;
@@ -36,14 +37,15 @@ static inline bool slow_friction_is_expensive(const SlowFriction *slow) {
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
 SlowFriction slow_friction_of(const Law *law, double theta, double psi);
 
-/* Time [s] from `t` [s] on until the contact lifts or touches down, where the load itself is slow;
- * else infinite. */
+/* Time [s] from `t` [s] on until the contact lifts or touches down, where the load itself is slow; infinite
+ * elsewhere. */
 double slow_friction_to_kink(const SlowFriction *slow, double t);
 
-/* How fast [N/s] it may grow beyond the fast velocity, where the load itself is slow; else 0. */
+/* Bound on the rate of friction [N/s] beyond the fast velocity, where the load itself is slow; 0
+ * elsewhere. */
 double slow_friction_sway(const SlowFriction *slow);
 
-/* Its value [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */
+/* The mean friction [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */
 double slow_friction_at(const SlowFriction *slow, double t, double velocity);
 
 #endif

@@ -11,18 +11,18 @@
 /* Error per step of the slow motion, relative to the fast velocity. */
 #define TOLERANCE 2e-10
 
-/* Waves of the normal load over a turn that double the cost of a quadrature, and those beyond which
- * the load counts with its mean. */
+/* Number of waves of the normal load over a turn that doubles the cost of a quadrature, and number beyond
+ * which the load counts with its mean. */
 #define WAVES 10.0
 #define MAX_WAVES 1000.0
 
-/* Fewest steps up to which work is accepted. */
-enum { LEAST_STEPS = 16 };
+/* Lower limit of the number of steps that is accepted. */
+enum { MIN_STEPS = 16 };
 
-/* Pieces of a beat with constant friction each, where there is no vibration. */
+/* Pieces of a beat, with constant friction in each, in motion without vibration. */
 #define PIECES 256.0
 
-/* A block without vibration, under constant forces, from `velocity` on. */
+/* Motion of a block without vibration under constant forces, from `velocity` [m/s] on. */
 static Reached block_after(double velocity, double friction, double load, double mass,
                            double duration) {
     Reached reached = {.t = duration};
@@ -46,13 +46,14 @@ static Reached block_after(double velocity, double friction, double load, double
     return reached;
 }
 
-/* Legs of a block under a load that grows: it stops, sticks and sets out at most twice. */
+/* Largest number of legs of a block under a load that grows: it stops, sticks and sets out twice at most. */
 enum { MAX_BLOCK_LEGS = 8 };
 
-/* How many times a step under a growing load costs one under a constant one, at most. */
+/* Largest cost of a step under a growing load, relative to one under a constant load. */
 enum { GROWING = 4 };
 
-/* Where a block at rest sets out under a load that grows by `rate` [N/s]: 0 while friction holds it. */
+/* Direction in which a block at rest sets out under a load that grows by `rate` [N/s]; STICK while friction
+ * holds it. */
 static int block_sets_out(double friction, double load, double rate) {
     if (fabs(load) > friction || (fabs(load) == friction && load * rate > 0.0)) {
         return load > 0.0 ? BACKWARD : FORWARD;
@@ -60,7 +61,7 @@ static int block_sets_out(double friction, double load, double rate) {
     return STICK;
 }
 
-/* The same under a load that grows by `rate` [N/s]. */
+/* block_after under a load that grows by `rate` [N/s]. */
 static Reached block_ramped(double velocity, double friction, double load, double rate, double mass,
                             double duration) {
     Reached reached = {.t = duration, .velocity = velocity};
@@ -96,7 +97,7 @@ static double time_to_kink(const void *motion, double t) {
     return slow_friction_to_kink(motion, t);
 }
 
-/* Motion without vibration: under constant forces in each piece of time. */
+/* Motion without vibration, with constant friction in each piece of time. */
 static bool pass_unshaken(const SlowFriction *friction, double duration, Reached *reached,
                           Refusal *refusal) {
     const Plant *plant = &friction->law->held.plant;
@@ -119,24 +120,24 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Reached
     return true;
 }
 
-/* Steps of averaged motion in one communication step up to which its work is accepted. */
+/* Largest number of steps of averaged motion that is accepted in one communication step. */
 static int max_steps(const SlowFriction *friction) {
     if (!slow_friction_is_expensive(friction)) {
         bool grows = friction->law->held.plant.load_rate != 0.0;
         return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
     }
     double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
-    return (int)fmax(LEAST_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
+    return (int)fmax(MIN_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
 }
 
-/* Largest friction [N] of Coulomb's law under the normal load at any phase. */
+/* Largest Coulomb friction [N] over all phases of the normal load. */
 static double strongest_friction(const Device *device) {
     double normal = device->normal_preload + device->normal_amplitude;
     return device->friction_faces * device->friction_coefficient * normal;
 }
 
-/* Integrate the slow velocity over `duration` [s]; one that settles takes few steps, however long
- * the duration. */
+/* Integrate the slow velocity over `duration` [s]. A velocity that settles takes few steps, however long
+ * the duration is. */
 static bool pass(const SlowFriction *friction, double duration, Reached *reached,
                  Refusal *refusal) {
     const Plant *plant = &friction->law->held.plant;

@@ -1,11 +1,11 @@
 /* Averaged motion, fidelity 0: the slow motion of the pair under mean friction.
  *
- * With D the amplitude of the drive force on the pair, its momentum over the total mass is P = X' +
- * r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both go on smoothly
- * whatever is tuned. V is the slow velocity, (M + m) V' = -mean friction - load. The fast parts of
- * all outputs are the steady vibration (32)-(33), added in closed form.
+ * With D the amplitude of the drive force on the pair, its momentum over the total mass is P = X' + r_m Y'
+ * = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous, also where a parameter
+ * is tuned. V is the slow velocity: (M + m) V' = -mean friction - load. The fast parts of all outputs are
+ * the steady vibration (32)-(33), added in closed form.
  *
- * A bristle is taken as slaved to the motion, so it has no state here. */
+ * The bristle follows the motion periodically; it has no state here. */
 #ifndef SLIDER_SLOW_MOTION_H
 #define SLIDER_SLOW_MOTION_H
 
@@ -13,9 +13,9 @@
 
 #include "law.h"
 
-/* The moment `duration` > 0 [s] later. Refuses, with `after` undefined, where that
- * takes too many steps; `after` may be `moment`. At the start the velocities fix the momentum of the
- * pair, not the vibration. */
+/* Advance by `duration` > 0 [s] from `moment` to `after`, which may be the same. Refuses, with `after`
+ * undefined, where that takes too many steps. The initial velocities determine the momentum of the pair,
+ * not the vibration. */
 bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,
                   Refusal *refusal);
 

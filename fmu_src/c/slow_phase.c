@@ -5,8 +5,8 @@
 #include "state.h"
 #include "vibrating_load.h"
 
-/* Distance of the frequency ratio from an integer up to which the phase counts as slow; under a
- * lifting contact that of q times the ratio, times q, for q of a few turns. */
+/* Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under a lifting
+ * contact: largest distance of q times the ratio, times q, for q up to a few turns. */
 #define NEAR 0.1
 
 SlowPhase slow_phase_of(const Device *device, double ratio) {

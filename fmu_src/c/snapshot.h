@@ -11,8 +11,8 @@
 #include "refusal.h"
 #include "variables.h"
 
-/* Times in s; an open `stop_time` is infinite. `time_carry` is what `time` lacks by rounding at a
- * located event. `values` are those that can be set, by reference.
+/* Times in s; an open `stop_time` is infinite. `time_carry` is the rounding error of `time` at a located
+ * event. `values` are those of the variables that can be set, by reference.
  * `moment` is defined while `moving`, that is from the end of initialization on. */
 typedef struct {
     Lifecycle lifecycle;

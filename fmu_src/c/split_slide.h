@@ -1,9 +1,9 @@
 /* Sliding or flight as a sum of exponentials: the fast form, for most devices.
  *
  * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t) + vh exp(lambda t)): the
- * particular solutions at drive and normal frequency are split off from the free oscillation. That
- * loses digits near resonance and for slow normal loads; `split_prepare` answers false there and
- * RegularSlide serves. */
+ * particular solutions at drive and normal frequency are split off from the free oscillation. That loses
+ * digits near resonance and for slow normal loads; `split_prepare` returns false there, and RegularSlide is
+ * used. */
 #ifndef SLIDER_SPLIT_SLIDE_H
 #define SLIDER_SPLIT_SLIDE_H
 
@@ -23,17 +23,17 @@ typedef struct {
     Complex resonator_drive, velocity_drive, resonator_normal, velocity_normal;
 } Split;
 
-/* The amplitudes; false where splitting would lose digits. */
+/* Compute the amplitudes. Returns false, with `split` undefined, where splitting would lose digits. */
 bool split_prepare(Split *split, const Plant *plant);
 
-/* exp(i theta) of the drive, and of the normal load exp(i chi), or what does not change during motion:
- * exp(i (chi - theta)) at the frequency of the drive. */
+/* `drive` is exp(i theta). `normal` is exp(i chi) or, if the normal load has the frequency of the drive, the
+ * constant exp(i (chi - theta)). */
 typedef struct {
     Complex drive, normal;
 } Phasors;
 
-/* Phasors of the present angles, kept where a slide knows them at its end from sines and cosines that
- * were computed in it. They are no part of the state: a step computes them anew. */
+/* Phasors at the end of a slide, for the next leg of the same step, if the slide has computed them. They are
+ * no part of the state: each step computes them anew. */
 typedef struct {
     bool known;
     Phasors phasors;
@@ -50,8 +50,8 @@ double force_by(const Plant *plant, const State *state, const Phasors *phasors);
 /* Friction force [N] of all faces when sliding steadily; 0 in flight. */
 double friction_limit_by(const Plant *plant, const Phasors *phasors);
 
-/* Phasors after `t` [s], with exp(lambda t) (`free`) and its absolute value (`envelope`); these are 1
- * where no resonator swings freely. */
+/* Phasors after `t` [s], with exp(lambda t) (`free`) and its absolute value (`envelope`); the last two are 1
+ * where the resonator is not resolved. */
 typedef struct {
     double t;
     Phasors phasors;
@@ -59,16 +59,16 @@ typedef struct {
     double envelope;
 } Turns;
 
-/* Turns at phases `theta` and `chi` [rad], which after a turn of the drive come back nearly: a few times
- * they are rotated by the difference, `uses` times more, before sines are computed anew. */
+/* Turns at phases `theta` and `chi` [rad]. After a turn of the drive the phases are nearly the same: turns
+ * are then rotated by the difference, up to `uses` times more, instead of computing sines. */
 typedef struct {
     int uses;
     double theta, chi;
     Turns turns;
 } PastTurns;
 
-/* Those for which the last slides in one direction computed sines, `oldest` the next to be replaced: some
- * two on the way to a stop, and one where a period ends. */
+/* The turns for which recent slides in one direction computed sines: about two on the way to a stop, and one
+ * where a period ends. `oldest` is replaced next. */
 enum { PAST_TURNS = 3 };
 
 typedef struct {
@@ -76,14 +76,15 @@ typedef struct {
     int oldest;
 } TurnMemory;
 
-/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad]
- * on. The resonator follows `constant` [m] + `slope` [m/s] t and swings about it. `travel_free` is the integral of the free part of the velocity, vh / lambda [m]; `bound` and
- * `free_bound` [m/s^3] bound the second derivative of the velocity: of its forced part, and of its
- * free part at first. `noise` [m/s] is the rounding error of the velocity.
+/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad] on. The
+ * resonator vibrates about `constant` [m] + `slope` [m/s] t. `travel_free` is the integral of the free part
+ * of the velocity, vh / lambda [m]; `bound` and `free_bound` [m/s^3] bound the second derivative of the
+ * velocity: of its forced part, and of its free part at the start. `noise` [m/s] is the rounding error of
+ * the velocity.
  *
- * `anchor` is the latest time for which sines and cosines were computed, where `anchored`: close to
- * it, or to the `start`, known turns are rotated by a little; so are those of a `memory`, unless that is
- * NULL. */
+ * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the
+ * anchor or the `start`, and close to turns in `memory` unless that is NULL, these are rotated instead of
+ * computing sines. */
 typedef struct {
     const Split *split;
     const Plant *plant;
@@ -99,18 +100,18 @@ typedef struct {
     TurnMemory *memory;
 } SplitSlide;
 
-/* The velocity is watched in `direction`, unless that is 0. `start` are the phasors of `theta` and
- * `chi`. */
+/* Begin a slide from `state`, under friction in direction `sign`. The velocity is watched in `direction`,
+ * unless that is 0. `start` are the phasors of `theta` and `chi`. */
 void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, int sign,
                        const State *state, double theta, double chi, const Phasors *start,
                        int direction);
 
-/* Adds to the motion a constant velocity `momentum` [m/s] and a free oscillation of the resonator from
- * the start on, of amplitude `swing` [m], with what it does to the slider. */
+/* Adds to the motion a constant velocity `momentum` [m/s] and a free oscillation from the start on, of
+ * complex amplitude `swing` [m] of the resonator, with its reaction on the slider. */
 void split_slide_change(SplitSlide *slide, double momentum, Complex swing);
 
-/* Lets turns that are known after `t` [s] serve close to it: exp(i w t) of the drive, exp(i q t) of the normal
- * load and exp(lambda t). */
+/* Makes the known turns after `t` [s] the anchor: exp(i w t) of the drive, exp(i q t) of the normal load and
+ * exp(lambda t). */
 void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex normal, Complex free);
 
 /* The velocity in the direction to watch. */

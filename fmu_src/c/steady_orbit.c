@@ -6,13 +6,14 @@
 
 #include "state.h"
 
-/* Velocities at which orbits tell where steady motion is, and the most halvings in between. */
+/* Number of velocities at which steady motion is looked for, and largest number of halvings between two. */
 enum { SAMPLES = 12, MAX_HALVINGS = 60 };
 
 /* Largest sampled velocity, in v_q: beyond grazing unless friction is strong. */
 #define SAMPLED_REACH 1.05
 
-/* Amplitude [m/s] of the vibration from which on squares leave the range of numbers: no iteration ends. */
+/* Amplitude [m/s] of the vibration from which on squares leave the range of floating point, so that no
+ * iteration would converge. */
 #define MAX_SPEED 1e150
 
 /* Distance in v_q of velocities from which orbits lead to others of the velocity between them, and velocity
@@ -23,14 +24,15 @@ enum { SAMPLES = 12, MAX_HALVINGS = 60 };
 /* Force, over full friction, that is rounding or the tolerance of a map. */
 #define NOISE 1e-9
 
-/* What lies between two velocities [m/s], at the first of which friction and load together drive
- * the slider on, and at the second brake it. `orbit` is one of them. */
+/* Two velocities [m/s]: at `low` friction and load together accelerate the slider, at `high` they brake it.
+ * `orbit` is that of one of them. */
 typedef struct {
     double low, high;
     HeldOrbit orbit;
 } Bracket;
 
-/* Finds the steady motion in a bracket: by the tangent, or else between the halves. */
+/* Finds the steady motion in a bracket: by Newton's method from its orbit, with bisection where that leaves
+ * the bracket. */
 static OrbitStatus refine(const PeriodMap *map, double lead, double load, Bracket *bracket,
                           HeldOrbit *orbit) {
     OrbitStatus status = ORBIT_NOT_CONVERGED;
@@ -50,9 +52,9 @@ static OrbitStatus refine(const PeriodMap *map, double lead, double load, Bracke
     return ORBIT_NOT_CONVERGED;
 }
 
-/* What the samples have shown so far: the highest velocity [m/s] at which friction and load drive
- * the slider on, whether one with a braking force may follow it, the samples in balance since, and
- * how many brackets there are. */
+/* Result of the samples so far: `low`, the highest velocity [m/s] at which friction and load accelerate the
+ * slider; `drives`, whether a bracket is open from there; the number of samples in balance since
+ * (`balanced`); the number of brackets (`count`) and the last one. */
 typedef struct {
     double low;
     bool drives;
@@ -60,7 +62,7 @@ typedef struct {
     Bracket bracket;
 } Scan;
 
-/* Takes in a velocity [m/s] and the force [N] on it; the orbit is that of the last sample. */
+/* Adds a sample: a velocity [m/s], the `excess` of friction and load there [N], and its orbit. */
 static void scan_on(Scan *scan, double velocity, double excess, double noise,
                     const HeldOrbit *sample) {
     if (excess < -noise) {

@@ -21,9 +21,9 @@ typedef struct {
 /* `plant` must outlive the stick. */
 void stick_begin(Stick *stick, const Plant *plant, const State *state, double theta, double chi);
 
-/* Forward margin (limit - needed force), then backward margin (limit + needed force), for up to
- * `longest` [s]; returns how many: none when no force is needed, or never one that reaches the least
- * limit. */
+/* Watch the forward margin (limit - needed force), then the backward margin (limit + needed force), for up
+ * to `longest` [s]. Return the number of watches: 0 where the needed force is 0, or always below the
+ * smallest limit. */
 int stick_watches(Stick *stick, double longest, Watch watches[2]);
 
 /* State after `t` [s]. */

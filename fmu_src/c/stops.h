@@ -1,4 +1,4 @@
-/* Where the slider is expected to stop: near where it stopped one drive turn before, most often. */
+/* Prediction of the next stop of the slider: mostly near the phase of its stop one drive turn before. */
 #ifndef SLIDER_STOPS_H
 #define SLIDER_STOPS_H
 
@@ -9,13 +9,13 @@
 /* Largest change of the phase of a stop [rad] in a turn that counts as a drift. */
 #define MAX_DRIFT 0.1
 
-/* Drive phase [rad] at which the slider last stopped after sliding in one direction, and how far
- * that is from where it stopped before. Both are 0 before it did: a guess as good as any. */
+/* Drive phase [rad] at which the slider last stopped after sliding in one direction, and its difference
+ * from the stop before. Before the first stop both are 0, an arbitrary guess. */
 typedef struct {
     double theta, drift;
 } Stop;
 
-/* One for each direction of sliding. */
+/* The last stop in each direction of sliding. */
 typedef struct {
     Stop backward, forward;
 } Stops;
@@ -31,7 +31,7 @@ static inline void stop_record(Stop *stop, double theta) {
     stop->theta = theta;
 }
 
-/* Time [s] from drive phase `theta` [rad] to the next stop if it drifts on as it did. */
+/* Time [s] from drive phase `theta` [rad] to the next stop if it drifts as much as before. */
 static inline double stop_expected(const Stop *stop, double theta, double drive_frequency) {
     return within_turn(stop->theta + stop->drift - theta) / drive_frequency;
 }

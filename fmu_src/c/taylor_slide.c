@@ -14,8 +14,8 @@ static Complex turned(Complex z, double angle) {
     return complex_of(-z.im * angle, z.re * angle);
 }
 
-/* Adds to later terms of the product a b what coefficient k gives to them, first coefficients left
- * out. Sums that are built up side by side do not wait for each other. */
+/* Adds the contribution of coefficient k to the later terms of the product a b, without those of the first
+ * coefficients. Processors compute these independent sums in parallel. */
 static void push_product(double *product, const double *a, const double *b, int k) {
     int end = k < TAYLOR_ORDER - k ? k : TAYLOR_ORDER - k;
     for (int i = 1; i < end; i++) {
@@ -35,18 +35,18 @@ static double value(const double *coefficients, double t) {
 }
 
 /* Share of a motion that the last terms of its series may have, and how often a series is cut shorter
- * for it. */
+ * to reach that share. */
 #define SMALL 1e-3
-
-/* Motion [m/s] that is as good as none. */
-#define LEAST 1e-200
-
-/* Coefficient of a series below which it lets the series hold for ever. */
-#define SMALLEST 1e-300
 enum { MAX_SHRINKS = 4 };
 
-/* Two last terms of series, by the tolerance over their coefficients: how far they let the series hold [s]
- * is a root of these, of order TAYLOR_ORDER - 1 and TAYLOR_ORDER. */
+/* Motion [m/s] below which a series is not cut shorter. */
+#define NEGLIGIBLE_MOTION 1e-200
+
+/* Smallest coefficient that limits how far a series holds. */
+#define SMALLEST 1e-300
+
+/* The tolerance over the last two coefficients of a series. The series holds up to the smaller one of
+ * their roots, of order TAYLOR_ORDER - 1 and TAYLOR_ORDER [s]. */
 typedef struct {
     double lower, higher;
 } LastTerms;
@@ -67,8 +67,8 @@ static double power_lower(double x) {
     return x10 * x10 * x;
 }
 
-/* How far series hold [s]: where one of these terms is its tolerance. A root is an expensive function, so
- * the smaller one is found by powers first. */
+/* How far series hold [s]: up to where one of these terms reaches the tolerance. Roots are expensive:
+ * products decide which of the two is taken. */
 static double series_reach(LastTerms terms) {
     double lower = terms.lower, higher = terms.higher;
     double smaller = lower * power_lower(lower / higher);
@@ -81,8 +81,8 @@ static double series_reach(LastTerms terms) {
     return fmin(pow(lower, INVERSE[TAYLOR_ORDER - 1]), pow(higher, INVERSE[TAYLOR_ORDER]));
 }
 
-/* Coefficients of what the normal load adds to the limit of friction, from its amplitude `normal` on: c[k +
- * 1] = i (q c[k] + chirp c[k - 1]) / (k + 1). */
+/* Coefficients of the vibrating part of the friction limit, from its complex amplitude `normal` [N] on:
+ * c[k + 1] = i (q c[k] + chirp c[k - 1]) / (k + 1). */
 static void expand_normal(Complex normal, double q, double chirp, double limit[TAYLOR_ORDER]) {
     Complex before = complex_of(0.0, 0.0);
     for (int k = 0; k < TAYLOR_ORDER; k++) {
@@ -153,11 +153,11 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
         last.higher = fmin(last.higher, resonator.higher);
     }
     slide->reach = series_reach(last);
-    /* Of a motion far below the tolerance the last terms would be the larger part, and its first zero
-     * hard to find. */
+    /* In a motion far below the tolerance the last terms would otherwise exceed the motion itself, and its
+     * first zero would be hard to find. */
     for (int i = 0; i < MAX_SHRINKS && slide->reach < INFINITY; i++) {
         double small = SMALL * (fabs(v[0]) + fabs(v[1]) * slide->reach);
-        if (!(small > LEAST && small < tolerance)) {
+        if (!(small > NEGLIGIBLE_MOTION && small < tolerance)) {
             break;
         }
         slide->reach = fmin(slide->reach, series_reach(last_terms(v, small)));

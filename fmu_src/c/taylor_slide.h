@@ -1,4 +1,4 @@
-/* Sliding against a bristle that is still being bent: LuGre friction as a Taylor series in time.
+/* Sliding while a bristle bends: LuGre friction as a Taylor series in time.
  *
  * With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value
  * where this series starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):
@@ -6,8 +6,8 @@
  *   g = s mu + (g_r - s mu) E,    E = exp(-sigma_0 d / mu),    E' = -(sigma_0 / mu) |v| E
  *   F = faces N (g_r + (mu - s g_r) (s (1 - E) + E sigma_1 v / mu))
  *
- * so no stiff state is left, and deep presliding, where g_r and 1 - E are small, keeps its digits.
- * All factors have Taylor coefficients by recurrence. */
+ * so no stiff state remains, and deep presliding, where g_r and 1 - E are small, loses no digits. The Taylor
+ * coefficients of all factors follow by recurrence. */
 #ifndef SLIDER_TAYLOR_SLIDE_H
 #define SLIDER_TAYLOR_SLIDE_H
 
@@ -19,11 +19,11 @@
 #include "split_slide.h"
 #include "state.h"
 
-/* Terms of the series: near the order at which a digit costs least, whatever the tolerance. */
+/* Order of the series: close to the cheapest one at any tolerance. */
 enum { TAYLOR_ORDER = 22, TAYLOR_TERMS = TAYLOR_ORDER + 1 };
 
-/* Coefficients of the velocities and the displacement of the resonator, and how far they hold [s].
- * `bound` is that of the watched curvature. */
+/* Taylor coefficients of the slider's velocity and of the resonator's `displacement` and velocity (`rate`);
+ * they hold up to `reach` [s]. `bound` is that of the watched curvature. */
 typedef struct {
     int direction;
     bool resonates;
@@ -31,10 +31,10 @@ typedef struct {
     double reach, bound;
 } TaylorSlide;
 
-/* Motion in contact from `state` on, in `direction`, until the series no longer holds.
+/* Motion in contact from `state` on, in `direction`, up to `reach`.
  *
- * `friction` is sigma_0 z and `start` are the phasors at the start. The series is cut off at `reach`, where its last terms are
- * `tolerance` [m/s]. */
+ * `friction` is sigma_0 z and `start` are the phasors at the start. At `reach` the last terms of the series
+ * are `tolerance` [m/s]. */
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
                         int direction, const State *state, double friction,
                         const Phasors *start, double tolerance);

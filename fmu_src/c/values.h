@@ -11,7 +11,7 @@
 
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "compile without -ffast-math, -ffinite-math-only or /fp:fast: they remove the checks for NaN and infinity"
+#error "compile without -ffast-math, -ffinite-math-only, /fp:fast: they remove checks for NaN and infinity"
 #endif
 
 /* Refuse a place in the table where no variable is, or one of another type. */

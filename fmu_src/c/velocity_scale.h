@@ -1,4 +1,4 @@
-/* The scale of velocities that tolerances of series refer to. */
+/* The scale of velocities to which tolerances refer. */
 #ifndef VELOCITY_SCALE_H
 #define VELOCITY_SCALE_H
 
@@ -8,7 +8,8 @@
 #include "plant.h"
 #include "state.h"
 
-/* Velocity [m/s] of drive, friction over a turn, and motion. */
+/* Sum [m/s] of the velocity amplitude of the drive, the velocity that friction and load change in a radian of
+ * the drive, and the velocities of slider and resonator. */
 static inline double velocity_scale(const Plant *plant, const State *state) {
     double w = plant->drive_frequency;
     double forces = plant->friction_preload + plant->friction_amplitude + fabs(plant->load);

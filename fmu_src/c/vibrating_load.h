@@ -6,20 +6,20 @@
 
 #include "device.h"
 
-/* Turns of the drive over which a clipped load may repeat and still be followed. The harmonics of
- * the clipping that meet the drive get weaker with them; beyond, only the mean counts. */
+/* Largest number of turns of the drive after which a clipped load may repeat for its phase to count. The
+ * more turns, the weaker are the harmonics of the clipping that meet the drive; beyond, the mean counts. */
 enum { MAX_TURNS_TO_REPEAT = 4 };
 
-/* Distance of a ratio from a fraction that is due to rounding. */
+/* Distance of a ratio from a fraction up to which it is due to rounding. */
 #define EXACT 1e-12
 
-/* Turns q of the drive after which the load repeats, ratio n / q; 0 for none that counts.
+/* Number of turns q of the drive after which the load repeats, at a ratio n / q; 0 if it does not repeat.
  *
- * `tolerance` is how far q ratio may be from an integer, times q. Without flight the load is a sine
- * and only integers count: over several turns it would average out. */
+ * `tolerance` is the largest distance of q ratio from an integer, times q. Without flight the load is a sine
+ * and q is 1: over several turns it would average out. */
 int turns_to_repeat(const Device *device, double ratio, double tolerance);
 
-/* The most turns that count. */
+/* Largest number of turns that turns_to_repeat may return. */
 int max_turns_to_repeat(const Device *device);
 
 /* N(n tau + delta) with lift-off, in N, averaged over the `turns` of the drive after which it

@@ -56,7 +56,7 @@ class Component {
     return settings.size;
   }
 
-  // Made anew for each call: memory that grows leaves old views empty.
+  // A new view for each call: memory that has grown invalidates earlier views.
   #buffers() {
     const { memory, references_buffer, values_buffer } = this.module;
     return {

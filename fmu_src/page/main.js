@@ -98,7 +98,7 @@ let sketch;
 let component;
 let runs = 0;
 
-/** Run the settings of the address and show everything; a later call ends an earlier one. */
+/** Run the settings of the address and show the results; a later call cancels an earlier one. */
 async function showAddress() {
   const mine = ++runs;
   document.body.dataset.state = "running";

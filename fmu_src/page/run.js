@@ -2,7 +2,7 @@ const STEPS = 1000;
 const PERIODS_SHOWN = 4;
 const SAMPLES_PER_PERIOD = 100;
 const LOADS = 61;
-/** Milliseconds after which the page gets a turn. */
+/** Milliseconds of work after which the page may respond. */
 const SLICE = 40;
 
 /** Record variables: an object of arrays by name, `time` among them. */

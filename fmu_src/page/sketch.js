@@ -26,7 +26,7 @@ class Sketch {
   show({ closeUp, period, load }) {
     const count = closeUp.time.length;
     const mean = (closeUp.position[count - 1] - closeUp.position[0]) / (count - 1);
-    // What is left of the position without its mean motion is the fast vibration.
+    // The position without its mean motion is the fast vibration.
     const fast = closeUp.position.map((x, i) => x - mean * i);
     const middle = (Math.min(...fast) + Math.max(...fast)) / 2;
     const largest = (values) => Math.max(...values.map(Math.abs)) || 1;

@@ -38,4 +38,4 @@ def test_the_script_of_the_api_is_ten_lines_that_run(native_fmu: Path, tmp_path:
     assert len(code.splitlines()) <= 10
     _, run, steady = printed(code, tmp_path, native_fmu)
     assert run == "0.094666 m/s after 4 s"
-    assert steady == "0.0986951 m/s at last"
+    assert steady == "0.0986951 m/s in steady motion"

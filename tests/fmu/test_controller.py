@@ -25,9 +25,9 @@ class Law:
         self.integral = 0.0
 
     def effort(self, error: float) -> float:
-        wanted = GAIN * error + self.integral
-        effort = max(-1.0, min(1.0, wanted))
-        if effort == wanted or wanted * error < 0.0:
+        unlimited = GAIN * error + self.integral
+        effort = max(-1.0, min(1.0, unlimited))
+        if effort == unlimited or unlimited * error < 0.0:
             self.integral = max(-1.0, min(1.0, self.integral + INTEGRAL * SAMPLE * error))
         return effort
 

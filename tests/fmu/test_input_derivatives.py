@@ -29,7 +29,7 @@ def test_the_description_offers_them(unpacked: Unpacked) -> None:
     assert co_simulation.maxOutputDerivativeOrder == 1
 
 
-def test_an_input_goes_on_from_where_its_derivative_takes_it(instance: Instance) -> None:
+def test_an_input_keeps_the_value_that_its_ramp_has_reached(instance: Instance) -> None:
     instance.set(phase=0.3, load=-0.01)
     instance.ramp(phase=2.0, load=0.4, frequency_ratio=-3.0)
     instance.step(STEP)

@@ -67,11 +67,11 @@ def test_two_builds_in_one_process_stay_independent(
 ) -> None:
     golden = instantiate().initialize()
     candidate = Instance(unpack(other_build, tmp_path)).initialize()
-    told = instantiate().initialize(friction_coefficient=0.2)
-    rows = [(golden.run(1, STEP), candidate.run(1, STEP), told.run(1, STEP)) for _ in range(20)]
+    tuned = instantiate().initialize(friction_coefficient=0.2)
+    rows = [(golden.run(1, STEP), candidate.run(1, STEP), tuned.run(1, STEP)) for _ in range(20)]
     candidate.free()
-    for of_golden, of_candidate, of_told in rows:
-        assert of_candidate == of_told, "the other build runs its own code"
+    for of_golden, of_candidate, of_tuned in rows:
+        assert of_candidate == of_tuned, "the other build runs its own code"
         assert of_candidate != of_golden
 
 
@@ -100,7 +100,7 @@ def test_each_instance_logs_to_its_own_host(instantiate: Instantiate) -> None:
     first, second = instantiate().initialize(), instantiate().initialize()
     with first.refuses("load"):
         first.set(load=float("nan"))
-    assert second.log == [], "what one instance refuses is not told to the host of another"
+    assert second.log == [], "a refusal is logged to the host of its own instance only"
 
 
 def _stepped(instance: Instance) -> None:

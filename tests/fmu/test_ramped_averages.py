@@ -134,7 +134,7 @@ def test_steps_do_not_matter(instantiate: Instantiate, law: int, order: int) -> 
 @pytest.mark.parametrize("velocity", [0.375, 0.44])
 @pytest.mark.parametrize("law", [0, 1])
 @pytest.mark.parametrize(("ratio", "order"), [(1.5, 2), (1.0, 1), (1.0, 2), (0.0, 1)])
-def test_a_dip_below_the_fast_velocity_is_not_jumped(
+def test_a_dip_below_the_fast_velocity_is_not_missed(
     instantiate: Instantiate, ratio: float, order: int, law: int, velocity: float
 ) -> None:
     """Constant friction beyond v_q lets steps grow; the load turns it at 0.193 or 0.258 m/s."""

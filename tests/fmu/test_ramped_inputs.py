@@ -116,7 +116,7 @@ def test_motion_is_that_of_the_reference(instantiate: Instantiate, name: str) ->
     "rates", [PHASE, LOAD, CHIRP, BACK], ids=["phase", "load", "chirp", "back"]
 )
 @pytest.mark.parametrize("fidelity", [1, 2])
-def test_tenth_of_a_second_of_table_1(
+def test_table_1_under_ramps_is_that_of_the_reference(
     instantiate: Instantiate, rates: dict[str, float], fidelity: int
 ) -> None:
     times = STEP * np.arange(1.0, 11.0)
@@ -131,7 +131,7 @@ def test_tenth_of_a_second_of_table_1(
 @pytest.mark.parametrize(
     "stiffness", [1e5, *(pytest.param(x, marks=pytest.mark.slow) for x in (50.0, 1e8))]
 )
-def test_lugre_within_its_tolerance(
+def test_lugre_motion_under_ramps_is_within_its_tolerance(
     instantiate: Instantiate, stiffness: float, fidelity: int, lifts: bool
 ) -> None:
     parameters = {
@@ -150,15 +150,17 @@ def test_lugre_within_its_tolerance(
         # From rest a growing load moves the slider by 1e-27 m before the resonator turns it.
         below_rounding = np.count_nonzero(reference.event_times < 1e-8)
         (reversals,) = instance.get("reversals")
-        assert 0 <= reference.reversals - reversals <= below_rounding
+        assert 0 <= reference.reversals - reversals <= below_rounding, (
+            "every reversal beyond rounding is counted"
+        )
 
 
 @pytest.mark.parametrize("law", [0, 1])
 @pytest.mark.parametrize("rates", [PHASE, LOAD, CHIRP], ids=["phase", "load", "chirp"])
-def test_held_steps_approach_it_with_order_two(
+def test_held_steps_approach_the_ramp_with_second_order(
     instantiate: Instantiate, law: int, rates: dict[str, float]
 ) -> None:
-    """Steps of 10 us, and twice that, extrapolated to none."""
+    """Richardson extrapolation from held steps of 20 us and 10 us to a step size of 0."""
     stop, parameters = 2.0 * STEP, {"friction_law": law}
     signals = ramped(start(instantiate, parameters, {}), {}, rates, np.array([STEP, stop]))[-1]
     coarse, fine = (
@@ -173,7 +175,9 @@ def test_held_steps_approach_it_with_order_two(
 
 @pytest.mark.parametrize("law", [0, 1])
 @pytest.mark.parametrize("count", [2, 7, 1000])
-def test_independent_of_the_partition(instantiate: Instantiate, law: int, count: int) -> None:
+def test_motion_under_ramps_does_not_depend_on_the_steps(
+    instantiate: Instantiate, law: int, count: int
+) -> None:
     parameters = {"friction_law": law, "normal_amplitude": 1.5}
     rates, stop = {"phase": 20.0, "load": 0.5, "frequency_ratio": -40.0}, 0.04
     whole, parts = (
@@ -181,11 +185,13 @@ def test_independent_of_the_partition(instantiate: Instantiate, law: int, count:
         for n in (1, count)
     )
     allowed = 1e-11 if law == 0 else 1e-7
-    assert parts[:4] == pytest.approx(whole[:4], rel=allowed, abs=allowed * 1e-3)
+    assert parts[:4] == pytest.approx(whole[:4], rel=allowed, abs=allowed * 1e-3), (
+        f"{count} steps give the motion of one"
+    )
 
 
 def test_a_ratio_that_changes_its_sign(instantiate: Instantiate) -> None:
-    """The normal load turns back, in flight as well; held steps tell where to."""
+    """The normal load turns back, also in flight; held steps, extrapolated, are the reference."""
     rates, stop = {"frequency_ratio": -40.0}, 0.04
     for phase in (0.0, 2.0, 4.0):
         first = {"phase": phase}
@@ -196,7 +202,7 @@ def test_a_ratio_that_changes_its_sign(instantiate: Instantiate) -> None:
             for count in (2000, 4000)
         )
         extrapolated = fine + (fine - coarse) / 3.0
-        assert signals[:4] == pytest.approx(extrapolated[:4], rel=1e-6)
+        assert signals[:4] == pytest.approx(extrapolated[:4], rel=1e-6), f"phase {phase} rad"
 
 
 def test_a_growing_load_releases_the_slider_inside_the_step(instantiate: Instantiate) -> None:
@@ -283,12 +289,12 @@ def test_a_derivative_of_zero_is_a_held_input_bit_for_bit(
     instantiate: Instantiate, law: int, fidelity: int
 ) -> None:
     rows: list[Sequence[tuple[float, ...]]] = []
-    for told in (False, True):
+    for sets_derivatives in (False, True):
         instance = start(instantiate, {"friction_law": law, "fidelity": fidelity}, {"phase": 0.3})
-        if told:
+        if sets_derivatives:
             instance.ramp(phase=0.0, load=0.0, frequency_ratio=0.0)
         rows.append(instance.run(20, 1.3e-3))
-    assert rows[0] == rows[1]
+    assert rows[0] == rows[1], "inputs with derivatives of zero are held"
 
 
 def test_the_slow_drift_of_a_phase_ramp_is_a_detuned_load(instantiate: Instantiate) -> None:
@@ -312,10 +318,10 @@ def test_a_long_ramp_loses_no_digits(instantiate: Instantiate) -> None:
             instance.ramp(**PHASE)
             instance.step(2.0 / count)
         rows.append(instance.get(*SIGNALS[:4]))
-    assert rows[1] == pytest.approx(rows[0], rel=1e-9, abs=1e-12)
+    assert rows[1] == pytest.approx(rows[0], rel=1e-9, abs=1e-12), "rounding does not add up"
 
 
-def test_steps_of_any_size(instantiate: Instantiate) -> None:
+def test_short_steps_under_ramps_stay_close_to_held_inputs(instantiate: Instantiate) -> None:
     for rates in (PHASE, LOAD, CHIRP):
         for size in (1e-15, 1e-9, 1e-6):
             instance = start(instantiate, {}, {})
@@ -324,10 +330,12 @@ def test_steps_of_any_size(instantiate: Instantiate) -> None:
             held = start(instantiate, {}, {})
             held.step(size)
             motion = instance.get(*SIGNALS[:4])
-            assert motion == pytest.approx(held.get(*SIGNALS[:4]), rel=1e-5, abs=1e-15)
+            assert motion == pytest.approx(held.get(*SIGNALS[:4]), rel=1e-5, abs=1e-15), (
+                f"in {size:g} s {rates} change the motion by less than 1e-5"
+            )
 
 
-def test_cutting_does_not_move_a_release(instantiate: Instantiate) -> None:
+def test_the_step_size_does_not_move_a_release(instantiate: Instantiate) -> None:
     problem = PROBLEMS["sticking every period"]
     events = []
     for count in (1, 13):
@@ -337,4 +345,4 @@ def test_cutting_does_not_move_a_release(instantiate: Instantiate) -> None:
             instance.ramp(load=0.5)
             instance.step(0.03 / count)
         events.append(instance.get("last_event_time", "reversals", "position"))
-    assert events[1] == pytest.approx(events[0], rel=1e-10)
+    assert events[1] == pytest.approx(events[0], rel=1e-10), "13 steps release where one does"

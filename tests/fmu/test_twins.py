@@ -24,12 +24,13 @@ from slider_resonator.scenes.scene import built_in_scenes, read_scene
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11
-ORBITS = 1e-9
-"""Differences of the Newton iterations that find held orbits, over the peak."""
-"""Difference of Coulomb signals, as a share of their peak."""
+"""Largest difference of Coulomb signals, over their peak."""
 
-LEAST_FAST_VELOCITY = 1e-4
-"""Of the devices below, in m/s."""
+ORBITS = 1e-9
+"""Largest difference along held orbits, over the peak: the twins' Newton iterations differ."""
+
+MIN_FAST_VELOCITY = 1e-4
+"""Smallest fast velocity of the devices below, m/s."""
 
 SLIP_RESONANCE = {"resonator_mass": 3.0, "resonator_frequency": 1.0, "drive_frequency": 2.0}
 """wn^2 = (1 - r_m) w^2."""
@@ -74,7 +75,7 @@ def scale(name: str, record: Record) -> float:
         peak = max(peak, float(np.abs(record[beside]).max()))
     if name == "steady_velocity":
         # Where it is 0 it is the fast velocity times the rounding of cos(pi / 2).
-        peak = max(peak, LEAST_FAST_VELOCITY)
+        peak = max(peak, MIN_FAST_VELOCITY)
     return max(peak, 1e-300)
 
 

@@ -13,8 +13,6 @@ import pytest
 from fmu_src.sources import C_SOURCES, PACKAGE
 
 OTHER_NAMES = {
-    "LARGEST_ERROR": "ERROR",
-    "MOST_TURNS_TO_REPEAT": "MOST_TURNS",
     "TABLE_DEGREE": "DEGREE",
     "TAYLOR_ORDER": "ORDER",
 }

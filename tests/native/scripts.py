@@ -1,4 +1,4 @@
-"""What the C driver is told to run: ordinary devices and extreme ones."""
+"""Scripts for the C driver: ordinary devices and extreme ones."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def test_no_device_makes_undefined_behaviour(
             assert "refused" in done.stderr, f"{name}: {done.stderr}"
         assert "nan" not in done.stdout, f"{name} gives NaN: {done.stdout}"
         ran += done.returncode == 0
-    assert ran > 0.8 * len(devices()), "nearly all of the devices are carried out"
+    assert ran > 0.8 * len(devices()), f"most devices must run, not be refused: {ran} ran"
 
 
 @pytest.mark.parametrize(
@@ -116,4 +116,4 @@ def test_memcheck_passes_the_shipped_binary(
     command = [valgrind, *MEMCHECK, driver, product.library, product.guid, "file:///"]
     done = run(command, script({}, law, fidelity))
     assert done.returncode == 0, done.stderr
-    assert done.stderr == "", "valgrind and the FMU have nothing to say"
+    assert done.stderr == "", "neither valgrind nor the FMU may report anything"

@@ -22,7 +22,7 @@ PROGRAMS = Path(__file__).parent / "c"
 COUNTS = (sum(v.causality != "output" for v in VARIABLES), len(VARIABLES))
 """How many variables can be set, and how many there are."""
 FAULT = 99
-"""Exit code by which a tool says that it has found something."""
+"""Exit code of a tool that has found a fault."""
 
 
 @dataclass(frozen=True)

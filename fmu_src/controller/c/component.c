@@ -6,7 +6,7 @@
 
 #include "values.h"
 
-/* Samples in one step up to which its work is accepted. */
+/* Largest number of samples that is accepted in one step. */
 #define MAX_SAMPLES 1e6
 
 /* Fraction of the time between two samples by which hosts may round their own time. */

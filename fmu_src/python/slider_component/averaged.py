@@ -42,8 +42,8 @@ NO_VIBRATION = Averaged(0.0, 0.0, False)
 def theory_range(device: Device) -> tuple[float, ...]:
     """Return numbers that are all finite where `averaged` stays in the range of floating point.
 
-    The fast velocity [m/s]; the drag of that or of the start, whichever is faster, over mu; and a
-    bound on integrals of load and friction [N], with bristles bent as at the start.
+    The fast velocity [m/s]; the drag over mu at the fast or the initial velocity, whichever is
+    larger; and a bound on integrals of load and friction [N], with the initial bristle deflection.
     """
     try:
         force = equivalent_force(device)
@@ -64,10 +64,10 @@ def theory_range(device: Device) -> tuple[float, ...]:
 def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
     """Averaged theory at the present inputs (eqs 20-22 with both faces).
 
-    `normal_lead` [rad] is psi - n theta: what earlier changes of the ratio have left of it. Where
-    the load exceeds full friction the velocity is the limit v_q of the theory, with its sign; both
-    are 0 without vibration, and where undamped resonance leaves no steady vibration. Then, and
-    where the vibration does not break the contact loose, they are not `valid`.
+    `normal_lead` [rad] is psi - n theta, which earlier changes of the ratio make different from 0.
+    Where the load exceeds full friction the velocity is the limit v_q of the theory, with its sign.
+    Both results are 0 without vibration, and where undamped resonance leaves no steady vibration.
+    In these cases, and where the vibration does not break the contact loose, they are not `valid`.
     """
     try:
         force = equivalent_force(device)
@@ -75,58 +75,74 @@ def averaged(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
         return NO_VIBRATION
     if force == 0.0:
         return NO_VIBRATION
-    fast = FastMotion(
-        abs(force) / (device.total_mass * device.drive_frequency), device.drive_frequency
-    )
-    law = friction_law_of(device.friction_law).averaged
-    bristle = bristle_of(device)
-    delta = inputs.phase + normal_lead - inputs.frequency_ratio * argument(force)
-    load = VibratingLoad(device, inputs.frequency_ratio, delta)
-    faces, opposing = device.friction_faces, inputs.load
-
-    def friction(turning: float) -> float:
-        return faces * law.mean(bristle, fast, load, turning)
-
-    first, middle, last = friction(0.0), friction(0.5 * pi), friction(pi)
+    w, ratio, opposing = device.drive_frequency, inputs.frequency_ratio, inputs.load
+    fast = FastMotion(abs(force) / (device.total_mass * w), w)
+    delta = inputs.phase + normal_lead - ratio * argument(force)
+    sliding = _Sliding(device, fast, VibratingLoad(device, ratio, delta), round(ratio), delta)
+    first, middle, last = (sliding.friction(angle) for angle in (0.0, 0.5 * pi, pi))
     if first == last:
-        # Nothing holds the slider back: every velocity is steady, or with a load none.
-        fastest = -copysign(fast.velocity, inputs.load) if inputs.load else 0.0
+        # No friction: every velocity is steady without a load, and none with one.
+        fastest = -copysign(fast.velocity, opposing) if opposing else 0.0
         return Averaged(fastest, 0.0, valid=False)
-    stays = abs(opposing) < first
-
-    def excess(turning: float) -> float:
-        return friction(turning) + opposing
-
-    def closed_excess(turning: float) -> float:
-        plain, sine, cosine = law.means(bristle, fast, round(inputs.frequency_ratio), turning)
-        swing = cos(delta) * sine + sin(delta) * cosine
-        face = device.normal_preload * plain + device.normal_amplitude * swing
-        return faces * face + opposing
-
-    has_closed_form = not law.is_expensive and load.wave_number != 0.0 and not load.lifts
-    damping = law.drag(bristle, fast.velocity)
-    normal = device.normal_preload + device.normal_amplitude
-    noise = ROUNDING * EPSILON * faces * (bristle.coefficient + damping) * normal
-    near = closed_excess if has_closed_form else excess
-    balance = Balance(excess, near, noise, rises=damping > bristle.coefficient)
     turning = balanced_turning(
-        balance,
+        sliding.balance(opposing),
         Point(0.0, first + opposing),
         Point(0.5 * pi, middle + opposing),
         Point(pi, last + opposing),
     )
-    valid = stays and _breaks_loose(device, law, fast, abs(force), first)
+    valid = abs(opposing) < first and _breaks_loose(device, fast, abs(force), first)
     return Averaged(fast.velocity * cos(turning), -middle, valid)
 
 
-def _breaks_loose(
-    device: Device, law: AveragedFriction, fast: FastMotion, force: float, friction: float
-) -> bool:
-    """Whether the vibration overcomes the mean `friction` [N] of sliding by itself.
+@dataclass(frozen=True, slots=True)
+class _Sliding:
+    """A vibrating slider under a normal load of `n` waves in a turn, at phase `delta` [rad]."""
 
-    It must do so with the amplitude `force` [N] with which it moves the pair, and with that on a
-    held slider.
+    device: Device
+    fast: FastMotion
+    load: VibratingLoad
+    n: int
+    delta: float
+
+    @property
+    def law(self) -> AveragedFriction:
+        return friction_law_of(self.device.friction_law).averaged
+
+    def friction(self, turning: float) -> float:
+        """Mean friction [N] when sliding turns forward at tau = `turning` [rad]."""
+        bristle = bristle_of(self.device)
+        return self.device.friction_faces * self.law.mean(bristle, self.fast, self.load, turning)
+
+    def friction_in_closed_form(self, turning: float) -> float:
+        """The same without flight, from the means: it takes less time."""
+        device = self.device
+        plain, sine, cosine = self.law.means(bristle_of(device), self.fast, self.n, turning)
+        swing = cos(self.delta) * sine + sin(self.delta) * cosine
+        face = device.normal_preload * plain + device.normal_amplitude * swing
+        return device.friction_faces * face
+
+    def balance(self, opposing: float) -> Balance:
+        """The excess of friction and a load `opposing` [N]."""
+        device, law, bristle = self.device, self.law, bristle_of(self.device)
+        drag = law.drag(bristle, self.fast.velocity)
+        normal = device.normal_preload + device.normal_amplitude
+        noise = ROUNDING * EPSILON * device.friction_faces * (bristle.coefficient + drag) * normal
+        closed = not law.is_expensive and self.load.wave_number != 0.0 and not self.load.lifts
+        near = self.friction_in_closed_form if closed else self.friction
+        return Balance(
+            lambda turning: self.friction(turning) + opposing,
+            lambda turning: near(turning) + opposing,
+            noise,
+            rises=drag > bristle.coefficient,
+        )
+
+
+def _breaks_loose(device: Device, fast: FastMotion, force: float, friction: float) -> bool:
+    """Whether the vibration alone overcomes the mean `friction` [N] of sliding.
+
+    The amplitude `force` [N] of its force on the pair must, and so must that of its force on a held
+    slider.
     """
-    bristle = bristle_of(device)
+    law, bristle = friction_law_of(device.friction_law).averaged, bristle_of(device)
     grip = law.grip(bristle, fast.velocity / fast.frequency, fast.frequency)
     return min(force, held_amplitude(device)) > friction * (grip / bristle.coefficient)

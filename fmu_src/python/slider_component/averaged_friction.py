@@ -1,4 +1,4 @@
-"""What a friction law is to averaged motion: its means over a turn of the drive.
+"""The interface of a friction law to averaged motion: means over a turn of the drive.
 
 The slider moves with V - v_q cos(tau), so that it slides forward while tau is in (Theta, 2 pi -
 Theta) with Theta = arccos(V / v_q).
@@ -23,7 +23,7 @@ class FastMotion:
 
 
 class FrictionMeans(NamedTuple):
-    """Friction per unit load over a turn of tau, times 1, sin(n tau) and cos(n tau): its means."""
+    """Means over a turn of tau of the friction per unit load, times 1, sin(n tau), cos(n tau)."""
 
     plain: float
     sine: float
@@ -34,7 +34,7 @@ class FrictionMeans(NamedTuple):
 class AveragedFriction:
     """The averages of one friction law; `turning` is Theta [rad], in [0, pi].
 
-    `is_expensive`: each mean costs a quadrature, so that means are better tabulated.
+    `is_expensive`: each mean costs a quadrature, so that a table of means pays.
 
     `grip(bristle, amplitude, frequency)` is the largest friction per unit load that resists a
     vibration of this amplitude [m] and frequency [rad/s] about rest.
@@ -44,9 +44,8 @@ class AveragedFriction:
 
     `mean(bristle, fast, load, turning)` is the mean friction [N] of one face.
 
-    `means(bristle, fast, n, turning)` is what that is made of under a load
-    N0 + dN sin(n tau + delta), n not 0: per face it is
-    N0 plain + dN (cos(delta) sine + sin(delta) cosine).
+    `means(bristle, fast, n, turning)` are the parts of that under a load N0 + dN sin(n tau +
+    delta), n not 0: per face it is N0 plain + dN (cos(delta) sine + sin(delta) cosine).
     """
 
     is_expensive: bool

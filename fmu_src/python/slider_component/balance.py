@@ -1,9 +1,9 @@
 """Where mean friction and load balance: the angle Theta at which sliding turns forward.
 
-The answer is that of plain bisection, less the evaluations whose outcome is known, and on a flat
-balance (even ratios, with flight while sliding turns) its end of the highest velocity.
-Chandrupatla's method, inverse quadratic interpolation where three points allow it and bisection
-otherwise, closes in on the balance; a weak one is as uncertain as rounding makes it.
+The result is that of plain bisection. Chandrupatla's method first brackets the balance: inverse
+quadratic interpolation where its criterion accepts it, bisection otherwise. Signs that this bracket
+implies are then not evaluated. On a flat balance (even ratios, with flight while sliding turns) the
+result is the end of the highest velocity. On a weak one it is uncertain by rounding.
 """
 
 from __future__ import annotations
@@ -17,29 +17,29 @@ BISECTIONS = 52
 """Halvings of [0, pi] in which the angle of balance is found."""
 
 SORTING = 4
-"""Halvings that settle which of several balances it is."""
+"""The first halvings, which select one of several balances."""
 
 EDGE_HALVINGS = 40
-"""Halvings in which the edge of a flat balance is found."""
+"""Halvings that locate the edge of a flat balance."""
 
 FLAT = 3e-3
-"""Width [rad] from which on a balance is flat, and not only a weak one."""
+"""Width [rad] of a balance from which on it is flat, not just uncertain by rounding."""
 
 MAX_EVALUATIONS = 100
 
 CLOSE = 2e-15
-"""Width [rad] to which the angle of balance is closed in upon first."""
+"""Width [rad] of the bracket at which Chandrupatla's method ends."""
 
 STEEP = 1e-12
-"""Width [rad] below which it does not matter where in the bracket the angle of balance is."""
+"""Width [rad] of a bracket below which any angle in it serves as the balance."""
 
 
 @dataclass(frozen=True, slots=True)
 class Balance:
     """The `excess` of friction and load [N] over the angle Theta [rad], known to `noise` [N].
 
-    `excess_near` is the same by a form that takes less time. Where friction `rises` with the angle
-    there may be several balances.
+    `excess_near` is the same by a closed form, if there is one, which takes less time. Where
+    friction `rises` with the angle there may be several balances.
     """
 
     excess: Callable[[float], float]
@@ -56,9 +56,9 @@ class Point(NamedTuple):
 
 
 class Bracket:
-    """Up to `positive` the excess is above 0 beyond rounding, from `negative` on it is below.
+    """Up to `positive` the excess is above 0 beyond rounding, from `negative` on it is below 0.
 
-    In between it is 0, most likely at `root` [rad].
+    In between it is 0 within rounding; `root` is the best estimate. All in rad.
     """
 
     __slots__ = ("_noise", "negative", "positive", "root")
@@ -68,7 +68,7 @@ class Bracket:
         self._noise = noise
 
     def narrow(self, point: Point) -> bool:
-        """Take in a point; returns whether its sign is certain."""
+        """Narrow the bracket by a point; return whether the sign of its excess is certain."""
         if not abs(point.excess) > self._noise:
             return False
         if point.excess > 0.0:
@@ -108,7 +108,7 @@ def balanced_turning(balance: Balance, low: Point, halfway: Point, high: Point) 
 
 
 def _flat_from(balance: Balance, bracket: Bracket) -> float | None:
-    """Where a range begins in which friction and load balance at all angles; None without one."""
+    """The lower end of the range in which friction and load balance; None if narrower than FLAT."""
     if abs(balance.excess(bracket.root)) > balance.noise:
         return None
     begin = _edge(balance, bracket.positive, bracket.root, 1.0)
@@ -137,10 +137,11 @@ def _closed_in(balance: Balance, low: Point, following: Point, high: Point) -> B
             before, other = other, newest
         newest = following
         width = other.turning - newest.turning
-        least = CLOSE / abs(width) if width else inf
-        if not bracket.narrow(newest) or not least < 0.5:
+        min_share = CLOSE / abs(width) if width else inf
+        if not bracket.narrow(newest) or not min_share < 0.5:
             break
-        share = min(max(_share_of_the_way(newest, other, before), least), 1.0 - least)
+        share = _share_of_the_way(newest, other, before)
+        share = min(max(share, min_share), 1.0 - min_share)
         turning = newest.turning + share * width
         following = Point(turning, balance.excess_near(turning))
     nearest = newest if abs(newest.excess) < abs(other.excess) else other
@@ -155,7 +156,10 @@ def _closed_in(balance: Balance, low: Point, following: Point, high: Point) -> B
 
 
 def _share_of_the_way(a: Point, b: Point, c: Point) -> float:
-    """Where between the newest point `a` and `b` to look next, `c` being the point before."""
+    """Share of the way from the newest point `a` to the opposite one `b` at which to evaluate next.
+
+    `c` is the point before `a`.
+    """
     try:
         xi = (a.turning - b.turning) / (c.turning - b.turning)
         phi = (a.excess - b.excess) / (c.excess - b.excess)

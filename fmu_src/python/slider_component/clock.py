@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class Clock:
-    """What has `elapsed` [s] and what is left of a step of `duration` [s]."""
+    """Time `elapsed` [s] of a step of `duration` [s], with the rounding error of that sum."""
 
     __slots__ = ("_carry", "_duration", "elapsed")
 
@@ -13,7 +13,7 @@ class Clock:
         self.elapsed = self._carry = 0.0
 
     def advance(self, t: float) -> float:
-        """Count `t` [s] and return what is left [s]; two-sum keeps the rounding."""
+        """Advance by `t` [s] and return the time left [s]; two-sum keeps the rounding errors."""
         before = self.elapsed
         total = before + t
         carried = total - before

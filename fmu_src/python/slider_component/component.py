@@ -108,7 +108,7 @@ class Component:
         require("doStep", self.lifecycle, Lifecycle.STEP_COMPLETE)
         if not (isfinite(step_size) and step_size > 0.0):
             raise Refusal(refusal_texts.bad_step_size(step_size))
-        # Hosts sum up their own time, so it may differ from this one by the rounding of a step.
+        # Hosts sum up time themselves, so theirs may differ from this one by rounding.
         slack = TIME_SLACK * step_size + 4.0 * ulp(self.time)
         if not abs(time - self.time) <= slack:
             raise Refusal(refusal_texts.bad_step_start(time, self.time))
@@ -118,7 +118,7 @@ class Component:
         self._require_bounded_work(step_size)
         age_before = self._present().event_age
         moment = self._advanced(step_size)
-        # Without an event the age grows by the step; rounding makes up far less than half of that.
+        # Without an event the age grows by the step size, up to rounding.
         if moment.event_age < step_size + 0.5 * age_before:
             self._last_event_time = time + max(0.0, step_size - moment.event_age)
         self._moment = moment
@@ -242,7 +242,7 @@ def _finite_output(name: str, output: Callable[[View], float], view: View) -> fl
 def _extreme(values: Mapping[str, Any]) -> Refusal:
     """Return the refusal of values that together leave the range of floating point numbers.
 
-    Its text names the one that is most decades away from its start.
+    The text names the value that is the most decades away from its start value.
     """
 
     def distance(variable: Variable) -> float:

@@ -15,7 +15,7 @@ MAX_SLOW_STEPS = 2_000_000
 """Steps of averaged motion in one communication step up to which its work is accepted."""
 
 MAX_QUADRATURE_STEPS = 20_000
-"""The same where each costs quadratures, which take longer under many waves of the normal load."""
+"""The same if each step costs quadratures, which take longer the more waves the load has."""
 
 MAX_STEP_MAPS = 8_000
 """Turns mapped for held orbits in one communication step, under few waves of the normal load."""

@@ -10,14 +10,14 @@ BACKWARD, STICK, FORWARD, LIFTED = -1, 0, 1, 2
 """Contact modes: the direction of sliding, rest, or flight."""
 
 REACHED = 1e-12
-"""Angle [rad] before a boundary, or past it by rounding, at which it counts as just reached. The
-shortest flight that floating point numbers can ask for is 3e-8 rad long."""
+"""Distance [rad] from a boundary within which it counts as reached: rounding. The shortest flight
+that floating point numbers can describe is 3e-8 rad long."""
 
 
 def flight_window(plant: Plant) -> tuple[float, float] | None:
     """Range of chi [rad] in which the contact is lifted; None if it never is.
 
-    A whole turn from 0 on if there is no normal load at all.
+    It is [0, 2 pi] if there is no normal load at all.
     """
     if plant.preload_share >= 1.0:
         return None
@@ -30,8 +30,8 @@ def flight_window(plant: Plant) -> tuple[float, float] | None:
 def is_lifted(window: tuple[float, float] | None, chi: float, frequency: float) -> bool:
     """Whether the contact is lifted at normal phase `chi` [rad].
 
-    On a boundary that depends on where the phase goes: `frequency` [rad/s] is its rate. At rate 0
-    the contact is lifted where the normal load is 0.
+    On a boundary this depends on the direction in which the phase moves: `frequency` [rad/s] is its
+    rate. At rate 0 the contact is lifted where the normal load is 0.
     """
     if window is None:
         return False

@@ -22,10 +22,10 @@ from .slide import slide
 from .stick import Stick
 
 SAME = 1e-6
-"""Part of the longest arc within which a release and a lift-off may be the same event."""
+"""Share of the longest arc within which a release and a lift-off may be the same event."""
 
 BALANCED = 1e-12
-"""Part of the forces up to which those on a slider that is just released count as balanced."""
+"""Relative difference of the forces on a slider up to which they count as balanced."""
 
 
 def check(device: Device) -> None:
@@ -94,8 +94,8 @@ def _needed_force(plant: Plant, moment: Moment) -> float:
 def _just_released(plant: Plant, moment: Moment) -> bool:
     """Whether the slider was released right now.
 
-    Friction still balances the other forces, and only the mode that the moment keeps tells on which
-    side of the balance it is.
+    Friction still balances the other forces, and only the mode of the moment shows in which
+    direction the slider departs.
     """
     if moment.state.velocity != 0.0 or moment.mode not in (FORWARD, BACKWARD):
         return False
@@ -108,7 +108,7 @@ def _mode_in_contact(plant: Plant, moment: Moment) -> int:
     if moment.state.velocity != 0.0:
         return direction_of(moment.state.velocity)
     needed = _needed_force(plant, moment)
-    # Most often the largest limit decides, without a sine.
+    # In most cases the largest limit decides, without a sine.
     limit = plant.friction_preload + plant.friction_amplitude
     if -limit <= needed <= limit:
         limit = friction_limit(plant, moment.psi)
@@ -118,7 +118,7 @@ def _mode_in_contact(plant: Plant, moment: Moment) -> int:
 
 
 def _lifts_first(plant: Plant, chi: float) -> bool:
-    """Whether a stick ends only because the contact lifts: all friction is gone by then."""
+    """Whether a stick ends because the contact lifts: friction is 0 there."""
     limit = plant.friction_preload + plant.friction_amplitude * sin(chi)
     return limit <= 16.0 * EPSILON * (plant.friction_preload + plant.friction_amplitude)
 

@@ -14,7 +14,10 @@ from .plant import Plant
 
 
 def departure_time(plant: Plant, sign: int, state: State, theta: float, chi: float) -> float:
-    """A time [s] up to which a slider released in direction `sign` moves on; 0 if none is sure."""
+    """A time [s] up to which a slider released in direction `sign` is guaranteed to move on.
+
+    0 if there is no guarantee.
+    """
     w, q = plant.drive_frequency, plant.normal_frequency
     drive, amplitude = plant.drive, sign * plant.friction_amplitude
     push = complex(sin(theta), -cos(theta)) * drive

@@ -13,17 +13,17 @@ from .moment import Moment
 from .refusal import too_much_work
 
 MAX_LEGS = 20_000
-"""Legs in a turn of the fastest oscillation up to which work is accepted: several times what
+"""Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
 presliding on the hardest bristles takes."""
 
 
 def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) -> Moment:
     """The moment `duration` > 0 [s] later, inputs held.
 
-    Raises Refusal where it takes too much work, or time does not get on.
+    Raises Refusal for a motion of too many legs, in the step or in a turn.
     """
     plant, arc, window = held.plant, held.arc, held.window
-    most = MAX_STEP_LEGS // PYTHON_SLOWDOWN
+    max_legs = MAX_STEP_LEGS // PYTHON_SLOWDOWN
     turn = tau / LONGEST_ARC * arc
     clock, remaining = Clock(duration), duration
     legs, all_legs, turn_began = 0, 0, 0.0
@@ -38,8 +38,8 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
             what = "legs in a turn of the fastest oscillation"
             raise too_much_work(duration, clock.elapsed, MAX_LEGS, what)
         all_legs += 1
-        if all_legs > most:
-            raise too_much_work(duration, clock.elapsed, most, "legs of motion")
+        if all_legs > max_legs:
+            raise too_much_work(duration, clock.elapsed, max_legs, "legs of motion")
         switching, longest = inf, remaining if remaining < arc else arc
         if window is not None:
             chi, lifted = now.psi + plant.phase, now.mode == LIFTED

@@ -1,4 +1,4 @@
-"""The steady vibration on which slow motion rides, in closed form (32)-(34)."""
+"""The steady vibration of slider and resonator without friction, in closed form (32)-(34)."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .plant import equivalent_force, steady_resonator
 
 @dataclass(frozen=True, slots=True)
 class FastVibration:
-    """Velocity amplitudes [m/s], lag theta_1 [rad], and the resonator's amplitude [m] of e.
+    """Velocity amplitudes [m/s], lag theta_1 [rad], and the resonator's complex amplitude of e [m].
 
-    `velocity` is v_q, that of the slider; `pair_velocity` that of the drive force on the pair.
+    `velocity` is v_q of the slider, `pair_velocity` the one that the drive force gives to the pair.
     """
 
     velocity: float

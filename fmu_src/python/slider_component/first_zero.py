@@ -1,4 +1,4 @@
-"""The first zero of a smooth signal, found so that none can be passed over.
+"""The first zero of a smooth signal, by a search that cannot miss one.
 
 From a point where the signal f is positive, f(t + d) >= f + f' d - B d^2 / 2 while B bounds |f''|.
 The search advances by the zero of that parabola: it approaches the first zero from the left and
@@ -37,14 +37,14 @@ FLOOR_DOUBLING = 1000
 rounding of zero."""
 
 MAX_SEARCH_EVALUATIONS = 1_000_000
-"""Evaluations after which a search ends without a zero: of motion that is hardly a number any
-more."""
+"""Evaluations after which a search ends without a zero: reached only by motion at the limits of
+floating point."""
 
 MAX_NEWTON_STEPS = 60
 MAX_EXPECTING_STEPS = 4
 
 SURE = 0.99
-"""Share of what two parabolas cover that must do: keeps rounding out of the argument."""
+"""Share of the interval that two parabolas cover that is relied on: a margin for rounding."""
 
 
 def first_zero(
@@ -80,7 +80,7 @@ def first_zero(
             value = value if value > noise else noise
             root_term = sqrt(square + 2.0 * bound * value)
             step = (slope + root_term) / bound if bound > 0.0 else horizon
-        # Whether the signal is positive from here to the zero too, and not by rounding only.
+        # The parabola from the zero backwards must cover the rest of the way, beyond rounding.
         if (
             zero is not None
             and 0.0 < zero - t < horizon
@@ -99,7 +99,7 @@ def first_zero(
 def exceeds_noise(watch: Watch, t: float) -> bool:
     """Whether a watched signal exceeds its noise before `t` [s].
 
-    A parabola that is below it shows that at once, most often.
+    In most cases its lower bound, a parabola, shows that without another evaluation.
     """
     value, slope, bound = watch.signal(0.0)
     ahead = t if t < watch.horizon else watch.horizon
@@ -111,9 +111,9 @@ def exceeds_noise(watch: Watch, t: float) -> bool:
 def _zero_near(
     signal: Signal, start: float, limit: float, t: float, resolution: float
 ) -> tuple[float | None, float]:
-    """The downward zero near `t`, if Newton's method finds one soon, and the slope there.
+    """The downward zero near `t`, if Newton's method finds one in a few steps, and the slope there.
 
-    Beyond `limit` the signal may not have its bound: a zero there is none.
+    None beyond `limit`, where the bound of the signal may not hold.
     """
     for _ in range(MAX_EXPECTING_STEPS):
         value, slope, bound = signal(t)

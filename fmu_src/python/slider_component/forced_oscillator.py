@@ -1,8 +1,7 @@
 """A damped oscillator under a constant and sinusoidal forcing, from any state, regular everywhere.
 
-The steady responses are split off where they are of moderate size. What is left is a free motion
-plus responses from rest: to the constant, to forcing that resonates, and to slow forcing of a slow
-oscillator.
+Steady responses of moderate size are split off. The rest is a free motion plus responses from rest:
+to the constant, to forcing that resonates, and to slow forcing of a slow oscillator.
 """
 
 from __future__ import annotations
@@ -24,8 +23,8 @@ from .oscillator import (
 )
 
 AHEAD = 5.0
-"""Angle [rad] of the highest frequency for which bounds of responses from rest hold: more than what
-most slides last."""
+"""Horizon of the bounds of responses from rest, as an angle [rad] of the highest frequency: longer
+than most slides."""
 
 Response = Callable[[Oscillator, float, float], tuple[complex, complex]]
 
@@ -46,9 +45,9 @@ class ForcedOscillator:
     """y'' + 2 decay y' + stiffness y = constant + sum of Re(amplitude exp(i frequency t)).
 
     `forcing` lists (frequency [rad/s], complex amplitude [m/s^2]); the motion starts at
-    displacement `y0` [m] and rate `u0` [m/s]. Slow forcing of a slow oscillator, both by the
-    measure of `fastest` [rad/s], is followed from rest too; `sample` is then good for times up to
-    60 / fastest.
+    displacement `y0` [m] and rate `u0` [m/s]. Slow forcing of a slow oscillator, both compared with
+    `fastest` [rad/s], is followed from rest too; `sample` is then valid for times up to 60 /
+    fastest.
     """
 
     __slots__ = (
@@ -96,7 +95,10 @@ class ForcedOscillator:
         self.horizon = AHEAD / max(rates) if from_rest else inf
 
     def sample(self, t: float) -> Sample:
-        """Motion at `t` >= 0 [s]. The free part loses energy, so its present energy bounds it."""
+        """Motion at `t` >= 0 [s].
+
+        The energy of the free part never grows, so that at `t` bounds it later.
+        """
         oscillator = self._oscillator
         decay, stiffness, frequency = oscillator.decay, oscillator.stiffness, oscillator.frequency
         y, u = self._free_motion(t)
@@ -144,7 +146,7 @@ class ForcedOscillator:
         return displacement, rate
 
     def _free_motion(self, t: float) -> tuple[float, float]:
-        """Motion without forcing but the constant one."""
+        """Motion under the constant forcing alone."""
         oscillator = self._oscillator
         cosine, sine = free_response(oscillator, t)
         y0, u0 = self._free

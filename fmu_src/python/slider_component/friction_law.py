@@ -1,6 +1,6 @@
-"""The interface of a friction law: a table row of functions.
+"""The interface of a friction law: a table of functions.
 
-A new law is a module of its own with its row, and a line in `friction_laws`.
+A new law is a module with its table, and an entry in `friction_laws`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Follow(Protocol):
 class FrictionLaw:
     """One friction law.
 
-    `check(device)` raises Refusal for a device for which the law has no meaning.
+    `check(device)` raises Refusal for a device for which the law is not defined.
 
     `first_bristle(held)` is the friction of the bristle at the start, per unit load.
 
@@ -40,8 +40,8 @@ class FrictionLaw:
     positive against +X.
 
     `follow(held, now, longest, switching, departs)` is the leg that goes on from `now`, in the
-    contact mode that it has, for up to `longest` [s]. The contact switches after `switching` [s];
-    `departs` is True for a slider at rest that is about to move, not one in a reversal.
+    contact mode of `now`, for up to `longest` [s]. The contact lifts or touches down after
+    `switching` [s]; `departs` is True for a slider that starts from rest, not at a reversal.
 
     `succeed(held, leg, now, switches)` changes from the end of a finished leg to the next contact
     mode; `switches` is True where the contact lifts or touches down there.

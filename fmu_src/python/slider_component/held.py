@@ -1,4 +1,4 @@
-"""What stays the same while inputs and parameters do."""
+"""A device under held inputs: all that depends on parameters and inputs alone."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from .plant import Plant, plant
 from .split_slide import Split, split
 
 LONGEST_ARC = 60.0
-"""Angle [rad] of the fastest oscillation after which a motion is anchored anew: keeps the rounding
-of large arguments of sine and cosine out."""
+"""The longest leg, as an angle [rad] of the fastest oscillation: avoids the rounding errors of
+large arguments of sine and cosine."""
 
 
 @dataclass(frozen=True, slots=True)
 class Held:
     """A device under held inputs, prepared for motion.
 
-    `split` serves sliding and flight unless it is None, `arc` [s] is the time after which a motion
-    is anchored anew.
+    Sliding and flight use `split` unless it is None; `arc` [s] is the longest leg, after which a
+    motion begins anew from its state.
     """
 
     device: Device
@@ -36,11 +36,11 @@ class Held:
         return is_lifted(self.window, psi + self.plant.phase, self.plant.normal_frequency)
 
     def mode_by_velocity(self, velocity: float, psi: float) -> int:
-        """Contact mode by what can be seen: lifted, or the direction of sliding; 0 at rest."""
+        """Contact mode by load and velocity alone: lifted, or direction of sliding; 0 at rest."""
         return LIFTED if self.lifted_at(psi) else direction_of(velocity)
 
     def under(self, phase: float, load: float) -> Held:
-        """The same under another phase [rad] and load [N], on which nothing prepared depends."""
+        """The same under another phase [rad] and load [N]; nothing prepared depends on these."""
         plant = replace(self.plant, phase=phase, load=load)
         split = self.split and replace(self.split, plant=plant)
         inputs = replace(self.inputs, phase=phase, load=load)

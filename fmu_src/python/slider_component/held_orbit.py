@@ -1,15 +1,16 @@
 """Held orbits: the periodic motion of the full device whose mean velocity is held at V.
 
-The load that holds it is L = -F2(V), F2 the mean friction. Unknown are the state at the section and
-L, given that the state repeats after a period and that the way in it is V times the period: a fixed
-point of the period map, found by Newton's method, with sliding, sticking and flight alike.
+The load that holds it is L = -F2(V), F2 the mean friction. The unknowns are the state at the
+section and L; the equations are that the state repeats after a period, and that the displacement in
+a period is V times the period. This fixed point of the period map is found by Newton's method, with
+sliding, sticking and flight alike.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from math import copysign, inf
+from math import copysign
 from typing import NamedTuple
 
 from .contact import BACKWARD, FORWARD, STICK
@@ -17,22 +18,11 @@ from .fast_vibration import steady_swing
 from .linear_system import Matrix, Vector
 from .moment import Moment
 from .motion import State
-from .orbit_equations import DIFFERENCE, OrbitEquations, Trial, largest
+from .orbit_equations import OrbitEquations
 from .orbit_linearisation import largest_multiplier, linearised
+from .orbit_newton import solved, unknowns_after
 from .oscillator import transfer
 from .period_map import PeriodMap
-
-MAX_MAPS = 120
-"""Maps that an orbit may take, Jacobians included, before it counts as not found."""
-
-COULOMB_CONVERGED = 1e-13
-"""Correction of the unknowns in their scales up to which an orbit is found."""
-
-LUGRE_CONVERGED = 1e-12
-"""The same under LuGre friction."""
-
-ROUNDED = 1e-9
-"""Correction up to which an orbit is found where rounding ends the decrease of corrections."""
 
 SAME_FRICTION = 1e-6
 """Difference of mean friction, over that of sliding, up to which orbits are the same."""
@@ -41,10 +31,7 @@ NEUTRAL = 1.0 + 1e-4
 """Multiplier from which on motion leaves an orbit; 1, but for differences, where it slides on."""
 
 SECTION_REACH = 0.5
-"""Velocity against the direction of a section, in v_q, up to which the section serves."""
-
-SMALLEST_PART = 0.015
-"""Smallest part of a step that is tried."""
+"""Largest velocity against the direction of a section, in v_q, at which the section is used."""
 
 
 class OrbitStatus(IntEnum):
@@ -63,8 +50,8 @@ class OrbitStatus(IntEnum):
 class NoOrbitError(RuntimeError):
     """There is no orbit, or none was found, for the reason `status`.
 
-    UNDAMPED: without damping the resonator never forgets its start. STILL: nothing vibrates, or
-    friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not settle.
+    UNDAMPED: without damping the start of the resonator never decays. STILL: nothing vibrates, or
+    friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not converge.
     UNSTABLE: the vibration about the orbit does not decay. RUNS_AWAY: the load exceeds all
     friction, so that no velocity is steady. UNDETERMINED: the load leaves several velocities
     steady, or several motions one velocity. NOT_SLOW: bristles follow no faster than the velocity
@@ -91,15 +78,15 @@ class HeldOrbit:
     """An orbit of mean velocity [m/s] and mean friction F2 [N].
 
     `lead` [rad] is the phase of the normal load at drive phase 0. `section` is the moment at the
-    section, in `direction`: motion under the load -friction goes on from there, see
-    `held_orbit_moment`. `reversals` in a period, and whether the slider `sticks` in it. `maps` is
-    how often the period was mapped for this orbit. `jacobian` is that of its equations, in their
-    scales.
+    section, in `direction`; motion from there on under the load -friction is the orbit, see
+    `held_orbit_moment`. `reversals` is their number in a period; `sticks`: the slider sticks in a
+    period. `maps` is the number of period maps that it took. `jacobian` is that of its equations,
+    in their scales.
 
     Known once it is `linearised`: `factor` 1 + kappa_m, 1 until then and where the slider sticks;
-    `slope` F2' = dF2/dV [N s/m]; `fast_multiplier`, the largest one by which vibration about the
-    orbit decays in a period; `tangent` by velocity [m/s]; and the `lag` of a motion that drifts, by
-    the excess F2 + load [N] of force.
+    `slope` F2' = dF2/dV [N s/m]; `fast_multiplier`, the largest multiplier of a period of the
+    vibration about the orbit; `tangent`, the derivative of the section by velocity [m/s]; `lag`,
+    the change of the section in a motion that drifts, per excess force F2 + load [N].
     """
 
     lead: float
@@ -122,7 +109,7 @@ class HeldOrbit:
 def held_orbit_at(
     period_map: PeriodMap, lead: float, velocity: float, neighbour: HeldOrbit | None = None
 ) -> HeldOrbit:
-    """The orbit at `velocity` [m/s], from that of a neighbour if there is one.
+    """The orbit at `velocity` [m/s], starting from a neighbour if there is one.
 
     Raises NoOrbitError.
     """
@@ -136,7 +123,7 @@ def held_orbit_at(
 def steady_orbit_at(
     period_map: PeriodMap, lead: float, load: float, neighbour: HeldOrbit | None = None
 ) -> HeldOrbit:
-    """The orbit in which `load` [N] is the one that holds: the steady motion under it.
+    """The orbit that `load` [N] holds: the steady motion under this load.
 
     Raises NoOrbitError.
     """
@@ -152,10 +139,10 @@ def steady_orbit_at(
 
 
 def held_orbit_linearised(period_map: PeriodMap, orbit: HeldOrbit) -> HeldOrbit:
-    """The orbit with what is known once it is linearised.
+    """The orbit, linearised, at the cost of one map more than it has unknowns.
 
-    That costs as many maps as it has unknowns, and one. It is needed under LuGre friction, and
-    under Coulomb friction for the slope, the error and low damping. Raises NoOrbitError.
+    LuGre friction needs this always, Coulomb friction for slope, lag and low damping. Raises
+    NoOrbitError.
     """
     equations = OrbitEquations(period_map, orbit.lead, theta=orbit.section.theta, maps=orbit.maps)
     unknowns = equations.unknowns(orbit.section.state, orbit.section.bristle, -orbit.friction)
@@ -215,7 +202,7 @@ def _check(period_map: PeriodMap) -> None:
 
 
 def _section_serves(period_map: PeriodMap, direction: int, velocity: float) -> bool:
-    """Whether the section in `direction` serves orbits at `velocity` [m/s]."""
+    """Whether the section in `direction` may be used for orbits at `velocity` [m/s]."""
     return direction * velocity > -SECTION_REACH * period_map.speed
 
 
@@ -238,10 +225,11 @@ def _found(equations: OrbitEquations, direction: int, neighbour: HeldOrbit | Non
     trial = equations.attempt(unknowns)
     if trial is None:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
-    try:
-        unknowns, trial, mean_velocity, jacobian = _solved(equations, unknowns, trial, jacobian)
-    except NoOrbitError as error:
-        raise NoOrbitError(OrbitStatus.STILL) if _stays_at_rest(equations) else error from None
+    solution = solved(equations, unknowns, trial, jacobian)
+    if solution is None:
+        rests = _stays_at_rest(equations)
+        raise NoOrbitError(OrbitStatus.STILL if rests else OrbitStatus.NOT_CONVERGED)
+    unknowns, trial, mean_velocity, jacobian = solution
     velocity = scales.speed * (mean_velocity if equations.loaded else equations.given)
     friction = -scales.force * unknowns[-1]
     slides = trial.after.counts.reversals == 0 and trial.after.counts.sticks == 0
@@ -261,16 +249,16 @@ def _found(equations: OrbitEquations, direction: int, neighbour: HeldOrbit | Non
 
 
 def _along_tangent(equations: OrbitEquations, neighbour: HeldOrbit) -> Vector | None:
-    """Where the tangent at a neighbour leads; None where it has none."""
+    """The first guess on the tangent at a neighbour; None where its Jacobian is singular."""
     section = neighbour.section
     unknowns = equations.unknowns(section.state, section.bristle, -neighbour.friction)
     values = [0.0] * (len(unknowns) - 1) + [neighbour.velocity / equations.map.speed]
     step = equations.newton_step(neighbour.jacobian, values, unknowns)
-    return None if step is None else _advanced(unknowns, step, 1.0)
+    return None if step is None else unknowns_after(unknowns, step, 1.0)
 
 
 def _vibration_alone(equations: OrbitEquations, direction: int) -> Vector:
-    """The vibration without friction at the section: where the search begins without neighbour."""
+    """The vibration without friction at the section: the first guess without a neighbour."""
     scales = equations.map
     frequency = scales.held.plant.drive_frequency
     displacement, rate = steady_swing(scales.fast.resonator, equations.theta, frequency)
@@ -289,79 +277,3 @@ def _stays_at_rest(equations: OrbitEquations) -> bool:
     rest = scales.enter(equations.lead, 0.0, State(0.0, displacement, rate), 0.0)
     after = scales.advance(equations.lead, load, rest, scales.period)
     return after is not None and after.mode == STICK and after.position == 0.0
-
-
-def _solved(
-    equations: OrbitEquations, unknowns: Vector, trial: Trial, known: Matrix | None
-) -> tuple[Vector, Trial, float, Matrix]:
-    """Newton's method from `unknowns`, damped, with the Jacobian kept as long as it serves.
-
-    Returns unknowns, trial, mean velocity and Jacobian at the orbit.
-    """
-    accuracy = LUGRE_CONVERGED if equations.map.states > 3 else COULOMB_CONVERGED
-    jacobian, fresh = known, False
-    before = inf
-    while equations.maps < MAX_MAPS:
-        if jacobian is None:
-            jacobian, fresh = equations.jacobian(unknowns, trial), True
-            if jacobian is None:
-                break
-        step = equations.newton_step(jacobian, trial.values, unknowns)
-        size = largest(step)
-        if step is not None and (size <= accuracy or (size <= ROUNDED and size > 0.5 * before)):
-            mean = trial.values[-1] + sum(a * b for a, b in zip(jacobian[-1], step, strict=True))
-            return _advanced(unknowns, step, 1.0), trial, mean, jacobian
-        accepted = _accepted(equations, unknowns, jacobian, step, fresh)
-        if accepted is not None:
-            following, other, part = accepted
-            if part * size > DIFFERENCE:
-                jacobian = _updated(jacobian, unknowns, trial, following, other)
-            unknowns, trial, fresh, before = following, other, False, size
-        elif size <= ROUNDED:
-            return unknowns, trial, trial.values[-1], jacobian
-        elif fresh:
-            break
-        else:
-            jacobian = None
-    raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
-
-
-def _accepted(
-    equations: OrbitEquations, unknowns: Vector, jacobian: Matrix, step: Vector | None, fresh: bool
-) -> tuple[Vector, Trial, float] | None:
-    """The unknowns to which the largest part of a step leads that comes closer, and that part.
-
-    Parts are tried of the step of a fresh Jacobian alone.
-    """
-    part, size = 1.0, largest(step)
-    while step is not None and part > SMALLEST_PART and equations.maps < MAX_MAPS:
-        following = _advanced(unknowns, step, part)
-        other = equations.attempt(following)
-        if other is not None:
-            left = largest(equations.newton_step(jacobian, other.values, following))
-            if left <= (1.0 - 0.25 * part) * size:
-                return following, other, part
-        if not fresh or size <= ROUNDED:
-            break
-        part *= 0.25
-    return None
-
-
-def _advanced(unknowns: Vector, step: Vector, part: float) -> Vector:
-    return [a + part * b for a, b in zip(unknowns, step, strict=True)]
-
-
-def _updated(
-    jacobian: Matrix, unknowns: Vector, trial: Trial, following: Vector, other: Trial
-) -> Matrix:
-    """Broyden's update: the Jacobian that takes the move to the change of the values.
-
-    It is else the same.
-    """
-    moved = [a - b for a, b in zip(following, unknowns, strict=True)]
-    square = sum(a * a for a in moved)
-    updated = []
-    for row, after, before in zip(jacobian, other.values, trial.values, strict=True):
-        missed = after - before - sum(a * b for a, b in zip(row, moved, strict=True))
-        updated.append([a + missed * b / square for a, b in zip(row, moved, strict=True)])
-    return updated

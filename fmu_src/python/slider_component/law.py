@@ -1,4 +1,4 @@
-"""A device under held inputs, resolved or averaged, by one face."""
+"""A device under held inputs, resolved or averaged, behind one interface."""
 
 from __future__ import annotations
 
@@ -61,7 +61,11 @@ class ResolvedLaw:
     friction: FrictionLaw
 
     def start(self, state: State, position: float) -> Moment:
-        """See Law. A resonator that is not followed vibrates at once, without extra momentum."""
+        """See Law.
+
+        A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that
+        the momentum of the pair is that of the initial values.
+        """
         plant, device = self.held.plant, self.held.device
         if plant.resonator_amplitude is not None:
             _, rate = steady_swing(plant.resonator_amplitude, 0.0, plant.drive_frequency)

@@ -16,9 +16,9 @@ from .stick import Stick
 class Leg:
     """A motion in contact mode `mode`, which ends after `t` [s] and `travelled` [m].
 
-    `direction` is that of sliding, 0 where it does not matter, and `turns` tells whether the
-    slider really moves, beyond rounding, in another one than it slid before; `zero_of` is the
-    watched signal that ends the leg, or None; `rests` tells whether the slider is at rest.
+    `direction` is that of sliding, 0 where it does not matter; `turns`: the slider moves, beyond
+    rounding, in another direction than it slid before; `zero_of` is the index of the watched signal
+    whose zero ends the leg, or None; `rests`: the slider is at rest.
     """
 
     motion: Motion
@@ -36,7 +36,7 @@ class Leg:
         return self.zero_of is not None and self.rests
 
     def finish(self, held: Held, now: Moment) -> None:
-        """Move on from where the leg begins to its end, in its mode."""
+        """Advance `now` from the start of the leg to its end, in the mode of the leg."""
         plant, motion, t = held.plant, self.motion, self.t
         state = motion.state(t)
         stopped = self.zero_of is not None and not self.rests

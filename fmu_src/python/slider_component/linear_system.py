@@ -8,11 +8,11 @@ Vector = list[float]
 Matrix = list[list[float]]
 
 SMALLEST_PIVOT = 1e-13
-"""Smallest pivot, over the largest entry of the matrix, that counts as different from 0."""
+"""Smallest pivot that counts as different from 0, relative to the largest entry of the matrix."""
 
 
 def solve_linear(matrix: Matrix, right: Vector) -> Vector | None:
-    """Return x of `matrix` x = `right`, by elimination with row pivots.
+    """Return x of `matrix` x = `right`, by Gaussian elimination with row pivots.
 
     None where the matrix is singular up to rounding or not finite.
     """

@@ -1,9 +1,9 @@
 """LuGre friction (eq. 8): from one reversal to the next along the bristle's path.
 
 Soon after a reversal the bristle is fully bent and friction is Coulomb's: closed forms take over.
-Until then Taylor series follow the path, whose length shrinks with the bristle stiffness, so the
-cost does not grow with it. There is no sticking; presliding is resolved as what it is, an
-oscillation on the bristles.
+Until then Taylor series follow the path. Its length falls with the bristle stiffness, so the cost
+does not grow with that. There is no sticking: presliding is resolved as an oscillation on the
+bristles.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from .split_slide import SplitSlide
 from .taylor_slide import TaylorSlide
 
 TOLERANCE_SHARE = 0.01
-"""Share of the tolerance that one series may use up, and that the bend of the bristle may still be
-away from full when closed forms take over."""
+"""Share of the tolerance for the error of one series, and for the bend that a bristle still lacks
+when closed forms take over."""
 
 
 def check(device: Device) -> None:
-    """Raise Refusal without friction, where (8) has no meaning."""
+    """Raise Refusal without friction: (8) divides by mu."""
     if device.friction_coefficient == 0.0:
         raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
 
@@ -58,7 +58,7 @@ def force(held: Held, moment: Moment, mode: int) -> float:
 
 
 def follow(held: Held, now: Moment, longest: float, switching: float, departs: bool) -> Leg:
-    """See FrictionLaw. It goes in the direction that the slider has, or at rest takes."""
+    """See FrictionLaw. The leg has the direction of the velocity or, at rest, of the force."""
     direction = BACKWARD if now.state.velocity < 0.0 else FORWARD
     motion = _motion(held, now, direction)
     if now.state.velocity == 0.0 and not _departs(motion):
@@ -79,7 +79,11 @@ def succeed(held: Held, leg: Leg, now: Moment, switches: bool) -> None:
 
 
 def velocity_scale(plant: Plant, state: State) -> float:
-    """Velocity [m/s] that tolerances refer to: of drive, friction over a turn, and motion."""
+    """The scale of velocities [m/s] to which tolerances refer.
+
+    The sum of the velocity amplitude of the drive, the velocity that friction and load change in a
+    radian of the drive, and the velocities of slider and resonator.
+    """
     w = plant.drive_frequency
     forces = plant.friction_preload + plant.friction_amplitude + abs(plant.load)
     swing = plant.mass_fraction * hypot(state.rate, plant.stick.frequency * state.displacement)

@@ -1,4 +1,4 @@
-"""Everything that a motion carries on from one step to the next."""
+"""A moment of a motion: all that the motion carries from one step to the next."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .stops import NO_STOPS, Stops
 
 
 class Counts(NamedTuple):
-    """Direction of the last sliding (0 before any), reversals of it, and sticks begun."""
+    """Direction of the last sliding (0 before any), number of reversals, number of sticks begun."""
 
     sliding: int = 0
     reversals: int = 0
     sticks: int = 0
 
     def slid(self, direction: int) -> Counts:
-        """The counts once the slider has moved on in `direction`."""
+        """The counts after the slider has moved in `direction`."""
         sliding, reversals, sticks = self
         return Counts(direction, reversals + (sliding == -direction), sticks)
 
@@ -30,10 +30,10 @@ class Moment:
     """Position [m], phases [rad], contact mode, and what outputs count.
 
     `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
-    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. `stops` decide where a
-    stop is looked for first, and so the last digit of the time that is found: they are part of the
-    state for a replay to be equal to the last bit. `orbit` serves averages of second order alone. A
-    moment is changed only by the loop over events, which begins with a copy.
+    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. `stops` determine where
+    the search for a stop begins, and so the last digit of the time that it finds: as part of the
+    state they make a replay equal to the last bit. `orbit` is for averages of second order alone.
+    Only the loop over events changes a moment, and it begins with a copy.
     """
 
     state: State
@@ -65,7 +65,7 @@ class Moment:
         )
 
     def enter(self, mode: int) -> None:
-        """Go over to contact mode `mode`, which is an event where it is another one."""
+        """Change to contact mode `mode`; that is an event unless it is the present mode."""
         if mode == self.mode:
             return
         self.mode, self.event_age = mode, 0.0

@@ -1,4 +1,4 @@
-"""What a leg asks of its motion."""
+"""The interface of a motion in one contact mode, which a leg follows."""
 
 from __future__ import annotations
 

@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 from .contact import BACKWARD, FORWARD
 from .held_orbit import (
-    MAX_MAPS,
     HeldOrbit,
     NoOrbitError,
     OrbitStatus,
@@ -24,6 +23,7 @@ from .held_orbit import (
 )
 from .moment import Moment
 from .orbit_drift import held_orbit_offset
+from .orbit_newton import MAX_MAPS
 from .period_map import PeriodMap
 
 ORBIT_NODES = 12

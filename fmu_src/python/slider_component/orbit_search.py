@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from .held_orbit import MAX_MAPS, HeldOrbit, NoOrbitError, held_orbit_at, held_orbit_linearised
+from .held_orbit import HeldOrbit, NoOrbitError, held_orbit_at, held_orbit_linearised
 from .orbit_curve import OrbitPoint, point_of
+from .orbit_newton import MAX_MAPS
 from .period_map import PeriodMap
 
 

@@ -11,14 +11,14 @@ import math
 from dataclasses import dataclass
 
 OSCILLATORY = 0.9
-"""Damping ratio below which the complex eigenvalue is used; above, hyperbolic forms."""
+"""Damping ratio below which the complex eigenvalue is used; hyperbolic forms are used above."""
 
 SLOW = 0.02
 """Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady
-response would be far larger than what it reaches between two reversals."""
+response would be far larger than the response between two reversals."""
 
 SOON = 0.3
-"""Angle [rad] up to which a few terms of a series in time say all."""
+"""Angle [rad] up to which power series in time are used."""
 
 TERMS = 40
 
@@ -115,10 +115,10 @@ def response_from_rest(
 
 
 def step_response(oscillator: Oscillator, t: float) -> tuple[float, float]:
-    """Response to 1 from rest: displacement [s^2] and velocity [s] at `t` [s].
+    """Response to a unit step from rest: displacement [s^2] and velocity [s] at `t` [s].
 
-    Free of cancellation for soft oscillators, whose displacement at rest 1 / stiffness is far from
-    what they reach in time.
+    Without cancellation for soft oscillators, whose static displacement 1 / stiffness is far larger
+    than the response.
     """
     decay, stiffness, frequency = oscillator.decay, oscillator.stiffness, oscillator.frequency
     cosine, sine = free_response(oscillator, t)
@@ -137,7 +137,7 @@ def step_response(oscillator: Oscillator, t: float) -> tuple[float, float]:
 def slow_response_from_rest(
     oscillator: Oscillator, frequency: float, t: float
 ) -> tuple[complex, complex]:
-    """Response to exp(i frequency t) from rest while little of any period has passed.
+    """Response to exp(i frequency t) from rest, for t far below all periods.
 
     Displacement [s^2] and velocity [s] at `t` [s] by their Taylor series in t.
     """

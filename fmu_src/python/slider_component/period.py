@@ -7,12 +7,12 @@ from math import floor, tau
 from typing import NamedTuple
 
 MARK_TOLERANCE = 1e-7
-"""Angle [rad] by which a period may end after the present moment and still count as ended: steps
-of whole periods, rounded, then end on the period that they complete."""
+"""Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
+of whole periods complete their last period in spite of rounding."""
 
 
 class PeriodMeans(NamedTuple):
-    """What was gathered since the last period ended, and the means of the last whole period.
+    """Sums since the last period ended, and the means of the last whole period.
 
     `travel` [m], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);
     `mean_velocity` [m/s] and `stick_fraction` of the last whole period once `complete`.

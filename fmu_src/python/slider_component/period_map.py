@@ -1,11 +1,11 @@
-"""The map of the full device over the period of a periodic motion, under a load that is held.
+"""The period map: the state of the full device after one period under a constant load.
 
 A period is `turns` of the drive, after which the normal load repeats too; at drive phase theta = 0
-the phase of the normal load is `lead`. The loop over events resolves the motion with two degrees of
+the phase of the normal load is `lead`. The motion is resolved event by event with two degrees of
 freedom, whatever the fidelity of the device.
 
-The map begins at a section, where the vibration without friction is fastest forward, or backward:
-next to it the slider neither turns back nor sticks, and a bristle has forgotten how it was bent.
+The map begins at a section, the drive phase at which the vibration without friction is fastest
+forward, or backward: near it the slider neither reverses nor sticks, and a bristle is fully bent.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ class PeriodMap:
     """The period map of a device, at any lead and load.
 
     `held` is the full device, `fast` its vibration without friction. `period` [s]; `speed` [m/s],
-    `swing` [m] and `force` [N] are the scales of velocity (v_q), resonator and load (what stops v_q
-    in a period). `states` is the number of states that a period maps: the bristle is one under
-    LuGre friction.
+    `swing` [m] and `force` [N] are the scales of velocity (v_q), resonator displacement and load
+    (the force that stops v_q in a period). `states` is the number of states that are mapped: 3,
+    with LuGre friction 4.
     """
 
     held: Held
@@ -55,7 +55,7 @@ class PeriodMap:
         return (self.fast.lag + (pi if direction > 0 else 0.0)) % tau
 
     def momentum_velocity(self, state: State, theta: float) -> float:
-        """Momentum over total mass without that of the drive, W [m/s].
+        """Momentum of the pair over total mass, without the part that the drive makes: W [m/s].
 
         W = X' + r Y' + D / (Mt w) cos(theta), D the amplitude of the drive force on the pair.
         """
@@ -74,7 +74,7 @@ class PeriodMap:
     def advance(self, lead: float, load: float, moment: Moment, duration: float) -> Moment | None:
         """The moment `duration` [s] after one that `enter` gave, under `load` [N].
 
-        None where time does not get on or numbers leave the range of floating point.
+        None where the motion takes too many legs or numbers leave the range of floating point.
         """
         try:
             after = events.advance(self.friction, self.held.under(lead, load), moment, duration)
@@ -83,7 +83,7 @@ class PeriodMap:
         return after if isfinite(after.position + sum(after.state) + after.bristle) else None
 
     def sliding_friction(self, lead: float) -> float:
-        """Friction [N] while the slider slides forward all the time: its mean over a period."""
+        """Mean friction [N] over a period in which the slider slides forward throughout."""
         device = self.held.device
         load = VibratingLoad(device, self.held.inputs.frequency_ratio, lead)
         mean = (load.flattened() if load.wave_number != 0.0 else load).at(0.0)
@@ -91,7 +91,7 @@ class PeriodMap:
 
 
 def period_map(device: Device, ratio: float, turns: int) -> PeriodMap:
-    """The map of `device` under `turns * ratio` waves, an integer, of the normal load.
+    """The map of `device` at a frequency ratio for which `turns * ratio` is an integer.
 
     Raises Refusal where device and friction law do not fit, and where undamped resonance leaves no
     steady vibration.

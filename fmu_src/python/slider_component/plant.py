@@ -22,20 +22,20 @@ from .oscillator import Oscillator, transfer
 from .refusal import Refusal
 
 AT_RESONANCE = 8.0 * EPSILON
-"""Distance of the squares of two frequencies that is due to rounding: undamped, the steady force
-has no correct digit there."""
+"""Relative difference of two squared frequencies that is due to rounding: without damping the
+steady force has no correct digit there."""
 
 
 @dataclass(frozen=True, slots=True)
 class Plant:
     """Coefficients under held inputs (SI units; complex numbers are amplitudes of e).
 
-    At fidelity 1 `slider_mass` is the total and `mass_fraction`, `spring` and `damper` are 0, for
-    the resonator then acts by its steady force only; `resonator_amplitude` holds its steady
-    displacement [m], and is None at fidelity 2. `preload_share` is N0 / dN: below 1 the contact
-    lifts, and -1 stands for no normal load at all. `holding_drive` is the part of the force on a
-    held slider that follows the drive directly [N], `drive` that on the pair per total mass
-    [m/s^2].
+    At fidelity 1 the resonator acts by its steady force only: `slider_mass` is the total mass,
+    `mass_fraction`, `spring` and `damper` are 0, and `resonator_amplitude` is the steady
+    displacement of the resonator [m], which is None at fidelity 2. `preload_share` is N0 / dN: the
+    contact lifts below 1; -1 stands for no normal load at all. `holding_drive` is the part of the
+    force on a held slider that follows the drive directly [N], `drive` the force of the drive on
+    the pair per total mass [m/s^2].
     """
 
     slider_mass: float

@@ -20,8 +20,8 @@ from .steady_orbit import blocking_orbit, check_unique, steady_orbit
 from .vibrating_load import EXACT, turns_to_repeat
 
 SAME = 0.05
-"""Distance from the steady velocity of first order, in fast velocities, up to which that of second
-order is taken for the same."""
+"""Largest difference, in fast velocities, between steady velocities of first and second order that
+belong to the same balance."""
 
 
 @lru_cache(maxsize=8)
@@ -60,7 +60,10 @@ def prediction_of(device: Device, inputs: Inputs, normal_lead: float) -> Average
 
 
 def _steady(period_map: PeriodMap, lead: float, load: float, first: float) -> HeldOrbit:
-    """The steady motion by that of first order, or by search. Raises NoOrbitError."""
+    """The steady motion, from the velocity of first order or else by a search over velocities.
+
+    Raises NoOrbitError.
+    """
     if _is_monotonic(period_map):
         try:
             orbit = held_orbit_at(period_map, lead, first)
@@ -74,7 +77,7 @@ def _steady(period_map: PeriodMap, lead: float, load: float, first: float) -> He
 
 
 def _is_monotonic(period_map: PeriodMap) -> bool:
-    """Whether friction falls everywhere with the slow velocity, so that there is one balance."""
+    """Whether friction is monotonic in the slow velocity, so that there is one balance."""
     device = period_map.held.device
     bristle = bristle_of(device)
     drag = friction_law_of(device.friction_law).averaged.drag(bristle, period_map.speed)

@@ -110,8 +110,8 @@ class RegularSlide:
     def _bound(self, sample: Sample) -> float:
         """Bound on the second derivative of the velocity [m/s^3].
 
-        By the momentum of the pair, or for a slider that hardly feels its resonator by the force
-        between them.
+        The smaller one of the bounds from the momentum of the pair and from the force between
+        slider and resonator, which is better for a light resonator.
         """
         plant = self._plant
         by_pair = self._pair_bound + self._fraction * sample.jerk_bound

@@ -1,4 +1,4 @@
-"""For how long motion has to be resolved until what shook the resonator has decayed."""
+"""How long motion must be resolved: until the transient of the resonator has decayed."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ from .motion import State
 from .slow_motion_error import bristle_decay, decay_in_turn
 
 SWING_LEFT = 1e-7
-"""What may be left of the swing, over the steady one, and of the bend of a bristle."""
+"""Relative size to which the transients of resonator and bristle must have decayed."""
 
 LAG_LEFT = 1e-9
-"""What may be left of a lag, over v_q."""
+"""Size, over v_q, to which a lag must have decayed."""
 
 MAX_TURNS_RESOLVED = 1e5
-"""Most turns of the drive."""
+"""Largest number of turns of the drive that are resolved."""
 
 MIN_TURNS_RESOLVED = 8.0
-"""Fewest turns: from rest under a direct drive motion begins where the slider just turns back, and
-its friction is not slow until it has left that velocity."""
+"""Smallest number of turns that are resolved: from rest under a direct drive the motion begins at
+grazing, and its mean friction is not smooth until it has left that velocity."""
 
 MAX_SWING = 1e6
-"""Largest swing, over the steady one, that counts."""
+"""Limit of the transient, relative to the steady vibration."""
 
 
 def resolved_is_bounded(device: Device, fast: FastVibration) -> bool:
-    """Whether the vibration decays at all, in a number of turns that can be resolved."""
+    """Whether transients decay within the largest number of turns that are resolved."""
     decay = min(decay_in_turn(device), bristle_decay(device, fast))
     return decay * MAX_TURNS_RESOLVED > log(MAX_SWING / SWING_LEFT)
 
 
 def resolved_angle(device: Device, fast: FastVibration, state: State, theta: float) -> float:
-    """Drive angle [rad], whole turns, from a state at drive phase `theta` [rad] on.
+    """Drive angle [rad], whole turns, until resonator and bristle have become periodic.
 
-    After it the resonator's swing is the steady one, and the bend of a bristle the periodic one.
+    It is counted from a state at drive phase `theta` [rad].
     """
     w, apart = device.drive_frequency, 0.0
     if device.resonator_mass > 0.0:
@@ -48,11 +48,11 @@ def resolved_angle(device: Device, fast: FastVibration, state: State, theta: flo
 
 
 def lag_angle(device: Device, fast: FastVibration, added_mass: float) -> float:
-    """The same after friction has changed while it adds a share `added_mass` of the total mass."""
+    """The same after a change of friction, which adds the share `added_mass` to the total mass."""
     decay = min(decay_in_turn(device), bristle_decay(device, fast))
     return _angle_until(added_mass * added_mass, LAG_LEFT, decay)
 
 
 def _angle_until(size: float, left: float, decay: float) -> float:
-    """Drive angle [rad] until a `size` has become `left` at a decay in a turn."""
+    """Drive angle [rad], whole turns, in which `size` decays to `left`; `decay` is per turn."""
     return tau * ceil(log(size / left) / decay) if size > left else 0.0

@@ -1,4 +1,4 @@
-"""The end of averaged motion that is steady but for a last approach, without following it."""
+"""The last approach of averaged motion to a steady velocity, in closed form."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from collections.abc import Callable
 from .dormand_prince import Reached
 
 NEAR = 1e-7
-"""Distance from balance, in fast velocities: well above the error of the steps before, and so short
-that forces are linear over it."""
+"""Distance from balance, in fast velocities, at which motion settles: well above the error of the
+steps before, and so short that forces are linear over it."""
 
 SETTLED = 20.0
-"""Time constants of the approach that must fit into what is left."""
+"""Number of time constants of the approach that the time left must exceed."""
 
 MAX_SECANTS = 40
 
@@ -21,8 +21,8 @@ Acceleration = Callable[[float, float], float]
 def settled(acceleration: Acceleration, fast: float, end: float, now: Reached) -> Reached | None:
     """The state at time `end` [s] if the velocity reaches a balance of forces before.
 
-    It must have come close to that, by the measure of the `fast` velocity [m/s]; None if not.
-    `acceleration(t, v)` [m/s^2] must not depend on time.
+    None unless the velocity is already close to that balance, relative to the `fast` velocity
+    [m/s]. `acceleration(t, v)` [m/s^2] must not depend on time.
     """
     low, high = now.velocity - NEAR * fast, now.velocity + NEAR * fast
     left = end - now.t
@@ -40,9 +40,9 @@ def settled(acceleration: Acceleration, fast: float, end: float, now: Reached) -
 def _balance_between(
     acceleration: Acceleration, low: float, at_low: float, high: float, at_high: float
 ) -> float:
-    """Where the acceleration falls through 0 between two velocities [m/s].
+    """The velocity between `low` and `high` [m/s] at which the acceleration falls through 0.
 
-    False position, in which an end that stays loses half of its weight (the Illinois rule).
+    Regula falsi with the Illinois rule, which halves the weight of an end that stays.
     """
     root, side = low, 0
     for _ in range(MAX_SECANTS):

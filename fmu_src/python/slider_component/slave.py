@@ -32,7 +32,7 @@ R = TypeVar("R")
 
 
 def _refusing(method: Callable[P, R]) -> Callable[P, R]:
-    """Return the method of the slave with refusals reported to stderr and survived."""
+    """Return a method of the slave that reports refusals to stderr and stays usable after them."""
 
     @functools.wraps(method)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
@@ -167,7 +167,8 @@ def keep_alive(namespace: dict[str, Any]) -> None:
 def _release_interpreter_at_exit(unpacked: Path) -> None:
     """Make the binary of an unpacked FMU release the interpreter before the process ends.
 
-    By itself it does so while its static objects are destroyed, after the one that it then uses.
+    By itself the binary releases it while static objects are destroyed, and uses one of these that
+    is already gone.
     """
     atexit.register(
         _release_interpreter, unpacked / "binaries" / "linux64" / f"{SliderResonatorPy.__name__}.so"
@@ -175,7 +176,7 @@ def _release_interpreter_at_exit(unpacked: Path) -> None:
 
 
 def _release_interpreter(binary: Path) -> None:
-    # Only while the host has it loaded: to keep it loaded would cost 0.3 MB per unpacked FMU.
+    # Only if the host still has it loaded: keeping it loaded costs 0.3 MB per unpacked FMU.
     with contextlib.suppress(OSError):
         ctypes.CDLL(str(binary), mode=os.RTLD_NOLOAD | os.RTLD_NOW).finalizePythonInterpreter()
 

@@ -1,4 +1,4 @@
-"""Mean friction under fast vibration, as slow motion sees it: at a slow velocity and a slow phase.
+"""Mean friction under fast vibration as a function of the slow velocity and the slow phase.
 
 The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
 (ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact has
@@ -27,11 +27,11 @@ Friction = Callable[[float, float], float]
 
 
 class SlowFriction(NamedTuple):
-    """The mean friction `at` a time and velocity, which depends on time where `drift` is not 0.
+    """The mean friction `at` a time and velocity; it depends on time where `drift` is not 0.
 
     `drift` [rad/s] is that of the phase of the normal load, which repeats after `beat` [s];
-    where the load itself is slow, `to_kink(t)` [s] is how long after `t` the contact lifts or
-    touches down. `is_expensive` means that each value costs a quadrature.
+    where the load itself is slow, `to_kink(t)` is the time [s] from `t` until the contact lifts or
+    touches down. `is_expensive`: each value costs a quadrature.
     """
 
     at: Friction
@@ -49,7 +49,7 @@ def slow_friction(
     turns, waves, drift = slow_phase_of(device, held.inputs.frequency_ratio)
     phase = held.inputs.phase + psi - waves * theta + waves * fast.lag
     motion = FastMotion(fast.velocity, device.drive_frequency)
-    # Without vibration a bristle is always fully bent, and friction Coulomb's.
+    # Without vibration a bristle is always fully bent: friction is Coulomb's.
     averaged = friction if fast.velocity else AVERAGED_COULOMB
     law = _MeanFriction(held, averaged, motion, phase, drift)
     beat = tau / ((turns or 1) * abs(drift)) if drift else inf
@@ -75,7 +75,7 @@ class _MeanFriction:
     drift: float
 
     def under_sine(self, n: int) -> Friction:
-        """By the means, under n waves in a turn of the drive."""
+        """Mean friction from the means under a sine of n waves in a turn of the drive."""
         device, means_at = self.held.device, self._means(n)
         preload = device.friction_faces * device.normal_preload
         swing = device.friction_faces * device.normal_amplitude
@@ -89,7 +89,7 @@ class _MeanFriction:
         return friction
 
     def under_mean_load(self, waves: float) -> Friction:
-        """By the means, where the load averages out or stands still."""
+        """Mean friction under the mean load, where the load averages out or is slow itself."""
         means_at, scale = self._means(1), self.held.device.friction_faces / tau
 
         def friction(t: float, velocity: float) -> float:
@@ -99,7 +99,7 @@ class _MeanFriction:
         return friction
 
     def under_any_load(self, waves: float) -> Friction:
-        """As the mean under a load of any shape."""
+        """Mean friction as the mean under a load of any shape."""
         faces, mean, bristle = (
             self.held.device.friction_faces,
             self.friction.mean,
@@ -133,7 +133,7 @@ _table = lru_cache(maxsize=4)(friction_table)
 
 
 def _turning(velocity: float, fast_velocity: float) -> float:
-    """Angle tau at which sliding turns forward; 0 or pi once it no longer turns."""
+    """Angle tau at which sliding turns forward [rad]; 0 or pi where it never reverses."""
     if abs(velocity) >= fast_velocity:
         return 0.0 if velocity > 0.0 else pi
     return acos(velocity / fast_velocity)

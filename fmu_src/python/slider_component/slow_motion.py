@@ -1,11 +1,11 @@
 """Averaged motion, fidelity 0: the slow motion of the pair under mean friction.
 
 With D the amplitude of the drive force on the pair, its momentum over the total mass is
-P = X' + r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both go on smoothly
-whatever is tuned. V is the slow velocity, (M + m) V' = -mean friction - load. The fast parts of all
-outputs are the steady vibration (32)-(33), added in closed form.
+P = X' + r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous,
+also where a parameter is tuned. V is the slow velocity: (M + m) V' = -mean friction - load. The
+fast parts of all outputs are the steady vibration (32)-(33), added in closed form.
 
-A bristle is taken as slaved to the motion, so it has no state here.
+The bristle follows the motion periodically; it has no state here.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
 
 WAVES = 10.0
-"""Waves of the normal load over a turn that double the cost of a quadrature."""
+"""Number of waves of the normal load over a turn that doubles the cost of a quadrature."""
 
 WORK = "steps of averaged motion"
 
-LEAST_STEPS = 16
-"""Fewest steps up to which work is accepted."""
+MIN_STEPS = 16
+"""Lower limit of the number of steps that is accepted."""
 
 PIECES = 256
-"""Pieces of a beat with constant friction each, where there is no vibration."""
+"""Pieces of a beat, with constant friction in each, in motion without vibration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ class SlowLaw:
     fast: FastVibration
 
     def start(self, state: State, position: float) -> Moment:
-        """See Law. The initial velocities fix the momentum of the pair, not the vibration."""
+        """See Law. Initial velocities determine the momentum of the pair, not the vibration."""
         mode = self.held.mode_by_velocity(state.velocity, 0.0)
         means = PeriodMeans(complete=True, mean_velocity=self._slow_velocity(state, 0.0))
         return Moment(state, position, 0.0, 0.0, mode, Counts(), inf, means)
@@ -82,7 +82,10 @@ class SlowLaw:
     def _passed(
         self, velocity: float, theta: float, psi: float, duration: float
     ) -> tuple[float, float]:
-        """Slow velocity and displacement after `duration` [s]; settled motion takes few steps."""
+        """Slow velocity [m/s] and displacement [m] after `duration` [s].
+
+        A velocity that settles takes few steps, however long the duration is.
+        """
         fast, load, total = self.fast.velocity, self.held.inputs.load, self.held.plant.total_mass
         friction = self._friction(theta, psi)
         if fast == 0.0:
@@ -107,7 +110,7 @@ class SlowLaw:
         return reached.velocity, reached.moved
 
     def _strongest_friction(self) -> float:
-        """Largest friction [N] of Coulomb's law under the normal load at any phase."""
+        """Largest Coulomb friction [N] over all phases of the normal load."""
         device = self.held.device
         normal = device.normal_preload + device.normal_amplitude
         return device.friction_faces * device.friction_coefficient * normal
@@ -126,7 +129,7 @@ class SlowLaw:
         return friction.at(0.0, velocity)
 
     def swing(self, moment: Moment) -> tuple[float, float]:
-        """See Law: the steady one, but for a moment that motion along orbits led to."""
+        """See Law: the steady vibration, or the resolved one of motion along orbits."""
         if moment.orbit.stage != Stage.AVERAGED:
             return moment.state.displacement, moment.state.rate
         return steady_swing(self.fast.resonator, moment.theta, self.held.plant.drive_frequency)
@@ -145,22 +148,25 @@ def slow_law(held: Held, friction: FrictionLaw) -> SlowLaw:
 
 
 def _max_steps(is_expensive: bool, ratio: float) -> int:
-    """Steps of averaged motion in one communication step up to which its work is accepted."""
+    """Largest number of steps of averaged motion that is accepted in one communication step."""
     if not is_expensive:
         return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
     waves = min(abs(ratio), MAX_WAVES)
-    return max(LEAST_STEPS, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
+    return max(MIN_STEPS, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
 
 
 def _unshaken(
     friction: SlowFriction, velocity: float, load: float, mass: float, duration: float
 ) -> tuple[float, float]:
-    """Velocity and displacement without vibration: under constant forces in each piece of time."""
+    """Velocity [m/s] and displacement [m] without vibration.
+
+    Friction is constant in each piece of time.
+    """
     longest = duration if friction.to_kink is None else min(duration, friction.beat / PIECES)
     pieces = ceil(duration / longest)
-    most = _max_steps(is_expensive=False, ratio=0.0)
-    if pieces > most:
-        raise too_much_work(duration, most * longest, most, WORK)
+    max_pieces = _max_steps(is_expensive=False, ratio=0.0)
+    if pieces > max_pieces:
+        raise too_much_work(duration, max_pieces * longest, max_pieces, WORK)
     moved, piece = 0.0, duration / pieces
     for k in range(pieces):
         resisting = friction.at((k + 0.5) * piece, inf)
@@ -172,7 +178,7 @@ def _unshaken(
 def _block(
     velocity: float, friction: float, load: float, mass: float, duration: float
 ) -> tuple[float, float]:
-    """Velocity and displacement of a block without vibration, under constant forces."""
+    """Velocity [m/s] and displacement [m] of a block without vibration, under constant forces."""
     moved = 0.0
     if velocity != 0.0:
         deceleration = (copysign(friction, velocity) + load) / mass

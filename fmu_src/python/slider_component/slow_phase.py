@@ -1,4 +1,4 @@
-"""The slow phase of the normal load: near which fraction of the drive its frequency is."""
+"""The slow phase of the normal load: the fraction of the drive frequency near it, and the drift."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from .device import Device
 from .vibrating_load import turns_to_repeat
 
 NEAR = 0.1
-"""Distance of the frequency ratio from an integer up to which the phase counts as slow; under a
-lifting contact that of q times the ratio, times q, for q of a few turns."""
+"""Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under
+a lifting contact: largest distance of q times the ratio, times q, for q up to a few turns."""
 
 
 LEAD_DIGITS = 9
@@ -18,9 +18,9 @@ LEAD_DIGITS = 9
 
 
 class SlowPhase(NamedTuple):
-    """Near `waves` of the normal load in a turn of the drive its phase drifts by `drift` [rad/s].
+    """The normal load is near `waves` waves in a turn of the drive, and drifts by `drift` [rad/s].
 
-    The waves repeat after `turns`; these are None where no phase is slow.
+    The waves repeat after `turns` turns; `turns` is None where no phase is slow.
     """
 
     turns: int | None
@@ -29,14 +29,14 @@ class SlowPhase(NamedTuple):
 
     @property
     def beat(self) -> float:
-        """Time [s] after which a phase that drifts repeats; infinite for one that does not."""
+        """Time [s] in which a phase that drifts repeats; infinite for one that does not drift."""
         return tau / ((self.turns or 1) * abs(self.drift)) if self.drift else inf
 
 
 def rounded_lead(lead: float) -> float:
     """A lead [rad] without the rounding errors of phases.
 
-    What depends on it does not flicker, and inputs that come back find what was tabulated.
+    Results then do not depend on these, and inputs that return to earlier values find their tables.
     """
     return round(lead, LEAD_DIGITS)
 

@@ -138,8 +138,8 @@ def to_bytes(plain: Mapping[str, Any]) -> bytes:
 def from_bytes(data: bytes) -> dict[str, Any]:
     """Invert `to_bytes`. Bytes that are not a snapshot become one whose format says so.
 
-    Never raises: there is no instance here that could survive an error. To set such a snapshot is
-    refused.
+    It raises nothing, because there is no instance yet that could report an error. Setting such a
+    snapshot is refused.
     """
     checksum, _, body = data.partition(b"\n")
     if checksum != _checksum(body):

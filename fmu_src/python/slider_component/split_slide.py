@@ -2,7 +2,7 @@
 
 Velocity is v(t) = k0 + k1 t + Re(ve exp(i w t) + vq exp(i q t) + vh exp(lambda t)): the particular
 solutions at drive and normal frequency are split off from the free oscillation. That loses digits
-near resonance and for slow normal loads; `split` answers None there and `regular_slide` serves.
+near resonance and for slow normal loads; `split` returns None there, and `regular_slide` is used.
 """
 
 from __future__ import annotations
@@ -159,7 +159,7 @@ class SplitSlide:
         return self._watches
 
     def _turns_at(self, t: float) -> tuple[float, complex, complex, complex]:
-        """`t`, exp(i w t), exp(i q t) and exp(lambda t), kept until they are needed for another."""
+        """`t`, exp(i w t), exp(i q t) and exp(lambda t), cached for the last `t`."""
         turns = self._turns
         if turns[0] == t:
             return turns

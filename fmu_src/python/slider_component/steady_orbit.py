@@ -1,6 +1,6 @@
-"""Steady motion as a held orbit: the velocity at which a load is the one that holds.
+"""Steady motion as a held orbit: the velocity that a load holds.
 
-Both results are exact, for a held orbit is a periodic motion of the full device.
+Steady velocity and blocking force are exact: a held orbit is a periodic motion of the full device.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from .held_orbit import (
 from .period_map import PeriodMap
 
 SAMPLES = 12
-"""Velocities at which orbits tell where steady motion is."""
+"""Number of velocities at which steady motion is looked for."""
 
 MAX_HALVINGS = 60
-"""Most halvings between two of them."""
+"""Largest number of halvings between two of them."""
 
 NOISE = 1e-9
-"""Force, over full friction, that is rounding or the tolerance of a map."""
+"""Force, over full friction, within which forces balance: rounding, or the tolerance of a map."""
 
 MAX_SPEED = 1e150
-"""Amplitude [m/s] of the vibration from which on squares leave the range of numbers: no iteration
-ends."""
+"""Amplitude [m/s] of the vibration from which on squares leave the range of floating point, so that
+no iteration would converge."""
 
 SAMPLED_REACH = 1.05
 """Largest sampled velocity, in v_q: beyond grazing unless friction is strong."""
@@ -45,11 +45,11 @@ FAR = 2.0
 
 @dataclass(slots=True)
 class _Scan:
-    """What samples have shown so far, up to forces of `noise` [N].
+    """Result of the samples so far; forces up to `noise` [N] count as balanced.
 
-    `low` is the highest velocity [m/s] at which friction and load drive the slider on, as long as
-    one with a braking force may follow it; `balanced` are the samples in balance since. Brackets
-    hold both velocities and the orbit of a sample.
+    `low` is the highest velocity [m/s] at which friction and load accelerate the slider, while a
+    bracket is open from there; `balanced` is the number of samples in balance since. Brackets hold
+    both velocities and the orbit of a sample.
     """
 
     noise: float
@@ -59,7 +59,7 @@ class _Scan:
     stretches: int = 0
 
     def on(self, velocity: float, excess: float, sample: HeldOrbit | None) -> None:
-        """Take in a velocity [m/s] and the force [N] on it."""
+        """Add a sample: a velocity [m/s], the `excess` of friction and load [N], and its orbit."""
         if excess < -self.noise:
             self.low = velocity
         elif excess <= self.noise:
@@ -139,7 +139,7 @@ def _refined(
     high: float,
     sample: HeldOrbit | None,
 ) -> HeldOrbit:
-    """The steady motion between two velocities, by the tangent, or else between the halves."""
+    """The steady motion between two velocities: Newton's method, with bisection as a fallback."""
     for _ in range(MAX_HALVINGS):
         try:
             orbit = steady_orbit_at(period_map, lead, load, sample)

@@ -35,7 +35,7 @@ class Stick:
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """Forward margin (limit - needed force), then backward margin (limit + needed force).
 
-        None when no force is needed, or never one that reaches the least limit.
+        None where the needed force is 0, or always below the smallest limit.
         """
         plant = self._plant
         reach = abs(plant.load) + abs(self._direct)

@@ -1,4 +1,4 @@
-"""Where the slider is expected to stop: near where it stopped one drive turn before, most often."""
+"""Prediction of the next stop: mostly near the phase of the stop one drive turn before."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ MAX_DRIFT = 0.1
 class Stops(NamedTuple):
     """Drive phase [rad] at which the slider last stopped after sliding `backward` and `forward`.
 
-    `backward_drift` and `forward_drift` are how far that is from where it stopped before. All are 0
-    before it did: a guess as good as any.
+    `backward_drift` and `forward_drift` are the differences from the stops before. Before the first
+    stop all are 0, an arbitrary guess.
     """
 
     backward: float = 0.0
@@ -22,7 +22,7 @@ class Stops(NamedTuple):
     forward_drift: float = 0.0
 
     def then(self, direction: int, theta: float) -> Stops:
-        """The stops once the slider stops at `theta` [rad] after sliding in `direction`."""
+        """The stops after the slider stops at `theta` [rad], having slid in `direction`."""
         if direction > 0:
             drift = theta - self.forward
             drift = drift if abs(drift) < MAX_DRIFT else 0.0
@@ -32,11 +32,11 @@ class Stops(NamedTuple):
         return Stops(theta, drift, self.forward, self.forward_drift)
 
     def expected(self, direction: int, theta: float, drive_frequency: float) -> float:
-        """Time [s] from drive phase `theta` [rad] to the next stop if it drifts on as it did."""
+        """Time [s] from drive phase `theta` [rad] to the next stop if it drifts as before."""
         if direction > 0:
             return (self.forward + self.forward_drift - theta) % tau / drive_frequency
         return (self.backward + self.backward_drift - theta) % tau / drive_frequency
 
 
 NO_STOPS = Stops()
-"""Those of a slider that has not stopped yet."""
+"""The stops of a slider that has not stopped yet."""

@@ -1,4 +1,4 @@
-"""Sliding against a bristle that is still being bent: LuGre friction as a Taylor series in time.
+"""Sliding while a bristle bends: LuGre friction as a Taylor series in time.
 
 With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value where
 this series starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):
@@ -6,8 +6,8 @@ this series starts, the bristle is a function of the path d = |x - x_r| alone (e
     g = s mu + (g_r - s mu) E,    E = exp(-sigma_0 d / mu),    E' = -(sigma_0 / mu) |v| E
     F = faces N (g_r + (mu - s g_r) (s (1 - E) + E sigma_1 v / mu))
 
-so no stiff state is left, and deep presliding, where g_r and 1 - E are small, keeps its digits. All
-factors have Taylor coefficients by recurrence.
+so no stiff state remains, and deep presliding, where g_r and 1 - E are small, loses no digits. The
+Taylor coefficients of all factors follow by recurrence.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ from .motion import EPSILON, State
 from .plant import Plant
 
 ORDER = 22
-"""Terms of the series: near the order at which a digit costs least, whatever the tolerance."""
+"""Order of the series: close to the cheapest one at any tolerance."""
 
 SMALL = 1e-3
 """Share of a motion that the last terms of its series may have."""
 
-LEAST = 1e-200
-"""Motion [m/s] that is as good as none."""
+NEGLIGIBLE_MOTION = 1e-200
+"""Motion [m/s] below which a series is not cut shorter."""
 
 MAX_SHRINKS = 4
-"""How often a series is cut shorter for that."""
+"""How often a series is cut shorter to reach that share."""
 
 
 class TaylorSlide:
-    """Motion in contact from `state` on, in direction `sign`, until the series no longer holds.
+    """Motion in contact from `state` on, in direction `sign`, up to `reach` [s].
 
-    `friction` is sigma_0 z at the start. The series is cut off at `reach` [s], where its last terms
-    are `tolerance` [m/s].
+    `friction` is sigma_0 z at the start. At `reach` the last terms of the series are `tolerance`
+    [m/s].
     """
 
     __slots__ = ("_displacement", "_position", "_rate", "_sign", "_velocity", "reach")
@@ -91,11 +91,18 @@ class TaylorSlide:
         if resonates:
             weight = plant.mass_fraction or 1.0
             self.reach = min(self.reach, _reach(u, tolerance / weight))
-        # Of a motion far below the tolerance the last terms would be the larger part, and its first
-        # zero hard to find.
+        self._cut_off_slow_motion(tolerance)
+
+    def _cut_off_slow_motion(self, tolerance: float) -> None:
+        """Shorten the series of a motion far below the tolerance.
+
+        Otherwise its last terms would exceed the motion itself, and its first zero would be hard to
+        find.
+        """
+        v = self._velocity
         for _ in range(MAX_SHRINKS):
             small = SMALL * (abs(v[0]) + abs(v[1]) * self.reach)
-            if not LEAST < small < tolerance:
+            if not NEGLIGIBLE_MOTION < small < tolerance:
                 break
             self.reach = min(self.reach, _reach(v, small))
 

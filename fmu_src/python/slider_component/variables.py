@@ -64,7 +64,7 @@ _AVERAGED_THEORY = (
     "tolerance",
 )
 
-# What decides on how motion is made, averages of second order serving where it becomes slow.
+# What selects the model of the motion: averages of second order apply only to slow motion.
 _WHICH_MOTION = ("fidelity", *_AVERAGED_THEORY)
 
 VARIABLES: tuple[Variable, ...] = (
@@ -286,7 +286,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
-        # At fidelity 1 it keeps the momentum without the steady vibration of the resonator.
+        # At fidelity 1 it follows from the momentum, less that of the steady vibration.
         depends_initially_on=(
             "fidelity",
             *_STEADY_RESONATOR,
@@ -301,7 +301,7 @@ VARIABLES: tuple[Variable, ...] = (
         unit="m/s",
         display_unit="mm/s",
         nominal=0.1,
-        # By first order what is left of the momentum of the pair without its vibration.
+        # By first order it is the momentum of the pair over the mass, without the vibration.
         depends_initially_on=(*_WHICH_MOTION, "initial_velocity", "initial_resonator_velocity"),
     ),
     _output(
@@ -360,7 +360,7 @@ VARIABLES: tuple[Variable, ...] = (
         minimum=0.0,
         maximum=1.0,
         nominal=1.0,
-        # 0 or 1 by the contact mode until time has passed.
+        # 0 or 1, by the contact mode, before the first step.
         depends_initially_on=_FRICTION,
     ),
     _count(

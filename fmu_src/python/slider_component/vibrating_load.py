@@ -8,18 +8,19 @@ from math import asin, ceil, cos, floor, pi, sin, tau
 from .device import Device
 
 MAX_TURNS_TO_REPEAT = 4
-"""Turns of the drive over which a clipped load may repeat and still be followed. The harmonics of
-the clipping that meet the drive get weaker with them; beyond, only the mean counts."""
+"""Largest number of turns of the drive after which a clipped load may repeat for its phase to
+count. The more turns, the weaker are the harmonics of the clipping that meet the drive; beyond, the
+mean counts."""
 
 EXACT = 1e-12
-"""Distance of a ratio from a fraction that is due to rounding."""
+"""Distance of a ratio from a fraction up to which it is due to rounding."""
 
 
 def turns_to_repeat(device: Device, ratio: float, tolerance: float) -> int | None:
-    """Turns q of the drive after which the load repeats, ratio n / q; None for none that counts.
+    """Number of turns q of the drive after which the load repeats, at a ratio n / q; None for none.
 
-    `tolerance` is how far q ratio may be from an integer, times q. Without flight the load is a
-    sine and only integers count: over several turns it would average out.
+    `tolerance` is the largest distance of q ratio from an integer, times q. Without flight the load
+    is a sine and q is 1: over several turns it would average out.
     """
     lifts = device.normal_amplitude > device.normal_preload
     for turns in range(1, MAX_TURNS_TO_REPEAT + 1 if lifts else 2):
@@ -31,8 +32,8 @@ def turns_to_repeat(device: Device, ratio: float, tolerance: float) -> int | Non
 class VibratingLoad:
     """N(n tau + delta) with lift-off, in N, as a function of the drive angle within a turn.
 
-    Over how many turns it repeats is for `turns_to_repeat` to say, and the mean over that many is
-    what counts; without any, n being irrational so to speak, it is the mean over all angles.
+    Averages are taken over the turns after which it repeats, see `turns_to_repeat`; if it never
+    does, over all angles.
     """
 
     __slots__ = (

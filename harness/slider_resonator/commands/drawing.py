@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -52,23 +52,35 @@ class Overlay(click.ParamType["tuple[str, float] | Path"]):
         return Path(text)
 
 
-def check_drawing(scene: Scene, signals: Sequence[str], window: tuple[float, float] | None) -> None:
+@dataclass(frozen=True)
+class Drawing:
+    """What `--plot` draws: signals, a window of time (s), and further runs."""
+
+    signals: tuple[str, ...] | None = None
+    window: tuple[float, float] | None = None
+    overlays: tuple[tuple[str, float] | Path, ...] = ()
+
+    @property
+    def is_default(self) -> bool:
+        """Whether nothing is chosen, so that the plot is that of `run_plot`."""
+        return self == Drawing()
+
+
+def check_drawing(scene: Scene, drawing: Drawing) -> None:
     """Raise HarnessError for signals that do not exist or a window outside the run."""
     # Imported here: drawing takes longer to load than the rest to run.
     from slider_resonator.scenes.signals_plot import check_signals, check_window
 
-    check_signals(signals)
-    if window is not None:
-        check_window(window, scene)
+    check_signals(drawing.signals or ())
+    if drawing.window is not None:
+        check_window(drawing.window, scene)
 
 
 def draw_signals(
     isolated: IsolatedFmu,
     fmu: Path,
     scene: Scene,
-    signals: Sequence[str],
-    window: tuple[float, float] | None,
-    overlays: Sequence[tuple[str, float] | Path],
+    drawing: Drawing,
     path: Path,
     time_limit: float,
 ) -> None:
@@ -78,7 +90,7 @@ def draw_signals(
     """
     from slider_resonator.scenes.signals_plot import SIGNALS, Run, plot_signals, schedule_for_window
 
-    shown = window or (0.0, float(scene.schedule().times[-1]))
+    shown = drawing.window or (0.0, float(scene.schedule().times[-1]))
 
     def record(on: IsolatedFmu, varied: Scene) -> Record:
         interpolates = varied.schedule().interpolates and on.interpolates
@@ -87,7 +99,7 @@ def draw_signals(
         return found
 
     runs = [Run(fmu.name, record(isolated, scene))]
-    for overlay in overlays:
+    for overlay in drawing.overlays:
         if isinstance(overlay, Path):
             with IsolatedFmu(overlay, time_limit) as other:
                 runs.append(Run(overlay.name, record(other, scene)))
@@ -95,4 +107,4 @@ def draw_signals(
             name, value = overlay
             varied = scene.with_values({name: value})
             runs.append(Run(f"{name} {value:g}", record(isolated, varied)))
-    plot_signals(runs, scene, signals or SIGNALS, shown, path)
+    plot_signals(runs, scene, drawing.signals or SIGNALS, shown, path)

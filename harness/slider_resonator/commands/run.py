@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from math import pi
@@ -10,7 +11,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from slider_resonator.commands.drawing import Overlay, Window, check_drawing, draw_signals
+from slider_resonator.commands.drawing import (
+    Drawing,
+    Overlay,
+    Window,
+    check_drawing,
+    draw_signals,
+)
 from slider_resonator.commands.options import (
     SettingsCommand,
     Target,
@@ -151,24 +158,17 @@ def run_command(
     files = {f"the scene's file {file}": file for file in read.files}
     others = {f"the FMU {one}": one for one in overlays if isinstance(one, Path)}
     distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **others, **files})
-    names = tuple(name.strip() for name in signals.split(",")) if signals is not None else ()
-    chosen = bool(signals is not None or window or overlays)
-    if chosen and plot is None:
+    drawing = Drawing(_names(signals), window, overlays)
+    if plot is None and not drawing.is_default:
         raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto:
         check_left_to_choose(settings)
     choice, provenance = None, provenance_of(fmu, *others.values())
-    if chosen:
-        check_drawing(read, names, window)
+    if not drawing.is_default:
+        check_drawing(read, drawing)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
-            from slider_resonator.studies.choose.choosing import (
-                choose_with,  # imported here: it loads scipy
-            )
-
-            read.schedule()
-            report = partial(progress, f"choosing for {read.name}")
-            choice = isolated.run(partial(choose_with, scene=read), report)
+            choice = _choose(isolated, read, progress)
             if not choice.meets:
                 text = "\n".join(choice.sentences())
                 print_result(choice, text, as_json=as_json, provenance=provenance)
@@ -177,24 +177,43 @@ def run_command(
         how = _how_inputs(read, isolated)
         if how == "cannot":
             read = read.interpolating(False)
-
-        def run_in(schedule: Schedule) -> Record:
-            task = partial(run, parameters=read.parameters, schedule=schedule)
-            record: Record = isolated.run(task, partial(progress, read.name))
-            return record
-
-        record = run_in(read.schedule())
+        record = _run(isolated, read, read.schedule(), progress)
         if out is not None:
             write_csv(record, out)
-        if plot is not None and chosen:
-            draw_signals(isolated, fmu, read, names, window, overlays, plot, time_limit)
-        elif plot is not None:
+        if plot is not None and drawing.is_default:
             # Imported here: drawing takes longer to load than the rest to run.
             from slider_resonator.scenes.run_plot import plot_run, schedule_to_plot
 
-            plot_run(run_in(schedule_to_plot(read)), read, plot)
+            plot_run(_run(isolated, read, schedule_to_plot(read), progress), read, plot)
+        elif plot is not None:
+            draw_signals(isolated, fmu, read, drawing, plot, time_limit)
     summary = _summary(fmu, read, record, out, plot, choice, how)
     print_result(summary, _sentences(summary, read), as_json=as_json, provenance=provenance)
+
+
+def _names(signals: str | None) -> tuple[str, ...] | None:
+    return None if signals is None else tuple(name.strip() for name in signals.split(","))
+
+
+def _choose(isolated: IsolatedFmu, scene: Scene, progress: Callable[[str, float], None]) -> Choice:
+    # Imported here: it loads scipy.
+    from slider_resonator.studies.choose.choosing import choose_with
+
+    scene.schedule()
+    report = partial(progress, f"choosing for {scene.name}")
+    choice: Choice = isolated.run(partial(choose_with, scene=scene), report)
+    return choice
+
+
+def _run(
+    isolated: IsolatedFmu,
+    scene: Scene,
+    schedule: Schedule,
+    progress: Callable[[str, float], None],
+) -> Record:
+    task = partial(run, parameters=scene.parameters, schedule=schedule)
+    record: Record = isolated.run(task, partial(progress, scene.name))
+    return record
 
 
 def _how_inputs(scene: Scene, fmu: IsolatedFmu) -> str | None:

@@ -15,11 +15,11 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result, print_text
-from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.fmu.provenance import Provenance, provenance_of
 from slider_resonator.output.console import progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
-from slider_resonator.studies.sweep.grid import read_grid
+from slider_resonator.studies.sweep.grid import Sweep, read_grid
 from slider_resonator.studies.sweep.journal import journal_path
 from slider_resonator.studies.sweep.local import available_cores
 from slider_resonator.studies.sweep.sweeping import SweepResult, run_sweep
@@ -85,15 +85,7 @@ def sweep_command(
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
     distinct({"--out": out, "--plot": plot, "--html": html}, sources)
     sweep = read_grid(grid)
-    if plot is not None:
-        # Imported here: drawing takes longer to load than many sweeps to run.
-        from slider_resonator.studies.sweep.picture import check_picture, draw_sweep
-
-        check_picture(sweep, "--plot")
-    if html is not None:
-        from slider_resonator.studies.sweep.page import check_page, write_sweep_page
-
-        check_page(sweep, "--html")
+    _check_drawable(sweep, plot, html)
     path = default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
@@ -108,10 +100,7 @@ def sweep_command(
             time_limit=time_limit,
             progress=progress,
         )
-    if plot is not None:
-        draw_sweep(sweep, result.columns, plot)
-    if html is not None:
-        write_sweep_page(html, sweep, result.columns, provenance)
+    _draw(sweep, result, plot, html, provenance)
     for line in result.damaged:
         print_text(
             f"{journal_path(out)} line {line}: damaged; its point was computed again", err=True
@@ -121,6 +110,36 @@ def sweep_command(
     document = {"out": str(out), **facts, "first_error": result.first_error}
     print_result(document, _sentences(result, out), as_json=as_json, provenance=provenance)
     context.exit(1 if result.failed else 0)
+
+
+def _check_drawable(sweep: Sweep, plot: Path | None, html: Path | None) -> None:
+    """Raise HarnessError for a sweep of which there is no such picture or page."""
+    # Imported here: drawing takes longer to load than many sweeps to run.
+    if plot is not None:
+        from slider_resonator.studies.sweep.picture import check_picture
+
+        check_picture(sweep, "--plot")
+    if html is not None:
+        from slider_resonator.studies.sweep.page import check_page
+
+        check_page(sweep, "--html")
+
+
+def _draw(
+    sweep: Sweep,
+    result: SweepResult,
+    plot: Path | None,
+    html: Path | None,
+    provenance: Provenance,
+) -> None:
+    if plot is not None:
+        from slider_resonator.studies.sweep.picture import draw_sweep
+
+        draw_sweep(sweep, result.columns, plot)
+    if html is not None:
+        from slider_resonator.studies.sweep.page import write_sweep_page
+
+        write_sweep_page(html, sweep, result.columns, provenance)
 
 
 def _sentences(result: SweepResult, out: Path) -> str:

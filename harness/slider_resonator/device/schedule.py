@@ -26,7 +26,7 @@ million, and all outputs are kept in memory."""
 class Signal:
     """An input over time, given by points: held from each point to the next, or a polyline.
 
-    `times` (s) increase strictly. Before the first and after the last point the value is theirs.
+    `times` (s) increase strictly. Before the first and after the last point the value is constant.
     `file` is the one that the points were read from: a run that goes beyond them is refused.
     """
 
@@ -126,8 +126,8 @@ def communication_points(stop: float, step: Steps, jumps: Iterable[float] = ()) 
 def step_count(stop: float, step: Steps) -> int:
     """Return the number of steps of size `step` (s) up to `stop` (s); the last may be shorter.
 
-    Of several sizes each counts as often as the others, up to the last. Raises ValueError for times
-    that are not positive and for more than `MAX_STEPS` steps.
+    Several sizes are taken in turn. Raises ValueError for times that are not positive and for more
+    than `MAX_STEPS` steps.
     """
     if not isinstance(step, float | int):
         if not min(step) > 0.0:

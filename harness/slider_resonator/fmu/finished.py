@@ -26,7 +26,7 @@ COMMANDS_LOOK_IN = (Path("dist"), *FOLDERS)
 
 
 def fmu_path(build: Build = "native") -> Path:
-    """Return the path of the finished FMU that needs nothing, that is Python, or of FMI 3.0.
+    """Return the path of a finished FMU: the native one, the Python one, or that for FMI 3.0.
 
     Raises ValueError for another name, FmuError where there is no such file.
     """

@@ -1,7 +1,7 @@
 """An FMU of FMI 3.0 behind the calls of FMI 2.0 that the harness makes.
 
-Without event mode steps run through, as in FMI 2.0. What FMI 2.0 sets up beforehand, the times of
-an experiment, FMI 3.0 takes and checks when initialisation mode begins.
+Without event mode steps run through events, as in FMI 2.0. FMI 3.0 takes and checks the times of an
+experiment when initialisation mode begins; FMI 2.0 does so before.
 """
 
 from __future__ import annotations

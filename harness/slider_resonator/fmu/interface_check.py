@@ -13,9 +13,9 @@ from slider_resonator.fmu.units import unit_problems
 def interface_problems(description: ModelDescription) -> list[str]:
     """Return every deviation from names, causalities, types and units.
 
-    Order, value references and other variables are free, and those after the first version of the
-    interface may be missing. A unit of the interface must be what its name says where the
-    description defines it.
+    Order, value references and other variables are free; variables added after the first version of
+    the interface may be missing. If the description defines a unit, it must have the dimension and
+    the factor of its name.
     """
     found = {variable.name: variable for variable in description.modelVariables}
     problems: list[str] = []

@@ -72,9 +72,10 @@ class Fmu:
         raise FmuError(unknown_name("variable", name, self.variables))
 
     def settings(self, values: Mapping[str, float]) -> Mapping[str, float]:
-        """Return the values to set, without those of variables that it lacks and counts as anyway.
+        """Return the values to set, without variables that the FMU lacks.
 
-        Raises NotApplicable for another value of such a variable.
+        A variable that it lacks must have the value that the interface assumes without it; raises
+        NotApplicable for another one.
         """
         lacking = [name for name in values if name in VARIABLES and name not in self.variables]
         for name in lacking:
@@ -83,9 +84,9 @@ class Fmu:
         return {name: value for name, value in values.items() if name not in lacking}
 
     def _lacks(self, name: str, value: float | None = None) -> NotApplicable:
-        wanted = "" if value is None else f" = {value:g}"
+        setting = "" if value is None else f" = {value:g}"
         since = VARIABLES[name].since
-        return NotApplicable(f"needs {name}{wanted}, which came with interface {since}")
+        return NotApplicable(f"needs {name}{setting}, which came with interface {since}")
 
     def require(self, capability: str, *, of: bool = True) -> None:
         """Raise NotApplicable unless a capability flag of the description has the given value."""
@@ -126,7 +127,7 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
 
 
 def lacking(path: Path) -> tuple[str, ...]:
-    """Return the later variables of the interface that an FMU file lacks; of no usable FMU none."""
+    """Return the later variables of the interface that an FMU file lacks; none if unusable."""
     try:
         description = _read_description(path)
     except FmuError:

@@ -72,7 +72,7 @@ def provenance_of(*fmus: str | Path | FmuIdentity) -> Provenance:
 
 
 def identity_of(fmu: str | Path) -> FmuIdentity:
-    """Return what identifies an FMU file; of one that is missing or corrupt as much as is there."""
+    """Return what identifies an FMU file, as far as a missing or corrupt one allows."""
     guid = version = tool = None
     root = _root_attributes(Path(fmu))
     if root is not None:

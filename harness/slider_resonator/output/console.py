@@ -63,7 +63,7 @@ def open_closed_streams() -> None:
 
 @contextmanager
 def noting_on_interrupt(note: Callable[[], str]) -> Iterator[None]:
-    """Add to an interruption within the block what is kept, and how to go on."""
+    """On an interruption within the block, add a note on what is kept and how to resume."""
     try:
         yield
     except KeyboardInterrupt as error:
@@ -76,19 +76,19 @@ MIN_SHARE = 0.02
 
 
 def counted(label: str, done: int, total: int) -> str:
-    """Return the label of a task with its number, where `done` of them are finished before."""
+    """Return the label of a task with its number; `done` tasks are finished before it."""
     return f"{min(done + 1, total)} of {total}: {label}"
 
 
 def part_of(
     progress: Callable[[str, float], None], index: int, count: int
 ) -> Callable[[str, float], None]:
-    """Return what reports the progress of part `index` of `count` equal parts of the work."""
+    """Return a function that reports the progress of part `index` of `count` equal parts."""
     return lambda label, share: progress(label, (index + share) / count)
 
 
 def time_left(elapsed: float, share: float) -> str:
-    """Return the time that is left after `elapsed` (s), as if all work were as fast."""
+    """Return the time left after `elapsed` (s), assuming that all work is equally fast."""
     if not share >= MIN_SHARE:
         return ""
     seconds = round(elapsed * (1.0 / min(share, 1.0) - 1.0))
@@ -105,7 +105,7 @@ TIMES = len("0:00:00 00:00:00 left") + 4
 
 
 def shortened(label: str, room: int) -> str:
-    """Return a label that stays on its line: in the middle of one that is longer stand dots."""
+    """Return a label that fits on its line: the middle of a longer one is replaced by dots."""
     if len(label) <= room:
         return label
     end = room // 2

@@ -19,7 +19,10 @@ _WHOLE = "\N{NON-BREAKING HYPHEN}"
 
 
 class FittingHelp(click.HelpFormatter):
-    """Splits no name, and breaks lines that click leaves as they are, below one of backslash b."""
+    r"""A help formatter that splits no name, and wraps the examples that click leaves unwrapped.
+
+    Examples are the paragraphs that begin with a line \b.
+    """
 
     def write(self, string: str) -> None:
         """Write what is wrapped."""

@@ -1,4 +1,4 @@
-"""Plots in HTML pages whose points say what they are, drawn by uPlot from data in the page.
+"""Plots in HTML pages that describe the point under the pointer, drawn by uPlot from page data.
 
 A mouse or a finger near a point, or the arrow keys on a plot in focus, show its text.
 """

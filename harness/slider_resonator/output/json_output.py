@@ -18,8 +18,8 @@ SCHEMA_VERSION = 1
 def to_json(result: Any, provenance: Any = None) -> str:
     """Return a dataclass, a mapping or a list of them as indented JSON.
 
-    Each object at the top begins with `schema_version`, and `provenance` where it is given. A
-    complex number becomes [real, imaginary]; what is not finite becomes null.
+    Each top-level object begins with `schema_version`, and `provenance` where it is given. A
+    complex number becomes [real, imaginary]; a value that is not finite becomes null.
     """
     text = json.dumps(_headed(plain(result), _head(provenance)), indent=2, allow_nan=False)
     # In strings only: GitHub Actions finds commands of this form anywhere in a line of a log.

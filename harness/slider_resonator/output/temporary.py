@@ -1,4 +1,4 @@
-"""Temporary folders that end with their process, or are cleared by the next one."""
+"""Temporary folders, removed with their process or, after a crash, by the next process."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ _REQUIREMENTS: Mapping[str, str] = {
 
 
 _NUMBERS = ("finite_number", "float_type", "greater_than", "greater_than_equal", "less_than")
-"""Types of error for which the unit of a key is worth a word."""
+"""Types of error whose explanation names the unit of the key."""
 
 
 PLACES: Mapping[str, str] = {
@@ -55,7 +55,7 @@ PLACES: Mapping[str, str] = {
     **dict.fromkeys(RunTable.model_fields, "must be in [run]"),
     **dict.fromkeys(SceneTable.model_fields, "must be above the first heading"),
 }
-"""Where a key belongs that stands in a table which does not have it."""
+"""The table to which a key belongs that was found in another table."""
 
 
 def explanations(source: str, error: ValidationError) -> list[str]:

@@ -140,7 +140,10 @@ class Scene:
         return replace(plan, start_time=self.start_time, reads_twice=self.run.read_twice)
 
     def check_plain(self, command: str) -> None:
-        """Raise SceneError where a command ignores what the scene says of its run."""
+        """Raise SceneError for a scene with tuning, a start time or several step sizes.
+
+        `command` names the command that supports none of these.
+        """
         run = self.run
         keys = {
             "tuning": bool(self.tuning),

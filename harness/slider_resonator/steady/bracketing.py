@@ -1,10 +1,10 @@
 """Find a fixed point of a period map between two bounds, where Newton's method alone fails.
 
-Friction opposes motion, so the slow state, entry 0, gains over a period when it is far below and
-loses when it is far above: between the two it repeats. The other entries are the resonator's,
-which answers almost linearly, and the bristle's, which forgets. For every value of entry 0 a
-Jacobian that is seldom renewed makes them repeat. What is left is one equation in one unknown, with
-a sign change.
+Friction opposes motion, so the slow state, entry 0, grows over a period when it is far below the
+fixed point and falls when it is far above. The other entries are fast: those of the resonator,
+whose response is almost linear, and that of the bristle, whose memory is short. For every value of
+entry 0 a Newton iteration with a Jacobian that is seldom renewed makes the fast entries repeat. One
+equation in one unknown remains, whose sign changes between the bounds.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ INNER_TOLERANCE = 1e-13
 
 
 class _NoBracket(Exception):
-    """The map does not have the shape that this method needs."""
+    """The map does not have the sign change or the contraction that this method needs."""
 
 
 def bracketed_state(period_map: PeriodMap, guess: Vector, scale: Vector) -> Vector | None:

@@ -1,8 +1,8 @@
 """The deflection of the LuGre bristle at the end of a period, inferred from the outputs.
 
-Friction is F = faces N (s0 z + s1 (v - |v| s0 z / mu)), (8), so that z follows from the outputs
-wherever the contact is closed and the bracket depends on it. Where it does not at the very end, z
-is read shortly before and followed along the path: its change depends on nothing else.
+Friction is F = faces N (s0 z + s1 (v - |v| s0 z / mu)), (8), so z follows from the outputs wherever
+the contact is closed and the bracket depends on z. Where that fails at the end of the period, z is
+read shortly before and followed along the path, on which alone its change depends.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ MAX_POINTS = 1024
 
 @dataclass(frozen=True)
 class BristleReading:
-    """What z follows from: mu > 0, s0 > 0 (1/m), s1 (s/m), faces, and times before the end.
+    """Data for reading z: mu > 0, s0 > 0 (1/m), s1 (s/m), faces, and times before the end.
 
-    `leads` (s) descend to 0: how long before the end of the period readings are needed.
+    `leads` (s) descend to 0: the times before the end of the period at which to read.
     """
 
     coefficient: float

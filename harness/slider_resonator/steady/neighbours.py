@@ -1,9 +1,9 @@
-"""What happens on either side of a repeating motion: multipliers that do not straddle a kink.
+"""One-sided multipliers of a periodic motion, for period maps with a kink.
 
-Where sliding turns in flight, friction may not tell neighbouring motions apart: they repeat, too.
-Such a family ends in a kink of the period map, across which a central difference means nothing. So
-the motion beside the found one is followed, on each side: that with a given distance in the slowest
-direction, and at rest in all others.
+Where sliding reverses in flight, neighbouring motions may have the same friction and repeat, too.
+Such a family ends in a kink of the period map, across which a central difference is meaningless. So
+one neighbour is followed on each side: at a given distance in the slowest direction, and periodic
+in all others.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ DISTANCE = 1e-3
 """Distance of the neighbours, in units of the scale."""
 
 CORRECTIONS = 2
-"""Newton steps by which a neighbour comes to rest in the fast directions."""
+"""Newton steps that make a neighbour periodic in the fast directions."""
 
 
 def one_sided_multipliers(
@@ -49,7 +49,7 @@ def one_sided_multipliers(
 def _multiplier(
     change: Callable[[Vector], Vector], x: Vector, scale: Vector, border: Matrix, distance: float
 ) -> float:
-    """Return the share of `distance` that is left after a period."""
+    """Return the distance after a period over `distance`."""
     direction, left = border[:-1, -1], border[-1, :-1]
     y = distance * direction
     for _ in range(CORRECTIONS):

@@ -1,9 +1,9 @@
 """Damped Newton iteration for small systems whose function is expensive and exact to rounding.
 
-The progress of an iteration is judged by the size of the correction that follows it, not by the
-residual (Deuflhard's natural monotonicity): that is blind to how rows and columns are scaled,
-which matters where one direction is a thousand times softer than the others. A Jacobian that
-still contracts fast is kept, for a new one costs 2 n evaluations.
+Progress is judged by the size of the next correction, not by the residual (Deuflhard's natural
+monotonicity test). That does not depend on the scaling of rows and columns, which matters where one
+direction is a thousand times softer than the others. A Jacobian that still contracts fast is kept,
+because a new one costs 2 n evaluations.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ KEEP = 0.05
 """Largest ratio of successive corrections for which the Jacobian is kept."""
 SMALLEST_DAMPING = 1.0 / 256.0
 ROUNDING = 100.0
-"""Correction, in tolerances, that is accepted when rounding stops its decrease."""
+"""Correction, in tolerances, that is accepted when it no longer decreases, by rounding."""
 
 
 @dataclass(frozen=True)
 class Root:
-    """Where an iteration ended.
+    """The end of an iteration.
 
     `x` shape (n,); `jacobian` (n, n) is the last one that was computed, at `jacobian_at` (n,);
     `correction` is the norm of the Newton step that remains and `residual` the largest remaining
-    function value, both in units of the scale. With a singular Jacobian, `x` is some last steps
-    onward in the directions that it does determine: a residual that is then gone shows a family of
-    zeros, one that stays shows that there is none.
+    function value, both in units of the scale. With a singular Jacobian `x` has taken some more
+    steps in the directions that the Jacobian determines: a residual that vanishes then shows a
+    family of zeros, one that remains shows that there is no zero.
     """
 
     status: Ending

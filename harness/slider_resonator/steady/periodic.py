@@ -27,7 +27,7 @@ SLOW = 0.1
 
 @dataclass(frozen=True)
 class Obstacle:
-    """Why there is no periodic motion; `status` for machines, `reason` for people."""
+    """The reason why there is no periodic motion; `status` for machines, `reason` for people."""
 
     status: str
     reason: str

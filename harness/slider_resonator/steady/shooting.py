@@ -1,8 +1,8 @@
 """Steady motion as a fixed point of the map over one common period, found by shooting.
 
-The transient of the slow velocity of table 1 has a time constant of 1140 periods, so that a run
-needs 16 000 of them for 1e-6. The map over a single period, solved for its fixed point, gives
-rounding accuracy from a few dozen.
+The slow velocity of table 1 has a time constant of 1140 periods, so that a run needs 16 000 periods
+for an accuracy of 1e-6. The fixed point of the map over a single period is found to rounding with a
+few dozen.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ FRESH = 1e-6
 """A Jacobian taken this close to the fixed point, in units of the scale, gives its multipliers."""
 
 KINK = 0.1
-"""Difference of the multipliers on both sides, in units of 1 minus the multiplier between them,
-from which on the larger of them counts."""
+"""Difference of the one-sided multipliers, in units of 1 minus the two-sided one, from which on the
+larger of them counts."""
 
 FAMILY = 1e-9
 """Residual, in units of the scale, below which a singular map has a family of fixed points."""
@@ -161,7 +161,7 @@ def blocking_point(
 
 
 def _fresh_jacobian(function: Callable[[Vector], Vector], root: Root, scale: Vector) -> Matrix:
-    """Return the Jacobian at the root: the last one, where it was taken close enough."""
+    """Return the Jacobian at the root: the last one if it was taken close enough, or a new one."""
     if float(np.abs((root.x - root.jacobian_at) / scale).max()) <= FRESH:
         return root.jacobian
     return central_jacobian(function, root.x, DIFFERENCE * scale)

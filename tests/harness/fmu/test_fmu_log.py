@@ -34,7 +34,7 @@ def test_other_messages_are_unchanged(message: str) -> None:
     assert fmu_log.plain_words(message) == message
 
 
-def test_messages_of_instances_of_others_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_messages_of_foreign_instances_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     messages, callbacks = fmu_log.collect("mine")
     callbacks.logger(None, b"theirs", 3, b"", b"not for the harness")
     fmu_log.forget("mine")

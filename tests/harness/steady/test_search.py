@@ -38,7 +38,7 @@ def test_blocking_load_is_found() -> None:
     assert found.displacement == pytest.approx(0.0, abs=1e-10)
 
 
-def test_shifting_moves_the_velocity_by_what_the_mean_lacks() -> None:
+def test_a_shifted_state_has_the_asked_mean_velocity() -> None:
     warm = WarmedUp(np.array([0.4, 7.0]), np.ones(2), 0.1)
     assert warm.shifted(0.25) == pytest.approx([0.55, 7.0])
     assert warm.state[0] == 0.4, "the warm-up itself stays as it was"

@@ -10,14 +10,14 @@
  * was done. */
 #include "fuzz_host.h"
 
-enum { INSTANCES = 4, STATES = 6, MOST_BYTES = 8192, SECONDS = 2, FIRST_CHOICE = 13 };
+enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, SECONDS = 2, FIRST_CHOICE = 13 };
 
 static FmuLibrary fmu;
 static const char *guid;
 static unsigned settable = 25;
 static fmi2Component instances[INSTANCES];
 static fmi2FMUstate states[STATES];
-static fmi2Byte stored[MOST_BYTES];
+static fmi2Byte stored[MAX_BYTES];
 static size_t stored_size = 0;
 static double longest_call = 0.0;
 static unsigned long by_call[64], carried_out[64];
@@ -58,14 +58,14 @@ static fmi2Component some_instance(void) {
 }
 
 /* The serialised state, to see whether a refused call has changed it; 0 bytes where there is none. */
-static size_t state_of(fmi2Component instance, fmi2Byte bytes[MOST_BYTES]) {
+static size_t state_of(fmi2Component instance, fmi2Byte bytes[MAX_BYTES]) {
     fmi2FMUstate state = NULL;
     size_t size = 0;
     int kept = memory_is_scarce;
     if (!instance) return 0;
     memory_is_scarce = 0;
     if (fmu.GetFMUstate(instance, &state) != fmi2OK
-        || fmu.SerializedFMUstateSize(instance, state, &size) != fmi2OK || size > MOST_BYTES
+        || fmu.SerializedFMUstateSize(instance, state, &size) != fmi2OK || size > MAX_BYTES
         || fmu.SerializeFMUstate(instance, state, bytes, size) != fmi2OK
         || fmu.FreeFMUstate(instance, &state) != fmi2OK || state != NULL) {
         fail("the state could not be read");
@@ -99,13 +99,13 @@ static fmi2Status write_state(fmi2Component c) {
     fmi2FMUstate state = states[below(STATES)];
     fmi2Status status = fmu.SerializedFMUstateSize(c, state, or_null(&size));
     if (status != fmi2OK || size == 0) return status;
-    if (size > MOST_BYTES) fail("a state does not fit");
-    stored_size = one_in(20) ? random_count() % MOST_BYTES : size;
+    if (size > MAX_BYTES) fail("a state does not fit");
+    stored_size = one_in(20) ? random_count() % MAX_BYTES : size;
     return fmu.SerializeFMUstate(c, state, or_null(stored), stored_size);
 }
 
 static fmi2Status read_state(fmi2Component c) {
-    size_t flips = one_in(2) ? below(4) : 0, size = one_in(20) ? below(MOST_BYTES) : stored_size;
+    size_t flips = one_in(2) ? below(4) : 0, size = one_in(20) ? below(MAX_BYTES) : stored_size;
     while (flips-- > 0 && stored_size > 0) stored[below((uint32_t)stored_size)] ^= (char)(1 << below(8));
     return fmu.DeSerializeFMUstate(c, or_null(stored), size, or_null(&states[below(STATES)]));
 }
@@ -213,7 +213,7 @@ static int may_discard(const char *name) {
 }
 
 static void one_call(void) {
-    static fmi2Byte before[MOST_BYTES], after[MOST_BYTES];
+    static fmi2Byte before[MAX_BYTES], after[MAX_BYTES];
     unsigned function = some_function(FUNCTION, FUNCTION_COUNT);
     fmi2Component instance = one_in(100) ? NULL : some_instance();
     size_t size = one_in(4) ? state_of(instance, before) : 0;
@@ -254,14 +254,14 @@ static void put_in_order(void) {
 }
 
 int main(int count, char **arguments) {
-    unsigned long wanted;
+    unsigned long requested;
     unsigned i;
     if ((count != 5 && count != 6) || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
     guid = arguments[2];
     random_state = 2 * strtoull(arguments[3], NULL, 10) + 1;
-    wanted = strtoul(arguments[4], NULL, 10);
+    requested = strtoul(arguments[4], NULL, 10);
     if (count == 6) settable = (unsigned)strtoul(arguments[5], NULL, 10);
-    for (calls = 0; calls < wanted; calls++) {
+    for (calls = 0; calls < requested; calls++) {
         memory_is_scarce = one_in(20);
         if (one_in(500) || !instances[0]) instantiate();
         else one_call();

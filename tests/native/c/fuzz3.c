@@ -17,7 +17,7 @@
 #include "fmi3FunctionTypes.h"
 #include "random_values.h"
 
-enum { INSTANCES = 4, STATES = 6, MOST_BYTES = 8192, FIRST = 2, VARIABLES = 40, CHOICES = 4 };
+enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, FIRST = 2, VARIABLES = 40, CHOICES = 4 };
 
 static const unsigned choice[CHOICES] = {FIRST + 13, FIRST + 14, FIRST + 17, FIRST + 18};
 static const char *token;
@@ -25,7 +25,7 @@ static unsigned settable;
 static double seconds, longest_call = 0.0;
 static fmi3Instance instances[INSTANCES];
 static fmi3FMUState states[STATES];
-static fmi3Byte stored[MOST_BYTES];
+static fmi3Byte stored[MAX_BYTES];
 static size_t stored_size = 0, values_read = 0;
 static unsigned long calls = 0, refusals = 0, by_call[128], carried_out[128];
 static const char *present_call = "none";
@@ -115,12 +115,12 @@ static int load(const char *path) {
 }
 
 /* The serialised state, to see whether a refused call has changed it. */
-static size_t state_of(fmi3Instance instance, fmi3Byte bytes[MOST_BYTES]) {
+static size_t state_of(fmi3Instance instance, fmi3Byte bytes[MAX_BYTES]) {
     fmi3FMUState state = NULL;
     size_t size = 0;
     if (!instance) return 0;
     if (fmu.GetFMUState(instance, &state) != fmi3OK
-        || fmu.SerializedFMUStateSize(instance, state, &size) != fmi3OK || size > MOST_BYTES
+        || fmu.SerializedFMUStateSize(instance, state, &size) != fmi3OK || size > MAX_BYTES
         || fmu.SerializeFMUState(instance, state, bytes, size) != fmi3OK
         || fmu.FreeFMUState(instance, &state) != fmi3OK || state != NULL) {
         fail("the state could not be read");
@@ -154,13 +154,13 @@ static fmi3Status write_state(fmi3Instance c) {
     fmi3FMUState state = states[below(STATES)];
     fmi3Status status = fmu.SerializedFMUStateSize(c, state, or_null(&size));
     if (status != fmi3OK || size == 0) return status;
-    if (size > MOST_BYTES) fail("a state does not fit");
-    stored_size = one_in(20) ? random_count() % MOST_BYTES : size;
+    if (size > MAX_BYTES) fail("a state does not fit");
+    stored_size = one_in(20) ? random_count() % MAX_BYTES : size;
     return fmu.SerializeFMUState(c, state, or_null(stored), stored_size);
 }
 
 static fmi3Status read_state(fmi3Instance c) {
-    size_t flips = one_in(2) ? below(4) : 0, size = one_in(20) ? below(MOST_BYTES) : stored_size;
+    size_t flips = one_in(2) ? below(4) : 0, size = one_in(20) ? below(MAX_BYTES) : stored_size;
     while (flips-- > 0 && stored_size > 0)
         stored[below((uint32_t)stored_size)] ^= (fmi3Byte)(1 << below(8));
     return fmu.DeserializeFMUState(c, or_null(stored), size, or_null(&states[below(STATES)]));
@@ -289,7 +289,7 @@ static void show(fmi3Instance instance) {
 }
 
 static void one_call(void) {
-    static fmi3Byte before[MOST_BYTES], after[MOST_BYTES];
+    static fmi3Byte before[MAX_BYTES], after[MAX_BYTES];
     unsigned function = some_function(FUNCTION, FUNCTION_COUNT);
     fmi3Instance instance = one_in(100) ? NULL : instances[below(INSTANCES)];
     size_t size = one_in(4) ? state_of(instance, before) : 0;
@@ -320,15 +320,15 @@ static void one_call(void) {
 }
 
 int main(int count, char **arguments) {
-    unsigned long wanted;
+    unsigned long requested;
     unsigned i;
     if (count != 7 || !load(arguments[1])) return 2;
     token = arguments[2];
     random_state = 2 * strtoull(arguments[3], NULL, 10) + 1;
-    wanted = strtoul(arguments[4], NULL, 10);
+    requested = strtoul(arguments[4], NULL, 10);
     settable = (unsigned)strtoul(arguments[5], NULL, 10);
     seconds = strtod(arguments[6], NULL);
-    for (calls = 0; calls < wanted; calls++) {
+    for (calls = 0; calls < requested; calls++) {
         if (one_in(500) || !instances[0]) instantiate();
         else one_call();
     }

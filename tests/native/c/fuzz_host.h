@@ -1,4 +1,4 @@
-/* The host of the fuzzer: memory that may run out, a logger that checks what it is told. */
+/* The host of the fuzzer: memory that may run out, a logger that checks its arguments. */
 #ifndef NATIVE_FUZZ_HOST_H
 #define NATIVE_FUZZ_HOST_H
 
@@ -11,7 +11,7 @@
 
 enum { LONGEST_MESSAGE = 4096, FAILED = 1, COULD_NOT_RUN = 2 };
 
-/* What the present call said: how many messages, the status of the last one and its text. */
+/* Log messages of the present call: their number, status and text of the last one. */
 static struct {
     unsigned messages;
     fmi2Status status;

@@ -10,7 +10,7 @@
 #include "fmu_library.h"
 
 enum { FAILED = 1, COULD_NOT_RUN = 2, LAWS = 2, FIDELITIES = 3 };
-enum { FRICTION_LAW = 14, FIDELITY = 17, LOAD = 1, VELOCITY = 25, MOST_BYTES = 8192 };
+enum { FRICTION_LAW = 14, FIDELITY = 17, LOAD = 1, VELOCITY = 25, MAX_BYTES = 8192 };
 
 static long blocks_in_use = 0;
 
@@ -52,7 +52,7 @@ static void live(const FmuLibrary *fmu, const char *guid, long number) {
                                   (fmi2Integer)(number / LAWS % FIDELITIES)};
     const fmi2ValueReference load = LOAD, velocity = VELOCITY;
     const fmi2Real nothing = 0.0, too_late = 2.0;
-    fmi2Byte bytes[MOST_BYTES];
+    fmi2Byte bytes[MAX_BYTES];
     fmi2FMUstate state = NULL;
     size_t size = 0;
     fmi2Real value;
@@ -69,7 +69,7 @@ static void live(const FmuLibrary *fmu, const char *guid, long number) {
     expect(!fmu->GetReal(c, &velocity, 1, &value), "fmi2GetReal");
     expect(!fmu->GetFMUstate(c, &state), "fmi2GetFMUstate");
     expect(!fmu->SerializedFMUstateSize(c, state, &size), "fmi2SerializedFMUstateSize");
-    expect(size <= MOST_BYTES && !fmu->SerializeFMUstate(c, state, bytes, size),
+    expect(size <= MAX_BYTES && !fmu->SerializeFMUstate(c, state, bytes, size),
            "fmi2SerializeFMUstate");
     expect(!fmu->FreeFMUstate(c, &state), "fmi2FreeFMUstate");
     expect(!fmu->DeSerializeFMUstate(c, bytes, size, &state), "fmi2DeSerializeFMUstate");
@@ -81,12 +81,12 @@ static void live(const FmuLibrary *fmu, const char *guid, long number) {
 
 int main(int count, char **arguments) {
     FmuLibrary fmu;
-    long number, wanted;
+    long number, requested;
     if (count != 4 || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
-    wanted = strtol(arguments[3], NULL, 10);
-    for (number = 0; number < wanted; number++) {
-        if (number == wanted / 20) resident_kilobytes(); /* The first reading takes a place in the heap. */
-        if (number == wanted / 10) printf("%ld ", resident_kilobytes());
+    requested = strtol(arguments[3], NULL, 10);
+    for (number = 0; number < requested; number++) {
+        if (number == requested / 20) resident_kilobytes(); /* The first reading takes a place in the heap. */
+        if (number == requested / 10) printf("%ld ", resident_kilobytes());
         live(&fmu, arguments[2], number);
     }
     printf("%ld\n", resident_kilobytes());

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stddef.h>
 
-/* As many as any call of the fuzzer passes; a count above it must be refused before an entry is read. */
+/* Size of the arrays that the fuzzer passes; a larger count must be refused before an entry is read. */
 enum { ROOM = 64 };
 
 static uint64_t random_state = 1;
@@ -31,8 +31,8 @@ static inline double random_share(void) {
     return random_bits() / 4294967296.0;
 }
 
-/* Up to 3500 in size, or beyond all that is possible: frequencies between these would be carried out,
- * at a cost in proportion to them. */
+/* Up to 3500 in size, or beyond all bounds: frequencies between these would be accepted, at a cost in
+ * proportion to them. */
 static inline double random_real(void) {
     static const double special[] = {0.0,    -0.0,   1.0,     -1.0,   0.5,    2.0,   3.0,    3500.0,
                                      -3500.0, 1e-12, -1e-12,  5e-324, 1e-300, 1e300, -1e300, 1.7e308};

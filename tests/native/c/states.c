@@ -14,7 +14,7 @@
 #include "fmu_library.h"
 #include "random_values.h"
 
-enum { HEADER = 48, NUMBER = 8, MOST_BYTES = 8192 };
+enum { HEADER = 48, NUMBER = 8, MAX_BYTES = 8192 };
 enum { FRICTION_LAW = 14, FIDELITY = 17, ORDER = 18, FACES = 13, RATIO = 2, AMPLITUDE = 8, STEPS = 3 };
 enum { DRIVE_FREQUENCY = 10, RESONATOR_FREQUENCY = 5, SLIDER_MASS = 3, RESONATOR_MASS = 4 };
 
@@ -99,12 +99,12 @@ static void start(fmi2Component c) {
     }
 }
 
-static size_t stored(fmi2Component c, fmi2Byte bytes[MOST_BYTES]) {
+static size_t stored(fmi2Component c, fmi2Byte bytes[MAX_BYTES]) {
     fmi2FMUstate state = NULL;
     size_t size = 0;
     if (fmu.GetFMUstate(c, &state) != fmi2OK) return 0;
     fmu.SerializedFMUstateSize(c, state, &size);
-    if (size > MOST_BYTES || fmu.SerializeFMUstate(c, state, bytes, size) != fmi2OK) size = 0;
+    if (size > MAX_BYTES || fmu.SerializeFMUstate(c, state, bytes, size) != fmi2OK) size = 0;
     fmu.FreeFMUstate(c, &state);
     return size;
 }
@@ -132,7 +132,7 @@ static void read_all(fmi2Component c, long number, const fmi2Byte *bytes) {
 }
 
 static void try_case(fmi2Component c, long number) {
-    fmi2Byte bytes[MOST_BYTES], after[MOST_BYTES];
+    fmi2Byte bytes[MAX_BYTES], after[MAX_BYTES];
     size_t size;
     int changes, step;
     start(c);

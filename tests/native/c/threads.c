@@ -9,7 +9,7 @@
 
 #include "fmu_library.h"
 
-enum { FAILED = 1, COULD_NOT_RUN = 2, MOST_THREADS = 64, OUTPUTS = 13, FIRST_OUTPUT = 24 };
+enum { FAILED = 1, COULD_NOT_RUN = 2, MAX_THREADS = 64, OUTPUTS = 13, FIRST_OUTPUT = 24 };
 enum { PHASE = 0, LOAD = 1, FRICTION_LAW = 14, FIDELITY = 17 };
 
 typedef struct {
@@ -69,20 +69,20 @@ static void *go(void *argument) {
 }
 
 int main(int count, char **arguments) {
-    static Run together[MOST_THREADS], alone[MOST_THREADS];
-    pthread_t threads[MOST_THREADS];
-    int number, wanted;
+    static Run together[MAX_THREADS], alone[MAX_THREADS];
+    pthread_t threads[MAX_THREADS];
+    int number, runs;
     if (count != 5 || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
     guid = arguments[2];
-    wanted = atoi(arguments[3]);
+    runs = atoi(arguments[3]);
     steps = atoi(arguments[4]);
-    if (wanted < 1 || wanted > MOST_THREADS) return COULD_NOT_RUN;
-    for (number = 0; number < wanted; number++) {
+    if (runs < 1 || runs > MAX_THREADS) return COULD_NOT_RUN;
+    for (number = 0; number < runs; number++) {
         together[number].number = alone[number].number = number;
         if (pthread_create(&threads[number], NULL, go, &together[number])) return COULD_NOT_RUN;
     }
-    for (number = 0; number < wanted; number++) pthread_join(threads[number], NULL);
-    for (number = 0; number < wanted; number++) {
+    for (number = 0; number < runs; number++) pthread_join(threads[number], NULL);
+    for (number = 0; number < runs; number++) {
         go(&alone[number]);
         if (together[number].refused || alone[number].refused
             || memcmp(together[number].outputs, alone[number].outputs, sizeof alone->outputs)) {
@@ -90,6 +90,6 @@ int main(int count, char **arguments) {
             return FAILED;
         }
     }
-    printf("%d threads, %d steps each: the same numbers as alone\n", wanted, steps);
+    printf("%d threads, %d steps each: the same numbers as alone\n", runs, steps);
     return 0;
 }

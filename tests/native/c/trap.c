@@ -1,4 +1,4 @@
-/* Preloaded into a host: invalid operations and divisions by zero end it, as in hosts that trap them. */
+/* Preloaded into a host: makes invalid operations and divisions by zero end it with SIGFPE. */
 #define _GNU_SOURCE
 #include <fenv.h>
 

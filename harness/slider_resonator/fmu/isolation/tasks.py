@@ -41,10 +41,10 @@ def run_tasks(
 ) -> Generator[Finished[Item], None, None]:
     """Run a task for each item, one after the other, and yield each outcome.
 
-    `meanwhile` is called for an item while the FMU is at work on it. After a crash or a missed
-    `time_limit` (s) the other items of that `name` are left out. All are after a limit of time,
-    memory or processes that was exceeded, after `max_crashes`, and after crashes that took
-    `time_limit` together; with None for `max_crashes` none are.
+    `meanwhile` is called for an item while the FMU works on it. After a crash or an exceeded limit
+    the other items of that `name` are left out. All remaining items are left out after an exceeded
+    limit of time, memory or processes, after `max_crashes` crashes, and after crashes that took
+    `time_limit` (s) together; with None for `max_crashes` the run always goes on.
     """
     process: IsolatedFmu | None = None
     crashed: set[str] = set()

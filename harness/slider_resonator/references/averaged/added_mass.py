@@ -5,14 +5,16 @@ slow equation with the factor (1 + kappa_m) has this rho when, with F2' = dF2/dV
 
     1 + kappa_m = -Mt ln(rho) / (F2' T)
 
-rho belongs to the variation of the motion that after a period is rho times what it was, F2' to the
-one that repeats, p = dx/dV. Where F2' vanishes, so does the logarithm. There a unit of load lets
-the motion drift along p, by dV a period, and ``rho = 1 + F2' dV`` up to the square of 1 - rho::
+rho is the multiplier of the slow variation of the motion: after a period that is rho times itself.
+F2' belongs to the periodic variation p = dx/dV. Both F2' and ln(rho) may vanish together. There a
+unit of load makes the motion drift along p by dV in a period, and ``rho = 1 + F2' dV`` with an
+error of the order (1 - rho)^2::
 
     x(theta + T) = x(theta) + p(theta) dV,    mean(v) = dV / 2
 
-All three are found as the orbit is: velocity to friction to velocity. A Coulomb reversal moves by
-``-dv / v'``, which is an impulse of friction of ``2 f |dv / v'|``.
+rho, F2' and dV are found by the same iteration as the orbit, from velocity to friction to velocity.
+A change dv of the velocity moves a Coulomb reversal by ``-dv / v'``; that is an impulse of friction
+of ``2 f |dv / v'|``.
 """
 
 from __future__ import annotations
@@ -28,15 +30,15 @@ from slider_resonator.references.averaged.held_orbit import HeldOrbit
 from slider_resonator.references.averaged.panels import Panels
 
 _CONVERGED = 1e-13
-_MOST_ITERATIONS = 300
+_MAX_ITERATIONS = 300
 
 _FLAT = 1e-5
-"""Decay of the slow motion over a period up to which it is taken from the drift."""
+"""Decay of the slow motion over a period below which the factor follows from the drift."""
 
 
 @dataclass(frozen=True)
 class SlowLinearisation:
-    """How the slow motion departs from a held orbit.
+    """Linearisation of the slow motion about a held orbit.
 
     ``friction_slope`` is F2' in N s/m, ``multiplier`` rho over a period of the orbit, and
     ``added_mass`` kappa_m, the added mass over the total one.
@@ -57,10 +59,10 @@ class _Variation:
 
 
 @dataclass(frozen=True)
-class _Answer:
+class _FrictionResponse:
     """The variation of friction over ``momentum_rate``: density at the nodes, and impulses.
 
-    ``impulses``, (panels,), come at the ends of panels: a Coulomb reversal that moves.
+    ``impulses``, (panels,), act at the ends of panels, where a Coulomb reversal moves.
     """
 
     panels: Panels
@@ -85,11 +87,14 @@ class _Answer:
 def slow_linearisation(orbit: HeldOrbit) -> SlowLinearisation:
     """Return the slow linearisation about an orbit in which the slider does not stick.
 
-    Raises ValueError for one that was shot for, RuntimeError where the iteration does not settle
-    and where the motion is not slow against the vibration.
+    Raises ValueError for an orbit found by shooting, RuntimeError where the iteration does not
+    converge and where the motion is not slow compared with the vibration.
     """
     if orbit.shot:
-        raise ValueError("an orbit that was shot for: its reversals are not known well enough")
+        raise ValueError(
+            "the orbit was found by shooting: must be one found by iteration, whose reversals are "
+            "exact"
+        )
     hold = orbit.hold
     slope, tangent = _tangent(orbit)
     impulse = hold.period / hold.momentum_rate
@@ -107,10 +112,10 @@ def slow_linearisation(orbit: HeldOrbit) -> SlowLinearisation:
     return SlowLinearisation(slope, 1.0 + decay, -stretched / impulse - 1.0)
 
 
-def _answer_of(orbit: HeldOrbit) -> Callable[..., _Answer]:
-    """Return the answer of friction to a change of velocity in m/s at the nodes.
+def _friction_response_of(orbit: HeldOrbit) -> Callable[..., _FrictionResponse]:
+    """Return a function from a change of velocity (m/s, at the nodes) to that of friction.
 
-    The function takes, by name, the ``multiplier`` and the ``jump`` of the stretch over a period.
+    It takes, by name, the ``multiplier`` and the ``jump`` of the stretch over a period.
     """
     hold, panels = orbit.hold, orbit.panels
     none = np.zeros(len(panels.nodes))
@@ -123,58 +128,60 @@ def _answer_of(orbit: HeldOrbit) -> Callable[..., _Answer]:
         limit = hold.friction_limit(ends) / hold.momentum_rate
         gain = np.where(turned, 2.0 * limit / np.abs(before), 0.0)
         still = np.zeros_like(panels.nodes)
-        return lambda change, **_: _Answer(panels, still, gain * panels.at_ends(change), still)
+        return lambda change, **_: _FrictionResponse(
+            panels, still, gain * panels.at_ends(change), still
+        )
     limit = hold.friction_limit(panels.nodes) / hold.momentum_rate
     bristle = orbit.bristle
 
-    def answer(change: Array, *, multiplier: float = 1.0, jump: float = 0.0) -> _Answer:
+    def response(change: Array, *, multiplier: float = 1.0, jump: float = 0.0) -> _FrictionResponse:
         stretch, friction = bristle.variation(change, multiplier=multiplier, jump=jump)
-        return _Answer(panels, limit * friction, none, stretch)
+        return _FrictionResponse(panels, limit * friction, none, stretch)
 
-    return answer
+    return response
 
 
 def _tangent(orbit: HeldOrbit) -> tuple[float, _Variation]:
     """Return F2' and the periodic variation whose mean velocity is 1."""
-    hold, panels, answer_to = orbit.hold, orbit.panels, _answer_of(orbit)
+    hold, panels, response_to = orbit.hold, orbit.panels, _friction_response_of(orbit)
     velocity = np.ones_like(panels.nodes)
-    for _ in range(_MOST_ITERATIONS):
-        answer = answer_to(velocity)
-        slope = answer.mean()
-        lost, _ = answer.lost(-slope)
+    for _ in range(_MAX_ITERATIONS):
+        response = response_to(velocity)
+        slope = response.mean()
+        lost, _ = response.lost(-slope)
         momentum = 1.0 - lost + panels.mean(lost)
-        swing = hold.resonator.response(panels, answer.density - slope, answer.impulses)
+        swing = hold.resonator.response(panels, response.density - slope, response.impulses)
         fresh = momentum - hold.device.mass_ratio * swing[1]
         change = float(np.abs(fresh - velocity).max())
         velocity = fresh
         if change <= _CONVERGED:
-            return slope * hold.momentum_rate, _Variation(momentum, answer.stretch, swing)
-    raise RuntimeError(f"the tangent at {hold.velocity!r} m/s does not settle")
+            return slope * hold.momentum_rate, _Variation(momentum, response.stretch, swing)
+    raise RuntimeError(f"the tangent at {hold.velocity!r} m/s does not converge")
 
 
 def _multiplier(orbit: HeldOrbit) -> float:
-    """Return rho."""
-    hold, panels, answer_to = orbit.hold, orbit.panels, _answer_of(orbit)
+    """Return rho, the multiplier of the slow motion over a period."""
+    hold, panels, response_to = orbit.hold, orbit.panels, _friction_response_of(orbit)
     velocity = np.ones_like(panels.nodes)
     multiplier = 1.0
-    for _ in range(_MOST_ITERATIONS):
-        answer = answer_to(velocity, multiplier=multiplier)
-        lost, in_all = answer.lost()
+    for _ in range(_MAX_ITERATIONS):
+        response = response_to(velocity, multiplier=multiplier)
+        lost, in_all = response.lost()
         multiplier = 1.0 - in_all
         _, swing = hold.resonator.response(
-            panels, answer.density, answer.impulses, multiplier=multiplier
+            panels, response.density, response.impulses, multiplier=multiplier
         )
         fresh = 1.0 - lost - hold.device.mass_ratio * swing
         change = float(np.abs(fresh - velocity).max())
         velocity = fresh
         if change <= _CONVERGED:
             return multiplier
-    raise RuntimeError(f"the slow decay at {hold.velocity!r} m/s does not settle")
+    raise RuntimeError(f"the slow decay at {hold.velocity!r} m/s does not converge")
 
 
 def _drift(orbit: HeldOrbit, tangent: _Variation) -> float:
-    """Return dV, what a unit of load adds to V in a period, in m/s."""
-    hold, panels, answer_to = orbit.hold, orbit.panels, _answer_of(orbit)
+    """Return dV in m/s: the change of V by a unit of load in a period."""
+    hold, panels, response_to = orbit.hold, orbit.panels, _friction_response_of(orbit)
     load = 1.0 / hold.momentum_rate
     origin = np.array([panels.start])
     stretch_there, momentum_there, displacement_there, swing_there = (
@@ -183,13 +190,13 @@ def _drift(orbit: HeldOrbit, tangent: _Variation) -> float:
     )
     gained = -hold.period * load
     velocity = np.zeros_like(panels.nodes)
-    for _ in range(_MOST_ITERATIONS):
-        answer = answer_to(velocity, jump=gained * stretch_there)
-        lost, in_all = answer.lost(load)
+    for _ in range(_MAX_ITERATIONS):
+        response = response_to(velocity, jump=gained * stretch_there)
+        lost, in_all = response.lost(load)
         gained = -in_all / momentum_there
         jump = gained * displacement_there, gained * swing_there
         _, swing = hold.resonator.response(
-            panels, answer.density + load, answer.impulses, jump=jump
+            panels, response.density + load, response.impulses, jump=jump
         )
         fresh = -lost - hold.device.mass_ratio * swing
         fresh += 0.5 * gained - panels.mean(fresh)
@@ -197,4 +204,4 @@ def _drift(orbit: HeldOrbit, tangent: _Variation) -> float:
         velocity = fresh
         if change <= _CONVERGED * hold.period * load:
             return gained
-    raise RuntimeError(f"the drift at {hold.velocity!r} m/s does not settle")
+    raise RuntimeError(f"the drift at {hold.velocity!r} m/s does not converge")

@@ -3,8 +3,8 @@
 The slow velocity V obeys ``total_mass V' = -friction - load``, friction being the mean over the
 fast motion of the slider with velocity ``V - v_q cos(theta - theta1)``. Near an integer n the
 frequency ratio lets the phase of the normal load drift slowly, by (ratio - n) w, which is appendix
-A of the paper for every n; a clipped load does so near fractions too; elsewhere the mean counts.
-The fast motion is that of (32)-(34).
+A of the paper for every n; a clipped load does so near fractions too; elsewhere the mean load
+counts. The fast motion is that of (32)-(34).
 """
 
 from __future__ import annotations
@@ -37,8 +37,7 @@ MAX_DETUNING = 0.1
 load that repeats after several turns: of turns times the ratio, times the turns."""
 
 STEPS_PER_BEAT = 32
-"""Steps of the integrator, at least, in the time in which the phase of the normal load drifts by a
-turn."""
+"""Smallest number of integrator steps while the phase of the normal load drifts by a turn."""
 
 
 @dataclass(frozen=True)
@@ -87,15 +86,17 @@ def full_friction(device: Device, phase: float, ratio: float) -> float:
 def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> AveragedMotion:
     """Return the averaged motion under held inputs at ``times`` (shape (n,), s).
 
-    Phase and load may have rates, the load only where there is vibration.
-
     ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
-    start. The initial values fix the momentum and the centre of slider and resonator; right after
-    the start the fast motion is the steady one, whatever they are. Without vibration it is the
-    motion of a block under dry friction. Raises ValueError for inputs
-    with gaps, times outside them, and as `equivalent_force` does; RuntimeError when the slow motion
-    cannot be integrated. Where a run tunes the drive the motion of slider and resonator goes on
-    without a jump, and so what is left of it without the drive's own swing jumps.
+    start. Phase and load may have rates, the load only where there is vibration.
+
+    The initial values determine the momentum and the centre of mass of slider and resonator;
+    directly after the start the fast motion is the steady vibration, whatever they are. Without
+    vibration the motion is that of a block under dry friction. Where a run tunes the drive,
+    momentum and centre are continuous, so the slow velocity jumps by the change of the drive's
+    part.
+
+    Raises ValueError for inputs with gaps, times outside them, and as `equivalent_force` does;
+    RuntimeError when the slow motion cannot be integrated.
     """
     check_contiguous(held, rates=("phase_rate", "load_rate"))
     check_times(times, held)
@@ -114,18 +115,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
         device, force = tuned, equivalent_force(tuned)
         local = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
         grid = np.union1d(local, [0.0, inputs.stop - inputs.start])
-        if force.velocity_amplitude == 0.0:
-            check_contiguous([inputs])
-            friction = full_friction(device, inputs.phase + psi, inputs.frequency_ratio)
-            mass = device.total_mass
-            moved, velocity = slide_of_block(slow, friction, inputs.load, mass, grid)
-        else:
-            slope, drift = _slow_acceleration(device, force, inputs, theta, psi)
-            max_step = 2.0 * math.pi / (STEPS_PER_BEAT * drift) if drift else math.inf
-            moved, velocity = slow_trajectory(
-                slope, grid, slow / force.velocity_amplitude, max_step
-            )
-            moved, velocity = force.velocity_amplitude * moved, force.velocity_amplitude * velocity
+        moved, velocity = _slow_motion(device, force, inputs, (theta, psi), slow, grid)
         places = np.searchsorted(grid, local)
         angle = theta + device.drive_frequency * grid - force.angle
         position = centre + moved - force.ripple_amplitude * np.sin(angle)
@@ -143,7 +133,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
 
 @dataclass(frozen=True)
 class _Drive:
-    """Amplitudes in m/s and m of the swing that the drive gives to the centre of the masses."""
+    """Amplitudes of the vibration of the centre of mass by the drive, in m/s and m."""
 
     velocity: float
     displacement: float
@@ -152,6 +142,30 @@ class _Drive:
     def of(cls, device: Device) -> _Drive:
         velocity = slow_start(device)
         return cls(velocity, velocity / device.drive_frequency)
+
+
+def _slow_motion(
+    device: Device,
+    force: EquivalentForce,
+    inputs: HeldInputs,
+    angles: tuple[float, float],
+    velocity: float,
+    times: Array,
+) -> tuple[Array, Array]:
+    """Return slow displacement (m) and velocity (m/s) at ``times`` (s) since the inputs were set.
+
+    ``velocity`` (m/s) is that at time 0; ``angles`` (rad) are theta and psi there.
+    """
+    theta, psi = angles
+    fast = force.velocity_amplitude
+    if fast == 0.0:
+        check_contiguous([inputs])
+        friction = full_friction(device, inputs.phase + psi, inputs.frequency_ratio)
+        return slide_of_block(velocity, friction, inputs.load, device.total_mass, times)
+    slope, drift = _slow_acceleration(device, force, inputs, theta, psi)
+    max_step = 2.0 * math.pi / (STEPS_PER_BEAT * drift) if drift else math.inf
+    moved, slow = slow_trajectory(slope, times, velocity / fast, max_step)
+    return fast * moved, fast * slow
 
 
 def _slow_acceleration(

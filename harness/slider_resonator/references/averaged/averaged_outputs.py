@@ -1,7 +1,7 @@
 """Resonator, contact and forces of averaged motion, dimensional, for both friction laws.
 
-The resonator swings as (32) says, the normal load is what it is at each instant, and friction is
-its mean over the fast motion at the present slow velocity.
+The resonator vibrates steadily, (32); the normal load is the instantaneous one; friction is the
+mean over the fast motion at the present slow velocity.
 """
 
 from __future__ import annotations

@@ -6,8 +6,8 @@ With the stretch y = s0 z / mu, s the sign of the velocity and a = s0 / mu, betw
     F / (faces mu N) = y + s1 / mu (v - |v| y)
 
 and y repeats after a period. Its first variation has the same closed form,
-``dy = exp(-a s (x - x_r)) (dy_r + a (1 - s y_r) (dx - dx_r))``: reversals move, but where the
-velocity vanishes that is of second order.
+``dy = exp(-a s (x - x_r)) (dy_r + a (1 - s y_r) (dx - dx_r))``. Reversals move, too, but because
+the velocity vanishes there this is an effect of second order.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ from slider_resonator.references.averaged.panels import Panels
 class BristlePath:
     """The periodic stretch along a velocity, arrays at the nodes of ``panels``.
 
-    ``spans`` are the panels of each slide in one direction, in order; ``decay`` is what is left at
-    the nodes of a departure at the last reversal, ``departed`` 1 - s y there.
+    ``spans`` are the panels of each slide in one direction, in order; ``decay`` is the factor to
+    which a variation at the last reversal has decayed at the nodes, ``departed`` 1 - s y at that
+    reversal.
     """
 
     device: Device

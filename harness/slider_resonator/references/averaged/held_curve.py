@@ -1,9 +1,9 @@
 """The load-speed curve of held orbits: mean friction over the held velocity, tabulated lazily.
 
-Between the grazing velocities, beyond which the slider never turns back, F2 is smooth in the angle
-chi of ``V = middle + reach cos(chi)``, square roots at grazing included. Panels of Chebyshev nodes
-in chi are bisected until the last coefficients vanish: a turning point that meets the edge of a
-flight leaves a kink. Beyond grazing F2 is the mean friction of steady sliding.
+Between the grazing velocities, beyond which the slider never reverses, F2 is smooth in the angle
+chi of ``V = middle + reach cos(chi)``, also at grazing, where it has a square root in V. Panels of
+Chebyshev nodes in chi are bisected until the last coefficients vanish; F2 has a kink where a
+reversal meets the edge of a flight. Beyond grazing F2 is the mean friction of steady sliding.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _NODES = 12
 _ANGLES = (np.arange(_NODES) + 0.5) * math.pi / _NODES
 _FIRST_PANELS = 4
 _DEEPEST = 8
-"""Bisections of a first panel: what is left of a kink there is below 1e-3 of its panel."""
+"""Largest number of bisections of a first panel: a kink is then within 1e-3 of that panel."""
 
 
 @dataclass
@@ -57,7 +57,7 @@ class HeldCurve:
         self._sliding = [orbit.mean_friction for orbit in beyond]
         theta = np.linspace(0.0, self.hold.period, 4096 * self.hold.turns)
         ripples = [
-            self.hold.forced_velocity(theta) + orbit.panels.at(orbit.friction_answer, theta)
+            self.hold.forced_velocity(theta) + orbit.panels.at(orbit.friction_response, theta)
             for orbit in beyond
         ]
         self.grazing = -float(ripples[0].max()), -float(ripples[1].min())

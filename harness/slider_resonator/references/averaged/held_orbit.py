@@ -1,16 +1,16 @@
 """The periodic motion of a device whose mean velocity is held, and its mean friction.
 
 With theta = w t, total mass Mt = M + m and r = m / Mt the motion over a period is split into the
-vibration without friction, (32)-(34), and the answer to friction F::
+vibration without friction, (32)-(34), and the response to friction F, w1 and Y1::
 
     X' = V - v_q cos(theta - theta1) + w1 - r Y1'
     Mt w1' = -(F - F2),    F2 = mean(F),    mean(w1) = 0
     (1 - r) Y1'' + 2 xi wn Y1' + wn^2 Y1 = (F - F2) / Mt
 
 The mean friction F2 is the force on the slow motion, and -F2 the load under which V is steady. The
-answer to friction is small against v_q, so the equations are iterated as they stand, from velocity
-to friction to velocity. Between two breaks (reversal, lift-off, touchdown) all is smooth:
-collocation on panels between the breaks leaves no error but rounding.
+response to friction is small compared with v_q, so fixed-point iteration converges: from velocity
+to friction to velocity. Between two breaks (reversal, lift-off, touchdown) all functions are
+smooth: collocation on panels between the breaks is exact to rounding.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from slider_resonator.references.averaged.reversals import sign_changes
 _CONVERGED = 1e-13
 """Change of the velocity in the last iteration, over v_q."""
 
-_MOST_ITERATIONS = 100
+_MAX_ITERATIONS = 100
 
 _PATIENCE = 12
-"""Iterations within which the change has to fall to a tenth: close to sticking it does not."""
+"""Iterations within which the change must fall to a tenth; close to sticking it does not."""
 
 
 class NoSlidingOrbitError(RuntimeError):
-    """The slider sticks in the held orbit, or the iteration does not settle."""
+    """The slider sticks in the held orbit, or the iteration does not converge."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,8 @@ class HeldOrbit:
     """A periodic motion; arrays at the nodes of ``panels`` over theta, SI units.
 
     ``slider_velocity`` is X', whose mean is the held velocity, ``mean_friction`` F2 in N;
-    ``reversals`` are the angles in rad at which X' changes sign. ``iterations`` were needed.
-    ``shot`` says that the resolved motion was shot for, as where the slider sticks.
+    ``reversals`` are the angles in rad at which X' changes sign. ``iterations`` is their number;
+    ``shot``: found by shooting with the resolved motion instead, as where the slider sticks.
     """
 
     hold: Hold
@@ -62,8 +62,8 @@ class HeldOrbit:
 
     @cached_property
     def momentum_excess(self) -> Array:
-        """w1 in m/s at the nodes: by how much the momentum over total mass exceeds V."""
-        return momentum_answer(self.hold, self.panels, self.friction - self.mean_friction)
+        """w1 in m/s at the nodes: the momentum over the total mass, less V."""
+        return momentum_response(self.hold, self.panels, self.friction - self.mean_friction)
 
     @cached_property
     def centre_excess(self) -> Array:
@@ -72,8 +72,8 @@ class HeldOrbit:
         return path - self.panels.mean(path)
 
     @property
-    def friction_answer(self) -> Array:
-        """The part of X' in m/s at the nodes that answers to friction, w1 - r Y1'."""
+    def friction_response(self) -> Array:
+        """The response of X' to friction in m/s at the nodes, w1 - r Y1'."""
         forced = self.hold.forced_velocity(self.panels.nodes)
         return self.slider_velocity - self.hold.velocity - forced
 
@@ -86,17 +86,17 @@ class HeldOrbit:
 def held_orbit(hold: Hold, neighbour: HeldOrbit | None = None) -> HeldOrbit:
     """Return the orbit of a hold, iterated from that of a neighbour or from the vibration alone.
 
-    Raises NoSlidingOrbitError where the slider sticks or the iteration does not settle.
+    Raises NoSlidingOrbitError where the slider sticks or the iteration does not converge.
     """
     device = hold.device
     scale = hold.vibration.velocity_amplitude
     panels = neighbour.panels if neighbour else hold.panels(np.empty(0), 0.0)
-    answer = neighbour.friction_answer if neighbour else np.zeros_like(panels.nodes)
+    response = neighbour.friction_response if neighbour else np.zeros_like(panels.nodes)
     changes: list[float] = []
-    for iteration in range(1, _MOST_ITERATIONS + 1):
+    for iteration in range(1, _MAX_ITERATIONS + 1):
 
-        def velocity_at(theta: Array, panels: Panels = panels, answer: Array = answer) -> Array:
-            return hold.velocity + hold.forced_velocity(theta) + panels.at(answer, theta)
+        def velocity_at(theta: Array, panels: Panels = panels, response: Array = response) -> Array:
+            return hold.velocity + hold.forced_velocity(theta) + panels.at(response, theta)
 
         reversals = sign_changes(velocity_at, hold.period)
         panels = _panels_between(hold, reversals)
@@ -106,8 +106,8 @@ def held_orbit(hold: Hold, neighbour: HeldOrbit | None = None) -> HeldOrbit:
         specific = (friction - mean) / (hold.momentum_rate * device.drive_frequency)
         displacement, swing = hold.resonator.response(panels, specific)
         swing = device.drive_frequency * swing
-        answer = momentum_answer(hold, panels, friction - mean) - device.mass_ratio * swing
-        fresh = hold.velocity + hold.forced_velocity(panels.nodes) + answer
+        response = momentum_response(hold, panels, friction - mean) - device.mass_ratio * swing
+        fresh = hold.velocity + hold.forced_velocity(panels.nodes) + response
         change = float(np.abs(fresh - velocity).max())
         if change <= _CONVERGED * scale:
             forced_displacement, forced_swing = hold.forced_resonator(panels.nodes)
@@ -128,12 +128,12 @@ def held_orbit(hold: Hold, neighbour: HeldOrbit | None = None) -> HeldOrbit:
         if iteration > _PATIENCE and change > 0.1 * changes[-1 - _PATIENCE]:
             break
     raise NoSlidingOrbitError(
-        f"the orbit at {hold.velocity!r} m/s with lead {hold.lead!r} rad does not settle"
+        f"the orbit at {hold.velocity!r} m/s with lead {hold.lead!r} rad does not converge"
     )
 
 
-def momentum_answer(hold: Hold, panels: Panels, force: Array) -> Array:
-    """Return the answer in m/s, of zero mean, of the total mass to a friction force (N) of such."""
+def momentum_response(hold: Hold, panels: Panels, force: Array) -> Array:
+    """Return the response in m/s of the total mass to a friction force (N), both of zero mean."""
     gained, _ = panels.integral(-force / hold.momentum_rate)
     return gained - panels.mean(gained)
 

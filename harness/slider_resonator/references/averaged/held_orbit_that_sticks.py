@@ -1,8 +1,8 @@
 """Held orbits of every kind, sticking and flight included, from the resolved motion by shooting.
 
-The state after a period of the orbit is that before it, and the way made is V times the period:
-four equations for the velocity of the slider, the resonator's two states and the load. The resolved
-motion is that of `located_events`, or any other with the same arguments.
+The state repeats after a period of the orbit, and the displacement in a period is V times the
+period: four equations for the velocity of the slider, the resonator's two states and the load. The
+resolved motion is that of `located_events`, or any other with the same arguments.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _STEP = 1e-6
 """Step of the differences of the period map, over the scale of a state."""
 
 _CONVERGED = 1e-12
-_MOST_ITERATIONS = 40
+_MAX_ITERATIONS = 40
 
 
 def any_held_orbit(
@@ -55,8 +55,8 @@ def held_orbit_by_shooting(
 ) -> HeldOrbit:
     """Return the orbit of a hold under Coulomb friction, from a first guess of its load in N.
 
-    Newton with differences, damped where a whole step does not help. Raises RuntimeError when it
-    does not settle.
+    Newton's method with finite differences, damped where a whole step does not contract. Raises
+    RuntimeError when it does not converge.
     """
     device = hold.device
     force = hold.vibration
@@ -75,7 +75,7 @@ def held_orbit_by_shooting(
         return np.append(state / scales[:3] - values[:3], way / speed)
 
     left = imbalance(unknowns)
-    for iteration in range(1, _MOST_ITERATIONS + 1):
+    for iteration in range(1, _MAX_ITERATIONS + 1):
         slopes = np.column_stack(
             [(imbalance(unknowns + step) - left) / _STEP for step in _STEP * np.eye(4)]
         )

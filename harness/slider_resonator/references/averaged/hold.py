@@ -1,6 +1,6 @@
-"""What is held in a held orbit, and what is known of its motion before friction answers.
+"""The given data of a held orbit: mean velocity, normal load, and the vibration without friction.
 
-The drive angle theta = w t is the time of these modules: derivatives by theta, results in SI units.
+The drive angle theta = w t is the independent variable of these modules; results are in SI units.
 """
 
 from __future__ import annotations

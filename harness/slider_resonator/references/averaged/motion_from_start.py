@@ -23,7 +23,7 @@ from slider_resonator.references.phase import advanced
 from slider_resonator.references.resolved import located_events, lugre_scipy
 
 SWING_LEFT = 1e-9
-"""What is left of the resonator's first swing when the slow motion takes over."""
+"""Share of the resonator's transient that remains when the slow motion takes over."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class MotionFromStart:
 
 
 def turns_resolved(device: Device) -> int:
-    """Return how many turns of the drive leave `SWING_LEFT` of the resonator's own swing.
+    """Return the number of drive turns in which the resonator's transient decays to `SWING_LEFT`.
 
     It swings on a free slider: ``(1 - r) Y'' + 2 xi wn Y' + wn^2 Y = 0``. Raises ValueError without
     damping.

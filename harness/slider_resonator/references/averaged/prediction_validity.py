@@ -1,4 +1,4 @@
-"""Whether averaged theory applies to a device: it slides to and fro, and the load is held.
+"""Whether averaged theory applies to a device: it slides in both directions and does not run away.
 
 Three conditions: there is a steady vibration; the load is below the mean friction of sliding; and
 the vibration overcomes this friction by itself, on the free slider and on one that is held. Against
@@ -57,9 +57,9 @@ def _resistance(device: Device, normal: float, amplitude: float) -> float:
 def _forces(device: Device, *, held: bool) -> tuple[float, float] | None:
     """Return the amplitude of the force (N) on a slider without friction, and of its motion (m).
 
-    The free slider is pushed by what moves slider and resonator as one mass, the held one by
-    spring, damper and direct drive. None for undamped resonance. It solves (26)-(27) for steady
-    amplitudes of exp(i w t).
+    On the free slider it is the force that moves slider and resonator as one mass, on the held one
+    that of spring, damper and direct drive; both are steady amplitudes of exp(i w t) that solve
+    (26)-(27). None for undamped resonance.
     """
     w, m = device.drive_frequency, device.resonator_mass
     coupling = complex(device.stiffness, w * device.damping)

@@ -1,4 +1,4 @@
-"""Where a periodic function changes sign, close pairs of roots included."""
+"""Roots at which a periodic function changes sign, close pairs included."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ _RELATIVE, _ABSOLUTE = 1e-12, 1e-14
 class SlowMotion:
     """Slow motion at ``time``: arrays of shape (n,), SI units.
 
-    ``slow_velocity`` is V; all others carry the fast motion of the held orbit.
+    ``slow_velocity`` is V; all others include the fast motion of the held orbit.
     """
 
     time: Array
@@ -76,7 +76,7 @@ def momentum_velocity(
 
 @dataclass(frozen=True)
 class SlowStart:
-    """What the slow motion takes over: W in m/s, the centre in m, both angles in rad.
+    """Initial values of the slow motion: W in m/s, the centre in m, both angles in rad.
 
     ``theta`` is that of the drive, ``psi`` that of the normal load without the input phase.
     """
@@ -88,9 +88,9 @@ class SlowStart:
 
 
 def slow_start(device: Device, state: State, theta: float = 0.0, psi: float = 0.0) -> SlowStart:
-    """Return what the slow motion takes over from a state of the device at angles in rad.
+    """Return the initial values of the slow motion at a state of the device, at angles in rad.
 
-    The state is taken for one on a held orbit: what else the resonator swings is left out.
+    The state is assumed to be on a held orbit: any other motion of the resonator is neglected.
     """
     position, velocity, displacement, swing = state
     share = device.mass_ratio
@@ -118,10 +118,10 @@ def simulate_slow_motion(
 
     ``times`` ascend within ``[held[0].start, held[-1].stop]``. The motion begins at ``start``, by
     default with the initial values of the device and theta = psi = 0. Phase and load may have
-    rates. ``leads`` (odd) is how many
-    leads of the normal load are tabulated where it drifts, ``simulate`` the resolved motion for
-    orbits that stick. Raises ValueError for a ratio without slow phase, inputs with gaps, times
-    outside them, and as `Hold` does; RuntimeError where there is no orbit.
+    rates. ``leads`` (odd) is the number of leads of the normal load that are tabulated where it
+    drifts, ``simulate`` the resolved motion for orbits that stick. Raises ValueError for a ratio
+    without slow phase, inputs with gaps, times outside them, and as `Hold` does; RuntimeError where
+    there is no orbit.
     """
     check_contiguous(held, rates=("phase_rate", "load_rate"))
     check_times(times, held)
@@ -130,12 +130,13 @@ def simulate_slow_motion(
     momentum, centre, theta, psi = astuple(start)
     rows = np.empty((0, 5))
     for inputs in with_steady_phase(held, device):
-        wanted = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
-        grid = np.union1d(wanted, [0.0, inputs.stop - inputs.start])
+        last = np.searchsorted(times, inputs.stop, side="right")
+        samples = times[len(rows) : last] - inputs.start
+        grid = np.union1d(samples, [0.0, inputs.stop - inputs.start])
         slow = _Slow(curves, inputs, theta, psi)
         slow.begin(momentum, centre)
         moved, velocity = slow.run(grid)
-        places = np.searchsorted(grid, wanted)
+        places = np.searchsorted(grid, samples)
         found = [
             slow.motion(float(grid[place]), float(moved[place]), float(velocity[place]))
             for place in places
@@ -166,7 +167,7 @@ class _Curves:
 
 
 class _Slow:
-    """The slow motion under inputs that stay, time being that since they were set."""
+    """The slow motion under inputs that stay; time counts from when they were set."""
 
     def __init__(self, curves: _Curves, inputs: HeldInputs, theta: float, psi: float) -> None:
         device = curves.device
@@ -270,6 +271,6 @@ class _Slow:
 
 
 def _push(device: Device) -> float:
-    """Return the momentum in N s that the drive swings to and fro, D / w."""
+    """Return the amplitude of the momentum by the drive, D / w in N s."""
     push = device.resonator_mass * device.base_amplitude * device.drive_frequency
     return push + device.tangential_force / device.drive_frequency

@@ -24,12 +24,12 @@ def mean_load(amplitude_ratio: float) -> float:
 
 
 def turns_until_repeat(amplitude_ratio: float, ratio: float, share: float = 1e-12) -> int:
-    """Return the turns of the drive after which a load repeats, as far as averages show; else 0.
+    """Return the number of drive turns after which a load repeats in averages; 0 for none.
 
     A load that never lifts is a sine, which averages out over several turns: 1 for ratios next to
-    an integer, else 0. The clipped load has harmonics, and that of as many waves as turns keeps
-    step with the drive; those of up to 4 turns count. ``share`` is how far the ratio times the
-    turns may be from an integer, times the turns.
+    an integer, else 0. A clipped load has harmonics, some of which keep step with the drive; up to
+    4 turns count. ``share`` is the largest distance of the ratio times the turns from an integer,
+    times the turns.
     """
     for turns in range(1, 5 if amplitude_ratio > 1.0 else 2):
         waves = turns * ratio

@@ -1,8 +1,8 @@
 """The full equations by scipy, with every change of contact mode located; DOP853 is the reference.
 
-Within one contact mode the equations are smooth, so the high order method keeps its order; at
-events the mode changes by the contact law. Steps are bounded by a fraction of the fastest period,
-and each is searched on a finer grid with slopes, so that no pair of close roots is stepped over.
+Within one contact mode the equations are smooth, so the method keeps its high order; at events the
+mode changes by the contact law. Steps are bounded by a fraction of the fastest period, and each is
+searched on a finer grid with slopes, so that no pair of close roots is missed.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ class _Motion:
         return float(value), float(slope)
 
     def _margin(self, event: int, time: float | Array, states: Array) -> tuple[Array, Array]:
-        """Return how far the event is, and the rate of that: it happens where the margin is 0.
+        """Return the margin of an event, which happens where the margin is 0, and its rate.
 
         In a slip the margin is the velocity in the slip direction, in a stick the friction left
         before the slider breaks loose in the direction ``event``.

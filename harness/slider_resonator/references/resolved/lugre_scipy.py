@@ -192,7 +192,7 @@ class _Events:
         self._start = start
 
     def follow(self, solver: Any) -> None:
-        """Take in a step of a solver."""
+        """Search a step of a solver for events."""
         direction = int(np.sign(solver.y[1]))
         if direction * self._contact.direction < 0:
             dense = solver.dense_output()
@@ -211,7 +211,7 @@ class _Events:
             self._move(solver.t)
 
     def finish(self, time: float) -> None:
-        """Take in what is left up to a time (s) since the inputs are held."""
+        """Enter the remaining events up to a time (s) since the inputs are held."""
         self._move(time)
 
     def _move(self, time: float) -> None:

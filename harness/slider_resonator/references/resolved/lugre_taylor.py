@@ -84,7 +84,7 @@ def simulate_lugre(
 class _Run:
     """The motion through held inputs: drive angle as time, forces over a characteristic force.
 
-    ``_stretch`` is s0 z / mu; ``_shortfall`` what the stretch still lacks to that of steady sliding
+    ``_stretch`` is s0 z / mu; ``_shortfall`` is its difference from the stretch of steady sliding
     in the present direction, kept apart because it decays far below the rounding of the stretch.
     """
 

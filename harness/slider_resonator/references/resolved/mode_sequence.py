@@ -191,6 +191,6 @@ class ModeSequence:
         if self._events_at_this_instant > _MAX_EVENTS_AT_ONE_INSTANT:
             raise RuntimeError(
                 f"contact at t = {time!r} s changes mode more than {_MAX_EVENTS_AT_ONE_INSTANT} "
-                f"times at one instant (state {self.state!r}): stick and slip cannot be told apart "
-                "there; perturb the initial state or an input"
+                f"times at one instant (state {self.state!r}): stick and slip cannot be "
+                "distinguished there; perturb the initial state or an input"
             )

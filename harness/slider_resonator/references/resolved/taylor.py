@@ -76,7 +76,7 @@ class _ScaledMotion:
                 self._equations, segment.load_rate, segment.ratio_rate, self._force
             )
         integrator.pars[DIRECTION] = segment.mode
-        # The displacement starts from zero, so that a long way travelled costs it no digits.
+        # The displacement counts from the start of the segment: a large position costs no digits.
         state = np.array([0.0, *segment.state[1:]]) / self._scales
         times = segment.samples * rate
         span = segment.span * rate

@@ -11,7 +11,7 @@ from slider_resonator.studies.sweep.measures import Task
 from slider_resonator.studies.sweep.worker import Point, Row, Rows, failed_row
 
 CHUNK_SECONDS = 0.2
-"""Work in a chunk: much more than it costs to send, and the most that a killed worker loses."""
+"""Work in a chunk: much longer than sending it takes; a killed worker loses no more than that."""
 LARGEST_CHUNK = 200
 CHUNKS_EACH = 2
 """Chunks queued for each worker, so that it never waits."""
@@ -33,7 +33,7 @@ class Workers(Protocol):
         """Begin to compute a chunk."""
 
     def replace_lost(self) -> None:
-        """Be ready for more after a loss; HarnessError where that is impossible."""
+        """Replace workers after a loss; HarnessError where that is impossible."""
 
 
 def run_points(
@@ -41,13 +41,13 @@ def run_points(
 ) -> None:
     """Compute all points, calling `keep` with rows as they come, in any order.
 
-    After a worker has died, the points that it may have been at are computed one at a time, so
-    that one that kills every worker is known by its number and has an error as its row.
+    After a worker has died, the points that it may have been computing are computed one at a time,
+    so that a point that kills every worker is identified and has an error as its row.
     """
     waiting, suspects = deque(points), deque[Point]()
     pending: dict[Future[Rows], list[Point]] = {}
     deaths: dict[int, int] = {}
-    seconds = CHUNK_SECONDS  # of a point, as far as is known
+    seconds = CHUNK_SECONDS  # estimate of the time of a point
 
     def submit(chunk: list[Point]) -> None:
         try:

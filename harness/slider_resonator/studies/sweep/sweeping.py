@@ -61,7 +61,7 @@ def run_sweep(
 
     `workers` is the number of processes here, unless `dask` is the address of a scheduler. A point
     that takes longer than `time_limit` (s) fails. Raises HarnessError where the sweep cannot be run
-    or, without `overwrite`, `out` is the table of other points; what is finished stays in the
+    or, without `overwrite`, `out` is the table of other points; finished points stay in the
     journal.
     """
     check_writer(out)
@@ -134,6 +134,6 @@ def _workers(
 
 
 def _digest(sweep: Sweep, fmu_digest: str) -> str:
-    """Return what a row of a journal depends on, as a digest."""
+    """Return a digest of all that the rows of a journal depend on."""
     content = [__version__, fmu_digest, asdict(sweep.task), sweep.points]
     return hashlib.sha256(json.dumps(content).encode()).hexdigest()

@@ -1,4 +1,4 @@
-"""Work-precision plots for pages: error over CPU time, each point with what it is on hovering."""
+"""Work-precision plots for pages: error over CPU time, with a description of each point."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ CLASSES = {AVERAGED: "averaged", RESOLVED: "resolved", PEER: "peers"}
 class Standing:
     """The cheapest method of a class at an error, None where none reaches it.
 
-    `ratio` is its cost over that of the resolved one, repeat by repeat: median, least, greatest.
+    `ratio` is its cost over that of the resolved one, repeat by repeat: median, minimum, maximum.
     """
 
     quantity: str
@@ -57,11 +57,11 @@ def sentence(standing: Standing) -> str:
     words = f"{name}: {duration(row.cost)} a simulated second ({row.method})"
     if standing.ratio is None or standing.kind == RESOLVED:
         return words
-    middle, least, most = standing.ratio
+    middle, low, high = standing.ratio
     if middle < 1.0:
         shares = f"{1.0 / middle:.3g} times cheaper than resolved"
-        return f"{words}, {shares} ({1.0 / most:.3g} to {1.0 / least:.3g})"
-    return f"{words}, {middle:.3g} times the cost of resolved ({least:.3g} to {most:.3g})"
+        return f"{words}, {shares} ({1.0 / high:.3g} to {1.0 / low:.3g})"
+    return f"{words}, {middle:.3g} times the cost of resolved ({low:.3g} to {high:.3g})"
 
 
 def comparisons(trade: Trade) -> list[tuple[str, list[str]]]:

@@ -36,7 +36,7 @@ def test_a_missed_time_limit_is_reported_however_the_process_ended() -> None:
     assert missed_limit("", Ending(None))
 
 
-def test_what_an_fmu_prints_passes_for_no_traceback() -> None:
+def test_printed_text_is_not_taken_for_a_traceback() -> None:
     printed = TRACE.replace("Fatal Python error: Aborted", "Timeout (0:01:00)!")
     assert crash_report(printed, "", Ending(1), 60.0).startswith(
         "the FMU crashed: its process ended with exit code 1; it printed: Timeout"

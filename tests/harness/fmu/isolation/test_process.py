@@ -143,7 +143,7 @@ def test_what_an_fmu_prints_is_limited(isolated: IsolatedFmu) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a write into a pipe of Windows waits")
-def test_a_process_that_does_not_read_is_no_trap_for_the_writer() -> None:
+def test_writing_to_a_process_that_does_not_read_ends_at_the_deadline() -> None:
     reading, writing = os.pipe()
     with (
         open(reading, "rb"),

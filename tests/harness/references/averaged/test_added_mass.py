@@ -125,9 +125,9 @@ def test_it_stays_finite_where_the_friction_is_flat() -> None:
     assert found.added_mass == pytest.approx(0.0, abs=1e-9)
 
 
-def test_an_orbit_that_was_shot_for_is_refused() -> None:
+def test_an_orbit_found_by_shooting_is_refused() -> None:
     sticky = Hold(Device(friction_coefficient=150.0), 0.1, 0.7)
-    with pytest.raises(ValueError, match="shot for"):
+    with pytest.raises(ValueError, match="found by shooting"):
         slow_linearisation(any_held_orbit(sticky, simulate=taylor.simulate))
 
 
@@ -135,5 +135,5 @@ def test_a_motion_that_friction_stops_at_once_is_not_slow() -> None:
     device = replace(
         BRISTLES, normal_preload=600.0, normal_amplitude=100.0, resonator_frequency=900.0
     )
-    with pytest.raises(RuntimeError, match=r"nothing is slow|does not settle"):
+    with pytest.raises(RuntimeError, match=r"nothing is slow|does not converge"):
         slow_linearisation(held_orbit(Hold(device, 0.0)))

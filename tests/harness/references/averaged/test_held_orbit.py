@@ -134,7 +134,7 @@ def test_an_orbit_is_the_same_from_a_neighbour_and_found_sooner() -> None:
     assert warm.iterations < cold.iterations
 
 
-def test_the_excess_of_the_momentum_answers_to_the_friction() -> None:
+def test_the_momentum_excess_is_the_response_to_friction() -> None:
     orbit = held_orbit(Hold(STRONG, 0.1, 0.7))
     panels, device = orbit.panels, orbit.hold.device
     carried = orbit.slider_velocity + device.mass_ratio * orbit.resonator_velocity
@@ -159,7 +159,7 @@ STICKY = replace(TABLE_1, friction_coefficient=150.0)
 
 
 @pytest.mark.parametrize("velocity", [0.0, 0.15])
-def test_where_the_slider_sticks_the_orbit_is_shot_for(velocity: float) -> None:
+def test_an_orbit_with_sticking_is_found_by_shooting(velocity: float) -> None:
     hold = Hold(STICKY, velocity, 0.7)
     with pytest.raises(NoSlidingOrbitError, match=r"sticks|settle"):
         held_orbit(hold)

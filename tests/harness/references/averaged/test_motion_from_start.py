@@ -46,7 +46,7 @@ def test_a_run_that_ends_while_it_swings_is_resolved_throughout() -> None:
 
 
 @pytest.mark.parametrize("damping_ratio", [0.005, 0.05, 0.9, 1.5])
-def test_turns_leave_what_they_say_of_a_free_swing(damping_ratio: float) -> None:
+def test_a_free_oscillation_decays_to_the_stated_share(damping_ratio: float) -> None:
     device = replace(DEVICE, damping_ratio=damping_ratio)
     period = 2.0 * math.pi / device.drive_frequency
     share = device.slider_mass / device.total_mass

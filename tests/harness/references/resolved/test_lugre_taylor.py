@@ -104,12 +104,12 @@ def test_bristle_keeps_evolving_in_flight() -> None:
 
 
 @pytest.mark.parametrize(
-    ("parameters", "least", "most"),
+    ("parameters", "low", "high"),
     [({}, 3.0, 30.0), ({"normal_amplitude": 2.0}, 3.0, 30.0), ({"fidelity": 1}, 8.0, 12.0)],
     ids=["closed", "lifts", "rigid"],
 )
 def test_stiff_bristles_approach_coulomb(
-    parameters: dict[str, float], least: float, most: float
+    parameters: dict[str, float], low: float, high: float
 ) -> None:
     """A reversal lacks friction over a path of mu / s0, for a time that falls as s0^-1/2."""
     device = Device.from_mapping({**parameters, "bristle_damping": 0.0})
@@ -121,7 +121,7 @@ def test_stiff_bristles_approach_coulomb(
         errors.append(float(np.abs(motion.velocity - coulomb.velocity).max()))
         assert motion.reversals == coulomb.reversals, "the same reversals"
     ratios = [sooner / later for sooner, later in pairwise(errors)]
-    assert all(least < ratio < most for ratio in ratios), (
+    assert all(low < ratio < high for ratio in ratios), (
         f"velocities {errors} off Coulomb's: 100 times the stiffness brings them about 10 closer"
     )
     assert errors[-1] < 5e-6, f"friction is Coulomb's, velocities differ by {errors[-1]} m/s"
@@ -148,5 +148,5 @@ def test_samples_at_starts_and_stops_are_kept() -> None:
     device, held = PROBLEMS["schedule"]
     edges = np.array([inputs.start for inputs in held] + [DURATION])
     motion = simulate_lugre(device, held, edges)
-    assert motion.position.shape == edges.shape, "one sample for each time wanted"
-    assert simulate_lugre(device, held, np.empty(0)).position.shape == (0,), "none wanted, none got"
+    assert motion.position.shape == edges.shape, "one sample for each time"
+    assert simulate_lugre(device, held, np.empty(0)).position.shape == (0,), "no times, no samples"

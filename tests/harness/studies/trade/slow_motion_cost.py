@@ -23,8 +23,8 @@ LENGTHS = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 """Seconds."""
 STEP = 2.0
 """Communication step (s): about 1000 drive periods at 3500 rad/s."""
-WANTED = 1e-6
-"""Relative error of the mean velocity."""
+MAX_ERROR = 1e-6
+"""Largest relative error of the mean velocity."""
 PAIRS = 5
 TOLERANCES = tuple(10.0**-digits for digits in range(4, 13))
 AVERAGED: Mapping[str, float] = {"fidelity": 0, "averaging_order": 2}
@@ -78,7 +78,7 @@ def cost(fmu: Fmu, device: Mapping[str, float], length: float) -> Cost:
         tolerance = 1e-8
         for tolerance in TOLERANCES if device.get("friction_law") else ():
             rough = follow(instance, {**device, **RESOLVED, "tolerance": tolerance}, length)
-            if abs(rough.final("mean_velocity") / exact - 1.0) <= WANTED:
+            if abs(rough.final("mean_velocity") / exact - 1.0) <= MAX_ERROR:
                 break
     resolved = {**device, **RESOLVED, "tolerance": tolerance}
     averaged = {**device, **AVERAGED}

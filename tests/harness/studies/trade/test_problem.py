@@ -83,7 +83,7 @@ def test_the_reference_follows_ramps(tmp_path: Path) -> None:
     assert (constant.load, constant.load_rate) == (0.1, 0.0), "from where the ramp ends"
 
 
-def test_the_reference_takes_by_their_middle_what_turns_the_normal_load_back(
+def test_lines_that_turn_the_normal_load_back_are_held_at_their_middle(
     tmp_path: Path,
 ) -> None:
     found = problem(tmp_path, TURNS_BACK)

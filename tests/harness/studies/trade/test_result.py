@@ -74,8 +74,8 @@ def test_the_cheapest_that_is_exact_enough() -> None:
 
 
 def test_ratios_are_taken_repeat_by_repeat() -> None:
-    middle, least, most = paired_ratio(row(3.0, 0.0), row(1.0, 0.0))
-    assert (middle, least, most) == pytest.approx((3.0, 3.0, 3.0)), "a busy moment hits both alike"
+    middle, low, high = paired_ratio(row(3.0, 0.0), row(1.0, 0.0))
+    assert (middle, low, high) == pytest.approx((3.0, 3.0, 3.0)), "a busy moment hits both alike"
 
 
 def test_classes_are_compared_where_they_reach_the_error() -> None:
