@@ -8,6 +8,12 @@
 #include "orbit_newton.h"
 #include "state.h"
 
+/* Difference of mean friction, over that of sliding, up to which orbits are the same. */
+#define SAME_FRICTION 1e-6
+
+/* Multiplier from which on motion leaves an orbit; 1, but for differences, where it slides on. */
+#define NEUTRAL (1.0 + 1e-4)
+
 /* Largest velocity against the direction of a section, in v_q, at which the section is used. */
 #define SECTION_REACH 0.5
 
@@ -172,5 +178,27 @@ OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit) {
         orbit->lag = section_rate(map, theta, linear.lag, map->force);
     }
     orbit->linearised = true;
-    return orbit->fast_multiplier < 1.0 ? ORBIT_FOUND : ORBIT_UNSTABLE;
+    if (!(orbit->fast_multiplier < 1.0)) {
+        return ORBIT_UNSTABLE;
+    }
+    bool lags = map->states > 3 && !orbit->sticks && !linear.is_separate;
+    return lags ? ORBIT_NOT_SLOW : ORBIT_FOUND;
+}
+
+OrbitStatus held_orbit_check_stable(const PeriodMap *map, const HeldOrbit *orbit) {
+    OrbitEquations equations = {.map = map, .lead = orbit->lead, .theta = orbit->section.theta,
+                                .stops = orbit->section.stops};
+    Unknowns unknowns = unknowns_of(&equations, &orbit->section, -orbit->friction);
+    double jacobian[UNKNOWNS][UNKNOWNS] = {{0.0}};
+    Trial trial;
+    if (!try_unknowns(&equations, &unknowns, &trial) ||
+        !differentiate(&equations, &unknowns, &trial, jacobian)) {
+        return ORBIT_NOT_CONVERGED;
+    }
+    return largest_multiplier(jacobian, map->states) < NEUTRAL ? ORBIT_FOUND : ORBIT_UNSTABLE;
+}
+
+bool is_same_orbit(const PeriodMap *map, const HeldOrbit *one, const HeldOrbit *other) {
+    double sliding = sliding_friction(map, one->lead);
+    return fabs(one->friction - other->friction) <= SAME_FRICTION * sliding;
 }

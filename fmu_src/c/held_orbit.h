@@ -16,7 +16,8 @@
  * UNDAMPED: without damping the start of the resonator never decays. STILL: nothing vibrates, or
  * friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not converge.
  * UNSTABLE: the vibration about the orbit does not decay. RUNS_AWAY: the load exceeds all friction,
- * so that no velocity is steady. UNDETERMINED: the load leaves several velocities steady. */
+ * so that no velocity is steady. UNDETERMINED: the load leaves several velocities steady, or several motions
+ * one velocity. NOT_SLOW: bristles follow no faster than the velocity changes. */
 typedef enum {
     ORBIT_FOUND,
     ORBIT_UNDAMPED,
@@ -24,7 +25,8 @@ typedef enum {
     ORBIT_NOT_CONVERGED,
     ORBIT_UNSTABLE,
     ORBIT_RUNS_AWAY,
-    ORBIT_UNDETERMINED
+    ORBIT_UNDETERMINED,
+    ORBIT_NOT_SLOW
 } OrbitStatus;
 
 /* A change of the state at the section and of the friction of the bristle there. */
@@ -68,5 +70,11 @@ OrbitStatus steady_orbit_at(const PeriodMap *map, double lead, double load,
 /* Linearises an orbit, at the cost of one map more than it has unknowns. LuGre friction needs this always,
  * Coulomb friction for slope, lag and low damping. */
 OrbitStatus held_orbit_linearise(const PeriodMap *map, HeldOrbit *orbit);
+
+/* ORBIT_UNSTABLE where motion under the load of the orbit leaves it; at the same cost. */
+OrbitStatus held_orbit_check_stable(const PeriodMap *map, const HeldOrbit *orbit);
+
+/* Whether two orbits of one lead and velocity are the same: their friction is. */
+bool is_same_orbit(const PeriodMap *map, const HeldOrbit *one, const HeldOrbit *other);
 
 #endif

@@ -5,6 +5,7 @@
 #include "contact.h"
 #include "elementary.h"
 #include "orbit_drift.h"
+#include "orbit_newton.h"
 #include "state.h"
 
 /* Size of the last coefficients up to which a panel holds, in the scale of their quantity. */
@@ -128,6 +129,7 @@ void orbit_curve_begin(OrbitCurve *curve, const PeriodMap *map, double lead) {
     double low = 0.0, high = 0.0;
     curve->lead = lead;
     curve->next = 0;
+    curve->ride = 0;
     for (int i = 0; i < CURVE_PANELS; i++) {
         curve->panel[i].known = false;
     }
@@ -173,10 +175,21 @@ static double scale_of(const PeriodMap *map, const OrbitCurve *curve, OrbitQuant
     return INFINITY;
 }
 
+/* Whether a search without neighbour finds the same orbit. */
+static bool is_the_only_one(const PeriodMap *map, const HeldOrbit *orbit, int *maps) {
+    HeldOrbit other;
+    if (held_orbit_at(map, orbit->lead, orbit->velocity, NULL, &other) != ORBIT_FOUND) {
+        *maps += MAX_MAPS;
+        return true;
+    }
+    *maps += other.maps;
+    return is_same_orbit(map, orbit, &other);
+}
+
 /* The orbits at the nodes, each from the one before. The first is the one halfway to grazing, where a
  * search without neighbour is at its best. Under Coulomb friction the added mass is left out where it is
- * negligible there. */
-static bool find_nodes(const OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap *map,
+ * negligible there. At the last a search without neighbour must find the same orbit. Counts the maps. */
+static bool find_nodes(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap *map,
                        OrbitPoint points[ORBIT_NODES]) {
     double width = PI / (BASE_PANELS << panel->depth);
     bool descending = (panel->index >> panel->depth) % 2 == 1, lags = true;
@@ -188,13 +201,23 @@ static bool find_nodes(const OrbitPanel *panel, const OrbitCurve *curve, const P
         double velocity = curve->middle + curve->reach * cos(chi);
         OrbitStatus status =
             held_orbit_at(map, curve->lead, velocity, i > 0 ? &orbit : NULL, &orbit);
-        if (status == ORBIT_FOUND && lags) {
+        bool checked = panel->depth == 0 && i == ORBIT_NODES - 1;
+        if (status == ORBIT_FOUND && (lags || checked)) {
             status = held_orbit_linearise(map, &orbit);
-            lags = coulomb ? fabs(orbit.factor - 1.0) > NO_ADDED_MASS : true;
+            lags = (lags && fabs(orbit.factor - 1.0) > NO_ADDED_MASS) || !coulomb;
             orbit.factor = lags ? orbit.factor : 1.0;
         }
-        if (status != ORBIT_FOUND || orbit.direction != panel->direction ||
-            !orbit_point_of(map, &orbit, &points[node])) {
+        if (status != ORBIT_FOUND) {
+            panel->maps += MAX_MAPS;
+            return false;
+        }
+        panel->maps += orbit.maps + 1;
+        if (orbit.direction != panel->direction ||
+            (checked && !is_the_only_one(map, &orbit, &panel->maps))) {
+            return false;
+        }
+        if (!orbit_point_of(map, &orbit, &points[node])) {
+            panel->maps += MAX_MAPS;
             return false;
         }
     }

@@ -14,7 +14,12 @@
 #include "period_map.h"
 
 /* Nodes of a panel, and panels that a curve keeps. */
-enum { ORBIT_NODES = 12, CURVE_PANELS = 16 };
+enum { ORBIT_NODES = 12, CURVE_PANELS = 32 };
+
+/* Base panels of a curve, most halvings of one, and of one in which an orbit is missing; and bytes with a bit
+ * for each panel. */
+enum { BASE_PANELS = 4, MAX_DEPTH = 6, MAX_DEPTH_MISSING = 2 };
+enum { ASKED_BYTES = BASE_PANELS * ((2 << MAX_DEPTH) - 1) / 8 + 1 };
 
 /* What is tabulated: mean friction F2 [N], 1 + kappa_m; at the section w1 [m/s], its integral over time [m]
  * of zero mean, and resonator [m, m/s] and bristle. */
@@ -39,17 +44,18 @@ typedef struct {
 
 /* Chebyshev coefficients over the panel `index` of 2^depth = `parts` in which each base panel is halved, of
  * each quantity the first `terms` that are not rounding. `holds` is false where it has to be halved,
- * `found` where an orbit is missing. */
+ * `found` where an orbit is missing. `maps` is how often a period was mapped for it. */
 typedef struct {
     bool known, found, holds;
-    int depth, index, direction;
+    int depth, index, direction, maps;
     int terms[ORBIT_QUANTITIES];
     double parts;
     double coefficient[ORBIT_QUANTITIES][ORBIT_NODES];
 } OrbitPanel;
 
 /* The curve of a device under `waves` of the normal load in a turn, repeating after `turns`, at one lead.
- * `found` is false where there are no orbits. `beyond` [0] is backward, [1] forward. */
+ * `found` is false where there are no orbits. `beyond` [0] is backward, [1] forward. `asked` has a bit for each
+ * panel, of all depths, that the ride of number `ride` has asked for. */
 typedef struct {
     bool known, found, combined;
     long used;
@@ -59,6 +65,8 @@ typedef struct {
     double middle, reach;
     OrbitPoint beyond[2];
     int next;
+    long ride;
+    unsigned char asked[ASKED_BYTES];
     OrbitPanel panel[CURVE_PANELS];
     ShiftPoint shifts[SHIFT_POINTS];
 } OrbitCurve;
@@ -80,8 +88,5 @@ void orbit_panel_make(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMa
 
 /* The quantity on a panel, at `place` = chi / pi BASE_PANELS. */
 double orbit_panel_at(const OrbitPanel *panel, OrbitQuantity quantity, double place);
-
-/* Base panels of a curve, most halvings of one, and of one in which an orbit is missing. */
-enum { BASE_PANELS = 4, MAX_DEPTH = 6, MAX_DEPTH_MISSING = 2 };
 
 #endif

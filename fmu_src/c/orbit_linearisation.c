@@ -15,9 +15,14 @@
  * and squarings of a matrix that leave its spectral radius to 1e-7. */
 enum { MULTIPLIER_ITERATIONS = 6, SQUARINGS = 24 };
 
-/* The left eigenvector of the slow multiplier, its first entry 1, and 1 - rho in `decay`. */
+/* Change of its decay in the last of them, as a share, from which on there is no slow multiplier: it is
+ * one of a pair with that of the vibration. */
+#define SEPARATED 0.01
+
+/* The left eigenvector of the slow multiplier, its first entry 1, and 1 - rho in `decay`, with the
+ * `change` of that in the last iteration. */
 static bool slow_eigenvector(double jacobian[UNKNOWNS][UNKNOWNS], int states,
-                             double left[UNKNOWNS], double *decay) {
+                             double left[UNKNOWNS], double *decay, double *change) {
     left[0] = 1.0;
     *decay = 0.0;
     for (int iteration = 0; iteration < MULTIPLIER_ITERATIONS; iteration++) {
@@ -32,11 +37,13 @@ static bool slow_eigenvector(double jacobian[UNKNOWNS][UNKNOWNS], int states,
         if (!solve_linear(fast, right, states - 1)) {
             return false;
         }
+        *change = -*decay;
         *decay = -jacobian[0][0];
         for (int i = 1; i < states; i++) {
             left[i] = right[i - 1];
             *decay -= left[i] * jacobian[i][0];
         }
+        *change += *decay;
     }
     return isfinite(*decay);
 }
@@ -65,6 +72,15 @@ static double spectral_radius(double matrix[UNKNOWNS][UNKNOWNS], int count) {
         memcpy(matrix, square, sizeof square);
     }
     return exp(logarithm);
+}
+
+double largest_multiplier(double jacobian[UNKNOWNS][UNKNOWNS], int states) {
+    double matrix[UNKNOWNS][UNKNOWNS];
+    memcpy(matrix, jacobian, sizeof matrix);
+    for (int i = 0; i < states; i++) {
+        matrix[i][i] += 1.0;
+    }
+    return spectral_radius(matrix, states);
 }
 
 /* The largest multiplier on the states in which the slow motion has no part. */
@@ -105,10 +121,10 @@ static bool find_lag(double jacobian[UNKNOWNS][UNKNOWNS], int states, OrbitLinea
 }
 
 bool linearise_orbit(double jacobian[UNKNOWNS][UNKNOWNS], int states, OrbitLinearisation *result) {
-    double left[UNKNOWNS], decay, tangent[UNKNOWNS] = {0.0};
+    double left[UNKNOWNS], decay, change = 0.0, tangent[UNKNOWNS] = {0.0};
     tangent[states] = 1.0;
     if (!solve_linear(jacobian, tangent, states + 1) ||
-        !slow_eigenvector(jacobian, states, left, &decay)) {
+        !slow_eigenvector(jacobian, states, left, &decay, &change)) {
         return false;
     }
     double gained = 0.0, moved = 0.0;
@@ -120,6 +136,8 @@ bool linearise_orbit(double jacobian[UNKNOWNS][UNKNOWNS], int states, OrbitLinea
     memcpy(result->tangent, tangent, (size_t)states * sizeof tangent[0]);
     result->fast_multiplier = fast_multiplier(jacobian, states, left);
     result->is_slow = decay < MAX_DECAY;
+    result->is_separate = fabs(change) <= SEPARATED * fabs(decay) + SMALL_DECAY &&
+                          result->fast_multiplier < fabs(1.0 - decay);
     double stretch = result->is_slow && decay != 0.0 ? -log1p(-decay) / decay : 1.0;
     result->factor = result->is_slow ? gained / moved * stretch : 1.0;
     return !result->is_slow || find_lag(jacobian, states, result);

@@ -23,10 +23,10 @@
 
 /* In the scales of the period map. `factor` is 1 + kappa_m, 1 where `is_slow` is false: there the
  * motion is stopped within some periods. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the
- * largest of the others in absolute value. `tangent` is x_V, and `lag` xi, 0 where the motion is
- * not slow. */
+ * largest of the others in absolute value. `is_separate` says that rho is one multiplier by itself, and
+ * decays more slowly than the others. `tangent` is x_V, and `lag` xi, 0 where the motion is not slow. */
 typedef struct {
-    bool is_slow;
+    bool is_slow, is_separate;
     double factor, slope, multiplier, fast_multiplier;
     double tangent[UNKNOWNS], lag[UNKNOWNS];
 } OrbitLinearisation;
@@ -34,5 +34,8 @@ typedef struct {
 /* From the `jacobian` of P(x, L) - x and of the mean velocity by x and L, `states` rows and one.
  * False where it is singular. */
 bool linearise_orbit(double jacobian[UNKNOWNS][UNKNOWNS], int states, OrbitLinearisation *result);
+
+/* The largest multiplier in absolute value of motion under the load of the orbit, from the same Jacobian. */
+double largest_multiplier(double jacobian[UNKNOWNS][UNKNOWNS], int states);
 
 #endif

@@ -86,14 +86,27 @@ static double orbit_theta(const OrbitRide *ride, double t, double theta, double 
     return phase;
 }
 
-/* Go over to the orbit whose W and centre are those of a moment; tells the orbit. */
+/* Resolve the motion for a drive angle [rad] at least. */
+static void resolve_for(const Law *law, OrbitState *orbit, double angle) {
+    if (orbit->stage != RESOLVED) {
+        error_leave(law, orbit);
+        orbit->stage = RESOLVED;
+        orbit->to_go = orbit->waited = 0.0;
+    }
+    orbit->to_go = fmax(orbit->to_go, angle);
+}
+
+/* Go over to the orbit whose W and centre are those of a moment; tells the orbit. Where it is unknown, motion is
+ * resolved on. */
 static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     OrbitState *orbit = &now->orbit;
     OrbitRide ride;
     Moment there;
     orbit->lead = lead_of(law, now);
     orbit_visit(&orbit->leads, orbit->lead);
-    orbit_pay(law, orbit, orbit->lead);
+    if (orbit_is_due(law, orbit)) {
+        orbit_pay(law, orbit, orbit->lead);
+    }
     ride_begin(&ride, law, now, orbit->lead);
     const PeriodMap *map = ride.map;
     double share = map->law.held.plant.mass_fraction;
@@ -103,6 +116,11 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     for (int i = 0; i < MAX_TAKING && !settled; i++) {
         if (!ride_moment(&ride, 0.0, theta, velocity, 0.0, &there, point)) {
             return false;
+        }
+        if (ride.unknown > 0.0) {
+            resolve_for(law, orbit, ride.unknown);
+            point->of[ORBIT_FACTOR] = 1.0;
+            return true;
         }
         double next = velocity + momentum - momentum_velocity(map, &there.state, theta);
         settled = fabs(next - velocity) <= TAKEN * map->speed;
@@ -143,16 +161,6 @@ static bool is_loaded(const OrbitState *orbit, const OrbitValues *present) {
     double before = orbit->under.load, tolerance = SAME_INPUT * fabs(before);
     return orbit->varied == HELD_INPUTS ? present->load != before
                                         : fabs(present->load - before) > tolerance;
-}
-
-/* Resolve the motion for a drive angle [rad] at least. */
-static void resolve_for(const Law *law, OrbitState *orbit, double angle) {
-    if (orbit->stage != RESOLVED) {
-        error_leave(law, orbit);
-        orbit->stage = RESOLVED;
-        orbit->to_go = orbit->waited = 0.0;
-    }
-    orbit->to_go = fmax(orbit->to_go, angle);
 }
 
 /* A drive angle [rad] of resolved motion is over. */
@@ -282,21 +290,21 @@ static double travel_at_mark(const void *motion, double t) {
     return fabs(t - marks->time[0]) < fabs(t - marks->time[1]) ? marks->travel[0] : marks->travel[1];
 }
 
-/* Go along orbits for `duration` [s], the last part of a step of `step_size` [s]. */
+/* Go along orbits for `duration` [s], the last part of a step of `step_size` [s]. Where one on the way is unknown,
+ * `now` stays as it is, to be resolved. */
 static bool follow(const Law *law, double duration, double step_size, Moment *now,
                    Refusal *refusal) {
     OrbitRide ride, *rider = &ride;
     OrbitState *orbit = &now->orbit;
     ride_begin(&ride, law, now, orbit->lead);
+    ride_within(&ride, duration);
     const Plant *plant = &law->held.plant;
     double w = plant->drive_frequency, length = TAU / w;
     double share = device_mass_fraction(&law->device);
     double chi = law->inputs.phase + now->psi, start = now->position, centre = orbit->centre;
     double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
-    double waves = fabs(law->inputs.frequency_ratio);
     double highest_load =
         fmax(fabs(plant->load), fabs(plant->load + plant->load_rate * duration));
-    int searches = (int)(MAX_SEARCH_STEPS / (1.0 + waves / SEARCH_WAVES));
     SlowPass plan = {
         .acceleration = ride_acceleration,
         .to_kink = ride_to_kink,
@@ -308,7 +316,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         .beat = slow_phase_beat(&ride.slow),
         .may_settle = !slow_phase_drifts(&ride.slow) && plant->load_rate == 0.0 &&
                       ride.source != FROM_SEARCH,
-        .most = ride.source == FROM_SEARCH ? searches : MAX_SLOW_STEPS,
+        .most = MAX_SLOW_STEPS,
         .jerk = -plant->load_rate / plant->total_mass,
         .sway = slow_friction_sway(&ride.first) / plant->total_mass,
     };
@@ -327,6 +335,10 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         if (!slow_pass(&plan, marks.time[i], &reached, refusal)) {
             return false;
         }
+        if (ride.unknown > 0.0) {
+            resolve_for(law, orbit, ride.unknown);
+            return true;
+        }
         reached.step = fmax(reached.step, step);
         double theta = orbit_theta(&ride, reached.t, 0.0, chi + turned_by(plant, reached.t));
         if (!ride_moment(&ride, reached.t, theta, reached.velocity, centre + reached.moved, &there,
@@ -340,11 +352,19 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     if (!slow_pass(&plan, duration, &reached, refusal)) {
         return false;
     }
+    if (ride.unknown > 0.0) {
+        resolve_for(law, orbit, ride.unknown);
+        return true;
+    }
     double theta = within_turn(now->theta + w * duration);
     double there_theta = orbit_theta(&ride, duration, theta, chi + turned_by(plant, duration));
     if (!ride_moment(&ride, duration, there_theta, reached.velocity, centre + reached.moved, &there,
                      &point)) {
         return refuse_infinite_motion(refusal, duration);
+    }
+    if (ride.unknown > 0.0) {
+        resolve_for(law, orbit, ride.unknown);
+        return true;
     }
     Response swing = swing_after(law, &orbit->swing, duration);
     add_swing(&there, &swing, share);
@@ -365,7 +385,34 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     error_carry(&ride, &from, &to, &point, duration, orbit);
     orbit->lead = ride_lead(&ride, duration);
     if (slow_phase_drifts(&ride.slow)) {
+        orbit->waited += w * duration;
+        if (orbit_is_due(law, orbit)) {
+            orbit_pay(law, orbit, orbit->lead);
+        }
         orbit->lead = within_turn(orbit->lead);
+    }
+    return true;
+}
+
+/* Resolve the `left` [s] of a step `passed` [s] after its beginning, where orbits are unknown. */
+static bool resolve_rest(const Law *law, double passed, double left, EventSearch *search, Moment *now,
+                         Refusal *refusal) {
+    double w = law->device.drive_frequency;
+    Law full = law_after(law->resolved, passed);
+    Moment before = *now;
+    OrbitState orbit = now->orbit;
+    if (search != NULL) {
+        search->after -= passed;
+    }
+    if (!events_advance(&full, &before, left, search, now, refusal)) {
+        return false;
+    }
+    now->orbit = orbit;
+    bool early = search != NULL && search->found;
+    resolved_for(law, &now->orbit, w * (early ? search->elapsed : left));
+    if (search != NULL) {
+        search->after += passed;
+        search->elapsed += early ? passed : 0.0;
     }
     return true;
 }
@@ -381,14 +428,19 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
         return false;
     }
     double left = resolved < duration ? duration - resolved : 0.0;
-    if (after->orbit.stage == RESOLVED || !(left * w > 0.0)) {
+    if ((search != NULL && search->found) || !(left * w > 0.0)) {
         return true;
     }
-    if (!is_ramped(&law->held.plant)) {
-        return follow(law, left, duration, after, refusal);
+    if (after->orbit.stage == ON_ORBIT) {
+        Law later = is_ramped(&law->held.plant) ? law_after(law, resolved) : *law;
+        if (!follow(&later, left, duration, after, refusal)) {
+            return false;
+        }
+        if (after->orbit.stage == ON_ORBIT) {
+            return true;
+        }
     }
-    Law later = law_after(law, resolved);
-    return follow(&later, left, duration, after, refusal);
+    return resolve_rest(law, resolved, left, search, after, refusal);
 }
 
 /* The estimate under held inputs. */

@@ -2,9 +2,6 @@
 
 #include <math.h>
 
-/* Largest number of period maps for an orbit, Jacobians included. */
-enum { MAX_MAPS = 120 };
-
 /* Correction of the unknowns, in their scales, below which an orbit is found. Up to ROUNDED it is found
  * also where corrections no longer decrease, by rounding. */
 #define COULOMB_CONVERGED 1e-13

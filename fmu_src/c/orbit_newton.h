@@ -6,6 +6,9 @@
 
 #include "orbit_equations.h"
 
+/* Maps that an orbit may take, Jacobians included, before it counts as not found. */
+enum { MAX_MAPS = 120 };
+
 /* The unknowns after a `part` of a step. */
 Unknowns unknowns_after(const Unknowns *unknowns, const double step[UNKNOWNS], double part);
 

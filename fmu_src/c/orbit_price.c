@@ -12,6 +12,9 @@
 #define BRISTLE_SERIES_TURNS 19000.0
 #define BRISTLE_SEARCH_TURNS 600.0
 
+/* What rounding takes from a price that has been waited for. */
+#define ROUNDING 1e-9
+
 void orbit_visit(VisitedLeads *leads, double lead) {
     for (int i = 0; i < leads->count && i < MAX_LEADS; i++) {
         if (leads->lead[i] == lead) {
@@ -40,7 +43,7 @@ static bool has_curve(const PaidTables *paid, double waves, double lead) {
     return false;
 }
 
-static bool has_series(const PaidTables *paid, double waves) {
+bool orbit_has_series(const PaidTables *paid, double waves) {
     return paid->has_series != 0 && paid->series_waves == waves;
 }
 
@@ -56,8 +59,10 @@ double orbit_price(const Law *law, const OrbitState *orbit, double lead, bool ch
         }
         break;
     case FROM_COMBINED:
+        changed = true;
+        /* fall through */
     case FROM_SERIES:
-        if (!has_series(paid, slow.waves)) {
+        if (changed && !orbit_has_series(paid, slow.waves)) {
             turns = coulomb ? SERIES_TURNS : BRISTLE_SERIES_TURNS;
         }
         break;
@@ -68,6 +73,13 @@ double orbit_price(const Law *law, const OrbitState *orbit, double lead, bool ch
         break;
     }
     return TAU * slow.turns * turns;
+}
+
+bool orbit_is_due(const Law *law, const OrbitState *orbit) {
+    const SlowPhase slow = orbit_phase_of(law);
+    double price = law->device.friction_law == 0 ? SERIES_TURNS : BRISTLE_SERIES_TURNS;
+    return !slow_phase_drifts(&slow) ||
+           orbit->waited >= TAU * slow.turns * price * (1.0 - ROUNDING);
 }
 
 /* Note a curve. Where more come than the cache has places for beside the series, that may be gone. */
@@ -97,7 +109,7 @@ void orbit_pay(const Law *law, OrbitState *orbit, double lead) {
         break;
     case FROM_COMBINED:
     case FROM_SERIES:
-        if (!has_series(paid, slow.waves)) {
+        if (!orbit_has_series(paid, slow.waves)) {
             *paid = (PaidTables){.has_series = 1, .series_waves = slow.waves};
         }
         break;

@@ -2,8 +2,11 @@
 
 #include <stddef.h>
 
+#include "constants.h"
 #include "contact.h"
 #include "elementary.h"
+#include "orbit_newton.h"
+#include "orbit_price.h"
 #include "state.h"
 
 /* Rates of the motion over the drive frequency up to which a turn of the drive is resolved often enough to
@@ -12,6 +15,14 @@
 
 /* How far from the fast velocity grazing counts as unknown where there is no curve, as a share of it. */
 #define GRAZING_BAND 0.05
+
+/* Turns for which motion is resolved where there is no orbit, until one is looked for again. */
+#define MISSED_TURNS 100.0
+
+/* Period maps for searches up to which a step has them, however short it is, and further ones for each turn of
+ * the drive in it: where they take more, motion is resolved. */
+#define SEARCH_MAPS 300.0
+#define SEARCH_MAPS_IN_TURN 20.0
 
 /* Waves of the normal load in a turn of the drive up to which orbits are found in some seconds. */
 #define MAX_ORBIT_WAVES 30.0
@@ -62,13 +73,29 @@ void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double le
     ride->map = orbit_map_of(law->orbits, device, &ride->slow);
     ride->lead = lead;
     ride->source = orbit_source_of(orbit, device, slow_phase_drifts(&ride->slow));
+    if (ride->source == FROM_SERIES && !orbit_has_series(&orbit->paid, ride->slow.waves)) {
+        ride->source = FROM_SEARCH;
+    }
     ride->first = slow_friction_of(law, moment->theta, moment->psi);
     ride->searched = false;
+    ride->unknown = 0.0;
+    ride->max_maps = (int)(MAX_STEP_MAPS / (ride->slow.turns *
+                                            (1.0 + fabs(law->inputs.frequency_ratio) / MAP_WAVES)));
+    law->orbits->ride++;
+    law->orbits->maps = 0;
     if (ride->source == FROM_CURVE || ride->source == FROM_COMBINED) {
         bool combined = ride->source == FROM_COMBINED;
         ride->curve = orbit_curve_of(law->orbits, device, &ride->slow, lead, combined);
     } else if (ride->source == FROM_SERIES) {
         ride->series = orbit_series_of(law->orbits, device, &ride->slow);
+    }
+}
+
+void ride_within(OrbitRide *ride, double duration) {
+    double turns = ride->law->device.drive_frequency * duration / TAU;
+    if (ride->source == FROM_SEARCH && !(turns > ride->max_maps)) {
+        int most = (int)(SEARCH_MAPS + SEARCH_MAPS_IN_TURN * turns);
+        ride->max_maps = most < ride->max_maps ? most : ride->max_maps;
     }
 }
 
@@ -79,10 +106,19 @@ double ride_lead(const OrbitRide *ride, double t) {
 /* Searches from the orbit found last, then without. */
 static bool search(OrbitRide *ride, double t, double velocity) {
     double lead = ride_lead(ride, t);
-    bool found = ride->searched && held_orbit_at(ride->map, lead, velocity, &ride->last,
-                                                 &ride->last) == ORBIT_FOUND;
-    found = found || held_orbit_at(ride->map, lead, velocity, NULL, &ride->last) == ORBIT_FOUND;
+    int *maps = &ride->law->orbits->maps;
+    bool found = false;
+    if (ride->searched) {
+        found = held_orbit_at(ride->map, lead, velocity, &ride->last, &ride->last) == ORBIT_FOUND;
+        *maps += found ? 0 : MAX_MAPS;
+    }
+    if (!found) {
+        found = held_orbit_at(ride->map, lead, velocity, NULL, &ride->last) == ORBIT_FOUND;
+        *maps += found ? 0 : MAX_MAPS;
+    }
+    *maps += found ? ride->last.maps : 0;
     if (found && ride->map->law.device.friction_law != 0) {
+        *maps += ride->map->states + 2;
         found = held_orbit_linearise(ride->map, &ride->last) == ORBIT_FOUND;
     }
     ride->searched = found;
@@ -90,36 +126,74 @@ static bool search(OrbitRide *ride, double t, double velocity) {
 }
 
 static bool known_point(OrbitRide *ride, double t, double velocity, OrbitPoint *point) {
+    OrbitTables *tables = ride->law->orbits;
     switch (ride->source) {
     case FROM_CURVE:
+        return orbit_point_at(tables, ride->curve, velocity, point);
     case FROM_COMBINED:
-        return orbit_point_at(ride->law->orbits, ride->curve, velocity, point);
+        if (!ride->curve->found) {
+            return false;
+        }
+        if (orbit_point_at(tables, ride->curve, velocity, point)) {
+            return true;
+        }
+        break;
     case FROM_SERIES:
-        return orbit_series_at(ride->law->orbits, &ride->series, ride_lead(ride, t), velocity, point);
+        if (!orbit_series_found(&ride->series)) {
+            return false;
+        }
+        if (orbit_series_at(tables, &ride->series, ride_lead(ride, t), velocity, point)) {
+            return true;
+        }
+        break;
     case FROM_SEARCH:
         break;
     }
     return search(ride, t, velocity) && orbit_point_of(ride->map, &ride->last, point);
 }
 
+static bool known_friction(OrbitRide *ride, double t, double velocity, double *friction,
+                           double *factor) {
+    OrbitTables *tables = ride->law->orbits;
+    switch (ride->source) {
+    case FROM_CURVE:
+        return orbit_friction_at(tables, ride->curve, velocity, friction, factor);
+    case FROM_COMBINED:
+        if (!ride->curve->found) {
+            return false;
+        }
+        if (orbit_friction_at(tables, ride->curve, velocity, friction, factor)) {
+            return true;
+        }
+        break;
+    case FROM_SERIES:
+        if (!orbit_series_found(&ride->series)) {
+            return false;
+        }
+        if (orbit_series_friction_at(tables, &ride->series, ride_lead(ride, t), velocity, friction,
+                                     factor)) {
+            return true;
+        }
+        break;
+    case FROM_SEARCH:
+        break;
+    }
+    if (!search(ride, t, velocity)) {
+        return false;
+    }
+    *friction = ride->last.friction;
+    *factor = ride->last.factor;
+    return true;
+}
+
 double ride_acceleration(const void *rider, double t, double velocity) {
     OrbitRide *ride = *(OrbitRide *const *)rider;
     const Plant *plant = &ride->law->held.plant;
     double friction = 0.0, factor = 1.0;
-    bool found = false;
-    if (ride->source == FROM_CURVE || ride->source == FROM_COMBINED) {
-        found = orbit_friction_at(ride->law->orbits, ride->curve, velocity, &friction, &factor);
-    } else if (ride->source == FROM_SERIES) {
-        found = orbit_series_friction_at(ride->law->orbits, &ride->series, ride_lead(ride, t),
-                                         velocity, &friction, &factor);
-    } else if (search(ride, t, velocity)) {
-        found = true;
-        friction = ride->last.friction;
-        factor = ride->last.factor;
-    }
-    if (!found) {
-        friction = slow_friction_at(&ride->first, t, velocity);
-        factor = 1.0;
+    bool found = known_friction(ride, t, velocity, &friction, &factor);
+    if (!found || ride->law->orbits->maps > ride->max_maps) {
+        ride->unknown = TAU * (found ? (double)MAX_STEP_MAPS : MISSED_TURNS);
+        return NAN;
     }
     double load = plant->load + plant->load_rate * t;
     return -factor * (friction + load) / plant->total_mass;
@@ -144,6 +218,7 @@ OrbitPoint ride_point(OrbitRide *ride, double t, double velocity) {
     if (known_point(ride, t, velocity, &point)) {
         return point;
     }
+    ride->unknown = TAU * MISSED_TURNS;
     const PeriodMap *map = ride->map;
     int direction = velocity >= 0.0 ? FORWARD : BACKWARD;
     Response swing = steady_swing(map->fast.resonator, section_phase(map, direction),

@@ -13,7 +13,9 @@
 typedef enum { FROM_CURVE, FROM_COMBINED, FROM_SERIES, FROM_SEARCH } OrbitSource;
 
 /* The ride from drive phase `theta` [rad] on, where the lead is `lead` [rad]. `last` is the orbit found
- * last, `searched` whether there is one. Where there is no orbit, averages of `first` order serve. */
+ * last, `searched` whether there is one. Where there is no orbit, or where the orbits of the ride take more than
+ * `max_maps`, motion has to be resolved for the drive angle `unknown` [rad]; for outputs averages of `first`
+ * order serve there. */
 typedef struct {
     const Law *law;
     const PeriodMap *map;
@@ -25,6 +27,8 @@ typedef struct {
     SlowFriction first;
     bool searched;
     HeldOrbit last;
+    int max_maps;
+    double unknown;
 } OrbitRide;
 
 /* The slow phase that counts for orbits: that of a load that does not vibrate stands still. `turns` is 0,
@@ -37,11 +41,14 @@ OrbitSource orbit_source_of(const OrbitState *orbit, const Device *device, bool 
 /* Begin a ride at `lead` [rad] with the phases of a moment. */
 void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead);
 
+/* Bound the maps of a ride that searches by the turns in `duration` [s]. */
+void ride_within(OrbitRide *ride, double duration);
+
 /* The lead [rad] at time `t` [s] from the beginning. */
 double ride_lead(const OrbitRide *ride, double t);
 
-/* Slow acceleration [m/s^2] at time `t` [s] from the beginning, at a slow velocity [m/s]. `rider`
- * points to a pointer to the ride. */
+/* Slow acceleration [m/s^2] at time `t` [s] from the beginning, at a slow velocity [m/s]; not a number where
+ * the orbit is unknown, which ends an integration. `rider` points to a pointer to the ride. */
 double ride_acceleration(const void *rider, double t, double velocity);
 
 /* Time [s] from `t` [s] on for which the acceleration is smooth. */

@@ -34,7 +34,8 @@ typedef struct {
     double series_waves;
 } PaidTables;
 
-/* `to_go` is the drive angle [rad] that is still to be resolved, `waited` what has been. On an orbit: slow
+/* `to_go` is the drive angle [rad] that is still to be resolved, `waited` what has been, or on an orbit whose lead
+ * drifts what has been followed. On an orbit: slow
  * velocity V [m/s], slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by
  * which it differs from the orbit. The step was made `under` these values; `tunings`
  * counts, up to MAX_TUNINGS, how often a parameter changed the orbits. `varied` is how inputs did during

@@ -1,6 +1,7 @@
 #include "orbit_tables.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "contact.h"
 #include "elementary.h"
@@ -92,6 +93,7 @@ static void combine_begin(OrbitTables *tables, OrbitCurve *curve) {
     curve->found = true;
     curve->middle = curve->reach = 0.0;
     curve->next = 0;
+    curve->ride = 0;
     curve->beyond[0] = curve->beyond[1] = (OrbitPoint){.direction = 0};
     for (int i = 0; i < CURVE_PANELS; i++) {
         curve->panel[i].known = false;
@@ -116,6 +118,7 @@ static void combine_panel(OrbitTables *tables, OrbitCurve *curve, OrbitPanel *pa
     for (int i = 0; i < SERIES_LEADS; i++) {
         OrbitCurve *part = orbit_curve_in_series(tables, curve, i);
         const OrbitPanel *made = panel_of(tables, part, panel->depth, panel->index);
+        panel->maps += made->maps;
         panel->found = panel->found && made->found;
         panel->holds = panel->holds && made->holds;
         if (!panel->found) {
@@ -183,15 +186,33 @@ OrbitCurve *orbit_curve_of(OrbitTables *tables, const Device *device, const Slow
     return curve;
 }
 
-/* The panel around a place that holds, made where it is missing. */
+/* A panel of a curve that a ride asks for. */
+static const OrbitPanel *ask(OrbitTables *tables, OrbitCurve *curve, int depth, int index) {
+    const OrbitPanel *panel = panel_of(tables, curve, depth, index);
+    int place = BASE_PANELS * ((1 << depth) - 1) + index;
+    unsigned char bit = (unsigned char)(1u << place % 8);
+    if (curve->ride != tables->ride) {
+        curve->ride = tables->ride;
+        memset(curve->asked, 0, sizeof curve->asked);
+    }
+    if (!(curve->asked[place / 8] & bit)) {
+        curve->asked[place / 8] |= bit;
+        tables->maps += panel->maps;
+    }
+    return panel;
+}
+
+/* The panel around a place that holds and has all orbits, made where it is missing; NULL where there is
+ * none. */
 static const OrbitPanel *panel_around(OrbitTables *tables, OrbitCurve *curve, double place) {
-    for (int depth = 0;; depth++) {
-        int index = index_at(place, depth);
-        const OrbitPanel *panel = panel_of(tables, curve, depth, index);
+    int deepest = curve->combined ? SERIES_DEPTH : MAX_DEPTH;
+    for (int depth = 0; depth <= deepest; depth++) {
+        const OrbitPanel *panel = ask(tables, curve, depth, index_at(place, depth));
         if (panel->holds) {
-            return panel;
+            return panel->found ? panel : NULL;
         }
     }
+    return NULL;
 }
 
 /* Place among the base panels, from 0 on; negative beyond grazing. */
@@ -218,7 +239,7 @@ bool orbit_point_at(OrbitTables *tables, OrbitCurve *curve, double velocity, Orb
         return true;
     }
     const OrbitPanel *panel = panel_around(tables, curve, place);
-    if (!panel->found) {
+    if (panel == NULL) {
         return false;
     }
     for (int q = 0; q < ORBIT_QUANTITIES; q++) {
@@ -243,9 +264,12 @@ bool orbit_friction_at(OrbitTables *tables, OrbitCurve *curve, double velocity, 
         return true;
     }
     const OrbitPanel *panel = panel_around(tables, curve, place);
+    if (panel == NULL) {
+        return false;
+    }
     *friction = orbit_panel_at(panel, ORBIT_FRICTION, place);
     *factor = orbit_panel_at(panel, ORBIT_FACTOR, place);
-    return panel->found;
+    return true;
 }
 
 OrbitSeries orbit_series_of(OrbitTables *tables, const Device *device, const SlowPhase *slow) {
@@ -256,24 +280,30 @@ OrbitSeries orbit_series_of(OrbitTables *tables, const Device *device, const Slo
     return series;
 }
 
-/* The panels of all curves around a place, of the depth at which all hold; false where one is missing. */
-static bool series_panels(OrbitTables *tables, const OrbitSeries *series, double place,
-                          const OrbitPanel *panels[SERIES_LEADS]) {
-    bool holds = false;
-    for (int depth = 0; !holds; depth++) {
-        int index = index_at(place, depth);
-        holds = true;
-        for (int i = 0; i < SERIES_LEADS; i++) {
-            panels[i] = panel_of(tables, series->part[i], depth, index);
-            holds = holds && panels[i]->holds;
-        }
-    }
+bool orbit_series_found(const OrbitSeries *series) {
     for (int i = 0; i < SERIES_LEADS; i++) {
-        if (!panels[i]->found) {
+        if (!series->part[i]->found) {
             return false;
         }
     }
     return true;
+}
+
+/* The panels of all curves around a place, of the depth at which all hold; false where there is none, or an
+ * orbit is missing. */
+static bool series_panels(OrbitTables *tables, const OrbitSeries *series, double place,
+                          const OrbitPanel *panels[SERIES_LEADS]) {
+    bool holds = false, found = false;
+    for (int depth = 0; depth <= SERIES_DEPTH && !holds; depth++) {
+        int index = index_at(place, depth);
+        holds = found = true;
+        for (int i = 0; i < SERIES_LEADS; i++) {
+            panels[i] = ask(tables, series->part[i], depth, index);
+            holds = holds && panels[i]->holds;
+            found = found && panels[i]->found;
+        }
+    }
+    return holds && found;
 }
 
 /* Sums the first `count` quantities at a lead and a velocity. */

@@ -11,12 +11,18 @@
  * combination of them, and the curves of MAX_LEADS leads. */
 enum { SERIES_LEADS = 9, CURVES = 14 };
 
-/* Zeroed memory holds no table. `map` is the one that was used last, of these `waves`. */
+/* Most halvings of panels between which orbits are interpolated over leads: each is one for all leads, and orbits
+ * that need smaller ones are searched. */
+enum { SERIES_DEPTH = 2 };
+
+/* Zeroed memory holds no table. `map` is the one that was used last, of these `waves`. `maps` counts the period
+ * maps of all that the ride of number `ride` has asked for, whether it was tabulated before or not. */
 typedef struct OrbitTables {
     bool mapped;
     PeriodMap map;
     Device device;
-    long clock;
+    long clock, ride;
+    int maps;
     OrbitCurve curve[CURVES];
 } OrbitTables;
 
@@ -36,7 +42,8 @@ void orbit_series_weights(double lead, double weight[SERIES_LEADS]);
 /* Place of a velocity [m/s] among the base panels of a curve, from 0 on; negative beyond grazing. */
 double orbit_place(const OrbitCurve *curve, double velocity);
 
-/* All quantities at a velocity [m/s]; false where there is no orbit. */
+/* All quantities at a velocity [m/s]; false where there is no orbit, or where panels of a combined curve are not
+ * wide. */
 bool orbit_point_at(OrbitTables *tables, OrbitCurve *curve, double velocity, OrbitPoint *point);
 
 /* The `friction` [N] and `factor` alone. */
@@ -50,7 +57,11 @@ typedef struct {
 
 OrbitSeries orbit_series_of(OrbitTables *tables, const Device *device, const SlowPhase *slow);
 
-/* All quantities at a lead [rad] and a velocity [m/s] by the series; false where there is no orbit. */
+/* Whether there are orbits at all leads of the series. */
+bool orbit_series_found(const OrbitSeries *series);
+
+/* All quantities at a lead [rad] and a velocity [m/s] by the series; false where there is no orbit, or where
+ * their panels are not wide. */
 bool orbit_series_at(OrbitTables *tables, const OrbitSeries *series, double lead, double velocity,
                      OrbitPoint *point);
 

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "friction_law.h"
+#include "orbit_motion.h"
 #include "orbit_ride.h"
 #include "steady_orbit.h"
 #include "vibrating_load.h"
@@ -26,7 +27,8 @@ static OrbitStatus find_steady(const Law *law, const PeriodMap *map, double lead
     if (is_monotonic(law, map) &&
         held_orbit_at(map, lead, velocity, NULL, orbit) == ORBIT_FOUND &&
         steady_orbit_at(map, lead, load, orbit, orbit) == ORBIT_FOUND &&
-        fabs(orbit->velocity - velocity) <= SAME * map->speed) {
+        fabs(orbit->velocity - velocity) <= SAME * map->speed &&
+        held_orbit_check_stable(map, orbit) == ORBIT_FOUND) {
         return ORBIT_FOUND;
     }
     return steady_orbit(map, lead, load, orbit);
@@ -56,6 +58,12 @@ Averaged prediction_of(const Law *law, double normal_lead) {
         period_map_prepare(&map, device, slow.waves, slow.turns, &refusal) &&
         find_steady(law, &map, lead, prediction.steady_velocity, &steady) == ORBIT_FOUND &&
         blocking_orbit(&map, lead, &blocked, &force) == ORBIT_FOUND;
+    if (prediction.valid) {
+        Law shaken = *law;
+        shaken.fast = map.fast;
+        prediction.valid =
+            has_slow_motion(&shaken) || (is_unique(&map, &steady) && is_unique(&map, &blocked));
+    }
     if (prediction.valid) {
         prediction.steady_velocity = steady.velocity;
         prediction.blocking_force = force;

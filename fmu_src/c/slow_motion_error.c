@@ -35,10 +35,25 @@
 #define RESOLUTION 1e-9
 #define LEAST_BY_RULE 1e-8
 
+/* Damping of bristles over Coulomb friction; 0 without bristles. A bristle bends over a path of 2 mu/s0 after
+ * each of two reversals in a turn, and damps by the impulse of 2 mu s1/s0 per normal load; but by no more than
+ * s1 v_q all the time. */
+static double damping_of_bend(const Law *law) {
+    const Device *device = &law->device;
+    if (device->friction_law == 0) {
+        return 0.0;
+    }
+    const Bristle *bristle = &law->bristle;
+    double all_time = bristle->damping * law->fast.velocity / bristle->coefficient;
+    double bends = 2.0 / PI * bristle->damping / bristle->stiffness * device->drive_frequency;
+    return fmin(all_time, bends);
+}
+
 double friction_share(const Law *law) {
     const Device *device = &law->device;
     double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
-    double friction = device->friction_faces * device->friction_coefficient * normal;
+    double friction = device->friction_faces * device->friction_coefficient * normal *
+                      hypot(1.0, damping_of_bend(law));
     return friction / (device_total_mass(device) * device->drive_frequency * law->fast.velocity);
 }
 

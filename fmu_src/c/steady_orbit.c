@@ -16,7 +16,12 @@ enum { SAMPLES = 12, MAX_HALVINGS = 60 };
  * iteration would converge. */
 #define MAX_SPEED 1e150
 
-/* Force, over full friction, within which forces balance: rounding, or the tolerance of a map. */
+/* Distance in v_q of velocities from which orbits lead to others of the velocity between them, and velocity
+ * from which on the slider does not turn back, of further ones. */
+#define BESIDE 0.1
+#define FAR 2.0
+
+/* Force, over full friction, that is rounding or the tolerance of a map. */
 #define NOISE 1e-9
 
 /* Two velocities [m/s]: at `low` friction and load together accelerate the slider, at `high` they brake it.
@@ -99,11 +104,33 @@ OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrb
     if (scan.count != 1) {
         return scan.count == 0 ? failure : ORBIT_UNDETERMINED;
     }
-    return refine(map, lead, load, &scan.bracket, orbit);
+    OrbitStatus status = refine(map, lead, load, &scan.bracket, orbit);
+    if (status == ORBIT_FOUND) {
+        status = held_orbit_check_stable(map, orbit);
+    }
+    return status;
 }
 
 OrbitStatus blocking_orbit(const PeriodMap *map, double lead, HeldOrbit *orbit, double *force) {
     OrbitStatus status = held_orbit_at(map, lead, 0.0, NULL, orbit);
+    if (status == ORBIT_FOUND) {
+        status = held_orbit_check_stable(map, orbit);
+    }
     *force = status == ORBIT_FOUND ? -orbit->friction : 0.0;
     return status;
+}
+
+bool is_unique(const PeriodMap *map, const HeldOrbit *orbit) {
+    double velocity = orbit->velocity;
+    const double starts[] = {velocity - BESIDE * map->speed, velocity + BESIDE * map->speed,
+                             -FAR * map->speed, FAR * map->speed};
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
+        HeldOrbit neighbour, other;
+        if (held_orbit_at(map, orbit->lead, starts[i], NULL, &neighbour) == ORBIT_FOUND &&
+            held_orbit_at(map, orbit->lead, velocity, &neighbour, &other) == ORBIT_FOUND &&
+            !is_same_orbit(map, orbit, &other)) {
+            return false;
+        }
+    }
+    return true;
 }

@@ -17,14 +17,15 @@ MAX_SLOW_STEPS = 2_000_000
 MAX_QUADRATURE_STEPS = 20_000
 """The same if each step costs quadratures, which take longer the more waves the load has."""
 
-MAX_SEARCH_STEPS = 4_000
-"""The same if each stage of a step searches a held orbit, under few waves of the normal load."""
+MAX_STEP_MAPS = 8_000
+"""Turns mapped for held orbits in one communication step, under few waves of the normal load."""
 
-SEARCH_WAVES = 10.0
-"""Waves of the normal load in a drive turn that double the cost of such a search."""
+MAP_WAVES = 10.0
+"""Waves of the normal load in a drive turn that double the cost of such a map."""
 
 PYTHON_SLOWDOWN = 100
-"""Time of a leg in Python over that in C. The bounds above are divided by it in Python."""
+"""In Python a leg takes so many times as long, and each of these bounds is so much lower, but that
+of maps."""
 
 TIME_SLACK = 1e-6
 """Fraction of a step by which hosts may round their own time."""

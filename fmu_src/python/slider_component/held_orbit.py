@@ -19,10 +19,16 @@ from .linear_system import Matrix, Vector
 from .moment import Moment
 from .motion import State
 from .orbit_equations import OrbitEquations
-from .orbit_linearisation import linearised
+from .orbit_linearisation import largest_multiplier, linearised
 from .orbit_newton import solved, unknowns_after
 from .oscillator import transfer
 from .period_map import PeriodMap
+
+SAME_FRICTION = 1e-6
+"""Difference of mean friction, over that of sliding, up to which orbits are the same."""
+
+NEUTRAL = 1.0 + 1e-4
+"""Multiplier from which on motion leaves an orbit; 1, but for differences, where it slides on."""
 
 SECTION_REACH = 0.5
 """Largest velocity against the direction of a section, in v_q, at which the section is used."""
@@ -38,6 +44,7 @@ class OrbitStatus(IntEnum):
     UNSTABLE = 4
     RUNS_AWAY = 5
     UNDETERMINED = 6
+    NOT_SLOW = 7
 
 
 class NoOrbitError(RuntimeError):
@@ -47,7 +54,8 @@ class NoOrbitError(RuntimeError):
     friction holds the slider at rest throughout. NOT_CONVERGED: Newton's method does not converge.
     UNSTABLE: the vibration about the orbit does not decay. RUNS_AWAY: the load exceeds all
     friction, so that no velocity is steady. UNDETERMINED: the load leaves several velocities
-    steady.
+    steady, or several motions one velocity. NOT_SLOW: bristles follow no faster than the velocity
+    changes.
     """
 
     def __init__(self, status: OrbitStatus) -> None:
@@ -145,6 +153,8 @@ def held_orbit_linearised(period_map: PeriodMap, orbit: HeldOrbit) -> HeldOrbit:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
     if not linear.fast_multiplier < 1.0:
         raise NoOrbitError(OrbitStatus.UNSTABLE)
+    if period_map.states > 3 and not orbit.sticks and not linear.is_separate:
+        raise NoOrbitError(OrbitStatus.NOT_SLOW)
     drifts = linear.is_slow and not orbit.sticks
     scales = period_map
     return replace(
@@ -160,6 +170,27 @@ def held_orbit_linearised(period_map: PeriodMap, orbit: HeldOrbit) -> HeldOrbit:
         else NO_RATE,
         linearised=True,
     )
+
+
+def check_stable(period_map: PeriodMap, orbit: HeldOrbit) -> None:
+    """Raise NoOrbitError where motion under the load of the orbit leaves it.
+
+    That costs as many maps as there are unknowns, and one.
+    """
+    equations = OrbitEquations(period_map, orbit.lead, theta=orbit.section.theta)
+    unknowns = equations.unknowns(orbit.section.state, orbit.section.bristle, -orbit.friction)
+    trial = equations.attempt(unknowns)
+    jacobian = equations.jacobian(unknowns, trial) if trial is not None else None
+    if jacobian is None:
+        raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
+    if not largest_multiplier(jacobian) < NEUTRAL:
+        raise NoOrbitError(OrbitStatus.UNSTABLE)
+
+
+def is_same_orbit(period_map: PeriodMap, one: HeldOrbit, other: HeldOrbit) -> bool:
+    """Whether two orbits of one lead and velocity are the same: their friction is."""
+    sliding = period_map.sliding_friction(one.lead)
+    return abs(one.friction - other.friction) <= SAME_FRICTION * sliding
 
 
 def _check(period_map: PeriodMap) -> None:

@@ -19,10 +19,12 @@ from .held_orbit import (
     OrbitStatus,
     held_orbit_at,
     held_orbit_linearised,
+    is_same_orbit,
 )
 from .moment import Moment
 from .orbit_drift import held_orbit_offset
 from .orbit_shifts import ShiftPoint, shift_point
+from .orbit_newton import MAX_MAPS
 from .period_map import PeriodMap
 
 ORBIT_NODES = 12
@@ -96,13 +98,15 @@ class OrbitPanel:
     """Chebyshev coefficients over the panel `index` of 2^depth in which each base panel is halved.
 
     Of each quantity only those that are not rounding. `coefficients` is None where an orbit is
-    missing; `holds` is false where the panel has to be halved.
+    missing; `holds` is false where the panel has to be halved. `maps` is how often a period was
+    mapped for it.
     """
 
     depth: int
     index: int
     holds: bool
     coefficients: tuple[tuple[float, ...], ...] | None
+    maps: int
 
     @property
     def direction(self) -> int:
@@ -203,23 +207,24 @@ class OrbitCurve:
         return grazing, point_of(self._map, orbit)
 
     def _made(self, depth: int, index: int) -> OrbitPanel:
-        try:
-            points = self._nodes(depth, index)
-        except NoOrbitError:
-            return OrbitPanel(depth, index, depth >= MAX_DEPTH_MISSING, None)
+        points, maps = self._nodes(depth, index)
+        if points is None:
+            return OrbitPanel(depth, index, depth >= MAX_DEPTH_MISSING, None, maps)
         holds, coefficients = True, []
         for values, scale in zip(zip(*points, strict=True), self._scales(), strict=True):
             c = [_coefficient(values, k) for k in range(ORBIT_NODES)]
             if max(abs(c[-1]), abs(c[-2])) > MAX_REST * scale and depth < MAX_DEPTH:
                 holds = False
             coefficients.append(trimmed(c))
-        return OrbitPanel(depth, index, holds, tuple(coefficients))
+        return OrbitPanel(depth, index, holds, tuple(coefficients), maps)
 
-    def _nodes(self, depth: int, index: int) -> list[Quantities]:
+    def _nodes(self, depth: int, index: int) -> tuple[list[Quantities] | None, int]:
         """The orbits at the nodes, each from the one before.
 
         The first is the one halfway to grazing, where a search without neighbour is at its best.
-        Under Coulomb friction the added mass is left out where it is negligible there.
+        Under Coulomb friction the added mass is left out where it is negligible there. At the last
+        a search without neighbour must find the same orbit. Tells the maps that took, too; None
+        where an orbit is missing.
         """
         width = pi / (BASE_PANELS << depth)
         nodes = list(range(ORBIT_NODES))
@@ -228,18 +233,37 @@ class OrbitCurve:
         coulomb, lags = self._map.held.device.friction_law == 0, True
         found: dict[int, Quantities] = {}
         orbit: HeldOrbit | None = None
-        for node in nodes:
-            chi = (index + 0.5 + 0.5 * cos(pi * (node + 0.5) / ORBIT_NODES)) * width
-            velocity = self.middle + self.reach * cos(chi)
-            orbit = held_orbit_at(self._map, self.lead, velocity, orbit)
-            if lags:
-                orbit = held_orbit_linearised(self._map, orbit)
-                lags = abs(orbit.factor - 1.0) > NO_ADDED_MASS if coulomb else True
-                orbit = orbit if lags else replace(orbit, factor=1.0)
-            if orbit.direction != direction_of_panel(depth, index):
-                raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
-            found[node] = point_of(self._map, orbit).of
-        return [found[node] for node in range(ORBIT_NODES)]
+        maps = 0
+        try:
+            for node in nodes:
+                chi = (index + 0.5 + 0.5 * cos(pi * (node + 0.5) / ORBIT_NODES)) * width
+                velocity = self.middle + self.reach * cos(chi)
+                orbit = held_orbit_at(self._map, self.lead, velocity, orbit)
+                is_checked = depth == 0 and len(found) == ORBIT_NODES - 1
+                if lags or is_checked:
+                    orbit = held_orbit_linearised(self._map, orbit)
+                    lags = (lags and abs(orbit.factor - 1.0) > NO_ADDED_MASS) or not coulomb
+                    orbit = orbit if lags else replace(orbit, factor=1.0)
+                maps += orbit.maps + 1
+                if orbit.direction != direction_of_panel(depth, index):
+                    return None, maps
+                if is_checked:
+                    others, same = self._is_the_only_one(orbit)
+                    maps += others
+                    if not same:
+                        return None, maps
+                found[node] = point_of(self._map, orbit).of
+        except NoOrbitError:
+            return None, maps + MAX_MAPS
+        return [found[node] for node in range(ORBIT_NODES)], maps
+
+    def _is_the_only_one(self, orbit: HeldOrbit) -> tuple[int, bool]:
+        """Whether a search without neighbour finds the same orbit, and the maps that takes."""
+        try:
+            other = held_orbit_at(self._map, self.lead, orbit.velocity)
+        except NoOrbitError:
+            return MAX_MAPS, True
+        return other.maps, is_same_orbit(self._map, orbit, other)
 
     def _scales(self) -> Quantities:
         """Scales in which the quantities have to hold."""

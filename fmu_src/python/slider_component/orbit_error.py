@@ -226,7 +226,7 @@ class ErrorRide:
         step = SLOPE_STEP * self.fast.velocity
         more = self.ride.acceleration(duration, velocity + step)
         slope = more - self.ride.acceleration(duration, velocity - step)
-        return exp(min(0.5 * slope / step, 0.0) * duration)
+        return exp(min(0.0, 0.5 * slope / step) * duration)
 
     def _left_by_excess(
         self, start: ErrorPlace, end: ErrorPlace, duration: float, orbit: OrbitState

@@ -26,6 +26,10 @@ from .linear_system import Matrix, Vector, solve_linear
 MULTIPLIER_ITERATIONS = 6
 """Iterations of the slow multiplier: each leaves the share of the coupling that is left."""
 
+SEPARATED = 0.01
+"""Change of its decay in the last of them, as a share, from which on there is no slow multiplier:
+it is one of a pair with that of the vibration."""
+
 SMALL_DECAY = 1e-3
 """Decay in a period below which its series serves."""
 
@@ -44,12 +48,14 @@ SQUARINGS = 24
 class OrbitLinearisation:
     """The slow and the fast part of the departure, in the scales of the period map.
 
-    `factor` is 1 + kappa_m, 1 where `is_slow` is false: there the motion is stopped within some
-    periods. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the largest of the others in
-    absolute value. `tangent` is x_V, and `lag` xi, 0 where the motion is not slow.
+    `factor` is 1 + kappa_m, 1 where `is_slow` is false: there the motion is stopped within
+    some periods. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the largest of the others in
+    absolute value. `is_separate` says that rho is one multiplier by itself, and decays more slowly
+    than the others. `tangent` is x_V, and `lag` xi, 0 where the motion is not slow.
     """
 
     is_slow: bool
+    is_separate: bool
     factor: float
     slope: float
     multiplier: float
@@ -68,7 +74,7 @@ def linearised(jacobian: Matrix) -> OrbitLinearisation | None:
     slow = _slow_eigenvector(jacobian)
     if tangent is None or slow is None:
         return None
-    left, decay = slow
+    left, decay, change = slow
     gained = -sum(left[i] * jacobian[i][states] for i in range(states))
     moved = sum(left[i] * tangent[i] for i in range(states))
     is_slow = decay < MAX_DECAY
@@ -76,29 +82,34 @@ def linearised(jacobian: Matrix) -> OrbitLinearisation | None:
     if lag is None:
         return None
     stretch = -log1p(-decay) / decay if is_slow and decay != 0.0 else 1.0
+    fast = _fast_multiplier(jacobian, left)
     return OrbitLinearisation(
         is_slow=is_slow,
+        is_separate=abs(change) <= SEPARATED * abs(decay) + SMALL_DECAY and fast < abs(1.0 - decay),
         factor=gained / moved * stretch if is_slow else 1.0,
         slope=-tangent[states],
         multiplier=1.0 - decay,
-        fast_multiplier=_fast_multiplier(jacobian, left),
+        fast_multiplier=fast,
         tangent=tangent[:states],
         lag=lag,
     )
 
 
-def _slow_eigenvector(jacobian: Matrix) -> tuple[Vector, float] | None:
-    """The left eigenvector of the slow multiplier, its first entry 1, and 1 - rho."""
+def _slow_eigenvector(jacobian: Matrix) -> tuple[Vector, float, float] | None:
+    """The left eigenvector of the slow multiplier, its first entry 1, and 1 - rho.
+
+    With the change of 1 - rho in the last iteration.
+    """
     fast = range(1, len(jacobian) - 1)
-    left, decay = [1.0], 0.0
+    left, decay, before = [1.0], 0.0, 0.0
     for _ in range(MULTIPLIER_ITERATIONS):
         matrix = [[jacobian[j][i] + (decay if i == j else 0.0) for j in fast] for i in fast]
         found = solve_linear(matrix, [-jacobian[0][i] for i in fast])
         if found is None:
             return None
-        left = [1.0, *found]
+        left, before = [1.0, *found], decay
         decay = -jacobian[0][0] - sum(left[i] * jacobian[i][0] for i in fast)
-    return (left, decay) if isfinite(decay) else None
+    return (left, decay, decay - before) if isfinite(decay) else None
 
 
 def _lag(jacobian: Matrix, decay: float, tangent: Vector) -> Vector | None:
@@ -127,6 +138,15 @@ def _fast_multiplier(jacobian: Matrix, left: Vector) -> float:
     return _spectral_radius(
         [[jacobian[i][j] + (i == j) - jacobian[i][0] * left[j] for j in fast] for i in fast]
     )
+
+
+def largest_multiplier(jacobian: Matrix) -> float:
+    """The largest multiplier in absolute value of motion under the load of the orbit.
+
+    From the same Jacobian.
+    """
+    states = range(len(jacobian) - 1)
+    return _spectral_radius([[jacobian[i][j] + (i == j) for j in states] for i in states])
 
 
 def _spectral_radius(matrix: Matrix) -> float:

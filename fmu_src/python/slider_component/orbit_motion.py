@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from math import floor, inf, remainder, tau
 
 from . import events
-from .constants import MAX_SEARCH_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN, SEARCH_WAVES
+from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, STICK
 from .device import Device, Inputs
 from .dormand_prince import Reached
@@ -27,7 +27,7 @@ from .moment import Counts, Moment
 from .motion import State
 from .orbit_curve import OrbitPoint
 from .orbit_error import ErrorRide, calmed, left_orbits
-from .orbit_price import orbit_price, with_paid
+from .orbit_price import is_due, orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
 from .orbit_state import MAX_TUNINGS, OrbitState, OrbitValues, PaidTables, Stage, Swing
 from .oscillator import free_response
@@ -105,9 +105,15 @@ class OrbitLaw:
         if now.orbit.stage == Stage.RESOLVED:
             now, time = self._resolved(now, duration)
             left = duration - time if time < duration else 0.0
-        if now.orbit.stage == Stage.RESOLVED or not left * self.full.plant.drive_frequency > 0.0:
+        if not left * self.full.plant.drive_frequency > 0.0:
             return now
-        return self._followed(now, left, duration)
+        if now.orbit.stage != Stage.RESOLVED:
+            ride = self._ride(now, now.orbit.lead).within(left)
+            followed = self._followed(now, ride, left, duration)
+            if followed is not None:
+                return followed
+            now.orbit = self._resolved_for(now.orbit, ride.unknown.angle)
+        return self._advanced(now, left)
 
     def mode(self, moment: Moment) -> int:
         """See Law."""
@@ -227,10 +233,14 @@ class OrbitLaw:
         return orbit.resolved_for(angle)
 
     def _taken_over(self, now: Moment) -> tuple[Moment, float]:
-        """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m."""
+        """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m.
+
+        Where there is no orbit, motion is resolved on.
+        """
         orbit, lead = now.orbit, self._lead(now)
         ratio = self.full.inputs.frequency_ratio
-        orbit = with_paid(self.full.device, ratio, orbit, lead)
+        if is_due(self.full.device, ratio, orbit):
+            orbit = with_paid(self.full.device, ratio, orbit, lead)
         now.orbit = orbit = orbit._replace(lead=lead, leads=orbit.leads.visited(lead))
         ride = self._ride(now, lead)
         share = ride.map.held.plant.mass_fraction
@@ -242,6 +252,9 @@ class OrbitLaw:
             if found is None:
                 raise LostOrbitError
             there, point = found
+            if ride.unknown.angle > 0.0:
+                now.orbit = self._resolved_for(orbit, ride.unknown.angle)
+                return now, 1.0
             following = velocity + momentum - ride.map.momentum_velocity(there.state, theta)
             settled = abs(following - velocity) <= TAKEN * ride.map.speed
             velocity = following
@@ -273,13 +286,19 @@ class OrbitLaw:
         ends = to_go <= w * duration + NOTHING
         time = min(to_go / w, duration) if ends else duration
         if time * w > NOTHING or not ends:
-            now = events.advance(self.friction, self.full, now, time)
-            waited = now.orbit.waited + w * time
-            orbit = now.orbit._replace(to_go=max(0.0, to_go - w * time), waited=waited)
-            now.orbit = calmed(self.full.device, w * time, orbit)
+            now = self._advanced(now, time)
         else:
             time = 0.0
         return (self._taken_over(now)[0] if ends else now), time
+
+    def _advanced(self, now: Moment, time: float) -> Moment:
+        """The moment after a time [s] of resolved motion."""
+        turned = self.full.plant.drive_frequency * time
+        now = events.advance(self.friction, self.full, now, time)
+        to_go, waited = max(0.0, now.orbit.to_go - turned), now.orbit.waited + turned
+        orbit = now.orbit._replace(to_go=to_go, waited=waited)
+        now.orbit = calmed(self.full.device, turned, orbit)
+        return now
 
     def _swing_after(self, swing: Swing, t: float) -> Swing:
         """The resonator's own swing `t` [s] later: it moves the pair, but not its momentum."""
@@ -291,18 +310,19 @@ class OrbitLaw:
             u * (cosine - slip.decay * sine) - slip.stiffness * y * sine,
         )
 
-    def _followed(self, now: Moment, duration: float, step_size: float) -> Moment:
-        """Go along orbits for `duration` [s], the last part of a step of `step_size` [s]."""
+    def _followed(
+        self, now: Moment, ride: OrbitRide, duration: float, step_size: float
+    ) -> Moment | None:
+        """Go along orbits for `duration` [s], the last part of a step of `step_size` [s].
+
+        None where one on the way is unknown.
+        """
         plant, orbit, fast = self.full.plant, now.orbit, self.fast
         w, q = plant.drive_frequency, plant.normal_frequency
         chi, start = self.full.inputs.phase + now.psi, now.position
-        ride = self._ride(now, orbit.lead)
         drift = ride.slow.drift
         full = friction_share(self.full.device, fast) * plant.total_mass * w * fast.velocity
         step = first_step(fast.velocity, plant.total_mass, full + abs(plant.load), duration)
-        waves = abs(self.full.inputs.frequency_ratio)
-        searches = int(MAX_SEARCH_STEPS / (1.0 + waves / SEARCH_WAVES))
-        most = searches if ride.searches else MAX_SLOW_STEPS
         slow_pass = SlowPass(
             ride.acceleration,
             fast.velocity,
@@ -310,7 +330,7 @@ class OrbitLaw:
             step,
             step_size,
             may_settle=drift == 0.0 and not ride.searches,
-            most=most // PYTHON_SLOWDOWN,
+            most=MAX_SLOW_STEPS // PYTHON_SLOWDOWN,
             beat=ride.slow.beat,
             to_kink=ride.first.to_kink,
         )
@@ -333,12 +353,18 @@ class OrbitLaw:
             if 0.0 < mark < duration:
                 before = reached.step
                 reached = slow_pass.reach(mark, reached)
+                if ride.unknown.angle > 0.0:
+                    return None
                 reached = reached._replace(step=max(reached.step, before))
                 marks.append((mark, moment_at(0.0)[0].position - start))
         reached = slow_pass.reach(duration, reached)
+        if ride.unknown.angle > 0.0:
+            return None
         reached = reached._replace(t=duration)
         end = (now.theta + w * duration) % tau
         there, swing, point = moment_at(end)
+        if ride.unknown.angle > 0.0:
+            return None
         place = errors.place(reached.velocity, ride.theta(duration, end, chi + q * duration))
         orbit = errors.carried(begin, place, point, duration, orbit)
         travelled = there.position - start
@@ -351,6 +377,11 @@ class OrbitLaw:
 
         means, theta = now.means.advanced(duration, now.theta, w, False, travel_at, travelled)
         lead = ride.lead_at(duration)
+        if drift != 0.0:
+            orbit = orbit._replace(waited=orbit.waited + w * duration)
+            ratio = self.full.inputs.frequency_ratio
+            if is_due(self.full.device, ratio, orbit):
+                orbit = with_paid(self.full.device, ratio, orbit, lead)
         return replace(
             now,
             state=there.state,

@@ -2,8 +2,8 @@
 
 A table pays where motion stays with it. So inputs that ask for another one are followed by resolved
 motion first, for as long as costs what the table does: whether they change soon or stay, motion
-costs about twice the cheaper way at most. The state tells what is paid for, as the tables are a
-cache.
+costs about twice the cheaper way at most. From the start on a lead that drifts is followed by
+searches for as long. The state tells what is paid for, as the tables are a cache.
 """
 
 from __future__ import annotations
@@ -33,6 +33,9 @@ BRISTLE_SERIES_TURNS = 19000.0
 BRISTLE_SEARCH_TURNS = 600.0
 """The same of searches."""
 
+ROUNDING = 1e-9
+"""What rounding takes from a price that has been waited for."""
+
 
 def orbit_price(
     device: Device, ratio: float, orbit: OrbitState, lead: float, *, changed: bool
@@ -51,7 +54,7 @@ def orbit_price(
     elif source == OrbitSource.SEARCH:
         if changed:
             turns = SEARCH_TURNS if coulomb else BRISTLE_SEARCH_TURNS
-    elif not orbit.paid.has_series_of(slow.waves):
+    elif (changed or source == OrbitSource.COMBINED) and not orbit.paid.has_series_of(slow.waves):
         turns = SERIES_TURNS if coulomb else BRISTLE_SERIES_TURNS
     return tau * (slow.turns or 0) * turns
 
@@ -65,6 +68,16 @@ def with_paid(device: Device, ratio: float, orbit: OrbitState, lead: float) -> O
     if source == OrbitSource.SEARCH:
         return orbit
     return orbit._replace(paid=orbit.paid.with_series(waves))
+
+
+def is_due(device: Device, ratio: float, orbit: OrbitState) -> bool:
+    """Whether the motion that waited for its tables has cost as much as they do.
+
+    That counts for the series over leads alone: until then orbits are searched.
+    """
+    slow = orbit_phase_of(device, ratio)
+    price = SERIES_TURNS if device.friction_law == 0 else BRISTLE_SERIES_TURNS
+    return slow.drift == 0.0 or orbit.waited >= tau * (slow.turns or 0) * price * (1.0 - ROUNDING)
 
 
 def _source_at(device: Device, ratio: float, orbit: OrbitState, lead: float) -> OrbitSource:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from enum import Enum, auto
-from math import cos, floor, inf, remainder, sin, sqrt, tau
+from math import cos, floor, inf, nan, remainder, sin, sqrt, tau
 
+from .constants import MAP_WAVES, MAX_STEP_MAPS
 from .contact import BACKWARD, FORWARD
 from .device import Device
 from .fast_vibration import steady_swing
-from .held_orbit import HeldOrbit, NoOrbitError, held_orbit_at, held_orbit_linearised
 from .moment import Moment
 from .motion import State
-from .orbit_curve import OrbitPoint, Quantities, point_of
+from .orbit_curve import OrbitPoint, Quantities
+from .orbit_search import OrbitSearch
 from .orbit_state import MAX_LEADS, MAX_TUNINGS, OrbitState
 from .orbit_tables import OrbitTable, combined_table, curve_table, orbit_map, series_table
 from .period_map import PeriodMap
@@ -77,58 +78,31 @@ def orbit_source_of(orbit: OrbitState, device: Device, *, drifts: bool) -> Orbit
     return OrbitSource.COMBINED if many else OrbitSource.CURVE
 
 
-class _Search:
-    """Orbits by Newton's method, each from the one found last, or else from none."""
+MISSED_TURNS = 100.0
+"""Turns for which motion is resolved where there is no orbit, until one is looked for again."""
 
-    curve: ShiftCurve | None = None
 
-    def __init__(self, period_map: PeriodMap) -> None:
-        self._map = period_map
-        self._last: HeldOrbit | None = None
+SEARCH_MAPS = 300.0
+"""Period maps for searches up to which a step has them, however short it is."""
 
-    def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
-        """See OrbitTable."""
-        orbit = self._found(lead, velocity)
-        return None if orbit is None else (orbit.friction, orbit.factor)
+SEARCH_MAPS_IN_TURN = 20.0
+"""Further ones for each turn of the drive in it: where they take more, motion is resolved."""
 
-    def point(self, lead: float, velocity: float) -> OrbitPoint | None:
-        """See OrbitTable."""
-        orbit = self._found(lead, velocity)
-        if orbit is None:
-            return None
-        try:
-            return point_of(self._map, orbit)
-        except NoOrbitError:
-            return None
 
-    def _found(self, lead: float, velocity: float) -> HeldOrbit | None:
-        starts = [self._last, None] if self._last is not None else [None]
-        self._last = None
-        for start in starts:
-            try:
-                orbit = held_orbit_at(self._map, lead, velocity, start)
-            except NoOrbitError:
-                continue
-            self._last = self._lagging(orbit)
-            break
-        return self._last
+@dataclass(slots=True)
+class Unknown:
+    """The drive `angle` [rad] for which motion has to be resolved instead; 0 where all is known."""
 
-    def _lagging(self, orbit: HeldOrbit) -> HeldOrbit | None:
-        """The orbit with its added mass under LuGre friction."""
-        if self._map.held.device.friction_law == 0:
-            return orbit
-        try:
-            return held_orbit_linearised(self._map, orbit)
-        except NoOrbitError:
-            return None
+    angle: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class OrbitRide:
     """The ride from `lead` [rad] on.
 
-    `searches` says that each orbit costs a search. Where there is no orbit, averages of `first`
-    order serve, under a `load` [N].
+    `searches` says that each orbit costs a search. Where there is none, or where the orbits of the
+    ride take more than `max_maps`, they are `unknown`: for outputs averages of `first` order serve
+    there, under a `load` [N].
     """
 
     map: PeriodMap
@@ -139,15 +113,32 @@ class OrbitRide:
     searches: bool
     first: SlowFriction
     load: float
+    max_maps: int
+    unknown: Unknown = field(default_factory=Unknown)
+
+    def within(self, duration: float) -> OrbitRide:
+        """The ride over `duration` [s], in which searches may take so many maps a turn."""
+        turns = self.map.held.plant.drive_frequency * duration / tau
+        if not self.searches or turns > self.max_maps:
+            return self
+        most = int(SEARCH_MAPS + SEARCH_MAPS_IN_TURN * turns)
+        return replace(self, max_maps=min(self.max_maps, most))
 
     def lead_at(self, t: float) -> float:
         """The lead [rad] at time `t` [s] from the beginning."""
         return self.lead + self.slow.drift * t
 
     def acceleration(self, t: float, velocity: float) -> float:
-        """Slow acceleration [m/s^2] at time `t` [s] and a slow velocity [m/s]."""
+        """Slow acceleration [m/s^2] at time `t` [s] and a slow velocity [m/s].
+
+        Not a number where the orbit is unknown: that ends an integration.
+        """
         found = self.table.friction(self.lead_at(t), velocity)
-        friction, factor = (self.first.at(t, velocity), 1.0) if found is None else found
+        if found is None or self.table.maps > self.max_maps:
+            turns = MISSED_TURNS if found is None else MAX_STEP_MAPS
+            self.unknown.angle = tau * turns
+            return nan
+        friction, factor = found
         return -factor * (friction + self.load) / self.map.held.plant.total_mass
 
     def point(self, t: float, velocity: float) -> OrbitPoint:
@@ -158,6 +149,7 @@ class OrbitRide:
         found = self.table.point(self.lead_at(t), velocity)
         if found is not None:
             return found
+        self.unknown.angle = tau * MISSED_TURNS
         scales = self.map
         direction = FORWARD if velocity >= 0.0 else BACKWARD
         frequency = scales.held.plant.drive_frequency
@@ -218,15 +210,18 @@ def begin_ride(
     slow = orbit_phase_of(device, ratio)
     turns, waves, drift = slow.turns or 1, slow.waves, slow.drift
     source = orbit_source_of(orbit, device, drifts=drift != 0.0)
+    if source == OrbitSource.SERIES and not orbit.paid.has_series_of(waves):
+        source = OrbitSource.SEARCH
     period_map = orbit_map(device, waves, turns)
     searches = source == OrbitSource.SEARCH
     table: OrbitTable
     if searches:
-        table = _Search(period_map)
+        table = OrbitSearch(period_map)
     elif source == OrbitSource.SERIES:
         table = series_table(device, waves, turns)
     elif source == OrbitSource.COMBINED:
         table = combined_table(device, waves, turns, lead)
     else:
         table = curve_table(device, waves, turns, lead)
-    return OrbitRide(period_map, slow, turns, lead, table, searches, first, load)
+    max_maps = int(MAX_STEP_MAPS / (turns * (1.0 + abs(ratio) / MAP_WAVES)))
+    return OrbitRide(period_map, slow, turns, lead, table, searches, first, load, max_maps)

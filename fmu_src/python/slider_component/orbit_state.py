@@ -128,13 +128,14 @@ class Swing(NamedTuple):
 class OrbitState(NamedTuple):
     """The state beside the moment.
 
-    `to_go` is the drive angle [rad] that is still to be resolved, `waited` what has been. On an
-    orbit: slow velocity V [m/s], slow centre [m] and lead [rad] of the normal load, and what is
-    left of the resonator's own `swing`, by which it differs from the orbit. The step was made
-    `under` these values; `tunings` counts, up to MAX_TUNINGS, how often a parameter changed the
-    orbits. W is `ahead` [m/s] of that of the full device, as far as that is known; what else V may
-    err by is `doubt` [m/s], and the resonator's swing that nobody follows is `unrest` [m/s] of mean
-    velocity. `acceleration` [m/s^2] is the slow one at the end of the step.
+    `to_go` is the drive angle [rad] that is still to be resolved, `waited` what has been, or on an
+    orbit whose lead drifts what has been followed. On an orbit: slow velocity V [m/s], slow centre
+    [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by which
+    it differs from the orbit. The step was made `under` these values; `tunings` counts, up to
+    MAX_TUNINGS, how often a parameter changed the orbits. W is `ahead` [m/s] of that of the full
+    device, as far as that is known; what else V may err by is `doubt` [m/s], and the resonator's
+    swing that nobody follows is `unrest` [m/s] of mean velocity. `acceleration` [m/s^2] is the slow
+    one at the end of the step.
     """
 
     stage: int = Stage.AVERAGED

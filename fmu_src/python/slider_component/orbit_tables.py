@@ -10,6 +10,7 @@ from typing import Protocol
 from .device import Device
 from .held_orbit import NoOrbitError
 from .orbit_curve import (
+    MAX_DEPTH,
     OrbitCurve,
     OrbitPanel,
     OrbitPoint,
@@ -18,12 +19,17 @@ from .orbit_curve import (
     place_between,
     trimmed,
 )
+from .orbit_search import OrbitSearch
 from .orbit_shifts import NO_SHIFT, ShiftPoint
 from .period_map import PeriodMap, period_map
 from .shift_tables import ShiftCurve
 
 SERIES_LEADS = 9
 """Leads between which orbits are interpolated by a Fourier series."""
+
+SERIES_DEPTH = 2
+"""Most halvings of panels between which orbits are interpolated over leads: each is one for all
+leads, and orbits that need smaller ones are searched."""
 
 CURVES = 14
 """Curves that are kept: those, a combination of them, and the curves of MAX_LEADS leads."""
@@ -33,6 +39,11 @@ class OrbitTable(Protocol):
     """Orbits over lead and slow velocity; those at one lead are a `curve`."""
 
     curve: ShiftCurve | None
+
+    @property
+    def maps(self) -> int:
+        """Period maps of all that was asked for, whether it was tabulated before or not."""
+        ...
 
     def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
         """Mean friction F2 [N] and 1 + kappa_m; None where there is no orbit."""
@@ -51,19 +62,21 @@ def orbit_map(device: Device, waves: float, turns: int) -> PeriodMap:
 def curve_table(device: Device, waves: float, turns: int, lead: float) -> OrbitTable:
     """The table at one lead, whatever lead is asked for."""
     curve = _curve(_what_orbits_depend_on(device), waves, turns, lead)
-    return _NoTable() if curve is None else _CurveTable(curve)
+    return _NoTable() if curve is None else _CurveTable(curve, MAX_DEPTH, None)
 
 
 def combined_table(device: Device, waves: float, turns: int, lead: float) -> OrbitTable:
     """The same from the curves at SERIES_LEADS leads, for a contact that does not lift."""
     combined = _combined(_what_orbits_depend_on(device), waves, turns, lead)
-    return _NoTable() if combined is None else _CurveTable(combined)
+    search = OrbitSearch(orbit_map(device, waves, turns))
+    return _NoTable() if combined is None else _CurveTable(combined, SERIES_DEPTH, search)
 
 
 def series_table(device: Device, waves: float, turns: int) -> OrbitTable:
     """The table over all leads, for a contact that does not lift."""
     series = _series(_what_orbits_depend_on(device), waves, turns)
-    return _NoTable() if series is None else _SeriesTable(series)
+    search = OrbitSearch(orbit_map(device, waves, turns))
+    return _NoTable() if series is None else _SeriesTable(series, search)
 
 
 class _Curve(Protocol):
@@ -86,6 +99,7 @@ class _NoTable:
     """A table without orbits."""
 
     curve: ShiftCurve | None = None
+    maps = 0
 
     def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
         """See OrbitTable."""
@@ -96,12 +110,35 @@ class _NoTable:
         return None
 
 
-class _CurveTable:
-    """The table of a curve."""
+class _Asked:
+    """The panels that were asked for, and the period maps that they take."""
 
-    def __init__(self, curve: _Curve) -> None:
+    def __init__(self) -> None:
+        self._panels: set[tuple[int, int]] = set()
+        self.maps = 0
+
+    def for_panel(self, depth: int, index: int, maps: int) -> None:
+        """Take note of a panel."""
+        if (depth, index) not in self._panels:
+            self._panels.add((depth, index))
+            self.maps += maps
+
+
+class _CurveTable:
+    """The table of a curve, whose panels are halved up to a depth `deepest`.
+
+    Where they would have to be halved further, `search` finds the orbits.
+    """
+
+    def __init__(self, curve: _Curve, deepest: int, search: OrbitSearch | None) -> None:
         self.curve: ShiftCurve | None = curve
-        self._curve = curve
+        self._curve, self._deepest, self._search = curve, deepest, search
+        self._asked = _Asked()
+
+    @property
+    def maps(self) -> int:
+        """See OrbitTable."""
+        return self._asked.maps + (self._search.maps if self._search else 0)
 
     def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
         """See OrbitTable."""
@@ -110,9 +147,9 @@ class _CurveTable:
         if place < 0.0:
             of = curve.beyond[velocity > curve.middle].of
             return of.friction, of.factor
-        panel = _panel_around(curve, place)
-        if panel.coefficients is None:
-            return None
+        panel = self._panel_around(place)
+        if panel is None:
+            return self._search.friction(lead, velocity) if self._search else None
         return panel.at(0, place), panel.at(1, place)
 
     def point(self, lead: float, velocity: float) -> OrbitPoint | None:
@@ -121,35 +158,51 @@ class _CurveTable:
         place = place_between(curve.middle, curve.reach, velocity)
         if place < 0.0:
             return curve.beyond[velocity > curve.middle]
-        panel = _panel_around(curve, place)
-        return None if panel.coefficients is None else panel.point(place)
+        panel = self._panel_around(place)
+        if panel is None:
+            return self._search.point(lead, velocity) if self._search else None
+        return panel.point(place)
 
-
-def _panel_around(curve: _Curve, place: float) -> OrbitPanel:
-    """The panel around a place that holds."""
-    depth = 0
-    while not (panel := curve.panel(depth, index_at(place, depth))).holds:
-        depth += 1
-    return panel
+    def _panel_around(self, place: float) -> OrbitPanel | None:
+        """The panel around a place that holds and has all orbits."""
+        for depth in range(self._deepest + 1):
+            panel = self._curve.panel(depth, index_at(place, depth))
+            self._asked.for_panel(depth, panel.index, panel.maps)
+            if panel.holds:
+                return panel if panel.coefficients is not None else None
+        return None
 
 
 class _SeriesTable:
-    """The table of curves at the leads of the series."""
+    """The table of curves at the leads of the series.
+
+    Where their panels are not wide, `search` finds the orbits.
+    """
 
     curve: ShiftCurve | None = None
 
-    def __init__(self, curves: tuple[OrbitCurve, ...]) -> None:
-        self._curves = curves
+    def __init__(self, curves: tuple[OrbitCurve, ...], search: OrbitSearch) -> None:
+        self._curves, self._search = curves, search
+        self._asked = _Asked()
+
+    @property
+    def maps(self) -> int:
+        """See OrbitTable."""
+        return self._asked.maps + self._search.maps
 
     def friction(self, lead: float, velocity: float) -> tuple[float, float] | None:
         """See OrbitTable."""
         found = self._sum(lead, velocity, 2)
-        return None if found is None else (found[0][0], found[0][1])
+        if found is None:
+            return self._search.friction(lead, velocity)
+        return found[0][0], found[0][1]
 
     def point(self, lead: float, velocity: float) -> OrbitPoint | None:
         """See OrbitTable."""
         found = self._sum(lead, velocity, len(Quantities._fields))
-        return None if found is None else OrbitPoint(Quantities(*found[0]), *found[1:])
+        if found is None:
+            return self._search.point(lead, velocity)
+        return OrbitPoint(Quantities(*found[0]), *found[1:])
 
     def _sum(
         self, lead: float, velocity: float, count: int
@@ -168,7 +221,7 @@ class _SeriesTable:
             ]
             return values, points[0].direction, True, points[0].beyond
         panels = self._panels(place)
-        if any(panel.coefficients is None for panel in panels):
+        if panels is None:
             return None
         values = [
             sum(weight * panel.at(q, place) for weight, panel in zip(weights, panels, strict=True))
@@ -176,14 +229,15 @@ class _SeriesTable:
         ]
         return values, panels[0].direction, True, False
 
-    def _panels(self, place: float) -> list[OrbitPanel]:
+    def _panels(self, place: float) -> list[OrbitPanel] | None:
         """The panels of all curves around a place, of the depth at which all hold."""
-        depth = 0
-        while True:
-            panels = [curve.panel(depth, index_at(place, depth)) for curve in self._curves]
+        for depth in range(SERIES_DEPTH + 1):
+            index = index_at(place, depth)
+            panels = [curve.panel(depth, index) for curve in self._curves]
+            self._asked.for_panel(depth, index, sum(panel.maps for panel in panels))
             if all(panel.holds for panel in panels):
-                return panels
-            depth += 1
+                return None if any(panel.coefficients is None for panel in panels) else panels
+        return None
 
 
 class _Combination:
@@ -226,9 +280,10 @@ class _Combination:
     def _made(self, depth: int, index: int) -> OrbitPanel:
         panels = [curve.panel(depth, index) for curve in self._curves]
         holds = all(panel.holds for panel in panels)
+        maps = sum(panel.maps for panel in panels)
         known = [panel.coefficients for panel in panels if panel.coefficients is not None]
         if len(known) < len(panels):
-            return OrbitPanel(depth, index, holds, None)
+            return OrbitPanel(depth, index, holds, None, maps)
         coefficients = []
         for columns in zip(*known, strict=True):
             length = max(map(len, columns))
@@ -237,7 +292,7 @@ class _Combination:
                 for k, value in enumerate(column):
                     total[k] += weight * value
             coefficients.append(trimmed(total))
-        return OrbitPanel(depth, index, holds, tuple(coefficients))
+        return OrbitPanel(depth, index, holds, tuple(coefficients), maps)
 
 
 def series_weights(lead: float) -> list[float]:

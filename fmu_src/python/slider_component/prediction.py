@@ -10,13 +10,13 @@ from .bristle import bristle_of
 from .device import Device, Inputs
 from .fast_vibration import fast_vibration
 from .friction_laws import friction_law_of
-from .held_orbit import HeldOrbit, NoOrbitError, held_orbit_at, steady_orbit_at
+from .held_orbit import HeldOrbit, NoOrbitError, check_stable, held_orbit_at, steady_orbit_at
 from .orbit_motion import has_slow_motion
 from .orbit_ride import orbit_phase_of
 from .orbit_tables import orbit_map
 from .period_map import PeriodMap
 from .refusal import Refusal
-from .steady_orbit import blocking_force, steady_orbit
+from .steady_orbit import blocking_orbit, check_unique, steady_orbit
 from .vibrating_load import EXACT, turns_to_repeat
 
 SAME = 0.05
@@ -28,10 +28,11 @@ belong to the same balance."""
 def prediction_of(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
     """The prediction of the averaging order of the device; `normal_lead` [rad] as for `averaged`.
 
-    By second order both belong to periodic motions of the full device. Where the normal load never
-    repeats there are none, and the prediction is that of first order. It is of first order and not
-    `valid` where the vibration does not decay, where no steady motion or more than one is found,
-    and at fidelity 0 where the motion itself is averaged to first order.
+    By second order both are those of periodic motions of the full device. Where the normal load
+    never repeats there is no such motion, and the prediction is that of first order. So it is, but
+    not `valid`, where the vibration does not decay, where no steady motion or more than one is
+    found, or several at one velocity, and at fidelity 0 where the motion itself is averaged to
+    first order.
     """
     prediction = averaged(device, inputs, normal_lead)
     slow = orbit_phase_of(device, inputs.frequency_ratio)
@@ -49,7 +50,11 @@ def prediction_of(device: Device, inputs: Inputs, normal_lead: float) -> Average
     try:
         period_map = orbit_map(device, slow.waves, slow.turns)
         steady = _steady(period_map, lead, inputs.load, first)
-        return Averaged(steady.velocity, blocking_force(period_map, lead), valid=True)
+        blocked = blocking_orbit(period_map, lead)
+        if not has_slow_motion(device, inputs, period_map.fast):
+            check_unique(period_map, steady)
+            check_unique(period_map, blocked)
+        return Averaged(steady.velocity, -blocked.friction, valid=True)
     except (NoOrbitError, Refusal):
         return replace(prediction, valid=False)
 
@@ -64,6 +69,7 @@ def _steady(period_map: PeriodMap, lead: float, load: float, first: float) -> He
             orbit = held_orbit_at(period_map, lead, first)
             orbit = steady_orbit_at(period_map, lead, load, orbit)
             if abs(orbit.velocity - first) <= SAME * period_map.speed:
+                check_stable(period_map, orbit)
                 return orbit
         except NoOrbitError:
             pass

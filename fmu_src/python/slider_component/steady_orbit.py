@@ -8,7 +8,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import cos, pi
 
-from .held_orbit import HeldOrbit, NoOrbitError, OrbitStatus, held_orbit_at, steady_orbit_at
+from .held_orbit import (
+    HeldOrbit,
+    NoOrbitError,
+    OrbitStatus,
+    check_stable,
+    held_orbit_at,
+    is_same_orbit,
+    steady_orbit_at,
+)
 from .period_map import PeriodMap
 
 SAMPLES = 12
@@ -26,6 +34,13 @@ no iteration would converge."""
 
 SAMPLED_REACH = 1.05
 """Largest sampled velocity, in v_q: beyond grazing unless friction is strong."""
+
+
+BESIDE = 0.1
+"""Distance in v_q of velocities from which orbits lead to others of the velocity between them."""
+
+FAR = 2.0
+"""Velocity in v_q from which on the slider does not turn back, of further ones."""
 
 
 @dataclass(slots=True)
@@ -60,9 +75,9 @@ class _Scan:
 def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
     """The steady motion under `load` [N] to which motion at other velocities tends.
 
-    Orbits at a few velocities show how many there are. Raises NoOrbitError: RUNS_AWAY for none,
-    UNDETERMINED for several, NOT_CONVERGED beyond `MAX_SPEED`, and the reason of the last failure
-    where no orbit was found.
+    Orbits at a few velocities tell how many there are. Raises NoOrbitError: RUNS_AWAY for none,
+    UNDETERMINED for several, UNSTABLE for one that motion leaves, NOT_CONVERGED beyond `MAX_SPEED`,
+    and the reason of the last failure where no orbit was found.
     """
     if not period_map.speed < MAX_SPEED:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
@@ -81,12 +96,39 @@ def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
     scan.on(reach, load + sliding, sample)
     if len(scan.brackets) + scan.stretches != 1:
         raise NoOrbitError(OrbitStatus.UNDETERMINED if scan.brackets else failure)
-    return _refined(period_map, lead, load, *scan.brackets[0])
+    orbit = _refined(period_map, lead, load, *scan.brackets[0])
+    check_stable(period_map, orbit)
+    return orbit
 
 
 def blocking_force(period_map: PeriodMap, lead: float) -> float:
     """The load [N] that stops the slider. Raises NoOrbitError."""
-    return -held_orbit_at(period_map, lead, 0.0).friction
+    return -blocking_orbit(period_map, lead).friction
+
+
+def blocking_orbit(period_map: PeriodMap, lead: float) -> HeldOrbit:
+    """The orbit under that load. Raises NoOrbitError."""
+    orbit = held_orbit_at(period_map, lead, 0.0)
+    check_stable(period_map, orbit)
+    return orbit
+
+
+def check_unique(period_map: PeriodMap, orbit: HeldOrbit) -> None:
+    """Raise NoOrbitError where neighbours on either side lead to another orbit of this velocity.
+
+    Neighbours are `BESIDE` it and `FAR` away, where the slider does not turn back. That costs some
+    90 maps; under weak friction there is one orbit.
+    """
+    speed, velocity = period_map.speed, orbit.velocity
+    beside = (velocity - BESIDE * speed, velocity + BESIDE * speed)
+    for start in (*beside, -FAR * speed, FAR * speed):
+        try:
+            neighbour = held_orbit_at(period_map, orbit.lead, start)
+            other = held_orbit_at(period_map, orbit.lead, velocity, neighbour)
+        except NoOrbitError:
+            continue
+        if not is_same_orbit(period_map, orbit, other):
+            raise NoOrbitError(OrbitStatus.UNDETERMINED)
 
 
 def _refined(

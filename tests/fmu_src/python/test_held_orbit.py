@@ -193,3 +193,29 @@ def test_reasons_why_there_is_no_orbit() -> None:
     assert failure(period_map(idle, 1.0, 1), 0.1) is OrbitStatus.STILL
     stuck = replace(TABLE_1, friction_coefficient=1000.0, normal_amplitude=0.5)
     assert failure(period_map(stuck, 1.0, 1), 0.0) is OrbitStatus.STILL
+
+
+def test_bristles_that_follow_no_faster_than_the_velocity_changes_have_no_slow_motion() -> None:
+    """The multipliers of slow velocity and bristle are a pair of complex ones: there is no mass."""
+    soft = Device(
+        slider_mass=0.0096,
+        resonator_mass=0.0192,
+        resonator_frequency=23.6,
+        damping_ratio=0.05,
+        base_amplitude=3.54e-4,
+        drive_frequency=10.9,
+        friction_coefficient=0.72,
+        friction_faces=1,
+        friction_law=1,
+        normal_preload=4.77e-5,
+        normal_amplitude=4.77e-5,
+        bristle_stiffness=558.0,
+        bristle_damping=8.2,
+    )
+    scales = period_map(soft, 0.0, 1)
+    orbit = held_orbit_at(scales, 1.5, 0.0)
+    with pytest.raises(NoOrbitError) as caught:
+        held_orbit_linearised(scales, orbit)
+    assert caught.value.status is OrbitStatus.NOT_SLOW
+    unloaded = held_orbit_at(scales, 4.5, 0.0)
+    assert held_orbit_linearised(scales, unloaded).factor > 1.0, "next to no normal load bends them"

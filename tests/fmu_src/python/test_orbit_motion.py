@@ -12,6 +12,7 @@ import pytest
 
 from fmu_src.python.slider_component import orbit_price, orbit_tables
 from fmu_src.python.slider_component.component import Component
+from fmu_src.python.slider_component.constants import MAX_STEP_MAPS
 from fmu_src.python.slider_component.device import Device, Inputs
 from fmu_src.python.slider_component.law import law_of
 from fmu_src.python.slider_component.moment import Moment
@@ -308,3 +309,81 @@ def test_the_estimate_bounds_the_error() -> None:
         assert law_of(replace(device, fidelity=2), Inputs()).slow_motion_error(
             run(replace(device, fidelity=2), Inputs(), 1, 1)
         ) == pytest.approx(0.0, abs=0.0)
+
+
+NO_PRICE = (
+    *("CURVE_TURNS", "SERIES_TURNS", "SEARCH_TURNS"),
+    *("BRISTLE_CURVE_TURNS", "BRISTLE_SERIES_TURNS", "BRISTLE_SEARCH_TURNS"),
+)
+ROUGH_BEAT = Device(
+    fidelity=0,
+    slider_mass=58.5,
+    resonator_mass=41.8,
+    resonator_frequency=170512.0,
+    damping_ratio=0.084,
+    base_amplitude=2.34e-6,
+    drive_frequency=47099.0,
+    tangential_force=142906.0,
+    friction_coefficient=4.35,
+    friction_faces=2,
+    normal_preload=3109.0,
+    normal_amplitude=2056.0,
+)
+"""Its curves have kinks at which panels are halved again and again, at each of nine leads."""
+
+SOFT_BRISTLE = Device(
+    fidelity=0,
+    slider_mass=0.0096,
+    resonator_mass=0.0192,
+    resonator_frequency=23.6,
+    damping_ratio=0.05,
+    base_amplitude=3.54e-4,
+    drive_frequency=10.9,
+    friction_coefficient=0.72,
+    friction_faces=1,
+    friction_law=1,
+    normal_preload=4.77e-5,
+    normal_amplitude=4.77e-5,
+    bristle_stiffness=558.0,
+    bristle_damping=8.2,
+    initial_velocity=0.004,
+)
+"""Where its load is largest, the slider swings on its bristles as slowly as they follow."""
+
+
+@pytest.fixture
+def free_orbits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Motion goes over to orbits at once."""
+    for name in NO_PRICE:
+        monkeypatch.setattr(orbit_price, name, 0.0)
+    forget_tables()
+
+
+@pytest.mark.usefixtures("free_orbits")
+def test_a_step_maps_no_more_turns_for_orbits_than_its_bound(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Under a beat each orbit stands for nine; from where they are too many, motion is resolved."""
+    maps = CountedMaps(monkeypatch)
+    moment = law_of(ROUGH_BEAT, Inputs()).start(State(0.0, 0.0, 0.0), 0.0)
+    for phase, load in ((2.47, -5002.0), (-2.3, 29749.0)):
+        law = law_of(ROUGH_BEAT, Inputs(phase, load, 1.01))
+        moment = law.advance(moment, 17.0 * math.tau / ROUGH_BEAT.drive_frequency)
+        assert 1000 < maps.taken() < 1.1 * MAX_STEP_MAPS
+
+
+def test_orbits_under_a_beat_from_the_start_are_searched_for_what_tables_cost() -> None:
+    law = law_of(TABLE_1, Inputs(0.0, 0.0, 1.001))
+    moment = law.start(State(0.0, 0.0, 0.0), 0.0)
+    for _ in range(9):
+        assert not moment.orbit.paid.has_series
+        moment = law.advance(moment, 500.0 * PERIOD)
+        assert moment.orbit.stage == Stage.ON_ORBIT
+    assert moment.orbit.paid.has_series
+
+
+@pytest.mark.usefixtures("free_orbits")
+def test_motion_without_a_slow_part_is_resolved() -> None:
+    inputs = Inputs(1.5, 6.8e-6, 0.0)
+    assert worst_error(SOFT_BRISTLE, inputs, 60, 12) < 1e-6 * 2.8e-3
+    assert run(SOFT_BRISTLE, inputs, 60, 1).orbit.stage == Stage.RESOLVED
