@@ -30,8 +30,8 @@ ORBITS = 1e-9
 """Largest difference along held orbits, over the peak: the twins' Newton iterations differ."""
 
 PREDICTED = 1e-10
-"""Largest difference of predicted steady velocities: near a degenerate pitchfork (ratio 2) it is 1e5
-times what the functions of Python's library and of the C twin differ by in the last bit."""
+"""Largest difference of predicted steady velocities: near a degenerate pitchfork (ratio 2) it is
+1e5 times what the functions of Python's library and of the C twin differ by in the last bit."""
 
 MIN_FAST_VELOCITY = 1e-4
 """Smallest fast velocity of the devices below, m/s."""

@@ -23,8 +23,8 @@ from .held_orbit import (
 )
 from .moment import Moment
 from .orbit_drift import held_orbit_offset
-from .orbit_shifts import ShiftPoint, shift_point
 from .orbit_newton import MAX_MAPS
+from .orbit_shifts import ShiftPoint, shift_point
 from .period_map import PeriodMap
 
 ORBIT_NODES = 12

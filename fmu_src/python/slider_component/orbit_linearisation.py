@@ -48,10 +48,10 @@ SQUARINGS = 24
 class OrbitLinearisation:
     """The slow and the fast part of the departure, in the scales of the period map.
 
-    `factor` is 1 + kappa_m, 1 where `is_slow` is false: there the motion is stopped within
-    some periods. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the largest of the others in
-    absolute value. `is_separate` says that rho is one multiplier by itself, and decays more slowly
-    than the others. `tangent` is x_V, and `lag` xi, 0 where the motion is not slow.
+    `factor` is 1 + kappa_m, 1 where `is_slow` is false: there the motion is stopped within some
+    periods. `slope` is F2' T / Mt, `multiplier` rho, `fast_multiplier` the largest of the others
+    in absolute value. `is_separate` says that rho is one multiplier by itself, and decays more
+    slowly than the others. `tangent` is x_V, and `lag` xi, 0 where the motion is not slow.
     """
 
     is_slow: bool

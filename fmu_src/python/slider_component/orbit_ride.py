@@ -17,7 +17,6 @@ from .orbit_search import OrbitSearch
 from .orbit_state import MAX_LEADS, MAX_TUNINGS, OrbitState
 from .orbit_tables import OrbitTable, combined_table, curve_table, orbit_map, series_table
 from .period_map import PeriodMap
-from .shift_tables import ShiftCurve
 from .slow_friction import SlowFriction
 from .slow_phase import SlowPhase, slow_phase_of
 
