@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from rich.console import Console
 from rich.text import Text
@@ -26,6 +26,8 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_DETAILED = 3
 """Number of scenes up to which every check is shown; of more only the failed ones."""
+MAX_NOT_APPLIED = 3
+"""Number of checks that do not apply for one reason up to which each has a line."""
 DIGITS = 8
 """Significant digits in the table; what is asserted is the deviation, which has its own column."""
 SIGNAL = "*"
@@ -63,9 +65,22 @@ def print_validation(
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
             shown = words(escaped(f"FAIL {text}\n     {sentence(check)}"), console.width, "     ")
             console.print(Text.assemble(("FAIL", STYLES[Style.FAIL]), shown.removeprefix("FAIL")))
-    for scene, quantity, reason in not_applied(validation):
-        _print_line(console, Text(escaped(f"not applicable: {scene}: {quantity}: {reason}")))
+    for line in _not_applied_lines(validation, details):
+        _print_line(console, Text(escaped(f"not applicable: {line}")))
     _print_line(console, _summary(validation))
+
+
+def _not_applied_lines(validation: Validation, details: bool) -> Iterator[str]:
+    """Yield a line for each check, or without `details` one for many of the same reason."""
+    by_reason: dict[str, list[tuple[str, str]]] = {}
+    for scene, quantity, reason in not_applied(validation):
+        by_reason.setdefault(reason, []).append((scene, quantity))
+    for reason, checks in by_reason.items():
+        if details or len(checks) <= MAX_NOT_APPLIED:
+            yield from (f"{scene}: {quantity}: {reason}" for scene, quantity in checks)
+        else:
+            scenes = len({scene for scene, _ in checks})
+            yield f"{len(checks)} checks of {scenes} scenes: {reason} (--details lists them)"
 
 
 def _print_headline(console: Console, checks: Sequence[Check]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -26,6 +27,17 @@ def test_the_terminal_lists_them() -> None:
     assert "1 of 1 checks passed" in text
     assert "judged without averaging_order" in text
     assert "1 check does not apply" in text
+
+
+def test_many_of_one_reason_have_one_line_unless_details_are_asked_for() -> None:
+    many = tuple(NotApplied(f"ramp_{i}", "position", "needs ramps", {}) for i in range(5))
+    validation = replace(LACKING, not_applied=many)
+    for details in (False, True):
+        console = Console(file=io.StringIO(), width=200)
+        print_validation(console, validation, details=details)
+        text = console.file.getvalue()  # type: ignore[attr-defined]
+        assert text.count("not applicable: ") == (5 if details else 1)
+        assert ("5 checks of 5 scenes: needs ramps (--details lists them)" in text) != details
 
 
 def test_json_has_them() -> None:
