@@ -1,6 +1,6 @@
 #include "orbit_defect.h"
 
-#include <math.h>
+#include "elementary.h"
 #include <string.h>
 
 #include "orbit_equations.h"

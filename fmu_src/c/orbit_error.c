@@ -1,6 +1,6 @@
 #include "orbit_error.h"
 
-#include <math.h>
+#include "elementary.h"
 #include <stddef.h>
 
 #include "orbit_drift.h"

@@ -1,6 +1,6 @@
 #include "orbit_shifts.h"
 
-#include <math.h>
+#include "elementary.h"
 #include <stddef.h>
 
 #include "orbit_equations.h"

@@ -1,6 +1,6 @@
 #include "slow_motion_error.h"
 
-#include <math.h>
+#include "elementary.h"
 
 #include "state.h"
 

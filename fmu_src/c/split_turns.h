@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "elementary_functions.h"
 #include "split_slide.h"
 
 /* Angle [rad] of the fastest oscillation up to which turns are rotated: the series below are then exact to
@@ -33,7 +34,7 @@ static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
     turns->envelope = 1.0;
     if (plant->resolves_resonator) {
         Complex eigenvalue = plant->slip.eigenvalue;
-        turns->envelope = exp(eigenvalue.re * t);
+        turns->envelope = elementary_exp(eigenvalue.re * t);
         turns->free = complex_rect(turns->envelope, eigenvalue.im * t);
     }
     turns->phasors.drive = drive_at(slide->theta + plant->drive_frequency * t);

@@ -128,6 +128,7 @@ def test_the_estimate_against_the_error_of_the_mean_velocity(native_orbits: Nati
     """
     cases = [random_case(seed) for seed in range(500, 620)]
     cases = [c for c in cases if c.device.normal_amplitude <= c.device.normal_preload]
+    cases = [c for c in cases if native_orbits.find(c, HELD, -0.3 * c.map.speed)[0] == 0]
     found = [errors_of(native_orbits, case, 0.6, -0.3) for case in cases]
     assert len(found) > 50
     assert all(errors.mean_velocity < 3.0 * errors.estimate + 1e-8 for errors in found)

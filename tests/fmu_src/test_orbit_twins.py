@@ -7,6 +7,7 @@ import pytest
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.held_orbit import (
     NoOrbitError,
+    OrbitStatus,
     held_orbit_at,
     held_orbit_linearised,
 )
@@ -61,8 +62,10 @@ def assert_equal(
     scales = case.map
     expected_status, expected = python_orbit(case, kind, given, neighbour, excess)
     status, found = native.find(case, kind, given, neighbour=neighbour, excess=excess, theta=THETA)
-    assert status == expected_status == 0
-    assert expected is not None
+    assert status == expected_status
+    if expected is None:
+        assert status == OrbitStatus.NOT_SLOW, "soft bristles alone leave no slow motion"
+        return
     assert found.reversals == expected.reversals
     assert found.sticks == expected.sticks
     assert abs(found.maps - expected.maps) <= 1

@@ -28,7 +28,7 @@ from Python."""
 ONLY_IN_C = {
     # Sizes of arrays and buffers, formats of bytes and texts.
     *("CHECKS", "EDGES", "FORCINGS", "SINE_TERMS", "TABLES", "TABLE_NODES", "TAYLOR_TERMS"),
-    *("CURVE_PANELS", "UNKNOWNS"),
+    *("ASKED_BYTES", "CURVE_PANELS", "UNKNOWNS"),
     *("NUMBER_SIZE", "REFUSAL_SIZE", "MAX_DIGITS", "MIN_PLAIN_EXPONENT", "MAX_PLAIN_EXPONENT"),
     *("STATE_HEADER_SIZE", "STATE_NUMBER_SIZE", "STATE_CHECKSUM_SIZE"),
     # Of FMI 3.0, for which there is only the native build.
@@ -83,7 +83,8 @@ def _of_c() -> Iterator[Constant]:
 def _value(expression: str, known: dict[str, float]) -> float:
     if re.fullmatch(r"0x[0-9a-f.]+p[-+]?\d+", expression):
         return float.fromhex(expression)
-    return float(eval(expression, {"__builtins__": {}}, known))
+    value: float = eval(expression, {"__builtins__": {}}, known)
+    return value
 
 
 def _of_python() -> Iterator[Constant]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, pi
+from math import hypot, inf, pi
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
@@ -51,7 +51,8 @@ def lag_of(device: Device, held: Sequence[HeldInputs]) -> Lag:
     for inputs in held:
         tuned = inputs.tuned_device(device)
         force = equivalent_force(tuned)
-        share = _mean_friction(tuned) / abs(force.amplitude) if force.amplitude else inf
+        friction = _mean_friction(tuned, force.velocity_amplitude)
+        share = friction / abs(force.amplitude) if force.amplitude else inf
         drift = _detuning(tuned, inputs.frequency_ratio)
         lag = max(lag, share * (LAG * share + drift) * force.velocity_amplitude)
         fast = max(fast, force.velocity_amplitude)
@@ -81,9 +82,15 @@ def centre_signals(device: Device, signals: Mapping[str, Array]) -> dict[str, Ar
     }
 
 
-def _mean_friction(device: Device) -> float:
+def _mean_friction(device: Device, fast_velocity: float) -> float:
+    """Return the friction of sliding, with what bristles damp as they bend, in N."""
     normal = max(device.normal_preload, device.normal_amplitude / pi)
-    return device.friction_faces * device.friction_coefficient * normal
+    damping = 0.0
+    if device.friction_law == 1 and device.friction_coefficient > 0.0:
+        full = device.bristle_damping * fast_velocity / device.friction_coefficient
+        bend = 2.0 * device.drive_frequency / (pi * device.bristle_stiffness)
+        damping = min(full, device.bristle_damping * bend)
+    return device.friction_faces * device.friction_coefficient * normal * hypot(1.0, damping)
 
 
 def _detuning(device: Device, ratio: float) -> float:

@@ -79,6 +79,8 @@ def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(
         "restored_differences": "needs canGetAndSetFMUstate = true",
         "transferred_differences": "needs canGetAndSetFMUstate = true",
         "beside_differences": "needs canBeInstantiatedOnlyOncePerProcess = false",
+        "rate_differences": "needs canInterpolateInputs = true",
+        "state_faults": "needs canGetAndSetFMUstate = true",
     }
     assert {check.quantity for check in validation.checks} == set(counts) - set(reasons)
 

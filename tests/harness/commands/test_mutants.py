@@ -75,6 +75,7 @@ def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
         "settled_too_early": True,
         "settled_without_way": False,
         "later_settling": False,
+        "settle_early": False,
         "settled_nearer": False,
     }
     assert written["rate"] == 1.0

@@ -128,4 +128,6 @@ def test_campaigns_in_words_and_as_data() -> None:
     assert "drive_frequency = " in text
     plain = as_plain([campaign])
     assert plain["passed"] is False
-    assert_public_keys("campaign", to_json(plain))
+    fmu = {"fmu": "", "guid": "", "sha256": "", "version": "", "generation_tool": ""}
+    provenance = dict.fromkeys(("harness", "fmpy", "python", "platform", "cpu", "date"), "")
+    assert_public_keys("campaign", to_json({"provenance": {"fmus": [fmu], **provenance}, **plain}))
