@@ -107,7 +107,7 @@ NUMBERS = {
     "event_age",
 } | {
     *("bristle", "velocity", "displacement", "rate", "travel", "elapsed", "sticking"),
-    *("mean_velocity", "stick_fraction"),
+    *("mean_velocity", "stick_fraction", "ahead", "doubt", "unrest", "acceleration"),
     *("backward", "backward_drift", "forward", "forward_drift"),
     *("to_go", "waited", "centre", "lead", "first", "second", "third", "fourth"),
     *OrbitValues._fields,
