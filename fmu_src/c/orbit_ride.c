@@ -83,11 +83,14 @@ void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double le
                                             (1.0 + fabs(law->inputs.frequency_ratio) / MAP_WAVES)));
     law->orbits->ride++;
     law->orbits->maps = 0;
+    ride->may_search = ride->source == FROM_SEARCH;
     if (ride->source == FROM_CURVE || ride->source == FROM_COMBINED) {
         bool combined = ride->source == FROM_COMBINED;
         ride->curve = orbit_curve_of(law->orbits, device, &ride->slow, lead, combined);
+        ride->may_search = combined && ride->curve->found;
     } else if (ride->source == FROM_SERIES) {
         ride->series = orbit_series_of(law->orbits, device, &ride->slow);
+        ride->may_search = orbit_series_found(&ride->series);
     }
 }
 
@@ -103,82 +106,57 @@ double ride_lead(const OrbitRide *ride, double t) {
     return ride->lead + slow_phase_gain(&ride->slow, t);
 }
 
+/* Finds the orbit by Newton's method from a neighbour unless it is NULL, and counts the maps. */
+static bool find(OrbitRide *ride, double lead, double velocity, const HeldOrbit *neighbour) {
+    bool found = held_orbit_at(ride->map, lead, velocity, neighbour, &ride->last) == ORBIT_FOUND;
+    ride->law->orbits->maps += found ? ride->last.maps : MAX_MAPS;
+    return found;
+}
+
 /* Searches from the orbit found last, then without. */
 static bool search(OrbitRide *ride, double t, double velocity) {
     double lead = ride_lead(ride, t);
-    int *maps = &ride->law->orbits->maps;
-    bool found = false;
-    if (ride->searched) {
-        found = held_orbit_at(ride->map, lead, velocity, &ride->last, &ride->last) == ORBIT_FOUND;
-        *maps += found ? 0 : MAX_MAPS;
-    }
-    if (!found) {
-        found = held_orbit_at(ride->map, lead, velocity, NULL, &ride->last) == ORBIT_FOUND;
-        *maps += found ? 0 : MAX_MAPS;
-    }
-    *maps += found ? ride->last.maps : 0;
+    bool found = (ride->searched && find(ride, lead, velocity, &ride->last)) ||
+                 find(ride, lead, velocity, NULL);
     if (found && ride->map->law.device.friction_law != 0) {
-        *maps += ride->map->states + 2;
+        ride->law->orbits->maps += ride->map->states + 2;
         found = held_orbit_linearise(ride->map, &ride->last) == ORBIT_FOUND;
     }
     ride->searched = found;
     return found;
 }
 
-static bool known_point(OrbitRide *ride, double t, double velocity, OrbitPoint *point) {
+static bool tabulated_point(OrbitRide *ride, double t, double velocity, OrbitPoint *point) {
     OrbitTables *tables = ride->law->orbits;
-    switch (ride->source) {
-    case FROM_CURVE:
-        return orbit_point_at(tables, ride->curve, velocity, point);
-    case FROM_COMBINED:
-        if (!ride->curve->found) {
-            return false;
-        }
-        if (orbit_point_at(tables, ride->curve, velocity, point)) {
-            return true;
-        }
-        break;
-    case FROM_SERIES:
-        if (!orbit_series_found(&ride->series)) {
-            return false;
-        }
-        if (orbit_series_at(tables, &ride->series, ride_lead(ride, t), velocity, point)) {
-            return true;
-        }
-        break;
-    case FROM_SEARCH:
-        break;
+    if (ride->source == FROM_SERIES) {
+        return orbit_series_at(tables, &ride->series, ride_lead(ride, t), velocity, point);
     }
-    return search(ride, t, velocity) && orbit_point_of(ride->map, &ride->last, point);
+    return ride->source != FROM_SEARCH && orbit_point_at(tables, ride->curve, velocity, point);
+}
+
+static bool tabulated_friction(OrbitRide *ride, double t, double velocity, double *friction,
+                               double *factor) {
+    OrbitTables *tables = ride->law->orbits;
+    if (ride->source == FROM_SERIES) {
+        return orbit_series_friction_at(tables, &ride->series, ride_lead(ride, t), velocity,
+                                        friction, factor);
+    }
+    return ride->source != FROM_SEARCH &&
+           orbit_friction_at(tables, ride->curve, velocity, friction, factor);
+}
+
+static bool known_point(OrbitRide *ride, double t, double velocity, OrbitPoint *point) {
+    return tabulated_point(ride, t, velocity, point) ||
+           (ride->may_search && search(ride, t, velocity) &&
+            orbit_point_of(ride->map, &ride->last, point));
 }
 
 static bool known_friction(OrbitRide *ride, double t, double velocity, double *friction,
                            double *factor) {
-    OrbitTables *tables = ride->law->orbits;
-    switch (ride->source) {
-    case FROM_CURVE:
-        return orbit_friction_at(tables, ride->curve, velocity, friction, factor);
-    case FROM_COMBINED:
-        if (!ride->curve->found) {
-            return false;
-        }
-        if (orbit_friction_at(tables, ride->curve, velocity, friction, factor)) {
-            return true;
-        }
-        break;
-    case FROM_SERIES:
-        if (!orbit_series_found(&ride->series)) {
-            return false;
-        }
-        if (orbit_series_friction_at(tables, &ride->series, ride_lead(ride, t), velocity, friction,
-                                     factor)) {
-            return true;
-        }
-        break;
-    case FROM_SEARCH:
-        break;
+    if (tabulated_friction(ride, t, velocity, friction, factor)) {
+        return true;
     }
-    if (!search(ride, t, velocity)) {
+    if (!ride->may_search || !search(ride, t, velocity)) {
         return false;
     }
     *friction = ride->last.friction;

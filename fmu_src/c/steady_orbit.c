@@ -24,6 +24,9 @@ enum { SAMPLES = 12, MAX_HALVINGS = 60 };
 /* Force, over full friction, that is rounding or the tolerance of a map. */
 #define NOISE 1e-9
 
+/* Distance in v_q of a neighbour that must not be in balance as well. */
+#define APART 0.01
+
 /* Two velocities [m/s]: at `low` friction and load together accelerate the slider, at `high` they brake it.
  * `orbit` is that of one of them. */
 typedef struct {
@@ -53,30 +56,39 @@ static OrbitStatus refine(const PeriodMap *map, double lead, double load, Bracke
 }
 
 /* Result of the samples so far: `low`, the highest velocity [m/s] at which friction and load accelerate the
- * slider; `drives`, whether a bracket is open from there; the number of samples in balance since
- * (`balanced`); the number of brackets (`count`) and the last one. */
+ * slider; `drives`, whether a bracket is open from there; the number of brackets (`count`) and the last one. */
 typedef struct {
     double low;
     bool drives;
-    int balanced, count;
+    int count;
     Bracket bracket;
 } Scan;
 
-/* Adds a sample: a velocity [m/s], the `excess` of friction and load there [N], and its orbit. */
+/* Adds a sample: a velocity [m/s], the `excess` of friction and load there [N], and its orbit. One in balance
+ * lies within a bracket. */
 static void scan_on(Scan *scan, double velocity, double excess, double noise,
                     const HeldOrbit *sample) {
     if (excess < -noise) {
         scan->low = velocity;
         scan->drives = true;
-    } else if (excess <= noise) {
-        scan->balanced++;
-        return;
-    } else if (scan->drives) {
-        scan->count += scan->balanced > 1 ? 2 : 1;
+    } else if (excess > noise && scan->drives) {
+        scan->count++;
         scan->bracket = (Bracket){scan->low, velocity, *sample};
         scan->drives = false;
     }
-    scan->balanced = 0;
+}
+
+/* Whether the orbit is one of a family that all hold the load, so that none is the steady one. */
+static bool is_neutral(const PeriodMap *map, const HeldOrbit *orbit, double load, double noise) {
+    for (int side = -1; side <= 1; side += 2) {
+        double velocity = orbit->velocity + side * APART * map->speed;
+        HeldOrbit neighbour;
+        if (held_orbit_at(map, orbit->lead, velocity, orbit, &neighbour) == ORBIT_FOUND &&
+            fabs(neighbour.friction + load) <= noise) {
+            return true;
+        }
+    }
+    return false;
 }
 
 OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrbit *orbit) {
@@ -105,10 +117,11 @@ OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrb
         return scan.count == 0 ? failure : ORBIT_UNDETERMINED;
     }
     OrbitStatus status = refine(map, lead, load, &scan.bracket, orbit);
-    if (status == ORBIT_FOUND) {
-        status = held_orbit_check_stable(map, orbit);
+    if (status != ORBIT_FOUND) {
+        return status;
     }
-    return status;
+    return is_neutral(map, orbit, load, noise) ? ORBIT_UNDETERMINED
+                                               : held_orbit_check_stable(map, orbit);
 }
 
 OrbitStatus blocking_orbit(const PeriodMap *map, double lead, HeldOrbit *orbit, double *force) {

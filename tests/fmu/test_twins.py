@@ -29,10 +29,6 @@ ROUNDING = 1e-11
 ORBITS = 1e-9
 """Largest difference along held orbits, over the peak: the twins' Newton iterations differ."""
 
-PREDICTED = 1e-10
-"""Largest difference of predicted steady velocities: near a degenerate pitchfork (ratio 2) it is
-1e5 times what the functions of Python's library and of the C twin differ by in the last bit."""
-
 MIN_FAST_VELOCITY = 1e-4
 """Smallest fast velocity of the devices below, m/s."""
 
@@ -60,8 +56,7 @@ def assert_equal(native: Record, python: Record, allowed: float) -> None:
             np.testing.assert_array_equal(ours, other, f"{name}: the twins see other events")
         elif allowed <= ROUNDING or name != "last_event_time":
             gap = np.abs(ours - other).max()
-            bound = max(allowed, PREDICTED) if name == "steady_velocity" else allowed
-            assert gap <= bound * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
+            assert gap <= allowed * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
 
 
 def scale(name: str, record: Record) -> float:

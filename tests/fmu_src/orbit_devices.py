@@ -16,6 +16,22 @@ STRONG = replace(TABLE_1, friction_coefficient=5.0)
 FLIGHT = replace(TABLE_1, friction_coefficient=1.0, normal_amplitude=1.8)
 BRISTLES = replace(TABLE_1, friction_law=1, tolerance=1e-10)
 STICKING = replace(TABLE_1, friction_coefficient=150.0, normal_amplitude=0.5)
+SOFT_BRISTLE = Device(
+    slider_mass=0.0096,
+    resonator_mass=0.0192,
+    resonator_frequency=23.6,
+    damping_ratio=0.05,
+    base_amplitude=3.54e-4,
+    drive_frequency=10.9,
+    friction_coefficient=0.72,
+    friction_faces=1,
+    friction_law=1,
+    normal_preload=4.77e-5,
+    normal_amplitude=4.77e-5,
+    bristle_stiffness=558.0,
+    bristle_damping=8.2,
+)
+"""Where its load is largest, the slider swings on its bristles as slowly as they follow."""
 
 
 @dataclass(frozen=True)

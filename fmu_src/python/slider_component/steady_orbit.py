@@ -28,6 +28,9 @@ MAX_HALVINGS = 60
 NOISE = 1e-9
 """Force, over full friction, within which forces balance: rounding, or the tolerance of a map."""
 
+APART = 0.01
+"""Distance in v_q of a neighbour that must not be in balance as well."""
+
 MAX_SPEED = 1e150
 """Amplitude [m/s] of the vibration from which on squares leave the range of floating point, so that
 no iteration would converge."""
@@ -48,28 +51,21 @@ class _Scan:
     """Result of the samples so far; forces up to `noise` [N] count as balanced.
 
     `low` is the highest velocity [m/s] at which friction and load accelerate the slider, while a
-    bracket is open from there; `balanced` is the number of samples in balance since. Brackets hold
-    both velocities and the orbit of a sample.
+    bracket is open from there. Brackets hold both velocities and the orbit of a sample; samples in
+    balance lie within them.
     """
 
     noise: float
     low: float | None = None
-    balanced: int = 0
     brackets: list[tuple[float, float, HeldOrbit | None]] = field(default_factory=list)
-    stretches: int = 0
 
     def on(self, velocity: float, excess: float, sample: HeldOrbit | None) -> None:
         """Add a sample: a velocity [m/s], the `excess` of friction and load [N], and its orbit."""
         if excess < -self.noise:
             self.low = velocity
-        elif excess <= self.noise:
-            self.balanced += 1
-            return
-        elif self.low is not None:
+        elif excess > self.noise and self.low is not None:
             self.brackets.append((self.low, velocity, sample))
-            self.stretches += self.balanced > 1
             self.low = None
-        self.balanced = 0
 
 
 def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
@@ -94,9 +90,11 @@ def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
         else:
             scan.on(velocity, load + sample.friction, sample)
     scan.on(reach, load + sliding, sample)
-    if len(scan.brackets) + scan.stretches != 1:
+    if len(scan.brackets) != 1:
         raise NoOrbitError(OrbitStatus.UNDETERMINED if scan.brackets else failure)
     orbit = _refined(period_map, lead, load, *scan.brackets[0])
+    if _is_neutral(period_map, orbit, load, scan.noise):
+        raise NoOrbitError(OrbitStatus.UNDETERMINED)
     check_stable(period_map, orbit)
     return orbit
 
@@ -129,6 +127,19 @@ def check_unique(period_map: PeriodMap, orbit: HeldOrbit) -> None:
             continue
         if not is_same_orbit(period_map, orbit, other):
             raise NoOrbitError(OrbitStatus.UNDETERMINED)
+
+
+def _is_neutral(period_map: PeriodMap, orbit: HeldOrbit, load: float, noise: float) -> bool:
+    """Whether the orbit is one of a family that all hold the load: none is the steady one."""
+    for side in (-1.0, 1.0):
+        velocity = orbit.velocity + side * APART * period_map.speed
+        try:
+            neighbour = held_orbit_at(period_map, orbit.lead, velocity, orbit)
+        except NoOrbitError:
+            continue
+        if abs(neighbour.friction + load) <= noise:
+            return True
+    return False
 
 
 def _refined(

@@ -26,6 +26,7 @@ from slider_resonator.references.averaged.hold import Hold
 from tests.fmu_src.orbit_devices import (
     BRISTLES,
     FLIGHT,
+    SOFT_BRISTLE,
     STICKING,
     STRONG,
     TABLE_1,
@@ -197,22 +198,7 @@ def test_reasons_why_there_is_no_orbit() -> None:
 
 def test_bristles_that_follow_no_faster_than_the_velocity_changes_have_no_slow_motion() -> None:
     """The multipliers of slow velocity and bristle are a pair of complex ones: there is no mass."""
-    soft = Device(
-        slider_mass=0.0096,
-        resonator_mass=0.0192,
-        resonator_frequency=23.6,
-        damping_ratio=0.05,
-        base_amplitude=3.54e-4,
-        drive_frequency=10.9,
-        friction_coefficient=0.72,
-        friction_faces=1,
-        friction_law=1,
-        normal_preload=4.77e-5,
-        normal_amplitude=4.77e-5,
-        bristle_stiffness=558.0,
-        bristle_damping=8.2,
-    )
-    scales = period_map(soft, 0.0, 1)
+    scales = period_map(SOFT_BRISTLE, 0.0, 1)
     orbit = held_orbit_at(scales, 1.5, 0.0)
     with pytest.raises(NoOrbitError) as caught:
         held_orbit_linearised(scales, orbit)

@@ -20,6 +20,7 @@ from fmu_src.python.slider_component.motion import State
 from fmu_src.python.slider_component.orbit_price import CURVE_TURNS, SEARCH_TURNS
 from fmu_src.python.slider_component.orbit_state import MAX_LEADS, Stage
 from fmu_src.python.slider_component.period_map import PeriodMap
+from tests.fmu_src.orbit_devices import SOFT_BRISTLE
 
 FAST_VELOCITY = 0.2366097
 TABLE_1 = Device(fidelity=0)
@@ -331,25 +332,6 @@ ROUGH_BEAT = Device(
 )
 """Its curves have kinks at which panels are halved again and again, at each of nine leads."""
 
-SOFT_BRISTLE = Device(
-    fidelity=0,
-    slider_mass=0.0096,
-    resonator_mass=0.0192,
-    resonator_frequency=23.6,
-    damping_ratio=0.05,
-    base_amplitude=3.54e-4,
-    drive_frequency=10.9,
-    friction_coefficient=0.72,
-    friction_faces=1,
-    friction_law=1,
-    normal_preload=4.77e-5,
-    normal_amplitude=4.77e-5,
-    bristle_stiffness=558.0,
-    bristle_damping=8.2,
-    initial_velocity=0.004,
-)
-"""Where its load is largest, the slider swings on its bristles as slowly as they follow."""
-
 
 @pytest.fixture
 def free_orbits(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -385,5 +367,6 @@ def test_orbits_under_a_beat_from_the_start_are_searched_for_what_tables_cost() 
 @pytest.mark.usefixtures("free_orbits")
 def test_motion_without_a_slow_part_is_resolved() -> None:
     inputs = Inputs(1.5, 6.8e-6, 0.0)
-    assert worst_error(SOFT_BRISTLE, inputs, 60, 12) < 1e-6 * 2.8e-3
-    assert run(SOFT_BRISTLE, inputs, 60, 1).orbit.stage == Stage.RESOLVED
+    soft = replace(SOFT_BRISTLE, fidelity=0, initial_velocity=0.004)
+    assert worst_error(soft, inputs, 60, 12) < 1e-6 * 2.8e-3
+    assert run(soft, inputs, 60, 1).orbit.stage == Stage.RESOLVED

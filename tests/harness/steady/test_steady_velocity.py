@@ -54,7 +54,7 @@ def test_a_family_of_motions_has_no_steady_one(
     motion = find_steady(instance, values)
     assert motion.status == "not_unique"
     assert motion.steady_velocity is None
-    assert abs(motion.predicted) < 0.2, "any member of the family may be predicted"
+    assert motion.predicted > 0.01
 
 
 def test_stuck_device_does_not_creep(instance: Instance) -> None:
