@@ -29,6 +29,10 @@ ROUNDING = 1e-11
 ORBITS = 1e-9
 """Largest difference along held orbits, over the peak: the twins' Newton iterations differ."""
 
+WEAK_BALANCES = {"late_inputs": 1e-10}
+"""Largest difference of predicted velocities, over the peak, in scenes where friction and load
+balance so weakly (a slope of 1e-5) that the last bits of the twins' elementary functions show."""
+
 MIN_FAST_VELOCITY = 1e-4
 """Smallest fast velocity of the devices below, m/s."""
 
@@ -48,15 +52,18 @@ def twins(native_fmu: Path, python_fmu: Path) -> Iterator[Twins]:
         yield native, python
 
 
-def assert_equal(native: Record, python: Record, allowed: float) -> None:
-    """Equal counts; every other signal within `allowed` of its peak."""
+def assert_equal(
+    native: Record, python: Record, allowed: float, predicted: float | None = None
+) -> None:
+    """Equal counts; other signals within `allowed` of their peaks, predictions if `predicted`."""
     for name in OUTPUTS:
         ours, other = native[name], python[name]
         if name in COUNTS:
             np.testing.assert_array_equal(ours, other, f"{name}: the twins see other events")
         elif allowed <= ROUNDING or name != "last_event_time":
             gap = np.abs(ours - other).max()
-            assert gap <= allowed * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
+            bound = predicted if predicted and name == "steady_velocity" else allowed
+            assert gap <= bound * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
 
 
 def scale(name: str, record: Record) -> float:
@@ -99,7 +106,7 @@ def test_scenes(twins: Twins, name: str) -> None:
     allowed = device.tolerance if device.friction_law == 1 else ROUNDING
     if device.fidelity == 0 and device.averaging_order == 2:
         allowed = max(allowed, ORBITS)
-    assert_equal(native, python, max(allowed, ROUNDING))
+    assert_equal(native, python, max(allowed, ROUNDING), WEAK_BALANCES.get(name))
 
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5, 1.01]), st.floats(-3.0, 3.0))
