@@ -14,8 +14,4 @@ bool held_orbit_moment(const PeriodMap *map, const HeldOrbit *orbit, double load
 /* W - V [m/s] at a moment that belongs to the orbit. */
 double held_orbit_offset(const PeriodMap *map, const HeldOrbit *orbit, const Moment *moment);
 
-/* Estimate of the error [m/s] that slow motion makes on its way from an excess F2 + load [N] of
- * force with `factor` 1 + kappa_m: of second order in the change of the slow velocity in a period. */
-double drift_error(const PeriodMap *map, double factor, double excess);
-
 #endif

@@ -7,9 +7,11 @@
 #include "constants.h"
 #include "contact.h"
 #include "events.h"
+#include "orbit_changes.h"
 #include "orbit_error.h"
 #include "orbit_price.h"
 #include "orbit_ride.h"
+#include "orbit_swing.h"
 #include "refusal_texts.h"
 #include "resolved_start.h"
 #include "slow_motion_error.h"
@@ -36,25 +38,9 @@ bool has_slow_motion(const Law *law) {
     return slow > 0.0 && slow < SEPARATION * decay_in_turn(law) && slow < 1.0 && resolved_is_bounded(law);
 }
 
-static OrbitValues values_of(const Law *law) {
-    const Device *device = &law->device;
-    return (OrbitValues){
-        .phase = law->inputs.phase,
-        .load = law->inputs.load,
-        .ratio = law->inputs.frequency_ratio,
-        .waves = orbit_phase_of(law).waves,
-        .preload = device->normal_preload,
-        .amplitude = device->normal_amplitude,
-        .coefficient = device->friction_coefficient,
-        .base = device->base_amplitude,
-        .frequency = device->drive_frequency,
-        .force = device->tangential_force,
-    };
-}
-
 OrbitState orbit_motion_start(const Law *law, const Moment *first) {
     return (OrbitState){
-        .stage = RESOLVED, .to_go = resolved_angle(law, first), .under = values_of(law)};
+        .stage = RESOLVED, .to_go = resolved_angle(law, first), .under = orbit_values_of(law)};
 }
 
 /* The lead [rad] at drive phase 0 of the turn in which it is least, rounded. */
@@ -96,6 +82,15 @@ static void resolve_for(const Law *law, OrbitState *orbit, double angle) {
     orbit->to_go = fmax(orbit->to_go, angle);
 }
 
+/* Whether an orbit of the ride is unknown; motion is then to be resolved. */
+static bool is_lost(const Law *law, const OrbitRide *ride, OrbitState *orbit) {
+    if (ride->unknown > 0.0) {
+        resolve_for(law, orbit, ride->unknown);
+        return true;
+    }
+    return false;
+}
+
 /* Go over to the orbit whose W and centre are those of a moment; tells the orbit. Where it is unknown, motion is
  * resolved on. */
 static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
@@ -117,8 +112,7 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
         if (!ride_moment(&ride, 0.0, theta, velocity, 0.0, &there, point)) {
             return false;
         }
-        if (ride.unknown > 0.0) {
-            resolve_for(law, orbit, ride.unknown);
+        if (is_lost(law, &ride, orbit)) {
             point->of[ORBIT_FACTOR] = 1.0;
             return true;
         }
@@ -143,26 +137,6 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     return true;
 }
 
-/* What rounding leaves between an input that has grown and the value that a host then sets: angle [rad],
- * and share of a load. */
-#define SAME_INPUT 1e-12
-
-/* Whether the lead has another phase or rate than at the end of the last step. */
-static bool is_led(const OrbitState *orbit, const OrbitValues *present, bool drifts) {
-    double turned = remainder(present->phase - orbit->under.phase, TAU);
-    if (present->waves != orbit->under.waves || (orbit->varied == VARIED_LEAD && !drifts)) {
-        return true;
-    }
-    return orbit->varied == HELD_INPUTS ? present->phase != orbit->under.phase
-                                        : fabs(turned) > SAME_INPUT;
-}
-
-static bool is_loaded(const OrbitState *orbit, const OrbitValues *present) {
-    double before = orbit->under.load, tolerance = SAME_INPUT * fabs(before);
-    return orbit->varied == HELD_INPUTS ? present->load != before
-                                        : fabs(present->load - before) > tolerance;
-}
-
 /* A drive angle [rad] of resolved motion is over. */
 static void resolved_for(const Law *law, OrbitState *orbit, double angle) {
     error_calm(law, angle, orbit);
@@ -170,44 +144,22 @@ static void resolved_for(const Law *law, OrbitState *orbit, double angle) {
     orbit->waited += angle;
 }
 
-/* Take note of values that changed since the last step. */
+/* Follow changes since the last step: to other orbits, or by resolved motion. */
 static bool adapt(const Law *law, Moment *now) {
     OrbitState *orbit = &now->orbit;
-    OrbitValues before = orbit->under, present = values_of(law);
     OrbitPoint point;
-    bool driven = present.base != before.base || present.frequency != before.frequency ||
-                  present.force != before.force;
-    bool shaken = driven || orbit->stage == AVERAGED;
-    bool tuned = present.preload != before.preload || present.amplitude != before.amplitude ||
-                 present.coefficient != before.coefficient;
-    const SlowPhase slow = orbit_phase_of(law);
-    bool drifts = slow_phase_drifts(&slow);
-    bool led = is_led(orbit, &present, drifts);
-    bool loaded = is_loaded(orbit, &present);
-    bool turned = orbit->varied != VARIED_LEAD && present.ratio != before.ratio;
-    bool changed = shaken || tuned || led || turned;
-    orbit->under = present;
-    orbit->varied = HELD_INPUTS;
-    orbit->turning = 0.0;
-    orbit->loading = 0.0;
-    if (orbit->stage == AVERAGED) {
-        orbit->doubt = first_order_error(law);
-    }
-    if ((shaken || tuned) && orbit->tunings < MAX_TUNINGS) {
-        orbit->tunings++;
-    }
-    if (driven || tuned) {
-        orbit->paid = (PaidTables){.count = 0};
-    }
+    const OrbitChanges changes = orbit_note_changes(law, orbit);
+    bool anew = changes.tuned || changes.led;
+    bool changed = changes.shaken || anew || changes.turned;
     bool starts = orbit->stage == RESOLVED && orbit->waited == 0.0;
-    if (shaken) {
+    if (changes.shaken) {
         resolve_for(law, orbit, resolved_angle(law, now));
     }
     bool resolved = orbit->stage == RESOLVED;
-    if (resolved ? starts || !changed : !(changed || loaded || drifts)) {
+    if (resolved ? starts || !changed : !(changed || changes.loaded || changes.drifts)) {
         return true;
     }
-    double lead = tuned || led || resolved ? lead_of(law, now) : orbit->lead;
+    double lead = anew || resolved ? lead_of(law, now) : orbit->lead;
     double price = orbit_price(law, orbit, lead, changed);
     if (resolved) {
         resolve_for(law, orbit, price - orbit->waited);
@@ -218,11 +170,11 @@ static bool adapt(const Law *law, Moment *now) {
         orbit_pay(law, orbit, lead);
         return true;
     }
-    if (tuned || led) {
+    if (anew) {
         if (!take_over(law, now, &point)) {
             return false;
         }
-    } else if (loaded && law->device.friction_law != 0) {
+    } else if (changes.loaded && law->device.friction_law != 0) {
         OrbitRide ride;
         ride_begin(&ride, law, now, orbit->lead);
         point = ride_point(&ride, 0.0, orbit->velocity);
@@ -258,26 +210,6 @@ static bool resolve(const Law *law, double duration, EventSearch *search, Moment
         *time = 0.0;
     }
     return !ends || take_over(law, now, &point) || refuse_infinite_motion(refusal, duration);
-}
-
-/* The resonator's own swing `t` [s] later: it moves the pair, but not its momentum. */
-static Response swing_after(const Law *law, const Response *swing, double t) {
-    const Oscillator *slip = &law->resolved->held.plant.slip;
-    Response free = free_response(slip, t);
-    double y = swing->displacement, u = swing->rate;
-    return (Response){y * (free.displacement + slip->decay * free.rate) + u * free.rate,
-                      u * (free.displacement - slip->decay * free.rate) -
-                          slip->stiffness * y * free.rate};
-}
-
-/* Add the swing to a moment on an orbit. A slider that sticks stays at rest. */
-static void add_swing(Moment *moment, const Response *swing, double share) {
-    moment->state.displacement += swing->displacement;
-    moment->state.rate += swing->rate;
-    moment->position -= share * swing->displacement;
-    if (moment->mode != STICK) {
-        moment->state.velocity -= share * swing->rate;
-    }
 }
 
 /* Positions [m] at the ends of periods within a ride. */
@@ -335,8 +267,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         if (!slow_pass(&plan, marks.time[i], &reached, refusal)) {
             return false;
         }
-        if (ride.unknown > 0.0) {
-            resolve_for(law, orbit, ride.unknown);
+        if (is_lost(law, &ride, orbit)) {
             return true;
         }
         reached.step = fmax(reached.step, step);
@@ -352,8 +283,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     if (!slow_pass(&plan, duration, &reached, refusal)) {
         return false;
     }
-    if (ride.unknown > 0.0) {
-        resolve_for(law, orbit, ride.unknown);
+    if (is_lost(law, &ride, orbit)) {
         return true;
     }
     double theta = within_turn(now->theta + w * duration);
@@ -362,8 +292,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
                      &point)) {
         return refuse_infinite_motion(refusal, duration);
     }
-    if (ride.unknown > 0.0) {
-        resolve_for(law, orbit, ride.unknown);
+    if (is_lost(law, &ride, orbit)) {
         return true;
     }
     Response swing = swing_after(law, &orbit->swing, duration);

@@ -33,7 +33,6 @@ class Orbit:
     position: float
     offset: float
     speed: float
-    error: float
 
 
 @dataclass(frozen=True)

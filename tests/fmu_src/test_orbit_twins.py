@@ -12,7 +12,6 @@ from fmu_src.python.slider_component.held_orbit import (
     held_orbit_linearised,
 )
 from fmu_src.python.slider_component.orbit_drift import (
-    drift_error,
     held_orbit_moment,
     held_orbit_offset,
 )
@@ -51,7 +50,6 @@ def python_orbit(
         moment.position,
         held_orbit_offset(scales, orbit, moment),
         scales.speed,
-        drift_error(scales, orbit.factor, excess),
     )
 
 
@@ -89,7 +87,6 @@ def assert_equal(
         "factor": 1.0,
         "fast_multiplier": 1.0,
         "slope": scales.force / scales.speed,
-        "error": scales.speed,
     }.items():
         number, twin = getattr(found, name) / unit, getattr(expected, name) / unit
         assert number == pytest.approx(twin, abs=1e-8), name

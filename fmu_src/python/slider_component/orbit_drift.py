@@ -2,27 +2,12 @@
 
 from __future__ import annotations
 
-from math import exp, expm1, sqrt, tau
+from math import exp, tau
 
 from .held_orbit import HeldOrbit, NoOrbitError, OrbitStatus, SectionRate
 from .moment import Moment
 from .motion import State
 from .period_map import PeriodMap
-
-ERROR_OF_WAVES = 0.012
-"""Error of slow motion over the square of the change of V in a period, both in v_q.
-
-With the root of the waves of the normal load in a turn of the drive, one at least. Fitted, with the
-next three, to transients of random devices with a friction share up to 0.1."""
-
-ERROR_OF_MEMORY = 0.0025
-"""The same with the periods that the resonator remembers."""
-
-ERROR_OF_ADDED_MASS = 2.5
-"""The same with the added mass over the total one."""
-
-ERROR_OF_FLIGHT = 0.2
-"""The same with the change of V, in flight, for the kinks of its curves."""
 
 
 def held_orbit_moment(period_map: PeriodMap, orbit: HeldOrbit, load: float, theta: float) -> Moment:
@@ -55,30 +40,6 @@ def held_orbit_moment(period_map: PeriodMap, orbit: HeldOrbit, load: float, thet
 def held_orbit_offset(period_map: PeriodMap, orbit: HeldOrbit, moment: Moment) -> float:
     """W - V [m/s] at a moment that belongs to the orbit."""
     return period_map.momentum_velocity(moment.state, moment.theta) - orbit.velocity
-
-
-def drift_error(period_map: PeriodMap, factor: float, excess: float) -> float:
-    """Estimate of the error [m/s] that slow motion makes.
-
-    On its way from an excess F2 + load [N] of force with `factor` 1 + kappa_m: of second order in
-    the change of the slow velocity in a period.
-    """
-    device = period_map.held.device
-    waves = max(1.0, abs(period_map.held.inputs.frequency_ratio))
-    change = abs(factor * excess) / period_map.force
-    share = ERROR_OF_WAVES * sqrt(waves) + ERROR_OF_MEMORY * _memory(period_map)
-    share += ERROR_OF_ADDED_MASS * abs(factor - 1.0)
-    if device.normal_amplitude > device.normal_preload:
-        share += ERROR_OF_FLIGHT * change
-    return period_map.speed * min(1.0, share * change * change)
-
-
-def _memory(period_map: PeriodMap) -> float:
-    """Periods that the resonator remembers, the present one included."""
-    slip = period_map.held.plant.slip
-    excess = slip.decay * slip.decay - slip.stiffness
-    slowest = slip.stiffness / (slip.decay + sqrt(excess)) if excess > 0.0 else slip.decay
-    return -1.0 / expm1(-slowest * period_map.period)
 
 
 def _shifted(state: State, bristle: float, rate: SectionRate, amount: float) -> tuple[State, float]:

@@ -25,11 +25,12 @@ from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
+from .orbit_changes import noted, orbit_values
 from .orbit_curve import OrbitPoint
 from .orbit_error import ErrorRide, calmed, left_orbits
 from .orbit_price import is_due, orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
-from .orbit_state import MAX_TUNINGS, OrbitState, OrbitValues, PaidTables, Stage, Swing
+from .orbit_state import OrbitState, Stage, Swing
 from .oscillator import free_response
 from .period import MARK_TOLERANCE, PeriodMeans
 from .resolved_start import lag_angle, resolved_angle, resolved_is_bounded
@@ -95,7 +96,9 @@ class OrbitLaw:
         moment.mode = self.mode(moment)
         moment.counts = Counts(sliding=0 if moment.mode == LIFTED else moment.mode)
         to_go = resolved_angle(self.full.device, self.fast, state, 0.0)
-        moment.orbit = OrbitState(Stage.RESOLVED, to_go, under=self._values())
+        moment.orbit = OrbitState(
+            Stage.RESOLVED, to_go, under=orbit_values(self.full.device, self.full.inputs)
+        )
         return moment
 
     def advance(self, moment: Moment, duration: float) -> Moment:
@@ -143,21 +146,6 @@ class OrbitLaw:
     def _errors(self, ride: OrbitRide) -> ErrorRide:
         return ErrorRide(ride, self.full.device, self.fast)
 
-    def _values(self) -> OrbitValues:
-        device, inputs = self.full.device, self.full.inputs
-        return OrbitValues(
-            phase=inputs.phase,
-            load=inputs.load,
-            ratio=inputs.frequency_ratio,
-            waves=orbit_phase_of(device, inputs.frequency_ratio).waves,
-            preload=device.normal_preload,
-            amplitude=device.normal_amplitude,
-            coefficient=device.friction_coefficient,
-            base=device.base_amplitude,
-            frequency=device.drive_frequency,
-            force=device.tangential_force,
-        )
-
     def _lead(self, moment: Moment) -> float:
         """The lead [rad] at drive phase 0 of the turn in which it is least, rounded."""
         device, inputs = self.full.device, self.full.inputs
@@ -182,32 +170,21 @@ class OrbitLaw:
         return slow_friction(self.held, averaged, self.fast, moment.theta, moment.psi)
 
     def _adapted(self, now: Moment) -> Moment:
-        """Take note of values that changed since the last step."""
-        device, orbit = self.full.device, now.orbit
-        before, present = orbit.under, self._values()
-        drive_before = before.base, before.frequency, before.force
-        driven = drive_before != (present.base, present.frequency, present.force)
-        shaken = driven or orbit.stage == Stage.AVERAGED
-        contact_before = before.preload, before.amplitude, before.coefficient
-        tuned = contact_before != (present.preload, present.amplitude, present.coefficient)
-        led = (before.phase, before.waves) != (present.phase, present.waves)
-        tunings = min(orbit.tunings + 1, MAX_TUNINGS) if shaken or tuned else orbit.tunings
-        loaded = present.load != before.load
-        changed = shaken or tuned or led or before.ratio != present.ratio
-        paid = PaidTables() if driven or tuned else orbit.paid
-        orbit = orbit._replace(under=present, tunings=tunings, paid=paid)
-        if orbit.stage == Stage.AVERAGED:
-            orbit = orbit._replace(doubt=first_order_error(device, self.fast))
+        """Follow changes since the last step: to other orbits, or by resolved motion."""
+        device = self.full.device
+        orbit, changes = noted(device, self.full.inputs, self.fast, now.orbit)
+        anew = changes.tuned or changes.led
+        changed = changes.shaken or anew or changes.turned
         starts = orbit.stage == Stage.RESOLVED and orbit.waited == 0.0
-        if shaken:
+        if changes.shaken:
             angle = resolved_angle(device, self.fast, now.state, now.theta)
             orbit = self._resolved_for(orbit, angle)
         now.orbit = orbit
         ratio = self.full.inputs.frequency_ratio
         resolved = orbit.stage == Stage.RESOLVED
-        if (starts or not changed) if resolved else not (changed or loaded):
+        if (starts or not changed) if resolved else not (changed or changes.loaded):
             return now
-        lead = self._lead(now) if tuned or led or resolved else orbit.lead
+        lead = self._lead(now) if anew or resolved else orbit.lead
         price = orbit_price(device, ratio, orbit, lead, changed=changed)
         if resolved:
             now.orbit = self._resolved_for(orbit, price - orbit.waited)
@@ -215,9 +192,9 @@ class OrbitLaw:
         if price > 0.0:
             now.orbit = with_paid(device, ratio, self._resolved_for(orbit, price), lead)
             return now
-        if tuned or led:
+        if anew:
             now, factor = self._taken_over(now)
-        elif loaded and device.friction_law != 0:
+        elif changes.loaded and device.friction_law != 0:
             factor = self._ride(now, orbit.lead).point(0.0, orbit.velocity).of.factor
         else:
             return now

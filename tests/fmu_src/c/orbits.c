@@ -6,7 +6,7 @@
 #include "steady_orbit.h"
 #include "values.h"
 
-enum { HELD, STEADY, NUMBERS = 16, STATES = 4 };
+enum { HELD, STEADY, NUMBERS = 15, STATES = 4 };
 
 static bool map_of(PeriodMap *map, const double *values, double ratio, int turns) {
     Device device = device_of(values);
@@ -53,7 +53,6 @@ int find_orbit(const double *values, double ratio, int turns, double lead, int k
         moment.position,
         held_orbit_offset(&map, &orbit, &moment),
         map.speed,
-        drift_error(&map, orbit.factor, excess),
     };
     for (int i = 0; i < NUMBERS; i++) {
         numbers[i] = found[i];
