@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.tube import Tube, no_tube
@@ -29,8 +30,9 @@ def beside_events(references: ReferenceSide, reference: str, name: str) -> Tube:
     return Tube(signal, lower, upper)
 
 
-def _near(times: Array, instants: Array, margin: float) -> Array:
+def _near(times: Array, instants: Array, margin: float) -> NDArray[np.bool_]:
     """Return for each time (s), shape (n,), whether one of the instants (s) is within a margin."""
     edges = np.concatenate([[-np.inf], np.sort(instants), [np.inf]])
     after = np.searchsorted(edges, times)
-    return np.minimum(edges[after] - times, times - edges[after - 1]) <= margin
+    distance = np.minimum(edges[after] - times, times - edges[after - 1])
+    return np.asarray(distance <= margin, dtype=np.bool_)
