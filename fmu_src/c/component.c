@@ -107,8 +107,13 @@ bool component_set(Component *component, const unsigned *references, const doubl
     }
     bool running = is_running(component->now.lifecycle);
     if (!same) {
-        if (running && !change(component, changed, references, count, refusal)) {
-            return false;
+        if (running) {
+            Moment before = component->now.moment;
+            law_settle_error(present_law(component), &before);
+            if (!change(component, changed, references, count, refusal)) {
+                return false;
+            }
+            component->now.moment = before;
         }
         component->prepared = running;
         memcpy(component->now.values, changed, sizeof changed);
@@ -223,8 +228,8 @@ static bool advance(Component *component, double step_size, double duration, Eve
     const Snapshot *now = &component->now;
     const Law *law = present_law(component);
     if (inputs_vary(now->derivatives)) {
-        return ramped_step(&component->ramped, now, duration, &component->table, &component->orbits,
-                           after, refusal);
+        return ramped_step(&component->ramped, now, law, duration, &component->table,
+                           &component->orbits, after, refusal);
     }
     return bounded_work_check(law, step_size, refusal)
            && law_advance(law, &now->moment, duration, search, after, refusal);

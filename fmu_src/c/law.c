@@ -131,6 +131,12 @@ double law_friction_force(const Law *any, const Moment *moment, int mode) {
                                      : law->friction->force(law, moment, mode);
 }
 
+void law_settle_error(const Law *law, Moment *moment) {
+    if (law->resolved != NULL) {
+        orbit_motion_settle(law, moment);
+    }
+}
+
 double law_slow_motion_error(const Law *law, const Moment *moment) {
     if (!is_averaged(&law->device)) {
         return 0.0;

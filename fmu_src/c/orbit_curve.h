@@ -55,7 +55,7 @@ typedef struct {
 
 /* The curve of a device under `waves` of the normal load in a turn, repeating after `turns`, at one lead.
  * `found` is false where there are no orbits. `beyond` [0] is backward, [1] forward. `asked` has a bit for each
- * panel, of all depths, that the ride of number `ride` has asked for. */
+ * panel, of all depths, that the ride of number `ride` has asked for, and `recent` is the one it was given last. */
 typedef struct {
     bool known, found, combined;
     long used;
@@ -67,6 +67,7 @@ typedef struct {
     int next;
     long ride;
     unsigned char asked[ASKED_BYTES];
+    const OrbitPanel *recent;
     OrbitPanel panel[CURVE_PANELS];
     ShiftPoint shifts[SHIFT_POINTS];
 } OrbitCurve;

@@ -21,12 +21,23 @@
 /* Decay of the resonator's swing in a turn that is seen in mean velocities of a turn. */
 #define SEEN 1.0
 
+/* What counts at one moment of a ride: slow velocity [m/s] and acceleration [m/s^2]; the time [s] by which V
+ * is ahead of the motion whose W it has; the added mass, over the mass, that the table leaves out; and
+ * how far the resonator lags [m], over the acceleration.
+ * `measured` is false where there are no shifts, `beyond` true where the slider never turns back. */
+typedef struct {
+    bool measured, beyond;
+    double velocity, acceleration, lag, of_turn, left_out, swing, unsure;
+} ErrorPlace;
+
 static bool has_shifts(const OrbitRide *ride) {
     bool curve = ride->source == FROM_CURVE || ride->source == FROM_COMBINED;
     return curve && !is_ramped(&ride->law->held.plant) && !slow_phase_drifts(&ride->slow);
 }
 
-ErrorPlace error_place(OrbitRide *ride, double velocity, double theta) {
+/* The place at a velocity [m/s] and drive phase `theta` [rad] over all turns of the orbit, under the inputs with
+ * which the ride begins. */
+static ErrorPlace place_at(OrbitRide *ride, double velocity, double theta) {
     const Plant *plant = &ride->law->held.plant;
     ErrorPlace place = {.velocity = velocity};
     double friction, factor;
@@ -141,44 +152,54 @@ void error_calm(const Law *law, double angle, OrbitState *orbit) {
     orbit->unrest *= exp(-fmin(decay_in_turn(law), SEEN) * angle / TAU);
 }
 
-void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, double theta,
-                 const Moment *now, OrbitState *orbit) {
-    ErrorPlace place = error_place(ride, velocity, theta);
-    orbit->unrest = error_of_swing(ride, velocity, theta, now);
-    orbit->doubt += place.unsure * fabs(place.acceleration);
-    if (!place.measured) {
-        double added_mass = point->of[ORBIT_FACTOR] - 1.0;
+/* Take in the end of resolved motion. */
+static void begin_at(OrbitRide *ride, const ErrorPlace *place, const OpenError *open,
+                     OrbitState *orbit) {
+    orbit->doubt += place->unsure * fabs(place->acceleration);
+    if (!place->measured) {
+        double added_mass = ride_point(ride, 0.0, open->velocity).of[ORBIT_FACTOR] - 1.0;
         orbit->doubt = fmax(orbit->doubt, second_order_error(ride->law, added_mass, INFINITY));
     }
-    orbit->acceleration = acceleration_on(ride->law, point, ride->law->inputs.load);
     bound(ride->law, orbit);
 }
 
-void error_carry(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
-                 const OrbitPoint *point, double duration, OrbitState *orbit) {
+/* Carry the error on over `duration` [s] to an orbit where shifts are not measured. */
+static void carry_unmeasured(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
+                             const OrbitPoint *point, double duration, OrbitState *orbit) {
+    const Law *law = ride->law;
+    double load = law->inputs.load + law->held.plant.load_rate * duration;
+    double before = orbit->acceleration, left;
+    orbit->acceleration = acceleration_on(law, point, load);
+    if (has_shifts(ride)) {
+        left = left_by_excess(ride, from, to, duration, orbit);
+    } else if (ride->source == FROM_SEARCH) {
+        bool slower = fabs(orbit->acceleration) < fabs(before);
+        left = slower ? fabs(orbit->acceleration / before) : 1.0;
+    } else {
+        left = left_by_slope(ride, to->velocity, duration);
+    }
+    orbit->doubt =
+        fmax(left * (orbit->doubt + fabs(orbit->ahead)), unmeasured_error(law, point, load));
+    orbit->ahead = 0.0;
+    error_calm(law, duration * law->device.drive_frequency, orbit);
+    bound(law, orbit);
+}
+
+/* Carry the error on over `duration` [s] to another place, whose orbit is `point`. */
+static void carry(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
+                  const OrbitPoint *point, double duration, OrbitState *orbit) {
     const Law *law = ride->law;
     double gained, unsure;
-    double angle = duration * law->device.drive_frequency;
     if (!from->measured || !to->measured ||
         !orbit_shift_gained(law->orbits, ride->curve, from->velocity, to->velocity, &gained,
                             &unsure)) {
-        double load = law->inputs.load + law->held.plant.load_rate * duration;
-        double before = orbit->acceleration;
-        orbit->acceleration = acceleration_on(law, point, load);
-        bool slower = fabs(orbit->acceleration) < fabs(before), searches = ride->source == FROM_SEARCH;
-        double left = slower ? fabs(orbit->acceleration / before) : 1.0;
-        left = searches ? left : left_by_slope(ride, to->velocity, duration);
-        orbit->doubt = fmax(left * (orbit->doubt + fabs(orbit->ahead)),
-                            unmeasured_error(law, point, load));
-        orbit->ahead = 0.0;
-        error_calm(law, angle, orbit);
-        bound(law, orbit);
+        carry_unmeasured(ride, from, to, point, duration, orbit);
         return;
     }
     double a = to->acceleration, left = left_by_excess(ride, from, to, duration, orbit);
     double jump = fabs(from->acceleration - orbit->acceleration);
     orbit->unrest += velocity_of_swing(law, from->swing * jump);
-    error_calm(law, angle, orbit);
+    error_calm(law, duration * law->device.drive_frequency, orbit);
     orbit->acceleration = a;
     gained -= 0.5 * (from->left_out + to->left_out) * duration;
     double error = left * (orbit->ahead + from->lag * from->acceleration) + gained * a;
@@ -192,15 +213,62 @@ void error_carry(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
     bound(law, orbit);
 }
 
-double error_at(OrbitRide *ride, const ErrorPlace *place, const OrbitState *orbit) {
+/* Take in what is open, up to the orbit `point`. */
+static void settle_on(OrbitRide *ride, const OrbitPoint *point, double theta, OrbitState *orbit) {
+    const OpenError open = orbit->open;
+    orbit->open = (OpenError){.kind = NOTHING_OPEN};
+    ErrorPlace from = place_at(ride, open.velocity, open.angle);
+    if (open.kind == TAKEN_OVER) {
+        begin_at(ride, &from, &open, orbit);
+    }
+    if (open.elapsed > 0.0) {
+        ErrorPlace to = place_at(ride, orbit->velocity, theta);
+        carry(ride, &from, &to, point, open.elapsed, orbit);
+    }
+}
+
+void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, double theta,
+                 const Moment *now, OrbitState *orbit) {
+    orbit->acceleration = acceleration_on(ride->law, point, ride->law->inputs.load);
+    orbit->unrest = error_of_swing(ride, velocity, theta, now);
+    orbit->open = (OpenError){TAKEN_OVER, 0.0, velocity, theta};
+    if (!has_shifts(ride)) {
+        settle_on(ride, point, theta, orbit);
+    }
+}
+
+void error_open(double theta, OrbitState *orbit) {
+    if (orbit->open.kind == NOTHING_OPEN) {
+        orbit->open = (OpenError){FOLLOWED, 0.0, orbit->velocity, theta};
+    }
+}
+
+void error_follow(OrbitRide *ride, const OrbitPoint *point, double theta, double duration,
+                  OrbitState *orbit) {
+    orbit->open.elapsed += duration;
+    if (!has_shifts(ride)) {
+        settle_on(ride, point, theta, orbit);
+    }
+}
+
+void error_settle(OrbitRide *ride, double theta, OrbitState *orbit) {
+    if (orbit->open.kind != NOTHING_OPEN) {
+        OrbitPoint point = ride_point(ride, 0.0, orbit->velocity);
+        settle_on(ride, &point, theta, orbit);
+    }
+}
+
+double error_at(OrbitRide *ride, double theta, const OrbitState *now) {
     const Law *law = ride->law;
-    if (!place->measured) {
-        OrbitPoint point = ride_point(ride, 0.0, place->velocity);
+    OrbitState settled = *now, *orbit = &settled;
+    error_settle(ride, theta, orbit);
+    ErrorPlace place = place_at(ride, orbit->velocity, theta);
+    if (!place.measured) {
+        OrbitPoint point = ride_point(ride, 0.0, place.velocity);
         return fmax(orbit->doubt, unmeasured_error(law, &point, law->inputs.load));
     }
-    double jumped = velocity_of_swing(
-        law, place->swing * fabs(place->acceleration - orbit->acceleration));
-    double a = place->acceleration;
-    return fabs(orbit->ahead + place->lag * a) + (place->of_turn + place->unsure) * fabs(a) +
+    double a = place.acceleration;
+    double jumped = velocity_of_swing(law, place.swing * fabs(a - orbit->acceleration));
+    return fabs(orbit->ahead + place.lag * a) + (place.of_turn + place.unsure) * fabs(a) +
            orbit->doubt + orbit->unrest + jumped + resolution_error(law);
 }

@@ -1,7 +1,8 @@
 /* The error of slow motion along held orbits, carried on from step to step.
  *
  * Under held inputs V errs by its acceleration times a time that grows by what orbits have gained (see
- * orbit_shifts.h). What a jump of inputs leaves as it is is the error of W, which `ahead` keeps. */
+ * orbit_shifts.h). That depends on the first and the last velocity alone, so it is measured late: where the estimate
+ * is read, or where inputs change. What a jump of inputs leaves as it is is the error of W, which `ahead` keeps. */
 #ifndef SLIDER_ORBIT_ERROR_H
 #define SLIDER_ORBIT_ERROR_H
 
@@ -9,21 +10,8 @@
 
 #include "orbit_ride.h"
 
-/* What counts at one moment of a ride: slow velocity [m/s] and acceleration [m/s^2]; the time [s] by which V
- * is ahead of the motion whose W it has; the added mass, over the mass, that the table leaves out; and
- * how far the resonator lags [m], over the acceleration.
- * `measured` is false where there are no shifts, `beyond` true where the slider never turns back. */
-typedef struct {
-    bool measured, beyond;
-    double velocity, acceleration, lag, of_turn, left_out, swing, unsure;
-} ErrorPlace;
-
-/* The place at a velocity [m/s] and drive phase `theta` [rad] over all turns of the orbit, under the inputs with
- * which the ride begins. */
-ErrorPlace error_place(OrbitRide *ride, double velocity, double theta);
-
 /* Begin with what resolved motion leaves at the moment `now`, whose W belongs to a velocity [m/s] and the orbit
- * `point`. */
+ * `point`; its drive phase is `theta` [rad] over all turns of the orbit. */
 void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, double theta,
                  const Moment *now, OrbitState *orbit);
 
@@ -33,11 +21,18 @@ void error_leave(const Law *law, OrbitState *orbit);
 /* Let the resonator's swing decay for a drive angle [rad]. */
 void error_calm(const Law *law, double angle, OrbitState *orbit);
 
-/* Carry the error on over `duration` [s] to another place, whose orbit is `point`. */
-void error_carry(OrbitRide *ride, const ErrorPlace *from, const ErrorPlace *to,
-                 const OrbitPoint *point, double duration, OrbitState *orbit);
+/* Follow an orbit from its velocity at drive phase `theta` [rad] over all turns on. */
+void error_open(double theta, OrbitState *orbit);
+
+/* Note that the motion has gone on for `duration` [s] to the velocity of the orbit `point`, at drive phase `theta`
+ * [rad] over all turns. */
+void error_follow(OrbitRide *ride, const OrbitPoint *point, double theta, double duration,
+                  OrbitState *orbit);
+
+/* Take in what is open, at drive phase `theta` [rad] over all turns, where the ride begins. */
+void error_settle(OrbitRide *ride, double theta, OrbitState *orbit);
 
 /* The estimate [m/s] for the mean velocity of the period that ends there. */
-double error_at(OrbitRide *ride, const ErrorPlace *place, const OrbitState *orbit);
+double error_at(OrbitRide *ride, double theta, const OrbitState *orbit);
 
 #endif

@@ -72,9 +72,22 @@ static double orbit_theta(const OrbitRide *ride, double t, double theta, double 
     return phase;
 }
 
+void orbit_motion_settle(const Law *law, Moment *moment) {
+    OrbitState *orbit = &moment->orbit;
+    if (orbit->open.kind == NOTHING_OPEN) {
+        return;
+    }
+    OrbitRide ride;
+    ride_begin(&ride, law, moment, orbit->lead);
+    double chi = law->inputs.phase + moment->psi;
+    error_settle(&ride, orbit_theta(&ride, 0.0, moment->theta, chi), orbit);
+}
+
 /* Resolve the motion for a drive angle [rad] at least. */
-static void resolve_for(const Law *law, OrbitState *orbit, double angle) {
+static void resolve_for(const Law *law, Moment *now, double angle) {
+    OrbitState *orbit = &now->orbit;
     if (orbit->stage != RESOLVED) {
+        orbit_motion_settle(law, now);
         error_leave(law, orbit);
         orbit->stage = RESOLVED;
         orbit->to_go = orbit->waited = 0.0;
@@ -83,9 +96,9 @@ static void resolve_for(const Law *law, OrbitState *orbit, double angle) {
 }
 
 /* Whether an orbit of the ride is unknown; motion is then to be resolved. */
-static bool is_lost(const Law *law, const OrbitRide *ride, OrbitState *orbit) {
+static bool is_lost(const Law *law, const OrbitRide *ride, Moment *now) {
     if (ride->unknown > 0.0) {
-        resolve_for(law, orbit, ride->unknown);
+        resolve_for(law, now, ride->unknown);
         return true;
     }
     return false;
@@ -112,7 +125,7 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
         if (!ride_moment(&ride, 0.0, theta, velocity, 0.0, &there, point)) {
             return false;
         }
-        if (is_lost(law, &ride, orbit)) {
+        if (is_lost(law, &ride, now)) {
             point->of[ORBIT_FACTOR] = 1.0;
             return true;
         }
@@ -153,7 +166,7 @@ static bool adapt(const Law *law, Moment *now) {
     bool changed = changes.shaken || anew || changes.turned;
     bool starts = orbit->stage == RESOLVED && orbit->waited == 0.0;
     if (changes.shaken) {
-        resolve_for(law, orbit, resolved_angle(law, now));
+        resolve_for(law, now, resolved_angle(law, now));
     }
     bool resolved = orbit->stage == RESOLVED;
     if (resolved ? starts || !changed : !(changed || changes.loaded || changes.drifts)) {
@@ -162,11 +175,11 @@ static bool adapt(const Law *law, Moment *now) {
     double lead = anew || resolved ? lead_of(law, now) : orbit->lead;
     double price = orbit_price(law, orbit, lead, changed);
     if (resolved) {
-        resolve_for(law, orbit, price - orbit->waited);
+        resolve_for(law, now, price - orbit->waited);
         return true;
     }
     if (price > 0.0) {
-        resolve_for(law, orbit, price);
+        resolve_for(law, now, price);
         orbit_pay(law, orbit, lead);
         return true;
     }
@@ -183,7 +196,7 @@ static bool adapt(const Law *law, Moment *now) {
     }
     double lag = lag_angle(law, point.of[ORBIT_FACTOR] - 1.0);
     if (lag > 0.0) {
-        resolve_for(law, orbit, lag);
+        resolve_for(law, now, lag);
     }
     return true;
 }
@@ -253,7 +266,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         .sway = slow_friction_sway(&ride.first) / plant->total_mass,
     };
     ride_edges(&ride, plan.edge, &plan.margin);
-    ErrorPlace from = error_place(&ride, orbit->velocity, orbit_theta(&ride, 0.0, now->theta, chi));
+    error_open(orbit_theta(&ride, 0.0, now->theta, chi), orbit);
     Reached reached = {.velocity = orbit->velocity, .step = plan.step};
     double last = period_last_end(now->theta, w, duration);
     Marks marks = {{last - length, last}, {0.0, 0.0}};
@@ -267,7 +280,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         if (!slow_pass(&plan, marks.time[i], &reached, refusal)) {
             return false;
         }
-        if (is_lost(law, &ride, orbit)) {
+        if (is_lost(law, &ride, now)) {
             return true;
         }
         reached.step = fmax(reached.step, step);
@@ -283,7 +296,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     if (!slow_pass(&plan, duration, &reached, refusal)) {
         return false;
     }
-    if (is_lost(law, &ride, orbit)) {
+    if (is_lost(law, &ride, now)) {
         return true;
     }
     double theta = within_turn(now->theta + w * duration);
@@ -292,7 +305,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
                      &point)) {
         return refuse_infinite_motion(refusal, duration);
     }
-    if (is_lost(law, &ride, orbit)) {
+    if (is_lost(law, &ride, now)) {
         return true;
     }
     Response swing = swing_after(law, &orbit->swing, duration);
@@ -310,8 +323,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
     orbit->velocity = reached.velocity;
     orbit->centre = centre + reached.moved;
     orbit->swing = swing;
-    ErrorPlace to = error_place(&ride, reached.velocity, there_theta);
-    error_carry(&ride, &from, &to, &point, duration, orbit);
+    error_follow(&ride, &point, there_theta, duration, orbit);
     orbit->lead = ride_lead(&ride, duration);
     if (slow_phase_drifts(&ride.slow)) {
         orbit->waited += w * duration;
@@ -385,8 +397,7 @@ static double standing_error(const Law *law, const Moment *moment) {
     ride_begin(&ride, law, moment, orbit->lead);
     double chi = law->inputs.phase + moment->psi;
     double theta = orbit_theta(&ride, 0.0, moment->theta, chi);
-    ErrorPlace place = error_place(&ride, orbit->velocity, theta);
-    return error_at(&ride, &place, orbit);
+    return error_at(&ride, theta, orbit);
 }
 
 double orbit_motion_error(const Law *law, const Moment *moment) {

@@ -29,6 +29,9 @@ OrbitState orbit_motion_start(const Law *law, const Moment *first);
 bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
                           EventSearch *search, Moment *after, Refusal *refusal);
 
+/* Take into the estimate of the error what it has still to take in, before the law changes. */
+void orbit_motion_settle(const Law *law, Moment *moment);
+
 /* The estimate of the error of the slow velocity at a moment [m/s]. */
 double orbit_motion_error(const Law *law, const Moment *moment);
 

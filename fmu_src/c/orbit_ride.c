@@ -78,6 +78,7 @@ void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double le
     }
     ride->first = slow_friction_of(law, moment->theta, moment->psi);
     ride->searched = false;
+    ride->stops = moment->stops;
     ride->unknown = 0.0;
     ride->max_maps = (int)(MAX_STEP_MAPS / (ride->slow.turns *
                                             (1.0 + fabs(law->inputs.frequency_ratio) / MAP_WAVES)));
@@ -217,7 +218,8 @@ bool ride_moment(OrbitRide *ride, double t, double theta, double velocity, doubl
     double lead = ride_lead(ride, t);
     *point = ride_point(ride, t, velocity);
     double start = section_phase(map, point->direction), carried = share * point->of[ORBIT_RATE];
-    Moment section = {.bristle = point->of[ORBIT_BRISTLE]};
+    Moment section = {.bristle = point->of[ORBIT_BRISTLE], .stops = ride->stops};
+    section.stops.backward.drift = section.stops.forward.drift = 0.0;
     section.state.displacement = point->of[ORBIT_DISPLACEMENT];
     section.state.rate = point->of[ORBIT_RATE];
     section.state.velocity = velocity + point->of[ORBIT_OFFSET] - carried -
@@ -231,6 +233,7 @@ bool ride_moment(OrbitRide *ride, double t, double theta, double velocity, doubl
         !orbit_advance(map, lead, -point->of[ORBIT_FRICTION], &section, duration, moment)) {
         return false;
     }
+    ride->stops = moment->stops;
     moment->position += centre + point->of[ORBIT_WAY] - share * section.state.displacement -
                         map->fast.pair_velocity / w * sin(start) - velocity * duration;
     return true;

@@ -13,7 +13,7 @@
 typedef enum { FROM_CURVE, FROM_COMBINED, FROM_SERIES, FROM_SEARCH } OrbitSource;
 
 /* The ride from drive phase `theta` [rad] on, where the lead is `lead` [rad]. `last` is the orbit found
- * last, `searched` whether there is one; `may_search` says whether orbits that no table has are searched. Where there is no orbit, or where the orbits of the ride take more than
+ * last, `searched` whether there is one; `stops` are those of the moment before; `may_search` says whether orbits that no table has are searched. Where there is no orbit, or where the orbits of the ride take more than
  * `max_maps`, motion has to be resolved for the drive angle `unknown` [rad]; for outputs averages of `first`
  * order serve there. */
 typedef struct {
@@ -27,6 +27,7 @@ typedef struct {
     SlowFriction first;
     bool may_search, searched;
     HeldOrbit last;
+    Stops stops;
     int max_maps;
     double unknown;
 } OrbitRide;

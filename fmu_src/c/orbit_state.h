@@ -34,6 +34,17 @@ typedef struct {
     double series_waves;
 } PaidTables;
 
+/* What the estimate of the error has still to take in: nothing, motion on orbits, or such that begins where
+ * resolved motion ends. */
+typedef enum { NOTHING_OPEN, FOLLOWED, TAKEN_OVER } OpenKind;
+
+/* That motion: `elapsed` [s] under held inputs, from a slow `velocity` [m/s] and a drive phase `angle` [rad] over
+ * all turns on. */
+typedef struct {
+    int kind;
+    double elapsed, velocity, angle;
+} OpenError;
+
 /* `to_go` is the drive angle [rad] that is still to be resolved, `waited` what has been, or on an orbit whose lead
  * drifts what has been followed. On an orbit: slow
  * velocity V [m/s], slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by
@@ -42,7 +53,8 @@ typedef struct {
  * it, `turning` [rad/s] how fast the lead then turned at most, and `loading` [N/s] how fast the load grew, both
  * 0 under held inputs. W is `ahead` [m/s] of that of the full device, as far as that is known; what else V
  * may err by is `doubt` [m/s], and the resonator's swing that nobody follows is `unrest` [m/s] of mean
- * velocity. `acceleration` [m/s^2] is the slow one at the end of the step. */
+ * velocity. `acceleration` [m/s^2] is the slow one. The last four are those before what is `open`, which is
+ * measured only where an estimate is needed. */
 typedef struct {
     int stage;
     double to_go, waited, velocity, centre, lead;
@@ -52,6 +64,7 @@ typedef struct {
     PaidTables paid;
     int varied;
     double turning, loading, ahead, doubt, unrest, acceleration;
+    OpenError open;
     int tunings;
 } OrbitState;
 

@@ -142,6 +142,7 @@ static const OrbitPanel *panel_of(OrbitTables *tables, OrbitCurve *curve, int de
         }
     }
     OrbitPanel *panel = &curve->panel[curve->next];
+    curve->recent = NULL;
     curve->next = (curve->next + 1) % CURVE_PANELS;
     orbit_panel_begin(panel, depth, index);
     if (curve->combined) {
@@ -193,6 +194,7 @@ static const OrbitPanel *ask(OrbitTables *tables, OrbitCurve *curve, int depth, 
     unsigned char bit = (unsigned char)(1u << place % 8);
     if (curve->ride != tables->ride) {
         curve->ride = tables->ride;
+        curve->recent = NULL;
         memset(curve->asked, 0, sizeof curve->asked);
     }
     if (!(curve->asked[place / 8] & bit)) {
@@ -206,10 +208,15 @@ static const OrbitPanel *ask(OrbitTables *tables, OrbitCurve *curve, int depth, 
  * none. */
 static const OrbitPanel *panel_around(OrbitTables *tables, OrbitCurve *curve, double place) {
     int deepest = curve->combined ? SERIES_DEPTH : MAX_DEPTH;
+    const OrbitPanel *recent = curve->ride == tables->ride ? curve->recent : NULL;
+    if (recent != NULL && recent->index == index_at(place, recent->depth)) {
+        return recent;
+    }
     for (int depth = 0; depth <= deepest; depth++) {
         const OrbitPanel *panel = ask(tables, curve, depth, index_at(place, depth));
         if (panel->holds) {
-            return panel->found ? panel : NULL;
+            curve->recent = panel->found ? panel : NULL;
+            return curve->recent;
         }
     }
     return NULL;

@@ -92,11 +92,12 @@ static void settle_phases(const Law *law, const double begin[SETTABLE_COUNT],
     }
 }
 
-bool ramped_step(RampedStep *step, const Snapshot *now, double duration, FrictionTable *table,
-                 OrbitTables *orbits, Moment *after, Refusal *refusal) {
+bool ramped_step(RampedStep *step, const Snapshot *now, const Law *held, double duration,
+                 FrictionTable *table, OrbitTables *orbits, Moment *after, Refusal *refusal) {
     double values[SETTABLE_COUNT], end[SETTABLE_COUNT], left = duration;
     Clock clock = clock_of(duration);
     *after = now->moment;
+    law_settle_error(held, after);
     grow(now, duration, step->reached);
     memcpy(values, now->values, sizeof values);
     if (!reached_check(now, step->reached, duration, refusal)) {

@@ -18,9 +18,9 @@ typedef struct {
     double reached[SETTABLE_COUNT];
 } RampedStep;
 
-/* The moment after a step of `duration` [s] from `now` on. Refuses inputs that leave their bounds, and
+/* The moment after a step of `duration` [s] from `now` on, whose law is `held`. Refuses inputs that leave their bounds, and
  * what law_advance refuses; `after` is then undefined. */
-bool ramped_step(RampedStep *step, const Snapshot *now, double duration, FrictionTable *table,
-                 OrbitTables *orbits, Moment *after, Refusal *refusal);
+bool ramped_step(RampedStep *step, const Snapshot *now, const Law *held, double duration,
+                 FrictionTable *table, OrbitTables *orbits, Moment *after, Refusal *refusal);
 
 #endif

@@ -101,6 +101,10 @@ static const Field FIELDS[] = {
     FIELD(moment.orbit.doubt, FINITE, 0, 0),
     FIELD(moment.orbit.unrest, FINITE, 0, 0),
     FIELD(moment.orbit.acceleration, FINITE, 0, 0),
+    FIELD(moment.orbit.open.kind, INTEGER, NOTHING_OPEN, TAKEN_OVER),
+    FIELD(moment.orbit.open.elapsed, FINITE, 0, 0),
+    FIELD(moment.orbit.open.velocity, FINITE, 0, 0),
+    FIELD(moment.orbit.open.angle, FINITE, 0, 0),
     FIELD(moment.orbit.tunings, INTEGER, 0, MAX_TUNINGS),
 };
 

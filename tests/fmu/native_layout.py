@@ -23,7 +23,8 @@ FIELDS = (
     *(f"under_{name}" for name in OrbitValues._fields),
     *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
     *(f"paid_{name}" for name in PaidTables._fields),
-    *("varied", "turning", "loading", "ahead", "doubt", "unrest", "acceleration", "tunings"),
+    *("varied", "turning", "loading", "ahead", "doubt", "unrest", "acceleration"),
+    *("open_kind", "open_elapsed", "open_velocity", "open_angle", "tunings"),
 )
 HEAD = 8 + 40
 LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")

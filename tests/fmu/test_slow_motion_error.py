@@ -178,3 +178,21 @@ def test_replayed_and_finer_steps_tell_the_same(instantiate: Instantiate) -> Non
             slow.step(240.0 * math.tau / 3500.0 / steps)
         ends.append(slow.get("slow_motion_error")[0])
     assert ends[1:] == pytest.approx(ends[:1] * 2, rel=1e-4)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_an_estimate_read_late_is_the_one_read_all_along(
+    instantiate: Instantiate, law: int
+) -> None:
+    """Motion is taken in when an estimate is needed; who reads it changes nothing."""
+    values = {"fidelity": 0, "friction_law": law, "friction_coefficient": 1.0}
+    read, unread = (instantiate().initialize(**values) for _ in range(2))
+    for inputs in ({}, {"load": 0.3}, {"phase": 0.7}, {"normal_amplitude": 0.9}):
+        for instance in (read, unread):
+            instance.set(**inputs)
+        for _ in range(8):
+            for instance in (read, unread):
+                instance.step(30.0 * math.tau / 3500.0)
+            assert read.get("slow_motion_error")[0] > 0.0
+    names = ("slow_motion_error", "mean_velocity", "position")
+    assert read.get(*names) == unread.get(*names)

@@ -87,7 +87,11 @@ class Component:
             values[name] = checked(variable, value)
         if values == self._values:
             return
-        self._prepared = _prepare(values) if running else None
+        prepared = _prepare(values) if running else None
+        if running:
+            _, _, law = self._prepare()
+            self._moment = law.settled(self._present())
+        self._prepared = prepared
         self._values = values
 
     def get(self, *names: str) -> list[float]:

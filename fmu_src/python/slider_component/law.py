@@ -48,6 +48,10 @@ class Law(Protocol):
         """Displacement [m] and velocity [m/s] of the resonator."""
         ...
 
+    def settled(self, moment: Moment) -> Moment:
+        """The moment with an estimate of the error up to now, before the law changes."""
+        ...
+
     def slow_motion_error(self, moment: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s]; 0 for resolved motion."""
         ...
@@ -95,6 +99,10 @@ class ResolvedLaw:
         if plant.resonator_amplitude is None:
             return moment.state.displacement, moment.state.rate
         return steady_swing(plant.resonator_amplitude, moment.theta, plant.drive_frequency)
+
+    def settled(self, moment: Moment) -> Moment:
+        """See Law."""
+        return moment
 
     def slow_motion_error(self, moment: Moment) -> float:
         """See Law."""

@@ -1,7 +1,9 @@
 """The error of slow motion along held orbits, carried on from step to step.
 
 Under held inputs V errs by its acceleration times a time that grows by what orbits have gained (see
-`orbit_shifts`). What a jump of inputs leaves as it is is the error of W, which `ahead` keeps.
+`orbit_shifts`). That depends on the first and the last velocity alone, so it is measured late:
+where the estimate is read, or where inputs change. What a jump of inputs leaves as it is is the
+error of W, which `ahead` keeps.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from .moment import Moment
 from .orbit_curve import OrbitPoint, place_between
 from .orbit_drift import held_orbit_moment
 from .orbit_ride import OrbitRide
-from .orbit_state import OrbitState
+from .orbit_state import OpenError, OpenKind, OrbitState
 from .resolved_start import swing_by_inertia, velocity_of_swing
 from .shift_tables import gain_between, shifts_at
 from .slow_motion_error import (
@@ -93,7 +95,62 @@ class ErrorRide:
     device: Device
     fast: FastVibration
 
-    def place(self, velocity: float, theta: float) -> ErrorPlace:
+    def begun(
+        self, point: OrbitPoint, velocity: float, theta: float, now: Moment, orbit: OrbitState
+    ) -> OrbitState:
+        """The state with what resolved motion leaves at a moment.
+
+        Its W belongs to a velocity [m/s] and the orbit `point`; its drive phase is `theta` [rad]
+        over all turns of the orbit.
+        """
+        orbit = orbit._replace(
+            unrest=self._error_of_swing(velocity, theta, now),
+            acceleration=self._acceleration_on(point),
+            open=OpenError(OpenKind.TAKEN_OVER, 0.0, velocity, theta),
+        )
+        return orbit if self._has_shifts else self._settled_on(point, theta, orbit)
+
+    def opened(self, theta: float, orbit: OrbitState) -> OrbitState:
+        """The state from which an orbit is followed, at a drive phase [rad] over all turns."""
+        if orbit.open.kind != OpenKind.NOTHING_OPEN:
+            return orbit
+        return orbit._replace(open=OpenError(OpenKind.FOLLOWED, 0.0, orbit.velocity, theta))
+
+    def followed(
+        self, point: OrbitPoint, theta: float, duration: float, orbit: OrbitState
+    ) -> OrbitState:
+        """The state when orbits have been followed for `duration` [s] to the orbit `point`.
+
+        `orbit` has its `velocity` [m/s].
+        """
+        motion = orbit.open
+        orbit = orbit._replace(open=motion._replace(elapsed=motion.elapsed + duration))
+        return orbit if self._has_shifts else self._settled_on(point, theta, orbit)
+
+    def settled(self, theta: float, orbit: OrbitState) -> OrbitState:
+        """The state with all that is open, at a drive phase [rad] over all turns."""
+        if orbit.open.kind == OpenKind.NOTHING_OPEN:
+            return orbit
+        return self._settled_on(self.ride.point(0.0, orbit.velocity), theta, orbit)
+
+    def error(self, theta: float, orbit: OrbitState) -> float:
+        """The estimate [m/s] for the mean velocity of the period that ends there."""
+        orbit = self.settled(theta, orbit)
+        place = self._place(orbit.velocity, theta)
+        if not place.measured:
+            point = self.ride.point(0.0, place.velocity)
+            return max(orbit.doubt, self._unmeasured(point))
+        a = place.acceleration
+        jumped = velocity_of_swing(self.device, place.swing * abs(a - orbit.acceleration))
+        shifted = abs(orbit.ahead + place.lag * a) + (place.of_turn + place.unsure) * abs(a)
+        error = shifted + orbit.doubt + orbit.unrest + jumped + resolution_error(self.fast)
+        return min(error, self.fast.velocity)
+
+    @property
+    def _has_shifts(self) -> bool:
+        return self.ride.table.curve is not None
+
+    def _place(self, velocity: float, theta: float) -> ErrorPlace:
         """The place at a velocity [m/s] and drive phase [rad] over all turns of the orbit.
 
         Under the inputs with which the ride begins.
@@ -120,23 +177,28 @@ class ErrorRide:
             beyond=beyond,
         )
 
-    def begun(
-        self, point: OrbitPoint, velocity: float, theta: float, now: Moment, orbit: OrbitState
-    ) -> OrbitState:
-        """The state with what resolved motion leaves at a moment.
+    def _settled_on(self, point: OrbitPoint, theta: float, orbit: OrbitState) -> OrbitState:
+        """The state with what is open, up to the orbit `point`."""
+        motion = orbit.open
+        orbit = orbit._replace(open=OpenError())
+        start = self._place(motion.velocity, motion.angle)
+        if motion.kind == OpenKind.TAKEN_OVER:
+            orbit = self._begun_at(start, orbit)
+        if motion.elapsed > 0.0:
+            end = self._place(orbit.velocity, theta)
+            orbit = self._carried(start, end, point, motion.elapsed, orbit)
+        return orbit
 
-        Its W belongs to a velocity [m/s] and the orbit `point`.
-        """
-        place = self.place(velocity, theta)
+    def _begun_at(self, place: ErrorPlace, orbit: OrbitState) -> OrbitState:
+        """The state with the end of resolved motion."""
         doubt = orbit.doubt + place.unsure * abs(place.acceleration)
         if not place.measured:
-            added_mass = point.of.factor - 1.0
+            added_mass = self.ride.point(0.0, place.velocity).of.factor - 1.0
             by_rule = second_order_error(self.device, self.fast, added_mass, inf)
             doubt = max(doubt, by_rule)
-        unrest = self._error_of_swing(velocity, theta, now)
-        return self._bounded(orbit, orbit.ahead, doubt, unrest, self._acceleration_on(point))
+        return self._bounded(orbit, orbit.ahead, doubt, orbit.unrest, orbit.acceleration)
 
-    def carried(
+    def _carried(
         self,
         start: ErrorPlace,
         end: ErrorPlace,
@@ -151,7 +213,7 @@ class ErrorRide:
         if curve is not None and start.measured and end.measured:
             gain = gain_between(curve, start.velocity, end.velocity)
         if gain is None:
-            return self._unmeasured_after(end, point, duration, orbit, orbit.unrest * calm)
+            return self._unmeasured_after(start, end, point, duration, orbit, orbit.unrest * calm)
         a = end.acceleration
         jump = abs(start.acceleration - orbit.acceleration)
         unrest = (orbit.unrest + velocity_of_swing(self.device, start.swing * jump)) * calm
@@ -165,17 +227,6 @@ class ErrorRide:
             share = abs(a / there.acceleration) if slower else 1.0
             doubt += self._grazing_error(there) * share
         return self._bounded(orbit, error - end.lag * a, doubt, unrest, a)
-
-    def error(self, place: ErrorPlace, orbit: OrbitState) -> float:
-        """The estimate [m/s] for the mean velocity of the period that ends there."""
-        if not place.measured:
-            point = self.ride.point(0.0, place.velocity)
-            return max(orbit.doubt, self._unmeasured(point))
-        a = place.acceleration
-        jumped = velocity_of_swing(self.device, place.swing * abs(a - orbit.acceleration))
-        shifted = abs(orbit.ahead + place.lag * a) + (place.of_turn + place.unsure) * abs(a)
-        error = shifted + orbit.doubt + orbit.unrest + jumped + resolution_error(self.fast)
-        return min(error, self.fast.velocity)
 
     def _bounded(
         self, orbit: OrbitState, ahead: float, doubt: float, unrest: float, acceleration: float
@@ -203,6 +254,7 @@ class ErrorRide:
 
     def _unmeasured_after(
         self,
+        start: ErrorPlace,
         end: ErrorPlace,
         point: OrbitPoint,
         duration: float,
@@ -211,7 +263,9 @@ class ErrorRide:
     ) -> OrbitState:
         """The state after `duration` [s] in which nothing is measured."""
         a = self._acceleration_on(point)
-        if self.ride.searches:
+        if self._has_shifts:
+            left = self._left_by_excess(start, end, duration, orbit)
+        elif self.ride.searches:
             left = abs(a / orbit.acceleration) if abs(a) < abs(orbit.acceleration) else 1.0
         else:
             left = self._left_by_slope(end.velocity, duration)

@@ -30,7 +30,7 @@ from .orbit_curve import OrbitPoint
 from .orbit_error import ErrorRide, calmed, left_orbits
 from .orbit_price import is_due, orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
-from .orbit_state import OrbitState, Stage, Swing
+from .orbit_state import OpenKind, OrbitState, Stage, Swing
 from .oscillator import free_response
 from .period import MARK_TOLERANCE, PeriodMeans
 from .resolved_start import lag_angle, resolved_angle, resolved_is_bounded
@@ -115,7 +115,7 @@ class OrbitLaw:
             followed = self._followed(now, ride, left, duration)
             if followed is not None:
                 return followed
-            now.orbit = self._resolved_for(now.orbit, ride.unknown.angle)
+            now.orbit = self._resolved_for(now, now.orbit, ride.unknown.angle)
         return self._advanced(now, left)
 
     def mode(self, moment: Moment) -> int:
@@ -130,6 +130,18 @@ class OrbitLaw:
         """See Law."""
         return moment.state.displacement, moment.state.rate
 
+    def settled(self, moment: Moment) -> Moment:
+        """See Law."""
+        return replace(moment, orbit=self._settled(moment, moment.orbit))
+
+    def _settled(self, now: Moment, orbit: OrbitState) -> OrbitState:
+        """The state of a moment when the estimate of the error has taken in all that is open."""
+        if orbit.open.kind == OpenKind.NOTHING_OPEN:
+            return orbit
+        ride = self._ride(now, orbit.lead)
+        theta = ride.theta(0.0, now.theta, self.full.inputs.phase + now.psi)
+        return self._errors(ride).settled(theta, orbit)
+
     def slow_motion_error(self, moment: Moment) -> float:
         """See Law."""
         device, orbit = self.full.device, moment.orbit
@@ -140,8 +152,7 @@ class OrbitLaw:
             return min(error, self.fast.velocity)
         ride = self._ride(moment, orbit.lead)
         theta = ride.theta(0.0, moment.theta, self.full.inputs.phase + moment.psi)
-        errors = self._errors(ride)
-        return errors.error(errors.place(orbit.velocity, theta), orbit)
+        return self._errors(ride).error(theta, orbit)
 
     def _errors(self, ride: OrbitRide) -> ErrorRide:
         return ErrorRide(ride, self.full.device, self.fast)
@@ -178,7 +189,7 @@ class OrbitLaw:
         starts = orbit.stage == Stage.RESOLVED and orbit.waited == 0.0
         if changes.shaken:
             angle = resolved_angle(device, self.fast, now.state, now.theta)
-            orbit = self._resolved_for(orbit, angle)
+            orbit = self._resolved_for(now, orbit, angle)
         now.orbit = orbit
         ratio = self.full.inputs.frequency_ratio
         resolved = orbit.stage == Stage.RESOLVED
@@ -187,10 +198,10 @@ class OrbitLaw:
         lead = self._lead(now) if anew or resolved else orbit.lead
         price = orbit_price(device, ratio, orbit, lead, changed=changed)
         if resolved:
-            now.orbit = self._resolved_for(orbit, price - orbit.waited)
+            now.orbit = self._resolved_for(now, orbit, price - orbit.waited)
             return now
         if price > 0.0:
-            now.orbit = with_paid(device, ratio, self._resolved_for(orbit, price), lead)
+            now.orbit = with_paid(device, ratio, self._resolved_for(now, orbit, price), lead)
             return now
         if anew:
             now, factor = self._taken_over(now)
@@ -200,13 +211,13 @@ class OrbitLaw:
             return now
         lag = lag_angle(device, self.fast, factor - 1.0)
         if lag > 0.0:
-            now.orbit = self._resolved_for(now.orbit, lag)
+            now.orbit = self._resolved_for(now, now.orbit, lag)
         return now
 
-    def _resolved_for(self, orbit: OrbitState, angle: float) -> OrbitState:
-        """The state when motion is to be resolved for a drive angle [rad] at least."""
+    def _resolved_for(self, now: Moment, orbit: OrbitState, angle: float) -> OrbitState:
+        """The state when motion is to be resolved from a moment on for a drive angle [rad]."""
         if orbit.stage != Stage.RESOLVED:
-            orbit = left_orbits(self.full.device, self.fast, orbit)
+            orbit = left_orbits(self.full.device, self.fast, self._settled(now, orbit))
         return orbit.resolved_for(angle)
 
     def _taken_over(self, now: Moment) -> tuple[Moment, float]:
@@ -230,7 +241,7 @@ class OrbitLaw:
                 raise LostOrbitError
             there, point = found
             if ride.unknown.angle > 0.0:
-                now.orbit = self._resolved_for(orbit, ride.unknown.angle)
+                now.orbit = self._resolved_for(now, orbit, ride.unknown.angle)
                 return now, 1.0
             following = velocity + momentum - ride.map.momentum_velocity(there.state, theta)
             settled = abs(following - velocity) <= TAKEN * ride.map.speed
@@ -313,7 +324,7 @@ class OrbitLaw:
         )
         reached = Reached(0.0, orbit.velocity, 0.0, step)
         errors = self._errors(ride)
-        begin = errors.place(orbit.velocity, ride.theta(0.0, now.theta, chi))
+        orbit = errors.opened(ride.theta(0.0, now.theta, chi), orbit)
 
         def moment_at(theta: float) -> tuple[Moment, Swing, OrbitPoint]:
             t = reached.t
@@ -342,8 +353,10 @@ class OrbitLaw:
         there, swing, point = moment_at(end)
         if ride.unknown.angle > 0.0:
             return None
-        place = errors.place(reached.velocity, ride.theta(duration, end, chi + q * duration))
-        orbit = errors.carried(begin, place, point, duration, orbit)
+        moved = orbit.centre + reached.moved
+        orbit = orbit._replace(velocity=reached.velocity, centre=moved, swing=swing)
+        phase = ride.theta(duration, end, chi + q * duration)
+        orbit = errors.followed(point, phase, duration, orbit)
         travelled = there.position - start
 
         def travel_at(t: float) -> float:
@@ -369,12 +382,7 @@ class OrbitLaw:
             event_age=inf,
             means=means,
             bristle=there.bristle,
-            orbit=orbit._replace(
-                velocity=reached.velocity,
-                centre=orbit.centre + reached.moved,
-                lead=lead % tau if drift != 0.0 else lead,
-                swing=swing,
-            ),
+            orbit=orbit._replace(lead=lead % tau if drift != 0.0 else lead),
         )
 
 

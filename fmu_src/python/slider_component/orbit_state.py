@@ -125,6 +125,29 @@ class Swing(NamedTuple):
     rate: float = 0.0
 
 
+class OpenKind(IntEnum):
+    """What the estimate of the error has still to take in.
+
+    Nothing, motion on orbits, or such that begins where resolved motion ends.
+    """
+
+    NOTHING_OPEN = 0
+    FOLLOWED = 1
+    TAKEN_OVER = 2
+
+
+class OpenError(NamedTuple):
+    """That motion: `elapsed` [s] under held inputs.
+
+    From a slow `velocity` [m/s] and a drive phase `angle` [rad] over all turns on.
+    """
+
+    kind: int = OpenKind.NOTHING_OPEN
+    elapsed: float = 0.0
+    velocity: float = 0.0
+    angle: float = 0.0
+
+
 class OrbitState(NamedTuple):
     """The state beside the moment.
 
@@ -135,7 +158,8 @@ class OrbitState(NamedTuple):
     MAX_TUNINGS, how often a parameter changed the orbits. W is `ahead` [m/s] of that of the full
     device, as far as that is known; what else V may err by is `doubt` [m/s], and the resonator's
     swing that nobody follows is `unrest` [m/s] of mean velocity. `acceleration` [m/s^2] is the slow
-    one at the end of the step.
+    one. The last four are those before what is `open`, which is measured only where an estimate is
+    needed.
     """
 
     stage: int = Stage.AVERAGED
@@ -153,6 +177,7 @@ class OrbitState(NamedTuple):
     doubt: float = 0.0
     unrest: float = 0.0
     acceleration: float = 0.0
+    open: OpenError = OpenError()
 
     def resolved_for(self, angle: float) -> OrbitState:
         """The same when motion is to be resolved for a drive angle [rad] at least."""

@@ -134,6 +134,10 @@ class SlowLaw:
             return moment.state.displacement, moment.state.rate
         return steady_swing(self.fast.resonator, moment.theta, self.held.plant.drive_frequency)
 
+    def settled(self, moment: Moment) -> Moment:
+        """See Law."""
+        return moment
+
     def slow_motion_error(self, moment: Moment) -> float:
         """See Law."""
         return first_order_error(self.held.device, self.fast)

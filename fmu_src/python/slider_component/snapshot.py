@@ -15,6 +15,8 @@ from .motion import State
 from .orbit_state import (
     MAX_LEADS,
     MAX_TUNINGS,
+    OpenError,
+    OpenKind,
     OrbitState,
     OrbitValues,
     PaidTables,
@@ -31,7 +33,7 @@ FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
 build does not fit another."""
 
-_PARTS_OF_ORBIT = ("swing", "under", "leads", "paid")
+_PARTS_OF_ORBIT = ("swing", "under", "leads", "paid", "open")
 _NUMBERS_OF_ORBIT = (
     "to_go",
     "waited",
@@ -110,6 +112,16 @@ def _orbit_from_plain(plain: object) -> OrbitState:
         leads=VisitedLeads(visits, *leads),
         paid=_paid_from_plain(orbit["paid"]),
         tunings=integer_within("orbit.tunings", orbit["tunings"], 0, MAX_TUNINGS),
+        open=_open_from_plain(orbit["open"]),
+    )
+
+
+def _open_from_plain(plain: object) -> OpenError:
+    motion = entries("open", plain, OpenError._fields)
+    kinds = OpenKind.NOTHING_OPEN, OpenKind.TAKEN_OVER
+    return OpenError(
+        integer_within("orbit.open.kind", motion["kind"], *kinds),
+        *(number(f"orbit.open.{key}", motion[key]) for key in OpenError._fields[1:]),
     )
 
 

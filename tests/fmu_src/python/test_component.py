@@ -109,7 +109,7 @@ NUMBERS = {
     *("bristle", "velocity", "displacement", "rate", "travel", "elapsed", "sticking"),
     *("mean_velocity", "stick_fraction", "ahead", "doubt", "unrest", "acceleration"),
     *("backward", "backward_drift", "forward", "forward_drift"),
-    *("to_go", "waited", "centre", "lead", "first", "second", "third", "fourth"),
+    *("to_go", "waited", "centre", "lead", "angle", "first", "second", "third", "fourth"),
     *OrbitValues._fields,
     *(name for name in PaidTables._fields if name not in ("curves", "has_series")),
 }
