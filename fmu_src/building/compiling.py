@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 from platform import machine
-from tempfile import TemporaryDirectory
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.c_sources import FmiVersion, write_sources
+from fmu_src.building.build_folder import build_folder
+from fmu_src.building.c_sources import FmiVersion
 from fmu_src.building.platforms import Platform
 from fmu_src.building.universal_binary import universal_binary
 
@@ -127,14 +127,13 @@ def _compile(
     compiler: Compiler,
 ) -> bytes:
     """Compile one binary, from relative names, so that it contains no path of this machine."""
-    with TemporaryDirectory(prefix="slider_resonator_") as folder:
-        write_sources(sources, Path(folder))
+    with build_folder(target, sources) as folder:
         output = f"{model}{platform.suffix}"
         command = [*compiler.command, *(("-target", target) if target else ()), *FLAGS]
         command += [*LINKING[platform.suffix], "-o", output]
         command += [*sorted(name for name in sources if name.endswith(".c")), "-lm"]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-        binary = Path(folder, output)
+        binary = folder / output
         if done.returncode != 0 or not binary.is_file():
             raise BuildError(
                 f"{compiler.description} could not compile for {target or platform.name}:\n"

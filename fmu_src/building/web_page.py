@@ -9,12 +9,12 @@ import re
 import subprocess
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from fmu_src import __version__
 from fmu_src.building.archive import check_folder, replace_file
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.c_sources import slider_sources, write_sources
+from fmu_src.building.build_folder import build_folder
+from fmu_src.building.c_sources import slider_sources
 from fmu_src.building.compiling import Compiler, default_compiler
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
@@ -33,8 +33,9 @@ _FMI_SHELL = ("fmi2", "instance.", "state_access.")
 _NAMES_OF_FMI = "fmi2_version.c"
 """All that the kernel needs of the shell."""
 
+_TARGET = "wasm32-wasi"
 _FLAGS = (
-    *("-target", "wasm32-wasi", "-mexec-model=reactor"),
+    *("-target", _TARGET, "-mexec-model=reactor"),
     *("-std=c99", "-O2", "-g0", "-ffp-contract=off", "-fno-math-errno", "-Wl,--strip-all"),
 )
 
@@ -82,12 +83,11 @@ def web_page(code: Mapping[str, str], compiler: Compiler) -> bytes:
 
 def _compile(sources: Mapping[str, str], compiler: Compiler) -> bytes:
     """Return the WebAssembly module of C files and headers (name -> text)."""
-    with TemporaryDirectory(prefix="slider_resonator_") as folder:
-        write_sources(sources, Path(folder))
+    with build_folder(_TARGET, sources) as folder:
         names = sorted(name for name in sources if name.endswith(".c"))
         command = [*compiler.command, *_FLAGS, "-o", "page.wasm", *names, "-lm"]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-        module = Path(folder, "page.wasm")
+        module = folder / "page.wasm"
         if done.returncode != 0 or not module.is_file():
             raise BuildError(
                 f"{compiler.description} could not compile for WebAssembly:\n{done.stderr.strip()}"

@@ -139,6 +139,7 @@ def test_platforms(tmp_path: Path) -> None:
     }
 
 
+@pytest.mark.slow
 def test_sources_compile_without_a_warning(tmp_path: Path, inside: dict[str, bytes]) -> None:
     for name, data in inside.items():
         if name.startswith("sources/"):

@@ -75,6 +75,7 @@ def test_linux_needs(linux_binary: bytes) -> None:
     assert newest <= (2, 17), f"needs {newest}: Linux distributions since 2014 are to load it"
 
 
+@pytest.mark.slow
 def test_the_prefix_for_static_linking_is_that_of_the_host(tmp_path: Path) -> None:
     write_sources(slider_sources(), tmp_path)
     command = [*default_compiler().command, "-target", LINUX.targets[0], *FLAGS]

@@ -14,6 +14,7 @@ import pytest
 from tests.harness import faulty_fmus
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
+from tests.processes import heed_interrupts
 
 COMMANDS = (
     *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
@@ -164,7 +165,11 @@ scenes.built_in_scenes = wait
 main(["scenes", "--json"])
 """
     with subprocess.Popen(
-        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", script],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=heed_interrupts,
     ) as process:
         assert process.stderr is not None
         assert process.stderr.readline() == "ready\n"

@@ -83,6 +83,7 @@ def test_nothing_of_python_is_inside(native_fmu: Path) -> None:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "compiler",
     [*(Compiler((c,), c, crosses=False) for c in COMPILERS), default_compiler()],
@@ -140,6 +141,7 @@ def test_tcc_compiles_the_sources(written_sources: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compiler", COMPILERS)
 def test_a_compiler_of_the_user_gives_the_same_motion(
     native_fmu: Path, tmp_path: Path, compiler: str

@@ -20,6 +20,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_page(tmp_path_factory.mktemp("page"))
 
 
+@pytest.mark.slow
 def test_the_fmu_for_all_platforms_has_the_page(
     page: Path, native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -30,6 +30,7 @@ def verdicts(validation: Validation) -> Validation:
     return replace(validation, wall_time=0.0, curves=(), overviews=())
 
 
+@pytest.mark.slow
 def test_verdicts_do_not_depend_on_the_number_of_processes(
     native_fmu: Path, tmp_path: Path
 ) -> None:
@@ -46,7 +47,7 @@ def test_verdicts_do_not_depend_on_the_number_of_processes(
 
 def test_progress_grows_to_the_end(native_fmu: Path) -> None:
     reported: list[tuple[str, float]] = []
-    validate([native_fmu], SCENES, lambda *one: reported.append(one), jobs=2)
+    validate([native_fmu], SCENES[:2], lambda *one: reported.append(one), jobs=2)
     shares = [share for _, share in reported]
     assert shares == sorted(shares)
     assert reported[0][0].startswith("1 of ")

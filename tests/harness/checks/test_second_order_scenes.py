@@ -27,7 +27,10 @@ def of_order_1(scene: str, folder: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("scene", ["second_order_table_1", "second_order_ratio_3_2"])
+@pytest.mark.parametrize(
+    "scene",
+    [pytest.param("second_order_table_1", marks=pytest.mark.slow), "second_order_ratio_3_2"],
+)
 def test_the_order_decides(native_fmu: Path, tmp_path: Path, scene: str) -> None:
     second = judged(native_fmu, find_scene(scene))
     assert not [check.quantity for check in second.checks if not check.passed]

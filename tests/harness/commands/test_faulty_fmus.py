@@ -14,6 +14,7 @@ import pytest
 
 from tests.harness import faulty_fmus
 from tests.harness.calling import call, refused
+from tests.processes import heed_interrupts
 
 COMMANDS: Mapping[str, Sequence[str]] = {"steady": [], "blocking": [], "run": ["table_1"]}
 """Command to the arguments after the FMU."""
@@ -76,6 +77,7 @@ def test_an_ended_command_ends_the_fmu_and_leaves_nothing(
         env={**os.environ, "TMPDIR": str(temporary)},
         stderr=subprocess.PIPE,
         text=True,
+        preexec_fn=heed_interrupts,
     )
     while not list(temporary.glob("*/*/unpacked/binaries")):
         assert command.poll() is None

@@ -9,7 +9,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -39,8 +38,6 @@ FAULTS: Mapping[str, tuple[int, str]] = {
 }
 """What the FMU does in fmi2DoStep, with the exit code of `validate` and the reason."""
 QUICK = ("fork_twice", "fork_and_kill_parent")
-DURATION = 15.0
-"""Longest time (s) that a command may take with a time limit of 5 s; here it is 2 s."""
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +66,6 @@ class Ran:
         temporary, here = folder / "temporary", folder / "here"
         temporary.mkdir()
         here.mkdir()
-        began = time.monotonic()
         self.done = subprocess.run(
             [sys.executable, "-m", "slider_resonator", *map(str, arguments)],
             env={**os.environ, "FAULT": mark, "TMPDIR": str(temporary)},
@@ -79,7 +75,6 @@ class Ran:
             timeout=120.0,
             check=False,
         )
-        self.duration = time.monotonic() - began
         assert not processes_of(mark), "no process is left"
         assert not list(temporary.iterdir()), "no folder is left"
         self.left = list(here.iterdir())
@@ -102,7 +97,6 @@ def test_validate_outlives_an_fmu(hostile_fmu: Path, tmp_path: Path, fault: str)
     code, reason = FAULTS[fault]
     assert ran.done.returncode == code, ran.done.stderr
     assert reason in ran.done.stderr
-    assert ran.duration < DURATION
     assert not ran.left, "the FMU does not run in the user's folder"
     validation = json.loads(reports[0].read_text())
     assert bool(validation["errors"]) == (code == 2)
