@@ -62,9 +62,13 @@ def test_pages_that_processes_share_are_looked_for_only_where_all_have_too_much(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     shares: list[int] = []
-    resident = {"bytes": 100}
-    monkeypatch.setattr(supervisor, "_memory", lambda process: resident["bytes"])
-    monkeypatch.setattr(supervisor, "_share", lambda process: shares.append(process) or 40)
+
+    def share(process: int) -> int:
+        shares.append(process)
+        return 40
+
+    monkeypatch.setattr(supervisor, "_memory", lambda process: 100)
+    monkeypatch.setattr(supervisor, "_share", share)
     assert supervisor._memory_of_all([1, 2, 3], 300) == 300
     assert not shares
     assert supervisor._memory_of_all([1, 2, 3], 299) == 120
