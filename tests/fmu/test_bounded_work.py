@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from pathlib import Path
 
 import pytest
 
@@ -77,15 +78,18 @@ def test_a_step_of_too_much_work_is_refused(
     ("values", "turns"),
     [
         ({}, 3e7),
+        ({"friction_law": 1}, 3e6),
         ({"friction_law": 1}, 3e7),
         ({"friction_law": 1, "fidelity": 0, **MANY_WAVES}, 3e7),
         ({"normal_preload": 0.0, "normal_amplitude": 0.0}, 1e9),
     ],
-    ids=["Coulomb", "bristles", "quadratures", "no events"],
+    ids=["Coulomb", "bristles", "bristles, refused by turns", "quadratures", "no events"],
 )
 def test_no_step_takes_more_than_some_seconds(
-    instantiate: Instantiate, values: dict[str, float], turns: float
+    instantiate: Instantiate, fmu: Path, values: dict[str, float], turns: float
 ) -> None:
+    # Some seconds in Python; at most 2 in C, and a margin for a busy machine.
+    longest = 20.0 if fmu.stem == "SliderResonatorPy" else 3.0
     instance = instantiate().initialize(phase=0.4, **values)
     instance.step(1e-3)
     before = instance.get(*OUTPUTS)
@@ -93,7 +97,7 @@ def test_no_step_takes_more_than_some_seconds(
         began = time.process_time()
         with instance.refuses(f"communicationStepSize = {size!r} refused", "at most"):
             instance.step(size)
-        assert time.process_time() - began < 20.0
+        assert time.process_time() - began < longest
         assert instance.get(*OUTPUTS) == before, "a refusal leaves the state as it was"
     instance.step(1e-3)
 

@@ -5,16 +5,16 @@ The C constants in constants.h are generated from these, with the same names.
 
 from __future__ import annotations
 
-MAX_STEP_LEGS = 5_000_000
-"""Legs in one step up to which its work is accepted: 2 to 10 s, the longer with LuGre friction."""
+MAX_STEP_LEGS = 1_000_000
+"""Legs in one step up to which its work is accepted: 0.4 to 2 s, the longer with LuGre friction."""
 
-MAX_TURNS = 40_000_000
+MAX_TURNS = 8_000_000
 """Turns of the fastest oscillation in one step, which take at least `MAX_STEP_LEGS` legs."""
 
-MAX_SLOW_STEPS = 2_000_000
+MAX_SLOW_STEPS = 400_000
 """Steps of averaged motion in one communication step up to which its work is accepted."""
 
-MAX_QUADRATURE_STEPS = 20_000
+MAX_QUADRATURE_STEPS = 4_000
 """The same if each step costs quadratures, which take longer the more waves the load has."""
 
 MAX_STEP_MAPS = 8_000
@@ -23,9 +23,9 @@ MAX_STEP_MAPS = 8_000
 MAP_WAVES = 10.0
 """Waves of the normal load in a drive turn that double the cost of such a map."""
 
-PYTHON_SLOWDOWN = 100
-"""In Python a leg takes so many times as long, and each of these bounds is so much lower, but that
-of maps."""
+PYTHON_SLOWDOWN = 20
+"""In Python each of these bounds is so much lower, but that of maps; a leg takes some hundred times
+as long."""
 
 TIME_SLACK = 1e-6
 """Fraction of a step by which hosts may round their own time."""

@@ -327,4 +327,6 @@ def scene_files(scene: str) -> list[Path]:
 
 def files_of_scenes(scenes: Sequence[str]) -> list[Path]:
     """Return the files of scenes, each as for `scene_files`; of all built-in ones without any."""
-    return [file for scene in scenes or built_in_scenes() for file in scene_files(scene)]
+    if not scenes:
+        return list(built_in_scenes().values())
+    return [file for scene in scenes for file in scene_files(scene)]

@@ -8,8 +8,15 @@ import pytest
 
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.errors import SceneError
+from slider_resonator.scenes import scene as scene_module
 from slider_resonator.scenes.input_tables import TuningTable
-from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, scene_from
+from slider_resonator.scenes.scene import (
+    built_in_scenes,
+    files_of_scenes,
+    find_scene,
+    read_scene,
+    scene_from,
+)
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 STEPS = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
@@ -395,3 +402,18 @@ def test_an_allowed_error_has_an_absolute_and_a_relative_part(tmp_path: Path) ->
     assert scene.need.friction_law == "given"
     assert scene.need.needs["position"].at(-2.0) == 0.2 + 1e-6
     assert scene.need.needs["velocity"].at(5.0) == 2.0
+
+
+def test_the_folder_of_built_in_scenes_is_listed_once_for_all(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    listed = []
+    found = built_in_scenes()
+
+    def list_scenes() -> dict[str, Path]:
+        listed.append(1)
+        return found
+
+    monkeypatch.setattr(scene_module, "built_in_scenes", list_scenes)
+    assert files_of_scenes([]) == list(found.values())
+    assert len(listed) == 1

@@ -28,7 +28,9 @@ PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
 POLL_INTERVAL = 0.1
 """Interval (s) at which the memory of the program itself is read."""
 TREE_INTERVAL = 1.0
-"""Interval (s) at which all that it has started is counted, and its memory read."""
+"""Longest interval (s) at which all that it has started is counted, and its memory read."""
+MAX_TREE_SHARE = 0.05
+"""Share of the time for which this process counts, unless that makes the interval longer."""
 MAX_PROCESSES = 250
 """Largest number of processes, the program among them."""
 MAX_ENDING = 5.0
@@ -81,7 +83,7 @@ def _start(command: Sequence[str], control: socket.socket, closed: Sequence[int]
 
 def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -> dict[str, int]:
     """Return the program's exit `code` once it ends, or what is too much: `memory`, `processes`."""
-    next_tree = time.monotonic() + TREE_INTERVAL
+    next_count = next_memory = time.monotonic()
     while True:
         readable, _, _ = select.select([control.fileno(), wakeup], [], [], POLL_INTERVAL)
         if wakeup in readable:
@@ -91,13 +93,18 @@ def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -
                 return {"code": code}
         if control.fileno() in readable:
             return {}
+        began = time.monotonic()
         processes = [program]
-        if time.monotonic() > next_tree:
+        if began >= next_count:
             processes = _descendants()
-            next_tree = time.monotonic() + TREE_INTERVAL
             if len(processes) > MAX_PROCESSES:
                 return {"processes": len(processes)}
-        memory = sum(map(_memory if len(processes) == 1 else _share, processes))
+            took = time.monotonic() - began
+            next_count = began + min(TREE_INTERVAL, took / MAX_TREE_SHARE)
+        memory = _memory(program)
+        if len(processes) > 1 and began >= next_memory:
+            memory = _memory_of_all(processes, max_memory)
+            next_memory = time.monotonic() + TREE_INTERVAL
         if memory > max_memory:
             return {"memory": memory}
 
@@ -151,6 +158,15 @@ def _memory(process: int) -> int:
     with suppress(OSError), open(f"/proc/{process}/statm", "rb") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
     return 0
+
+
+def _memory_of_all(processes: Sequence[int], enough: int) -> int:
+    """Return the bytes of all in memory, or more where even that is at most `enough`.
+
+    To find what forks share, the kernel walks all their pages: only where it matters.
+    """
+    most = sum(map(_memory, processes))
+    return most if most <= enough else sum(map(_share, processes))
 
 
 def _share(process: int) -> int:
