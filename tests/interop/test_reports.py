@@ -87,6 +87,17 @@ def hovered(browser: Chrome) -> str:
     return ""
 
 
+def test_a_plot_out_of_sight_is_printed(browser: Chrome, tmp_path: Path) -> None:
+    page = tmp_path / "index.html"
+    line = Series("first", [1.0, 3.0], [1.0, 3.0], "#123456")
+    plot = HoverPlot("A plot", Axis("time [s]"), Axis("way [m]"), [line])
+    write_page(page, "Plots", [plot_html(plot)] * 20, hover_scripts(), hover_style())
+    browser.get(page.as_uri())
+    browser.print_page()
+    drawn = browser.find_elements("css selector", ".plot[data-drawn] .uplot")
+    assert len(drawn) == len(browser.find_elements("css selector", ".plot")) == 20
+
+
 def test_keys_and_fingers_lead_from_point_to_point(browser: Chrome, tmp_path: Path) -> None:
     page = tmp_path / "index.html"
     lines = [

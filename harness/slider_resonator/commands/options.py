@@ -13,7 +13,7 @@ import click
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
-from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
 from slider_resonator.output.targets import writable
 
@@ -138,8 +138,16 @@ def other_fmu_argument(default: str) -> Callable[[Callable[..., Any]], Callable[
 
 def _must_be_given(fmu: Path | None) -> Path:
     if fmu is None:
-        raise click.UsageError("Missing argument 'FMU'.")
+        raise click.UsageError(f"Missing argument 'FMU'.{_finished()}")
     return fmu
+
+
+def _finished() -> str:
+    try:
+        native = finished.finished_path(finished.FMUS["native"], finished.COMMANDS_LOOK_IN)
+    except FmuError:
+        return ""
+    return f" The native one is {native}"
 
 
 def _fmu_argument(

@@ -219,9 +219,14 @@ function draw(box) {
   window.addEventListener("resize", () => plot.setSize({ width: width(), height: spec.height }));
 }
 
+function drawOnce(box) {
+  seen.unobserve(box);
+  if (!box.dataset.drawn) draw(box);
+}
+
+const boxes = document.querySelectorAll(".plot");
 const seen = new IntersectionObserver((entries) => entries.forEach(({ isIntersecting, target }) => {
-  if (!isIntersecting) return;
-  seen.unobserve(target);
-  draw(target);
+  if (isIntersecting) drawOnce(target);
 }), { rootMargin: "300px" });
-document.querySelectorAll(".plot").forEach((box) => seen.observe(box));
+boxes.forEach((box) => seen.observe(box));
+window.addEventListener("beforeprint", () => boxes.forEach(drawOnce));  // all of the page is printed

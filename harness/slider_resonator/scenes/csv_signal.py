@@ -39,6 +39,8 @@ def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
     name = column if column in header else "value"
     if name not in header:
         raise ValueError(f"csv {path}: no column {column!r} or 'value', only {header[1:]}")
+    if header.count(name) > 1:
+        raise ValueError(f"csv {path}: {header.count(name)} columns {name!r}; must be one")
     index = header.index(name)
     points = []
     for line, row in enumerate(rows[1:], start=2):

@@ -58,6 +58,9 @@ PLACES: Mapping[str, str] = {
 """The table to which a key belongs that was found in another table."""
 
 
+_TABLES = {("beside",), ("device",), ("inputs",), ("need",), ("run",), ("sweep",), ("tuning",)}
+
+
 def explanations(source: str, error: ValidationError) -> list[str]:
     """Return one line per error: file, key path, value and requirement.
 
@@ -97,6 +100,10 @@ def _explanation(problem: ErrorDetails) -> str:
         wrong = "must be a list of tables, each headed [[expect]]"
     if _is_point(location):
         wrong = "must be a pair [time (s), value]"
+    if location in _TABLES and isinstance(value, list):
+        wrong = f"must be one table, headed [{key}]"
+    if problem["loc"][-1] == "constant" and str(value).lower().endswith(".csv"):
+        wrong = f"must be a number, or a file such as {{ csv = {toml_value(value)} }}"
     if problem["loc"][-1] == "constant" and isinstance(value, list):
         wrong = (
             "must be a number, or values over time such as { steps = [[0.0, 0.0], [0.05, 0.04]] }"

@@ -106,6 +106,17 @@ def test_an_fmu_is_given_once(tmp_path: Path) -> None:
     assert "must be one FMU" in refused("steady", fmu, "--fmu", fmu)
 
 
+def test_who_names_no_fmu_is_told_where_one_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "dist").mkdir()
+    (tmp_path / "dist" / "SliderResonator.fmu").touch()
+    monkeypatch.chdir(tmp_path)
+    named = str(Path("dist") / "SliderResonator.fmu")
+    for arguments in (("steady",), ("run", "table_1"), ("baseline", "record", "--dir", "x")):
+        assert named in refused(*arguments)
+
+
 def test_a_scene_must_be_named() -> None:
     assert "Missing argument 'SCENE'" in refused("run", "my.fmu")
     assert "Missing argument 'SCENE'" in refused("run")

@@ -191,6 +191,55 @@ MISTAKES = {
         HEAD + '[inputs]\nload = { csv = "C:\\Users\\me.csv" }\n', "load", "written with /"
     ),
     "one bracket too few": Mistake(HEAD + "[[expect]\n", "line 3", "or [[expect]]"),
+    "a mark of thousands": Mistake(
+        HEAD + "[device]\ndrive_frequency = 3,500\n", "drive_frequency", "write 3500 or 3.500"
+    ),
+    "an apostrophe of thousands": Mistake(
+        HEAD + "[device]\ndrive_frequency = 3'500\n", "drive_frequency", "write 3500"
+    ),
+    "a leading zero": Mistake(
+        HEAD + "[device]\ndrive_frequency = 0350\n", "drive_frequency", "write 350"
+    ),
+    "a share in percent": Mistake(
+        expect('quantity = "position"', 'reference = "taylor"', "relative = 1%"),
+        "relative",
+        "write 1e-2",
+    ),
+    "a micrometre": Mistake(
+        HEAD + "[device]\nbase_amplitude = 100µm\n", "base_amplitude", "without its unit: write 100"
+    ),
+    "a key without a value": Mistake(HEAD + "[inputs]\nload = null\n", "load", "delete the line"),
+    "pi": Mistake(HEAD + "[inputs]\nphase = pi\n", "phase", "nothing is computed"),
+    "a colon in braces": Mistake(
+        HEAD + RUN + "[inputs]\nload = { steps: [[0, 1]] }\n", "load", "write { steps = ... }"
+    ),
+    "pairs in parentheses": Mistake(
+        HEAD + RUN + "[inputs]\nload = { steps = [(0, 1), (1, 2)] }\n", "load", "square brackets"
+    ),
+    "no comma between pairs": Mistake(
+        HEAD + RUN + "[inputs]\nload = { steps = [[0, 1] [1, 2]] }\n", "load", "a comma must be"
+    ),
+    "no comma in a pair": Mistake(
+        HEAD + RUN + "[inputs]\nload = { steps = [[0 1], [1, 2]] }\n", "load", "a comma must be"
+    ),
+    "open brace": Mistake(
+        HEAD + RUN + "[inputs]\nload = { steps = [[0, 1], [1, 2]]\n", "load", "close the brace"
+    ),
+    "an apostrophe in a text": Mistake(
+        "name = 'mine'\ntitle = 'It's mine'\n", "title", "the other kind around it"
+    ),
+    "quotes in a text": Mistake(
+        'name = "mine"\ntitle = "the "best" scene"\n', "title", "the other kind around it"
+    ),
+    "two brackets around a table": Mistake(
+        HEAD + "[[run]]\nstop_time = 1\nstep_size = 1\n", "run", "headed [run]"
+    ),
+    "a file in place of a number": Mistake(
+        HEAD + RUN + '[inputs]\nload = "load.csv"\n', "inputs.load", '{ csv = "load.csv" }'
+    ),
+    "CSV with a column twice": Mistake(
+        HEAD + RUN + '[inputs]\nload = { csv = "twice.csv" }\n', "inputs.load", "must be one"
+    ),
     # A key in the table of another:
     "an input among the parameters": Mistake(
         HEAD + "[device]\nload = 0.1\n", "device.load", "must be in [inputs]"
@@ -268,6 +317,7 @@ def test_a_mistake_is_one_line_with_file_key_and_remedy(name: str, tmp_path: Pat
     (tmp_path / "semicolons.csv").write_text("time;load\n0;0,5\n1;1,5\n")
     (tmp_path / "bare.csv").write_text("0,0\n1,1\n")
     (tmp_path / "words.csv").write_text("time,load\n0,none\n")
+    (tmp_path / "twice.csv").write_text("time,load,load\n0,0,1\n0.1,1,2\n")
     (tmp_path / "utf16.csv").write_text("time,load\n0,0\n1,1\n", encoding="utf-16")
     path = tmp_path / "mine.toml"
     path.write_text(mistake.text)
