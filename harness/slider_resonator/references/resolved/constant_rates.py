@@ -180,7 +180,8 @@ def _at(modes: _Modes, states: Array, times: Array) -> Array:
 def _dimensional(states: Array, segment: Segment) -> Array:
     """Return position, velocity, Y and Y' in SI units, (k, 4)."""
     frequency = segment.equations.drive_frequency
-    motion = states[:, : _RATE + 1] / np.array([frequency, 1.0, frequency, 1.0])
+    scales = np.array([frequency, 1.0, frequency, 1.0])
+    motion: Array = states[:, : _RATE + 1] / scales
     motion[:, _X] += segment.state[0]
     return motion
 
