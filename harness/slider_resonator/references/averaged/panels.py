@@ -20,9 +20,16 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(NODES)
 _ANALYSIS = np.linalg.inv(np.polynomial.legendre.legvander(_NODES, NODES - 1))
 """From values at the nodes to Legendre coefficients."""
 
+_BARYCENTRIC = (-1.0) ** np.arange(NODES) * np.sqrt((1.0 - _NODES**2) * _WEIGHTS)
+"""Weights of the barycentric formula of the interpolating polynomial."""
+
+_AT_A_NODE = 1e-200
+
 _PRIMITIVES = np.polynomial.legendre.legint(np.eye(NODES), lbnd=-1.0, axis=0)
 _ANTIDERIVATIVE = np.polynomial.legendre.legvander(_NODES, NODES) @ _PRIMITIVES @ _ANALYSIS
 """From values at the nodes to the integral from -1 to each node."""
+
+_TWICE = _ANTIDERIVATIVE @ _ANTIDERIVATIVE
 
 
 @dataclass(frozen=True)
@@ -51,6 +58,11 @@ class Panels:
         """Angles of the nodes, rad, shape (panels, NODES)."""
         return self.edges[:-1, np.newaxis] + self.half_widths * (1.0 + _NODES)
 
+    @cached_property
+    def collocated(self) -> dict[Oscillator, _Collocation]:
+        """What is already solved for oscillators on these panels."""
+        return {}
+
     def mean(self, values: Array) -> float:
         """Return the mean of values over the period."""
         return float(np.sum(self.half_widths * _WEIGHTS * values)) / self.period
@@ -66,11 +78,12 @@ class Panels:
         """Return a periodic function, given by its values at the nodes, at angles of shape (n,)."""
         wrapped = self.start + (angles - self.start) % self.period
         last = len(self.edges) - 2
-        index = np.clip(np.searchsorted(self.edges, wrapped, side="right") - 1, 0, last)
+        index = np.minimum(np.searchsorted(self.edges, wrapped, side="right") - 1, last)
         local = (wrapped - self.edges[index]) / self.half_widths[index, 0] - 1.0
-        coefficients = values[index] @ _ANALYSIS.T
-        basis = np.polynomial.legendre.legvander(local, NODES - 1)
-        return np.asarray(np.sum(basis * coefficients, axis=1), dtype=np.float64)
+        distances = local[:, np.newaxis] - _NODES
+        distances[distances == 0.0] = _AT_A_NODE
+        shares = _BARYCENTRIC / distances
+        return np.asarray((shares * values[index]).sum(axis=1) / shares.sum(axis=1))
 
     def at_ends(self, values: Array) -> Array:
         """Return the values at the right end of each panel, shape (panels,)."""
@@ -107,39 +120,77 @@ class Oscillator:
         period (y, y') is ``multiplier`` times what it was and ``jump`` more. Solved by collocation
         of y'' on every panel.
         """
-        half = panels.half_widths[:, :, np.newaxis]
-        count = len(half)
-        once = half * _ANTIDERIVATIVE
-        twice = once @ once
-        past = panels.nodes - panels.edges[:-1, np.newaxis]
-        matrix = self.inertia * np.eye(NODES) + self.damping * once + self.stiffness * twice
-        unit_displacement = np.full_like(past, -self.stiffness)
-        unit_velocity = -self.damping - self.stiffness * past
-        right = np.stack([drive, unit_displacement, unit_velocity], axis=2)
-        acceleration = np.linalg.solve(matrix, right)
-        velocity, displacement = once @ acceleration, twice @ acceleration
-        velocity[:, :, 2] += 1.0
-        displacement[:, :, 1] += 1.0
-        displacement[:, :, 2] += past
+        solved = panels.collocated.get(self)
+        if solved is None:
+            solved = panels.collocated[self] = _Collocation.of(self, panels)
+        acceleration = np.einsum("pnm,pm->pn", solved.inverse, drive)
+        velocity = panels.half_widths * (acceleration @ _ANTIDERIVATIVE.T)
+        displacement = panels.half_widths * (velocity @ _ANTIDERIVATIVE.T)
         weights = panels.half_widths * _WEIGHTS
-        gained = np.einsum("pn,pnk->pk", weights, acceleration)
-        moved = np.einsum("pn,pnk->pk", weights, velocity)
-        gained[:, 2] += 1.0
-        moved[:, 1] += 1.0
-        struck = np.zeros(count) if impulses is None else impulses / self.inertia
-        # State at the edges: affine in the state at the start, which the condition then fixes.
-        states = np.zeros((count + 1, 2, 3))
-        states[0, :, 1:] = np.eye(2)
-        for index in range(count):
-            transfer = np.array([moved[index, 1:], gained[index, 1:]])
-            states[index + 1] = transfer @ states[index]
-            states[index + 1, :, 0] += moved[index, 0], gained[index, 0] + struck[index]
+        moved = (weights * velocity).sum(axis=1)
+        gained = (weights * acceleration).sum(axis=1)
+        if impulses is not None:
+            gained += impulses / self.inertia
+        # The state at the edges is affine in the state at the start, which the condition fixes.
+        forced = np.zeros((len(moved) + 1, 2))
+        for index, transfer in enumerate(solved.transfers):
+            (to_here, by_rate), (by_place, kept) = transfer
+            place, rate = forced[index].tolist()
+            forced[index + 1] = (
+                to_here * place + by_rate * rate + moved[index],
+                by_place * place + kept * rate + gained[index],
+            )
         start = np.linalg.solve(
-            multiplier * np.eye(2) - states[-1, :, 1:], states[-1, :, 0] - np.asarray(jump)
+            multiplier * np.eye(2) - solved.from_start[-1], forced[-1] - np.asarray(jump)
         )
-        at_edges = states[:-1] @ np.concatenate([[1.0], start])
-        factors = np.column_stack([np.ones(count), at_edges])
+        at_edges = (forced + solved.from_start @ start)[:-1]
         return (
-            np.einsum("pnk,pk->pn", displacement, factors),
-            np.einsum("pnk,pk->pn", velocity, factors),
+            displacement + np.einsum("pnk,pk->pn", solved.displacement, at_edges),
+            velocity + np.einsum("pnk,pk->pn", solved.velocity, at_edges),
         )
+
+
+@dataclass(frozen=True)
+class _Collocation:
+    """What the response of an oscillator on some panels has in common for every drive.
+
+    ``inverse`` gives y'' at the nodes from the drive, for a panel that begins at rest,
+    ``displacement`` and ``velocity`` the free motion from a unit state at its start, shape (panels,
+    NODES, 2). ``transfers`` take that state across each panel, ``from_start`` (panels + 1, 2, 2) to
+    each edge.
+    """
+
+    inverse: Array
+    displacement: Array
+    velocity: Array
+    transfers: list[list[list[float]]]
+    from_start: Array
+
+    @classmethod
+    def of(cls, oscillator: Oscillator, panels: Panels) -> _Collocation:
+        half = panels.half_widths[:, :, np.newaxis]
+        once = half * _ANTIDERIVATIVE
+        twice = half**2 * _TWICE
+        damping, stiffness = oscillator.damping, oscillator.stiffness
+        inverse = np.linalg.inv(
+            oscillator.inertia * np.eye(NODES) + damping * once + stiffness * twice
+        )
+        past = panels.nodes - panels.edges[:-1, np.newaxis]
+        drive = np.stack([np.full_like(past, -stiffness), -damping - stiffness * past], axis=2)
+        acceleration = inverse @ drive
+        velocity, displacement = once @ acceleration, twice @ acceleration
+        velocity[:, :, 1] += 1.0
+        displacement[:, :, 0] += 1.0
+        displacement[:, :, 1] += past
+        weights = panels.half_widths * _WEIGHTS
+        transfers = np.stack(
+            [
+                np.einsum("pn,pnk->pk", weights, velocity) + np.array([1.0, 0.0]),
+                np.einsum("pn,pnk->pk", weights, acceleration) + np.array([0.0, 1.0]),
+            ],
+            axis=1,
+        )
+        from_start = [np.eye(2)]
+        for transfer in transfers:
+            from_start.append(transfer @ from_start[-1])
+        return cls(inverse, displacement, velocity, transfers.tolist(), np.stack(from_start))

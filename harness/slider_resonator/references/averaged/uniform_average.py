@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from slider_resonator.references.averaged.vibrating_contact import (
 from slider_resonator.references.closed_forms import equivalent_force
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
-_GRADED_PANELS = 30
+_MIN_GRADED_PANELS, _MAX_GRADED_PANELS = 3, 30
 """Panels halve toward the reversal, where a stiff bristle turns over within a small angle."""
 
 _WIDEST_PANEL = 2.0
@@ -169,8 +170,12 @@ def _arc(
     ``share`` is s0 z / mu where the arc begins.
     """
     start, _ = arc
-    past, weights = _nodes(arc, case, ratio)
     q, mu = case.strength, case.friction_coefficient
+    # In the smallest panel the bristle relaxes by less than e.
+    path = rate * (abs(velocity) + q) * (arc[1] - start)
+    halvings = math.ceil(math.log2(max(path, 1.0)))
+    graded = min(max(halvings, _MIN_GRADED_PANELS), _MAX_GRADED_PANELS)
+    past, weights = _nodes(arc, case, ratio, graded)
     # The difference of sines as a product keeps its digits next to the reversal.
     slid = velocity * past - 2.0 * q * np.cos(start + 0.5 * past) * np.sin(0.5 * past)
     speed = velocity - q * np.cos(start + past)
@@ -180,21 +185,45 @@ def _arc(
     return float(np.sum(weights * normal * friction))
 
 
-def _nodes(arc: tuple[float, float], case: LugreCase, ratio: float) -> tuple[Array, Array]:
+def _nodes(
+    arc: tuple[float, float], case: LugreCase, ratio: float, halvings: int
+) -> tuple[Array, Array]:
     """Return nodes in (0, width of the arc), where the contact is closed, and weights, flat arrays.
 
-    Panels halve toward 0 and end where the contact opens or closes.
+    Panels halve toward 0, so many times, and end where the contact opens or closes.
     """
     start, end = arc
     width = end - start
-    graded = width * 0.5 ** np.arange(_GRADED_PANELS, -1, -1.0)
-    even = np.linspace(0.0, width, 1 + math.ceil(abs(ratio) * width / _WIDEST_PANEL))
-    edges = np.union1d(graded, even)
+    even = 1 + math.ceil(abs(ratio) * width / _WIDEST_PANEL)
+    spans = closed_spans(start, end, case.amplitude_ratio, case.phase, ratio)
+    if spans == [arc]:
+        unit_nodes, unit_weights = _unit_nodes(halvings, even)
+        return width * unit_nodes, width * unit_weights
+    edges = width * _unit_edges(halvings, even)
     nodes, weights = [np.empty(0)], [np.empty(0)]
-    for first, last in closed_spans(start, end, case.amplitude_ratio, case.phase, ratio):
+    for first, last in spans:
         inner = edges[(edges > first - start) & (edges < last - start)]
         panels = np.concatenate([[first - start], inner, [last - start]])
-        half = 0.5 * np.diff(panels)[:, None]
-        nodes.append((panels[:-1, None] + half * (1.0 + _NODES)).ravel())
-        weights.append((half * _WEIGHTS).ravel())
+        on_span, its_weights = _gauss(panels)
+        nodes.append(on_span)
+        weights.append(its_weights)
     return np.concatenate(nodes), np.concatenate(weights)
+
+
+@lru_cache(maxsize=256)
+def _unit_nodes(halvings: int, even: int) -> tuple[Array, Array]:
+    """Return nodes and weights on an arc of width 1 on which the contact is closed."""
+    return _gauss(np.append(0.0, _unit_edges(halvings, even)))
+
+
+@lru_cache(maxsize=256)
+def _unit_edges(halvings: int, even: int) -> Array:
+    """Return where panels end in (0, 1]: halved toward 0, and at ``even`` equal distances."""
+    edges = np.union1d(0.5 ** np.arange(halvings, -1, -1.0), np.linspace(0.0, 1.0, even))
+    return edges[edges > 0.0]
+
+
+def _gauss(edges: Array) -> tuple[Array, Array]:
+    """Return the nodes and weights of panels between edges, flat arrays."""
+    half = 0.5 * np.diff(edges)[:, None]
+    return (edges[:-1, None] + half * (1.0 + _NODES)).ravel(), (half * _WEIGHTS).ravel()
