@@ -102,7 +102,7 @@ def _logging_faults(instance: Instance) -> Iterator[str]:
 
 def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     """Ask for what is offered and for what is lacking, and about a step that was refused."""
-    yield from _derivative_faults(instance, slave)
+    yield from derivative_offer_faults(instance)
     status = c_int(-1)
     with suppress(FMICallException):
         call(slave, "fmi2DoStep", instance.time, -1.0, True)
@@ -113,8 +113,9 @@ def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         yield "fmi2CancelStep is accepted though no step is pending"
 
 
-def _derivative_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+def derivative_offer_faults(instance: Instance) -> Iterator[str]:
     """Ask for each kind of derivative that the description offers, and for those it does not."""
+    slave = instance.slave
     offers = instance.fmu.description.coSimulation
     position, load = (
         byref(fmi2ValueReference(instance.fmu.variables[name].valueReference))
@@ -123,14 +124,8 @@ def _derivative_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     order = offers.maxOutputDerivativeOrder or 0
     if order > 0:
         try:
-            call(
-                slave,
-                "fmi2GetRealOutputDerivatives",
-                position,
-                1,
-                byref(c_int(order)),
-                byref(c_double()),
-            )
+            derivative = (position, 1, byref(c_int(order)), byref(c_double()))
+            call(slave, "fmi2GetRealOutputDerivatives", *derivative)
         except FMICallException:
             yield f"maxOutputDerivativeOrder is {order}, but position has no such derivative"
     arguments = (position, 1, load, 1, byref(c_double(1.0)), byref(c_double()))
