@@ -112,7 +112,7 @@ def _units(description: ModelDescription) -> Sequence[Unit]:
 
 def _undefined_display(found: ModelVariable, units: Mapping[str, Set[str]]) -> Iterator[str]:
     unit, shown = _attribute(found, "unit"), _attribute(found, "displayUnit")
-    if unit in units and shown is not None and shown not in units[unit]:
+    if unit is not None and shown is not None and shown not in units.get(unit, {shown}):
         yield f"displayUnit of {found.name} is {shown}, which {unit} does not define"
 
 
