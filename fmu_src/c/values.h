@@ -9,9 +9,9 @@
 #include "refusal.h"
 #include "variables.h"
 
-#if defined(__FAST_MATH__) || defined(_M_FP_FAST) \
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || defined(__ASSOCIATIVE_MATH__) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "compile without -ffast-math, -ffinite-math-only, /fp:fast: they remove checks for NaN and infinity"
+#error "compile without -ffast-math, -fassociative-math, -ffinite-math-only, /fp:fast: they remove rounding or checks for NaN"
 #endif
 
 /* Refuse a place in the table where no variable is, or one of another type. */

@@ -84,7 +84,7 @@ _ALL = (
     _output("steady_velocity", unit="m/s", nominal=0.1, depends_on=_INPUTS),
     _output("blocking_force", unit="N", nominal=0.1, depends_on=("phase", "frequency_ratio")),
     _count("prediction_valid", unit="1", minimum=0.0, maximum=1.0, depends_on=None, since="0.2.0"),
-    _output("slow_motion_error", unit="m/s", depends_on=None, since="0.2.0"),
+    _output("slow_motion_error", unit="m/s", minimum=0.0, depends_on=None, since="0.2.0"),
 )
 
 VARIABLES: Mapping[str, Variable] = {variable.name: variable for variable in _ALL}

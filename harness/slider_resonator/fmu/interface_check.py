@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence, Set
+from math import isfinite
 
-from fmpy.model_description import ModelDescription, ModelVariable
+from fmpy.model_description import (
+    DefaultExperiment,
+    ModelDescription,
+    ModelVariable,
+    Unit,
+    Unknown,
+)
 
 from slider_resonator.device.interface import FIRST, VARIABLES, Variable
 from slider_resonator.fmu.units import unit_problems
+
+INITIAL: Mapping[str, str] = {"input": "exact", "parameter": "exact", "output": "calculated"}
+"""What `initial` may say where it says anything, by causality."""
 
 
 def interface_problems(description: ModelDescription) -> list[str]:
@@ -33,12 +43,14 @@ def description_faults(description: ModelDescription) -> list[str]:
     """Return every deviation from starts, bounds, nominal values, variabilities, dependencies.
 
     Nominal values and the bounds of an output may be left out, and so may its dependencies: it then
-    depends on all inputs.
+    depends on all inputs. The default experiment must be one that can be run.
     """
-    faults: list[str] = []
+    faults = [*_experiment_faults(description.defaultExperiment)]
+    units = {unit.name: {shown.name for shown in unit.displayUnits} for unit in _units(description)}
     for found in description.modelVariables:
         if found.name in VARIABLES:
             faults += _other_values(found, VARIABLES[found.name])
+            faults += _undefined_display(found, units)
     declared = {unknown.variable.name: unknown.dependencies for unknown in description.outputs}
     for name, variable in VARIABLES.items():
         if variable.causality != "output" or all(
@@ -53,7 +65,55 @@ def description_faults(description: ModelDescription) -> list[str]:
                 faults.append(f"{name} is declared independent of {missing}, which acts on it")
             for other in sorted(dependencies - set(variable.depends_on)):
                 faults.append(f"{name} is declared to depend on {other}, which does not act on it")
+    for unknown in description.outputs:
+        faults += _linear_faults(unknown)
     return faults
+
+
+def _experiment_faults(experiment: DefaultExperiment | None) -> Iterator[str]:
+    """Find what a host that takes its settings from the description cannot run."""
+    if experiment is None:
+        return
+    given = {
+        "startTime": experiment.startTime,
+        "stopTime": experiment.stopTime,
+        "stepSize": experiment.stepSize,
+        "tolerance": experiment.tolerance,
+    }
+    values = {name: float(text) for name, text in given.items() if text is not None}
+    for name, value in values.items():
+        if not isfinite(value) or (name in ("stepSize", "tolerance") and not value > 0.0):
+            yield f"{name} of the default experiment is {value!r}"
+            return
+    start, stop = values.get("startTime", 0.0), values.get("stopTime")
+    if stop is None:
+        return
+    if not stop > start:
+        yield f"the default experiment ends at {stop!r} s, must be after its start at {start!r} s"
+    elif values.get("stepSize", 0.0) > stop - start:
+        step = values["stepSize"]
+        yield f"stepSize of the default experiment is {step!r} s, longer than all of it"
+
+
+def _linear_faults(unknown: Unknown) -> Iterator[str]:
+    """Find claims that an output is linear in an input: friction and contact make none so."""
+    if unknown.variable.name not in VARIABLES:
+        return
+    inputs, kinds = unknown.dependencies or (), unknown.dependenciesKind or ()
+    for other, kind in zip(inputs, kinds, strict=False):
+        if kind != "dependent":
+            name = unknown.variable.name
+            yield f"{name} is declared {kind} in {other.name}, must be dependent"
+
+
+def _units(description: ModelDescription) -> Sequence[Unit]:
+    return description.unitDefinitions or ()
+
+
+def _undefined_display(found: ModelVariable, units: Mapping[str, Set[str]]) -> Iterator[str]:
+    unit, shown = _attribute(found, "unit"), _attribute(found, "displayUnit")
+    if unit is not None and shown is not None and shown not in units.get(unit, {shown}):
+        yield f"displayUnit of {found.name} is {shown}, which {unit} does not define"
 
 
 def _departures(found: ModelVariable, variable: Variable) -> Iterator[str]:
@@ -71,6 +131,9 @@ def _other_values(found: ModelVariable, variable: Variable) -> Iterator[str]:
     name = found.name
     if found.variability != variable.variability:
         yield f"{name} is {found.variability}, must be {variable.variability}"
+    initial = INITIAL[variable.causality]
+    if found.initial not in (None, initial):
+        yield f"initial of {name} is {found.initial}, must be {initial}"
     attributes = {
         "start": variable.start,
         "min": variable.minimum,
@@ -81,7 +144,8 @@ def _other_values(found: ModelVariable, variable: Variable) -> Iterator[str]:
         text = _attribute(found, attribute)
         given = None if text is None else float(text)
         may_be_left_out = attribute == "nominal" or variable.causality == "output"
-        if given != needed and not (may_be_left_out and None in (given, needed)):
+        either = needed is None and attribute == "nominal"
+        if given != needed and not (may_be_left_out and given is None) and not either:
             given_text = "none" if given is None else repr(given)
             needed_text = "none" if needed is None else repr(float(needed))
             yield f"{attribute} of {name} is {given_text}, must be {needed_text}"

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -124,6 +125,45 @@ def test_options_that_remove_the_checks_for_nan_do_not_compile(
     done = subprocess.run([*command, flag], capture_output=True, text=True, check=False)
     assert done.returncode != 0
     assert "compile without -ffast-math" in done.stderr
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
+def test_reassociation_does_not_compile(written_sources: Path) -> None:
+    """It removes the rounding by which sines count quarter turns."""
+    flags = ("-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math")
+    source, object_file = str(written_sources / "values.c"), str(written_sources / "values.o")
+    command = ["gcc", "-std=c99", *flags, "-c", source, "-o", object_file]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert "-fassociative-math" in done.stderr
+
+
+X87_RUN = """
+#include <stdio.h>
+#include "contact.h"
+int main(void) {
+    Plant plant = {.preload_share = -1.0};
+    FlightWindow window = flight_window(&plant);
+    printf("%d %g", is_lifted(&window, 0.0, 1.0), time_to_switch(&window, 0.0, 1.0, true));
+    return 0;
+}
+"""
+
+
+@pytest.mark.skipif(
+    shutil.which("gcc") is None or platform.machine() not in ("x86_64", "AMD64"),
+    reason="needs gcc for x87",
+)
+def test_a_contact_without_load_stays_lifted_in_extended_precision(written_sources: Path) -> None:
+    """Constants of more digits than a double must not end a flight that has no end."""
+    (written_sources / "run.c").write_text(X87_RUN, encoding="utf-8")
+    flags = ("-std=c99", "-O1", "-mfpmath=387")
+    files = ("run.c", "contact.c", "elementary.c")
+    command = ["gcc", *flags, *files, "-o", "run", "-lm"]
+    subprocess.run(command, cwd=written_sources, check=True)
+    run = [str(written_sources / "run")]
+    done = subprocess.run(run, capture_output=True, text=True, check=True)
+    assert done.stdout == "1 inf"
 
 
 def test_static_initializers_are_constants_for_every_compiler() -> None:

@@ -22,6 +22,21 @@ CHANGES: dict[str, tuple[bytes, bytes, str]] = {
         b'variability="fixed"',
         "normal_preload is fixed, must be tunable",
     ),
+    "max of an output": (
+        b'initial="calculated">\n      <Real unit="m/s"',
+        b'initial="calculated">\n      <Real max="0.5" unit="m/s"',
+        "max of velocity is 0.5, must be none",
+    ),
+    "initial": (b'initial="calculated"', b'initial="approx" ', "initial of position is approx"),
+    "no time": (b'stopTime="0.2"', b'stopTime="0.0"', "the default experiment ends at 0.0 s"),
+    "one large step": (b'stepSize="0.001"', b'stepSize="1.0"', "stepSize of the default"),
+    "no step": (b'stepSize="0.001"', b'stepSize="0"', "stepSize of the default experiment is 0.0"),
+    "linear": (
+        b'dependenciesKind="dependent dependent dependent"',
+        b'dependenciesKind="constant dependent dependent"',
+        "friction_force is declared constant in phase",
+    ),
+    "display unit": (b'displayUnit="mm"', b'displayUnit="mile"', "displayUnit of"),
 }
 
 

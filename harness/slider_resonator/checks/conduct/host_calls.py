@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from ctypes import byref, c_char_p, c_int
+from ctypes import byref, c_char_p, c_double, c_int
 from pathlib import Path
 
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2CoSimulation, fmi2ModelExchange, fmi2OK
+from fmpy.fmi2 import FMU2Slave, fmi2CoSimulation, fmi2ModelExchange, fmi2OK, fmi2ValueReference
 
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
@@ -101,7 +101,8 @@ def _logging_faults(instance: Instance) -> Iterator[str]:
 
 
 def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
-    """Ask about steps that are over, which were no success if refused, and for what is lacking."""
+    """Ask for what is offered and for what is lacking, and about a step that was refused."""
+    yield from derivative_offer_faults(instance)
     status = c_int(-1)
     with suppress(FMICallException):
         call(slave, "fmi2DoStep", instance.time, -1.0, True)
@@ -110,7 +111,29 @@ def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     with suppress(FMICallException):
         call(slave, "fmi2CancelStep")
         yield "fmi2CancelStep is accepted though no step is pending"
-    if not instance.fmu.description.coSimulation.providesDirectionalDerivative:
-        with suppress(FMICallException):
-            call(slave, "fmi2GetDirectionalDerivative", None, 0, None, 0, None, None)
-            yield "fmi2GetDirectionalDerivative is accepted though there are none"
+
+
+def derivative_offer_faults(instance: Instance) -> Iterator[str]:
+    """Ask for each kind of derivative that the description offers, and for those it does not."""
+    slave = instance.slave
+    offers = instance.fmu.description.coSimulation
+    position, load = (
+        byref(fmi2ValueReference(instance.fmu.variables[name].valueReference))
+        for name in ("position", "load")
+    )
+    order = offers.maxOutputDerivativeOrder or 0
+    if order > 0:
+        try:
+            derivative = (position, 1, byref(c_int(order)), byref(c_double()))
+            call(slave, "fmi2GetRealOutputDerivatives", *derivative)
+        except FMICallException:
+            yield f"maxOutputDerivativeOrder is {order}, but position has no such derivative"
+    arguments = (position, 1, load, 1, byref(c_double(1.0)), byref(c_double()))
+    try:
+        call(slave, "fmi2GetDirectionalDerivative", *arguments)
+    except FMICallException:
+        if offers.providesDirectionalDerivative:
+            yield "providesDirectionalDerivative is true, but that of position by load is refused"
+        return
+    if not offers.providesDirectionalDerivative:
+        yield "fmi2GetDirectionalDerivative is accepted though there are none"
