@@ -25,7 +25,7 @@ from slider_resonator.output.console import (
     progress_bar,
 )
 from slider_resonator.output.targets import distinct
-from slider_resonator.scenes.scene import files_of_scenes
+from slider_resonator.scenes.scene_files import files_of_scenes
 from slider_resonator.studies.sweep.local import available_cores
 from slider_resonator.trials.mutants.archive import read_python_fmu
 from slider_resonator.trials.mutants.enumerate_fmu import fmu_mutants, sample

@@ -38,7 +38,8 @@ from slider_resonator.output.console import progress_bar
 from slider_resonator.output.readable import readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
-from slider_resonator.scenes.scene import Scene, find_scene, read_scene
+from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 if TYPE_CHECKING:
     from slider_resonator.studies.choose import Choice

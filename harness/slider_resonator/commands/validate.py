@@ -19,7 +19,7 @@ from slider_resonator.commands.reports import Reports, print_verdicts, report_op
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import progress_bar
-from slider_resonator.scenes.scene import files_of_scenes
+from slider_resonator.scenes.scene_files import files_of_scenes
 from slider_resonator.studies.sweep.local import available_cores
 
 

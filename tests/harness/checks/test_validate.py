@@ -7,7 +7,7 @@ import pytest
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.validate import validate, worst_of_sweeps
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'

@@ -15,7 +15,8 @@ from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.page import TABLES, example_text, scene_page
-from slider_resonator.scenes.scene import Scene, built_in_scenes, scene_from
+from slider_resonator.scenes.scene import Scene, scene_from
+from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.toml_text import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES

@@ -9,7 +9,8 @@ import pytest
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.input_tables import TuningTable
-from slider_resonator.scenes.scene import built_in_scenes, find_scene, read_scene, scene_from
+from slider_resonator.scenes.scene import read_scene, scene_from
+from slider_resonator.scenes.scene_files import built_in_scenes, find_scene
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 STEPS = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"

@@ -10,7 +10,8 @@ from slider_resonator.checks.conduct.findings import NOTHING, Findings, differen
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.instance import Derivatives, Instance
+from slider_resonator.fmu.blocks import Derivatives
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import Running, run
 from slider_resonator.fmu.saved_state import SavedState

@@ -17,7 +17,8 @@ from slider_resonator.checks.conduct.status import status_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.device.schedule import Schedule, in_order
-from slider_resonator.fmu.instance import Instance, call, instantiate
+from slider_resonator.fmu.blocks import call
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
 

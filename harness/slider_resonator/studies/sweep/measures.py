@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, INTEGERS, OUTPUTS
-from slider_resonator.device.schedule import constant, schedule
+from slider_resonator.device.schedule import schedule
+from slider_resonator.device.signal import constant
 from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run

@@ -19,7 +19,8 @@ from slider_resonator.fmu.provenance import identity_of
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.console import counted
 from slider_resonator.output.targets import make_folder
-from slider_resonator.scenes.scene import Scene, ScenePoint, built_in_scenes, read_scene
+from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
+from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.trials.baseline.golden import Golden, measure_golden
 from slider_resonator.trials.baseline.judge import TOLERANCE, compare_golden
 from slider_resonator.trials.baseline.provenance import (
