@@ -1,4 +1,4 @@
-"""The same ramps told in other ways, each of which must give the same outputs to the last bit."""
+"""The same ramps set in other ways, each of which must give the same outputs to the last bit."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ def rate_differences(fmu: FmuSide) -> Findings:
     plain = run(instance, fmu.scene.parameters, schedule)
     expected = np.column_stack([plain[name] for name in instance.fmu.outputs]).tolist()
     found = NOTHING
-    for what, tell in WAYS.items():
+    for what, set_inputs in WAYS.items():
         running = Running(instance, schedule)
         values = {**fmu.scene.parameters, **running.first}
         instance.start(values, running.stop_time, start_time=schedule.start_time)
         with instance.explained():
             running.read()
             for step in range(running.steps):
-                tell(instance, schedule, step)
+                set_inputs(instance, schedule, step)
                 instance.step_by(running.step_size(step))
                 running.read()
         outputs, times = instance.fmu.outputs, schedule.readings()
