@@ -49,7 +49,7 @@ class LocalWorkers:
 
 @contextmanager
 def local_workers(
-    task: Task, fmu: Path, count: int, time_limit: float = TIME_LIMIT
+    task: Task, fmu: Path, count: int, time_limit: float
 ) -> Iterator[LocalWorkers]:
     """Yield `count` processes for the length of the block; `time_limit` (s) is that of a point."""
     workers = LocalWorkers(task, fmu, count, time_limit)

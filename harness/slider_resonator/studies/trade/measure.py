@@ -51,7 +51,7 @@ def measure_trade(
     instances: Mapping[str, TaskRunner],
     progress: Progress,
     *,
-    repeats: int = REPEATS,
+    repeats: int,
     budget: float = BUDGET,
 ) -> Trade:
     """Measure all methods on a problem; `instances` are our FMUs by name.

@@ -151,7 +151,7 @@ class Problem:
 
 
 def problem_of(
-    scene: Scene, varied: Mapping[str, float], max_periods: int | None = None
+    scene: Scene, varied: Mapping[str, float], max_periods: int | None
 ) -> Problem:
     """Return the problem of a scene; `varied` are the values of its sweep.
 

@@ -147,7 +147,7 @@ def check(
     )
 
 
-def accept(fmu: Path, folder: Path, names: Sequence[str] = ()) -> tuple[str, ...]:
+def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
     """Accept the changes that the last check of this FMU found; return the names of the scenes.
 
     Without `names` that is every scene that has changed. Raises HarnessError for a name that is not
