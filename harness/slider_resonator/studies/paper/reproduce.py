@@ -13,7 +13,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.atomic import replacing, write_text
+from slider_resonator.output.atomic import write_text
 from slider_resonator.output.console import counted, noting_on_interrupt
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
@@ -183,5 +183,4 @@ def _draw(figure: PaperFigure, data: Data, out: Path) -> None:
     with style():
         drawing = figure.draw(data)
         for suffix in SUFFIXES:
-            with replacing(out / f"{figure.name}{suffix}") as temporary:
-                save(drawing, temporary)
+            save(drawing, out / f"{figure.name}{suffix}")

@@ -150,9 +150,7 @@ class Problem:
         return Schedule(times, *in_order(held)).held()
 
 
-def problem_of(
-    scene: Scene, varied: Mapping[str, float], max_periods: int | None
-) -> Problem:
+def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | None) -> Problem:
     """Return the problem of a scene; `varied` are the values of its sweep.
 
     `max_periods` cuts the run short. Raises SceneError for a scene without a run whose inputs
