@@ -10,7 +10,7 @@ from typing import Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import counted
 from slider_resonator.studies.trade.fmu_methods import FmuMethods, TaskRunner
 from slider_resonator.studies.trade.in_turn import Progress, Timed, in_turn
 from slider_resonator.studies.trade.method import Label, Method, SteadyMethod, cpu_seconds
