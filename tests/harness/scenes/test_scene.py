@@ -159,24 +159,17 @@ def test_a_slower_drive_may_make_a_run_longer_than_its_csv(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
-        ("[device]\nslider_mas = 1.0\n", ["device", "slider_mas", "'slider_mass'"]),
         ("[device]\nslider_mass = true\n", ["device.slider_mass", "True", "must be a number"]),
-        ("[device]\nslider_mass = nan\n", ["device.slider_mass", "nan", "finite"]),
         ("[device]\nfriction_faces = 1.5\n", ["friction_faces", "1.5", "integer"]),
-        ("[devices]\nslider_mass = 1.0\n", ["devices", "did you mean 'device'?"]),
-        ("[inputs]\nphse = 1.0\n", ["inputs.phse", "did you mean 'phase'?"]),
         ('[inputs]\nphase = "1"\n', ["inputs.phase", "'1'", "must be a number"]),
         (
             "[inputs]\nphase = { steps = [[0, 1, 2]] }\n",
             ["inputs.phase.steps[0]", "a pair [time (s), value]"],
         ),
-        ("[inputs]\nphase = { steps = [[1, 0], [0, 1]] }\n", ["inputs.phase", "increase"]),
         ("[inputs]\nphase = { step = [[0, 0]] }\n", ["inputs.phase.step", "'steps'"]),
         ("[inputs]\nphase = {}\n", ["inputs.phase", "exactly one"]),
-        ('[inputs]\nload = { csv = "no.csv" }\n', ["inputs.load", "no.csv", "No such file"]),
         ("[run]\nstop_time = 1.0\n", ["run", "step_size or steps_per_period"]),
         ("[run]\nstop_time = -1.0\nstep_size = 0.1\n", ["run.stop_time", "-1.0", "above 0"]),
-        ('[sweep]\nvariable = "lod"\nvalues = [1]\n', ["sweep.variable", "'load'"]),
         ('[sweep]\nvariable = "load"\nvalues = []\n', ["sweep.values", "at least one"]),
         ('[sweep]\nvariable = "fidelity"\nvalues = [1.5]\n', ["sweep", "1.5", "an integer"]),
         ("[device]\ndrive_frequency = 0\n", ["device", "drive_frequency = 0.0", "above 0"]),
@@ -192,7 +185,6 @@ def test_a_slower_drive_may_make_a_run_longer_than_its_csv(tmp_path: Path) -> No
         (RUN + "start_time = inf\n", ["run.start_time = inf", "must be a finite number"]),
         (RUN + "read_twice = 1\n", ["run.read_twice = 1", "must be true or false"]),
         (RUN + "[tuning]\nnormal_prelod = 1\n", ["tuning", "did you mean 'normal_preload'?"]),
-        (RUN + "[tuning]\nslider_mass = 1\n", ["tuning.slider_mass", "unknown key"]),
         (RUN + "[tuning]\nnormal_preload = {}\n", ["tuning.normal_preload", "exactly one"]),
         (
             RUN + "[tuning]\nnormal_preload = { steps = [[1, 0], [0, 1]] }\n",
@@ -203,10 +195,6 @@ def test_a_slower_drive_may_make_a_run_longer_than_its_csv(tmp_path: Path) -> No
             ["drive_frequency = 0.0", "above 0"],
         ),
         ("[tuning]\nnormal_preload = 1\n", ["tuning.normal_preload", "[run] is missing"]),
-        (
-            RUN + "[device]\nnormal_preload = 1\n[tuning]\nnormal_preload = 1\n",
-            ["normal_preload is in [device] and in [tuning]"],
-        ),
         ("[beside.device]\nslider_mas = 1\n", ["beside.device", "'slider_mass'"]),
         ("[beside.inputs]\nphse = 1\n", ["beside.inputs.phse", "'phase'"]),
         (
@@ -221,16 +209,13 @@ def test_a_slower_drive_may_make_a_run_longer_than_its_csv(tmp_path: Path) -> No
         ),
         ("run = 3\n", ["run = 3", "a table"]),
         ("expect = 3\n", ["expect = 3", "headed [[expect]]"]),
-        ('[expect]\nwhy = "x"\n', ["expect", "headed [[expect]]"]),
         ("[inputs]\nphase = { steps = 3 }\n", ["inputs.phase.steps = 3", "a list"]),
         ("[inputs]\nphase = { csv = 3 }\n", ["inputs.phase.csv = 3", "a text in quotes"]),
         (
             '[inputs]\nphase = { csv = "a.csv", between = "x" }\n',
             ["inputs.phase.between = 'x'", "'linear' or 'hold'"],
         ),
-        ("name = 3\n", ["not TOML"]),
         ("[inputs]\nphse = 1.0\nlod = 2.0\n", ["inputs.phse", "inputs.lod"]),
-        ('[[expect]]\nquantity = "steady_velocity"\n', ["expect[0].why: is missing"]),
         (f"{STEPS}[[expect]]\n{STEADY}", ["needs constant inputs"]),
         *((f"{RUN}[need]\n{need}\n", parts) for need, parts in NEEDS.items()),
         (
@@ -254,7 +239,6 @@ def test_a_mistake_is_named_with_key_value_and_requirement(
 @pytest.mark.parametrize(
     ("expect", "parts"),
     [
-        ('quantity = "velocty"', ["quantity", "did you mean 'velocity'?"]),
         ('quantity = "velocity"\nvalue = 1.0', ["signal", "needs a reference"]),
         (
             'quantity = "event_times"\nreference = "taylor"\nrelative = 1e-6',
@@ -268,9 +252,7 @@ def test_a_mistake_is_named_with_key_value_and_requirement(
             'quantity = "position"\nreference = "taylor"\nrelative = 1e-6\ntube = 0.5',
             ["tube", "0.5", "0.25"],
         ),
-        ('quantity = "steady_velocity"', ["exactly one of reference, value"]),
         ('quantity = "steady_velocity"\nvalue = 1.0\nat_most = 2.0', ["exactly one"]),
-        ('quantity = "steady_velocity"\nreference = "paper"', ["reference for steady_velocity"]),
         ('quantity = "steady_velocity"\nvalue = "fast"', ["number", "'fast'"]),
         ('quantity = "steady_velocity"\nvalue = true', ["expect[0].value = True", "finite number"]),
         ('quantity = "steady_velocity"\nvalue = nan', ["expect[0].value = nan", "finite number"]),
@@ -280,12 +262,7 @@ def test_a_mistake_is_named_with_key_value_and_requirement(
             'quantity = "velocity"\nreference = "taylor"\nabsolute = 1e-6',
             ["velocity is a signal", "relative, not absolute"],
         ),
-        ('quantity = "steady_velocity"\nvalue = 1.0\nrelative = -1.0', ["expect[0].relative"]),
         ('quantity = "steady_status"\nat_most = 1.0', ["cannot have a bound"]),
-        (
-            'quantity = "position"\nreference = "located_events"\nrelative = 1e-8',
-            ["[run] is missing"],
-        ),
     ],
 )
 def test_an_expectation_that_cannot_be_judged_is_refused(
@@ -309,11 +286,6 @@ def test_counts_words_and_bounds_need_no_tolerance_and_0_is_one(
 ) -> None:
     scene = read_scene(write(tmp_path, HEAD + RUN + f'[[expect]]\n{expect}\nwhy = "test"\n'))
     assert len(scene.expect) == 1
-
-
-def test_a_name_that_is_no_word_is_refused_in_words(tmp_path: Path) -> None:
-    said = "name = 'a b': must be a word of letters, digits, _ and -"
-    assert_refused(tmp_path, 'name = "a b"\ntitle = "x"\n', [said])
 
 
 @pytest.mark.parametrize(
