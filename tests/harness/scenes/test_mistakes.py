@@ -9,8 +9,8 @@ import pytest
 
 from slider_resonator.scenes.scene import read_scene
 from tests.harness.calling import refused
+from tests.harness.scene_text import HEAD
 
-HEAD = 'name = "mine"\ntitle = "Mine"\n'
 RUN = "[run]\nstop_time = 0.1\nstep_size = 0.01\n"
 
 
