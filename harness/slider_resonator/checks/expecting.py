@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.checks.coincidence import beside_events
 from slider_resonator.checks.measures.slow import slow_displacement
 from slider_resonator.checks.measures.tube import Tube, no_tube
 from slider_resonator.checks.period_means import (
@@ -51,6 +52,13 @@ def _resolved(output: str) -> Mapping[str, Expected]:
     return {reference: _signal(reference, output) for reference in RESOLVED}
 
 
+def _beside_events(output: str) -> Mapping[str, Expected]:
+    def of(reference: str) -> Expected:
+        return lambda references: beside_events(references, reference, output)
+
+    return {reference: of(reference) for reference in RESOLVED}
+
+
 def _averaged(output: str) -> Mapping[str, Expected]:
     return {"averaged": lambda references: getattr(references.averaged_outputs, output)}
 
@@ -64,7 +72,7 @@ def _centre_velocity(reference: str) -> Expected:
 
 
 def _reversals(reference: str) -> Expected:
-    return lambda references: references.trajectory(reference).reversals
+    return lambda references: references.reversals(reference)
 
 
 def _in_run(measure: Callable[[Trajectory, Array, DriveTurns], Any]) -> Mapping[str, Expected]:
@@ -137,9 +145,10 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         output: {**_resolved(output), **_averaged(output), **_held_orbits(output)}
         for output in ("resonator_displacement", "resonator_velocity")
     },
+    "normal_force": {**_resolved("normal_force"), **_averaged("normal_force")},
     **{
-        output: {**_resolved(output), **_averaged(output)}
-        for output in ("normal_force", "friction_force", "contact_mode")
+        output: {**_beside_events(output), **_averaged(output)}
+        for output in ("friction_force", "contact_mode")
     },
     "centre_velocity": {
         **{reference: _centre_velocity(reference) for reference in RESOLVED},

@@ -13,6 +13,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.tube import Tube
 from slider_resonator.checks.period_means import (
+    COINCIDENCE,
     DriveTurns,
     last_events,
     mean_velocities,
@@ -107,13 +108,18 @@ class ReferenceSide:
     def tube(self, reference: str, name: str, share: float) -> Tube:
         """Return one output with its range within a share of a drive period to each side."""
         offsets = share * self.drive_period * np.linspace(-1.0, 1.0, 2 * TUBE_POINTS + 1)
-        around = np.clip(self.times[:, None] + offsets, 0.0, self.times[-1])
+        around = np.clip(self.times[:, None] + offsets, 0.0, self._simulated_until)
         if (reference, share) not in self._around:
             self._around[reference, share] = self._simulate(reference, np.unique(around))
         run = self._around[reference, share]
         values = np.asarray(getattr(run, name), dtype=np.float64)
         window = values[np.searchsorted(run.time, around)]
         return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
+
+    def reversals(self, reference: str) -> int:
+        """Return the number of reversals up to the end."""
+        run = self.trajectory(reference)
+        return run.reversals - int(np.sum(run.reversal_times > self.times[-1]))
 
     def in_run(
         self, reference: str, measure: Callable[[Trajectory, Array, DriveTurns], Any]
@@ -127,11 +133,18 @@ class ReferenceSide:
         last = float(last_events(run, end, self.turns).middle[0])
         return self.scene.start_time + last * self.drive_period
 
+    @property
+    def _simulated_until(self) -> float:
+        """The time (s) up to which a reference finds events that coincide with the end."""
+        return float(self.times[-1]) + COINCIDENCE * self.drive_period
+
     def _simulate(self, reference: str, times: Array) -> Trajectory:
         # What averaged motion comes close to is the full device.
         fidelity = self.device.fidelity or FULL
         device = replace(self.device, fidelity=fidelity)
-        return _SIMULATORS[reference](device, self.scene.schedule().held(), times)
+        *held, last = self.scene.schedule().held()
+        inputs = [*held, replace(last, stop=self._simulated_until)]
+        return _SIMULATORS[reference](device, inputs, times)
 
     @cached_property
     def averaged_motion(self) -> AveragedMotion:
