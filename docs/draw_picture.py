@@ -14,7 +14,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import schedule
@@ -22,12 +21,9 @@ from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
-from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import COLOURS, IN_FRONT, save, shade_directions, style
 from slider_resonator.references.closed_forms import device_blocking_force, device_steady_velocity
 from slider_resonator.steady.steady_velocity import find_steady
-
-Array = NDArray[np.float64]
 
 ROOT = Path(__file__).resolve().parents[1]
 DEVICE = Device()
@@ -61,8 +57,7 @@ def draw_picture(fmu_path: Path, path: Path) -> None:
         _draw_approach(panels["slow"], measured.approach)
         _draw_zoom(panels["fast"], measured.zoom)
         _draw_load_speed(panels["load"], measured.velocities)
-        with replacing(path) as temporary:
-            save(figure, temporary)
+        save(figure, path)
 
 
 def _measure(instance: Instance) -> _Measured:

@@ -29,13 +29,9 @@ from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
-from slider_resonator.scenes.scene import (
-    Scene,
-    files_of_scenes,
-    find_scene,
-    scene_from,
-)
+from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene import read_scene as read_scene_file
+from slider_resonator.scenes.scene_files import files_of_scenes, find_scene
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
 from slider_resonator.studies.choose import Choice

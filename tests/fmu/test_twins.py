@@ -14,13 +14,15 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from slider_resonator.device.interface import OUTPUTS
-from slider_resonator.device.schedule import Schedule, schedule, steps
+from slider_resonator.device.schedule import Schedule, schedule
+from slider_resonator.device.signal import steps
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
-from slider_resonator.scenes.scene import built_in_scenes, read_scene
+from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene_files import built_in_scenes
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11

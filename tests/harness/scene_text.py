@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 import tomllib
+from pathlib import Path
 
 from slider_resonator.scenes.scene import Scene, scene_from
 
+HEAD = 'name = "mine"\ntitle = "Mine"\n'
+
+
+def scene_file(folder: Path, text: str) -> Path:
+    """Write a scene file of a text below `HEAD`."""
+    path = folder / "mine.toml"
+    path.write_text(HEAD + text)
+    return path
+
 
 def scene_of(text: str) -> Scene:
-    return scene_from(tomllib.loads(f'name = "mine"\ntitle = "Mine"\n{text}'), "mine.toml")
+    return scene_from(tomllib.loads(HEAD + text), "mine.toml")
 
 
 def table_1(needs: str, periods: float = 400.0, steps: float = 1.0) -> Scene:

@@ -20,7 +20,8 @@ from slider_resonator.checks.validate import Validation
 from slider_resonator.commands.scenes import quantities_table, scenes_table
 from slider_resonator.output.table import Table
 from slider_resonator.output.terminal import rendered
-from slider_resonator.scenes.scene import built_in_scenes, read_scene
+from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness.scene_text import scene_of
 from tests.harness.verdicts import NONE, PASSED, WORD

@@ -12,7 +12,8 @@ from fmpy.util import read_csv
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.schedule import ramp, schedule
+from slider_resonator.device.schedule import schedule
+from slider_resonator.device.signal import ramp
 from slider_resonator.references.resolved import taylor
 
 pytestmark = pytest.mark.interop

@@ -25,7 +25,7 @@ from slider_resonator.output.hover_plot import (
     plot_html,
 )
 from slider_resonator.output.html_page import write_page
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.studies.sweep.grid import grid_from
 from slider_resonator.studies.sweep.page import write_sweep_page
 from slider_resonator.studies.sweep.sweeping import run_sweep

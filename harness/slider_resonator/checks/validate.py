@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +22,7 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.tasks import Finished
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -102,7 +102,7 @@ class Validation:
 def validate(
     fmu_paths: Sequence[Path],
     scene_files: Sequence[Path],
-    progress: Callable[[str, float], None] = lambda scene, share: None,
+    progress: Progress = no_progress,
     *,
     time_limit: float = TIME_LIMIT,
     jobs: int = 1,
@@ -130,7 +130,7 @@ def validate(
 class _Work:
     """How many of `points` on all FMUs are measured and judged; the two count as equal work."""
 
-    progress: Callable[[str, float], None]
+    progress: Progress
     points: int
     measured: int = 0
     judged: int = 0

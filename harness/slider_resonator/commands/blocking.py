@@ -11,7 +11,7 @@ from slider_resonator.commands.options import SettingsCommand
 from slider_resonator.commands.searching import print_search_result, search_arguments
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.steady.blocking_force import find_blocking
 
 

@@ -19,8 +19,9 @@ from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import write_text
-from slider_resonator.output.console import noting_on_interrupt, part_of, progress_bar
+from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.progress import part_of, progress_bar
 from slider_resonator.output.targets import distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.campaign.campaign_run import TIME_LIMIT, Campaign, run_campaign

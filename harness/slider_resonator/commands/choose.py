@@ -19,9 +19,10 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.scenes.scene import find_scene, read_scene
+from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.studies.choose import Choice, choose
 from slider_resonator.studies.choose.choosing import TIME_LIMIT
 

@@ -20,7 +20,8 @@ from slider_resonator.commands.results import print_result
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt, part_of, progress_bar
+from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.progress import part_of, progress_bar
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.extremes.cell import MatrixCell

@@ -17,12 +17,8 @@ from slider_resonator.commands.results import print_json, print_table, print_tex
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import (
-    counted,
-    nothing_kept,
-    noting_on_interrupt,
-    progress_bar,
-)
+from slider_resonator.output.console import nothing_kept, noting_on_interrupt
+from slider_resonator.output.progress import counted, progress_bar
 from slider_resonator.output.table import Table, texts, verdict
 from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
 from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host

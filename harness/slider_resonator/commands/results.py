@@ -14,9 +14,7 @@ from slider_resonator.output.table import Table
 from slider_resonator.output.terminal import escaped, rendered
 
 
-def print_result(
-    result: Any, text: str, *, as_json: bool, provenance: Provenance | None = None
-) -> None:
+def print_result(result: Any, text: str, *, as_json: bool, provenance: Provenance | None) -> None:
     """Print the result as JSON, with its provenance, or as text."""
     if as_json:
         print_json(result, provenance)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from math import pi
@@ -34,11 +33,12 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
 from slider_resonator.fmu.run import run
-from slider_resonator.output.console import progress_bar
+from slider_resonator.output.progress import Progress, progress_bar
 from slider_resonator.output.readable import readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
-from slider_resonator.scenes.scene import Scene, find_scene, read_scene
+from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 if TYPE_CHECKING:
     from slider_resonator.studies.choose import Choice
@@ -195,7 +195,7 @@ def _names(signals: str | None) -> tuple[str, ...] | None:
     return None if signals is None else tuple(name.strip() for name in signals.split(","))
 
 
-def _choose(isolated: IsolatedFmu, scene: Scene, progress: Callable[[str, float], None]) -> Choice:
+def _choose(isolated: IsolatedFmu, scene: Scene, progress: Progress) -> Choice:
     # Imported here: it loads scipy.
     from slider_resonator.studies.choose.choosing import choose_with
 
@@ -209,7 +209,7 @@ def _run(
     isolated: IsolatedFmu,
     scene: Scene,
     schedule: Schedule,
-    progress: Callable[[str, float], None],
+    progress: Progress,
 ) -> Record:
     task = partial(run, parameters=scene.parameters, schedule=schedule)
     record: Record = isolated.run(task, partial(progress, scene.name))

@@ -15,13 +15,8 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.page import example_text, scene_page
-from slider_resonator.scenes.scene import (
-    Scene,
-    built_in_scenes,
-    find_scene,
-    read_scene,
-    scene_files,
-)
+from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, scene_files
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 

@@ -19,10 +19,12 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt, part_of, progress_bar
+from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.progress import part_of, progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
 from slider_resonator.output.terminal import one_line
-from slider_resonator.scenes.scene import find_scene, read_scene
+from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.studies.trade.files import write_omissions, write_rows
 from slider_resonator.studies.trade.measure import BUDGET, REPEATS, measure_trade
 from slider_resonator.studies.trade.needs import SUFFIXES, title, write_choices

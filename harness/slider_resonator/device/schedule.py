@@ -1,11 +1,9 @@
-"""Inputs over time, and the communication points at which an FMU gets them."""
+"""Communication points, and the inputs that an FMU gets at them."""
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,95 +11,11 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.device.held_inputs import HeldInputs, TunedInputs
 from slider_resonator.device.interface import INPUT_STARTS
-
-GRID_TOLERANCE = 1e-9
-"""A jump closer to a communication point than this fraction of the step moves that point."""
+from slider_resonator.device.signal import GRID_TOLERANCE, Signal, constant
 
 MAX_STEPS = 3_000_000
 """Communication steps that a run may have: an hour of table 1 in steps of a drive period has two
 million, and all outputs are kept in memory."""
-
-
-@dataclass(frozen=True)
-class Signal:
-    """An input over time, given by points: held from each point to the next, or a polyline.
-
-    `times` (s) increase strictly. Before the first and after the last point the value is constant.
-    `file` is the one that the points were read from: a run that goes beyond them is refused.
-    """
-
-    times: tuple[float, ...]
-    values: tuple[float, ...]
-    hold: bool = True
-    file: Path | None = None
-
-    def __post_init__(self) -> None:
-        if not self.times:
-            raise ValueError("a signal needs at least one point")
-        if len(self.times) != len(self.values):
-            raise ValueError(
-                f"a signal needs as many values as times: {len(self.times)} times, "
-                f"{len(self.values)} values"
-            )
-        if not np.all(np.isfinite([*self.times, *self.values])):
-            raise ValueError("a signal needs finite times and values")
-        for before, after in zip(self.times, self.times[1:], strict=False):
-            if not after > before:
-                raise ValueError(f"times must increase strictly: {after!r} s follows {before!r} s")
-
-    def at(self, time: float) -> float:
-        """Return the value at `time` (s); at a jump, the value after it."""
-        index = bisect_right(self.times, time) - 1
-        if index < 0:
-            return self.values[0]
-        if self.hold or index == len(self.times) - 1:
-            return self.values[index]
-        left, right = self.times[index], self.times[index + 1]
-        share = (time - left) / (right - left)
-        return self.values[index] + share * (self.values[index + 1] - self.values[index])
-
-    def over(self, times: Array) -> Array:
-        """Return the values at ascending times (s), shape (n,), each as `at` gives it."""
-        points, values = np.asarray(self.times), np.asarray(self.values)
-        index = np.searchsorted(points, times, side="right") - 1
-        before = values[np.maximum(index, 0)]
-        if self.hold or len(points) == 1:
-            return before
-        left = np.clip(index, 0, len(points) - 2)
-        inside = np.clip(times, points[0], points[-1])
-        share = (inside - points[left]) / (points[left + 1] - points[left])
-        between = values[left] + share * (values[left + 1] - values[left])
-        return np.where((index < 0) | (index == len(points) - 1), before, between)
-
-    def check_covers(self, stop: float) -> None:
-        """Raise ValueError where a file has no values from 0 to `stop` (s), but for rounding."""
-        slack = GRID_TOLERANCE * stop
-        first, last = self.times[0], self.times[-1]
-        if self.file is not None and (first > slack or last < stop - slack):
-            raise ValueError(
-                f"csv {self.file}: has values from {first:.9g} s to {last:.9g} s, "
-                f"must have them from 0 s to {stop:.9g} s, the end of the run"
-            )
-
-    @property
-    def jumps(self) -> tuple[float, ...]:
-        """Times (s) at which the value jumps."""
-        return self.times[1:] if self.hold else ()
-
-
-def constant(value: float) -> Signal:
-    """Return a signal that never changes."""
-    return Signal((0.0,), (value,))
-
-
-def steps(points: Sequence[tuple[float, float]]) -> Signal:
-    """Return a signal held at each (time, value) until the next."""
-    return Signal(tuple(t for t, _ in points), tuple(v for _, v in points))
-
-
-def ramp(points: Sequence[tuple[float, float]]) -> Signal:
-    """Return the polyline through the (time, value) points."""
-    return Signal(tuple(t for t, _ in points), tuple(v for _, v in points), hold=False)
 
 
 Steps = float | Sequence[float]

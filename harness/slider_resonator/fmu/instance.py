@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, suppress
-from ctypes import c_double
 from dataclasses import dataclass
-from functools import partial
 from itertools import count
-from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2Integer, fmi2ValueReference, fmi2Warning
+from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelVariable
 
@@ -21,6 +18,7 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu import fmu_log
+from slider_resonator.fmu.blocks import Block, Derivatives, call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.opening import Fmu
 
@@ -28,53 +26,6 @@ EQUAL = 1e-6
 """Relative difference up to which two communication steps count as equal."""
 
 _numbers = count(1)
-
-
-def call(slave: FMU2Slave | Fmi3Slave, name: str, *arguments: Any) -> None:
-    """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
-
-    Arguments are converted to the types that fmpy has declared for the function.
-    """
-    status = getattr(slave.dll, name)(slave.component, *arguments)
-    if status > fmi2Warning:
-        raise FMICallException(function=name, status=status)
-
-
-class Block:
-    """A fixed set of Real variables, read and written many times without allocation."""
-
-    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
-        size = len(references)
-        self.values = (c_double * size)()
-        arguments = (fmi2ValueReference * size)(*references), size, self.values
-        self._get = partial(call, slave, "fmi2GetReal", *arguments)
-        self._set = partial(call, slave, "fmi2SetReal", *arguments)
-
-    def read(self) -> list[float]:
-        """Return the current values."""
-        self._get()
-        return self.values[:]
-
-    def write(self, values: Sequence[float]) -> None:
-        """Set the variables."""
-        self.values[:] = list(values)
-        self._set()
-
-
-class Derivatives:
-    """First derivatives of a fixed set of inputs, written many times without allocation."""
-
-    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
-        size = len(references)
-        self._values = (c_double * size)()
-        orders = (fmi2Integer * size)(*[1] * size)
-        arguments = (fmi2ValueReference * size)(*references), size, orders, self._values
-        self._set = partial(call, slave, "fmi2SetRealInputDerivatives", *arguments)
-
-    def write(self, values: Sequence[float]) -> None:
-        """Set the derivatives."""
-        self._values[:] = list(values)
-        self._set()
 
 
 class _Explained:

@@ -10,7 +10,8 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.instance import Block, Instance
+from slider_resonator.fmu.blocks import Block
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 
 

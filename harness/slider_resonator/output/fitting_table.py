@@ -96,13 +96,13 @@ def _fitted(table: Table, available: int) -> list[int] | None:
     columns[0] += [Cell(word) for cell in alone for word in cell.text.split()]
     both = list(zip(table.columns, columns, strict=True))
     widths = [_width([column.heading, *(c.text for c in cells)]) for column, cells in both]
-    least = [
+    min_widths = [
         width if column.numeric else min(width, max(MIN_PROSE, _longest_word(column, cells)))
         for width, (column, cells) in zip(widths, both, strict=True)
     ]
     excess = sum(widths) + BETWEEN * len(widths) - available
-    for index in sorted(range(len(widths)), key=lambda i: least[i] - widths[i]):
-        cut = min(widths[index] - least[index], max(excess, 0))
+    for index in sorted(range(len(widths)), key=lambda i: min_widths[i] - widths[i]):
+        cut = min(widths[index] - min_widths[index], max(excess, 0))
         widths[index] -= cut
         excess -= cut
     return widths if excess <= 0 else None

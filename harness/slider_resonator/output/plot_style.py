@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from slider_resonator.arrays import Array
+from slider_resonator.output.atomic import replacing
 
 COLOURS: Mapping[str, str] = {
     "position": "#1f3b57",
@@ -61,17 +62,21 @@ def style() -> Iterator[None]:
         yield
 
 
-def save(figure: Figure, path: Path, dots_per_inch: int = 150) -> None:
-    """Write a figure without a display, in the format of the suffix of `path`."""
+def save(figure: Figure, path: Path) -> None:
+    """Write a figure without a display, in the format of the suffix of `path`.
+
+    Raises HarnessError when it cannot be written; an existing file then stays as it is.
+    """
     FigureCanvasAgg(figure)
-    figure.savefig(path, dpi=dots_per_inch)
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=150)
 
 
-def png_data_uri(figure: Figure, dots_per_inch: int = 100) -> str:
+def png_data_uri(figure: Figure) -> str:
     """Return a figure as a PNG data URI to embed in an HTML page."""
     FigureCanvasAgg(figure)
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=dots_per_inch)
+    figure.savefig(buffer, format="png", dpi=100)
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
 
 

@@ -14,7 +14,6 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.record import Record
-from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
 from slider_resonator.scenes.scene import Scene
 
@@ -56,8 +55,7 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
         for panel, index in zip(axes[len(heights) - len(varying) :], varying, strict=True):
             _input(panel, record, times, unit, index)
         figure.align_ylabels(axes)
-        with replacing(path) as temporary:
-            save(figure, temporary)
+        save(figure, path)
 
 
 def _readable(times: Array) -> tuple[Array, str]:

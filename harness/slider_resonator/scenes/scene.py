@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from importlib import resources
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -14,16 +13,9 @@ from pydantic import ValidationError
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS
-from slider_resonator.device.schedule import (
-    Schedule,
-    Signal,
-    constant,
-    ramp,
-    schedule,
-    step_count,
-    steps,
-)
-from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.device.schedule import Schedule, schedule, step_count
+from slider_resonator.device.signal import Signal, constant, ramp, steps
+from slider_resonator.errors import SceneError
 from slider_resonator.scenes.csv_signal import csv_points
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
@@ -285,48 +277,3 @@ def _csv_signal(path: Path, column: str, between: str) -> Signal:
     except ValueError as error:
         raise ValueError(f"csv {path}: {error}") from error
     return replace(signal, file=path)
-
-
-def built_in_scenes() -> dict[str, Path]:
-    """Return the files of the built-in scenes by name, in alphabetical order."""
-    folder = Path(str(resources.files("slider_resonator.scenes") / "built_in"))
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
-
-
-def find_scene(name_or_file: str) -> Path:
-    """Return the file of a built-in scene or the file itself; SceneError names the nearest."""
-    built_in = built_in_scenes()
-    if name_or_file in built_in:
-        return built_in[name_or_file]
-    path = Path(name_or_file)
-    if path.is_file():
-        return path
-    if path.is_dir():
-        raise SceneError(f"{path}: is a directory; must be a scene file or a built-in scene")
-    if path.suffix == ".toml":
-        raise SceneError(f"{path}: no such scene file")
-    raise SceneError(unknown_name("scene", name_or_file, built_in))
-
-
-def scene_files(scene: str) -> list[Path]:
-    """Return a built-in scene's file, the file itself or those of a folder, in alphabetical order.
-
-    Raises SceneError for a folder without any, and as `find_scene` does.
-    """
-    folder = Path(scene)
-    if scene in built_in_scenes() or not folder.is_dir():
-        return [find_scene(scene)]
-    files = sorted(folder.glob("*.toml"))
-    if not files:
-        raise SceneError(
-            f"{folder}: is a directory; must be a scene file, a built-in scene or a directory "
-            "with scene files (*.toml)"
-        )
-    return files
-
-
-def files_of_scenes(scenes: Sequence[str]) -> list[Path]:
-    """Return the files of scenes, each as for `scene_files`; of all built-in ones without any."""
-    if not scenes:
-        return list(built_in_scenes().values())
-    return [file for scene in scenes for file in scene_files(scene)]

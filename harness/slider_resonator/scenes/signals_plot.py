@@ -17,7 +17,6 @@ from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.record import Record
-from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import CONTACT, save, shade_directions, style
 from slider_resonator.scenes.scene import Scene
 
@@ -95,8 +94,7 @@ def plot_signals(
         handles = panels[0].get_lines() if len(runs) > 1 else [*bands.values()]
         if handles:
             figure.legend(handles=handles, loc="outside lower center", ncols=min(4, len(handles)))
-        with replacing(path) as temporary:
-            save(figure, temporary)
+        save(figure, path)
 
 
 def _panel(axes: Axes, runs: Sequence[Run], name: str, window: tuple[float, float]) -> None:

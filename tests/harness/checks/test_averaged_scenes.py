@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import validate
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 SCENE = """
 name = "scene"

@@ -11,7 +11,8 @@ from slider_resonator.checks import expected_values
 from slider_resonator.checks.expected_values import ExpectedValues, values_in
 from slider_resonator.checks.validate import Validation, points_to_check, validate
 from slider_resonator.errors import HarnessError, SceneError
-from slider_resonator.scenes.scene import ScenePoint, find_scene, read_scene
+from slider_resonator.scenes.scene import ScenePoint, read_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 SCENES = [find_scene(name) for name in ("overload", "stuck", "table_1", "lift_off")]
 

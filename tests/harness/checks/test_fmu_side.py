@@ -2,7 +2,8 @@ from __future__ import annotations
 
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.scenes.scene import find_scene, read_scene
+from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 
 def test_everything_is_computed_once(instance: Instance) -> None:

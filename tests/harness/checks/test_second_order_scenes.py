@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import Validation, validate
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 OF_BOTH = {"normal_force", "prediction_valid", "last_event_time"}
 """Quantities that do not depend on the order."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.calling import call, refused
 
 

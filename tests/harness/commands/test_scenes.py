@@ -5,7 +5,7 @@ from pathlib import Path
 
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.page import scene_page
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys

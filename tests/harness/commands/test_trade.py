@@ -21,7 +21,8 @@ from slider_resonator.studies.trade.result import Omission, Trade
 from tests.harness.calling import call, refused
 from tests.harness.in_process import InProcess
 from tests.harness.public_json import assert_public_keys
-from tests.harness.studies.trade.problems import HEAD, TABLE_1, problem
+from tests.harness.scene_text import HEAD
+from tests.harness.studies.trade.problems import TABLE_1, problem
 from tests.harness.studies.trade.test_needs import TRADE
 from tests.html_pages import Page
 
@@ -46,7 +47,7 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     assert len(rows) == len(document["trade"]["rows"])
     omissions = list(csv.DictReader((out / "omissions.csv").open(encoding="utf-8")))
     assert len(omissions) == len(document["trade"]["omissions"])
-    short = problem(tmp_path, TABLE_1, max_periods=8)
+    short = problem(TABLE_1, max_periods=8)
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
         methods = [
             *FmuMethods(short, "native", InProcess(instance)).methods(),

@@ -9,16 +9,8 @@ from hypothesis import strategies as st
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_contiguous
-from slider_resonator.device.schedule import (
-    MAX_STEPS,
-    Signal,
-    communication_points,
-    constant,
-    ramp,
-    schedule,
-    step_count,
-    steps,
-)
+from slider_resonator.device.schedule import MAX_STEPS, communication_points, schedule, step_count
+from slider_resonator.device.signal import Signal, constant, ramp, steps
 
 
 def test_steps_hold_until_the_next_point() -> None:

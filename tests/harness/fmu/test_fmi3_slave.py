@@ -10,7 +10,8 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from slider_resonator.device.interface import OUTPUTS
-from slider_resonator.device.schedule import Schedule, constant
+from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu

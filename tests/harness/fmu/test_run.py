@@ -6,7 +6,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from slider_resonator.device.schedule import constant, ramp, schedule, steps
+from slider_resonator.device.schedule import schedule
+from slider_resonator.device.signal import constant, ramp, steps
 from slider_resonator.errors import NotApplicable, Refusal
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run

@@ -6,14 +6,8 @@ from io import StringIO
 import pytest
 from rich.cells import cell_len
 
-from slider_resonator.output.console import (
-    counted,
-    output,
-    part_of,
-    progress_bar,
-    shortened,
-    time_left,
-)
+from slider_resonator.output.console import output
+from slider_resonator.output.progress import counted, part_of, progress_bar, shortened, time_left
 from slider_resonator.output.readable import readable
 
 

@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 
 from slider_resonator.checks.reference_side import ReferenceSide
-from slider_resonator.scenes.scene import Scene, built_in_scenes, read_scene
+from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene_files import built_in_scenes
 
 NEED_EXTRAS = {"taylor"}
 """References that need heyoka, which the extra `taylor` installs."""

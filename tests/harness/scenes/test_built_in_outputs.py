@@ -8,7 +8,8 @@ from itertools import product
 import pytest
 
 from slider_resonator.device.interface import OUTPUTS
-from slider_resonator.scenes.scene import built_in_scenes, read_scene
+from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene_files import built_in_scenes
 
 MODELS = list(product((0, 1, 2), (0, 1)))
 """Fidelity and friction law."""

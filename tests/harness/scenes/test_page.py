@@ -15,7 +15,8 @@ from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.page import TABLES, example_text, scene_page
-from slider_resonator.scenes.scene import Scene, built_in_scenes, scene_from
+from slider_resonator.scenes.scene import Scene, scene_from
+from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.toml_text import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES
@@ -152,6 +153,7 @@ NOT_IN_A_SCHEMA = {
     *("step in ms", "no run", "no such CSV", "short CSV", "no column", "times not in order"),
     *("tuned and fixed", "no tolerance", "not a number", "a bound of a signal"),
     *("CSV of another encoding", "CSV with a word", "CSV with semicolons", "CSV without a header"),
+    "CSV with a column twice",
     *("a sweep of what changes", "a tube without a reference for it"),
 }
 """Mistakes that depend on other tables, files or numbers in a way that a schema cannot say."""

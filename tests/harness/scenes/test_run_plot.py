@@ -9,7 +9,8 @@ from matplotlib.image import imread
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.run_plot import SMOOTH_POINTS, ZOOM_PERIODS, plot_run, schedule_to_plot
-from slider_resonator.scenes.scene import Scene, find_scene, read_scene
+from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 
 @pytest.fixture

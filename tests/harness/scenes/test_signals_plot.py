@@ -12,7 +12,8 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes import signals_plot
-from slider_resonator.scenes.scene import Scene, find_scene, read_scene
+from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.signals_plot import (
     MAX_POINTS,
     SIGNALS,

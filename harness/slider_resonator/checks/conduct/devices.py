@@ -13,7 +13,8 @@ from fmpy.fmi2 import fmi2Discard
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.fmu.instance import Instance, call
+from slider_resonator.fmu.blocks import call
+from slider_resonator.fmu.instance import Instance
 
 STEP = 1e-3
 """Size of a step, s."""

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.instance import Instance, call
+from slider_resonator.fmu.blocks import call
+from slider_resonator.fmu.instance import Instance
 
 STEP, STEPS = 0.01, 6
 """Steps (s) that add up to more than their product, by rounding."""

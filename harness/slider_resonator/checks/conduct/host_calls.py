@@ -15,8 +15,9 @@ from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu import fmu_log
+from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
-from slider_resonator.fmu.instance import Instance, call
+from slider_resonator.fmu.instance import Instance
 
 ANSWERS = {"fmi2GetVersion": "2.0", "fmi2GetTypesPlatform": "default"}
 """Functions without an instance, and what FMI 2.0 demands of them."""

@@ -1,4 +1,4 @@
-"""The same ramps told in other ways, each of which must give the same outputs to the last bit."""
+"""The same ramps set in other ways, each of which must give the same outputs to the last bit."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from slider_resonator.checks.conduct.findings import NOTHING, Findings, differen
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.instance import Derivatives, Instance
+from slider_resonator.fmu.blocks import Derivatives
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import Running, run
 from slider_resonator.fmu.saved_state import SavedState
@@ -32,14 +33,14 @@ def rate_differences(fmu: FmuSide) -> Findings:
     plain = run(instance, fmu.scene.parameters, schedule)
     expected = np.column_stack([plain[name] for name in instance.fmu.outputs]).tolist()
     found = NOTHING
-    for what, tell in WAYS.items():
+    for what, set_inputs in WAYS.items():
         running = Running(instance, schedule)
         values = {**fmu.scene.parameters, **running.first}
         instance.start(values, running.stop_time, start_time=schedule.start_time)
         with instance.explained():
             running.read()
             for step in range(running.steps):
-                tell(instance, schedule, step)
+                set_inputs(instance, schedule, step)
                 instance.step_by(running.step_size(step))
                 running.read()
         outputs, times = instance.fmu.outputs, schedule.readings()

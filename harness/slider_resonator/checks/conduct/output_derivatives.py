@@ -16,7 +16,7 @@ OUTPUTS = ("position", "velocity", "resonator_displacement", "resonator_velocity
 SLOW = "mean_velocity"
 """An output that is smooth, and slow, where motion is averaged to first order."""
 COUNTS = ("contact_mode", "reversals", "last_event_time")
-"""Outputs that tell of an event."""
+"""Outputs that change at an event."""
 SHORT = 1e-6
 """A step, in drive periods; quotients are of second order, over two."""
 ALLOWED = 1e-3
@@ -46,7 +46,7 @@ def derivative_faults(
     step = SHORT * 6.283185307179586 / frequency
     outputs = (*OUTPUTS, SLOW) if _is_averaged(instance) else OUTPUTS
     references = {name: instance.fmu.variables[name].valueReference for name in outputs}
-    told = {name: _derivative(slave, reference) for name, reference in references.items()}
+    reported = {name: _derivative(slave, reference) for name, reference in references.items()}
     rows = [instance.read((*outputs, *COUNTS))]
     for _ in range(2):
         instance.step_by(step)
@@ -55,7 +55,7 @@ def derivative_faults(
     if any(row[name] != rows[0][name] for row in rows for name in COUNTS):
         return []
     faults = []
-    for name, derivative in told.items():
+    for name, derivative in reported.items():
         first, middle, last = (row[name] for row in rows)
         quotient = (4.0 * (middle - first) - (last - first)) / (2.0 * step)
         natural = ROUNDED / step if name == SLOW else SMALL * frequency

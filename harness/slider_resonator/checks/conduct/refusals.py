@@ -16,7 +16,8 @@ from slider_resonator.checks.conduct.other_values import other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
 from slider_resonator.errors import NotApplicable, Refusal
-from slider_resonator.fmu.instance import Instance, call
+from slider_resonator.fmu.blocks import call
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Running
 
 STEP = 1.7e-3

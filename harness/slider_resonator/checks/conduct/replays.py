@@ -17,7 +17,8 @@ from slider_resonator.checks.conduct.status import status_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.device.schedule import Schedule, in_order
-from slider_resonator.fmu.instance import Instance, call, instantiate
+from slider_resonator.fmu.blocks import call
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
 
@@ -205,16 +206,16 @@ def overwritten_differences(fmu: FmuSide) -> Findings:
     plain = _Comparison(fmu)
     instance, schedule = fmu.instance, plain.schedule
     running = Running(instance, schedule)
-    wanted = dict(instance.fmu.settings({**plain.parameters, **running.first}))
+    values = dict(instance.fmu.settings({**plain.parameters, **running.first}))
     accepted: list[str] = []
     with instance.explained():
         instance.set_up(running.stop_time, start_time=schedule.start_time)
-        for name, value in wanted.items():
+        for name, value in values.items():
             instance.set({name: other_value(name, value)})
             accepted += _refused(instance, name)
-        instance.set(wanted)
+        instance.set(values)
         call(instance.slave, "fmi2EnterInitializationMode")
-        for name, value in reversed(wanted.items()):
+        for name, value in reversed(values.items()):
             instance.set({name: other_value(name, value)})
             accepted += _refused(instance, name)
             with suppress(FMICallException):  # some values have no meaning together

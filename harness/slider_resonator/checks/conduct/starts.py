@@ -8,7 +8,8 @@ from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.conduct.other_values import other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.fmu.instance import Instance, call
+from slider_resonator.fmu.blocks import call
+from slider_resonator.fmu.instance import Instance
 
 
 def start_faults(fmu: FmuSide) -> Findings:

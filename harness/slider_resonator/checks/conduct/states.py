@@ -12,8 +12,9 @@ from fmpy.fmi2 import FMU2Slave
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable
+from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
-from slider_resonator.fmu.instance import Instance, call
+from slider_resonator.fmu.instance import Instance
 
 STEP = 1.3e-3
 """Size of a step, s."""

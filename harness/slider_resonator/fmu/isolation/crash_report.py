@@ -23,7 +23,7 @@ _CALLS: Mapping[str, str] = {
     "instantiate": "fmi2Instantiate",
     "end": "fmi2Terminate or fmi2FreeInstance",
 }
-"""Function of `slider_resonator.fmu.instance` to the FMI functions that it calls."""
+"""Function of `fmu.instance` and `fmu.blocks` to the FMI functions that it calls."""
 
 _CALLS_3: Mapping[str, str] = {
     "step_to": "fmi3DoStep",
@@ -37,7 +37,7 @@ _CALLS_3: Mapping[str, str] = {
 }
 """The same for an FMU of FMI 3.0."""
 
-_FRAME = re.compile(r'File ".*[\\/]fmu[\\/]instance\.py", line \d+ in (\w+)')
+_FRAME = re.compile(r'File ".*[\\/]fmu[\\/](?:instance|blocks)\.py", line \d+ in (\w+)')
 _FRAME_3 = re.compile(r'File ".*[\\/]fmu[\\/]fmi3_slave\.py", line')
 _LIMIT_MISSED = "Timeout ("
 

@@ -113,7 +113,7 @@ def linear_beat_displacement(strength: float, amplitude_ratio: float, detuning: 
 
 
 def steady_velocity_at_ratio(
-    strength: float, amplitude_ratio: float, phase: float, ratio: float, load: float = 0.0
+    strength: float, amplitude_ratio: float, phase: float, ratio: float, load: float
 ) -> float:
     """Return the steady slow velocity at any ratio under a load, (20) for ratio 1.
 

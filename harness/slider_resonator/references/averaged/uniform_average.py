@@ -102,7 +102,7 @@ def blocking_load(
     return -mean_friction(0.0, case, stiffness, frequency, ratio)
 
 
-def device_case(device: Device, phase: float, ratio: float = 1) -> LugreCase:
+def device_case(device: Device, phase: float, ratio: float) -> LugreCase:
     """Return the averaged case of a device, in SI units: strength is the fast velocity in m/s.
 
     ``phase`` in rad relative to the base excitation. Raises ValueError as `equivalent_force` does.

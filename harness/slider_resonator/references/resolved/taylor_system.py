@@ -39,7 +39,7 @@ is from ``DIRECTION``, the stretch of steady sliding."""
 
 
 @cache
-def taylor_integrator(friction: Friction, tolerance: float, *, rates: bool = False) -> Any:
+def taylor_integrator(friction: Friction, tolerance: float, *, rates: bool) -> Any:
     """Return the Taylor integrator of the scaled equations, compiled once.
 
     With ``rates`` load and frequency ratio are straight lines in time.

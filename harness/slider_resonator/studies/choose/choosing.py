@@ -107,17 +107,16 @@ class _Choosing:
 
     def answer(self, progress: Callable[[float], None]) -> Choice:
         """Try the models from the cheapest on."""
-        impossible = self._impossible()
-        if impossible:
+        if impossible := self._impossible():
             self._evaluate(Candidate(self.probe.reference_model, START_TOLERANCE, self.ladder[0]))
             return self._choice(None, [_ruled_out(model, impossible) for model in self.models()])
         if self.ladder[0] is not None:
             self.probe.resolve(self.ladder[0])
         ruled_out: list[RuledOut] = []
         best: Evaluation | None = None
-        models = sorted(self.models(), key=self._min_cost)
-        for index, model in enumerate(models):
-            progress(index / len(models))
+        by_cost = sorted(self.models(), key=self._min_cost)
+        for index, model in enumerate(by_cost):
+            progress(index / len(by_cost))
             why = self._excluded(model)
             if why is None and best is not None and self._min_cost(model) >= best.cost:
                 why = f"costs at least {self._min_cost(model):.3g} s, the chosen {best.cost:.3g} s"
@@ -156,14 +155,14 @@ class _Choosing:
             return None
         if "event_times" in self.needs:
             return "averaged motion has no events"
-        if model.averaging_order == 2 and not self.scales.has_slow_motion:
-            return "no motion is slow against the resonator: there are no held orbits"
-        law = self.scales.averaging_error or 0.0
         if model.averaging_order == 2:
-            return None
+            if self.scales.has_slow_motion:
+                return None
+            return "no motion is slow against the resonator: there are no held orbits"
+        error = self.scales.averaging_error or 0.0
         for name in ("mean_velocity", "velocity") if self.law == COULOMB else ():
             need = self.needs.get(name)
-            if need and need.rel is None and law > HOPELESS * (need.abs or inf):
+            if need and need.rel is None and error > HOPELESS * (need.abs or inf):
                 return f"{name}: {self._law_of(model)}, must be at most {need.abs:.2g} m/s"
         return None
 
@@ -231,8 +230,8 @@ class _Choosing:
 
     def _nearest(self, model: Model | None = None) -> Evaluation:
         """Return the evaluation nearest to the needs, of all or a model; the finest of equals."""
-        evaluation = [t for t in self._evaluations.values() if model in (None, t.candidate.model)]
-        return min(evaluation, key=lambda t: (t.excess, -t.candidate.model.fidelity))
+        found = [t for t in self._evaluations.values() if model in (None, t.candidate.model)]
+        return min(found, key=lambda t: (t.excess, -t.candidate.model.fidelity))
 
     def _evaluate(self, candidate: Candidate) -> Evaluation:
         if candidate not in self._evaluations:
@@ -270,9 +269,7 @@ class _Choosing:
     def _choice(self, best: Evaluation | None, ruled_out: list[RuledOut]) -> Choice:
         evaluation = best or self._nearest()
         model = evaluation.candidate.model
-        reason = (
-            "the cheapest that meets every need" if best else f"none suffices: {evaluation.why}"
-        )
+        none = f"none suffices: {evaluation.why}"
         return Choice(
             fidelity=model.fidelity,
             averaging_order=model.averaging_order,
@@ -284,7 +281,7 @@ class _Choosing:
             allowed=evaluation.allowed,
             cost=evaluation.cost,
             ruled_out=tuple(ruled_out),
-            reason=reason,
+            reason="the cheapest that meets every need" if best else none,
             probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods + self.periods,
             scales=self.scales,

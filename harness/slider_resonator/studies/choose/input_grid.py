@@ -9,7 +9,8 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
-from slider_resonator.device.schedule import Schedule, Signal, communication_points, steps
+from slider_resonator.device.schedule import Schedule, communication_points
+from slider_resonator.device.signal import Signal, steps
 from slider_resonator.scenes.scene import Scene
 
 

@@ -1,4 +1,4 @@
-"""The resolved probe: a candidate and the resolved device over the same part of a scene."""
+"""The errors of candidates, from runs beside the resolved device over parts of a scene."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ from slider_resonator.studies.choose.candidate import START_TOLERANCE, Candidate
 from slider_resonator.studies.choose.carrying import Drift, carried, defect, over_the_scene
 from slider_resonator.studies.choose.cost import AVERAGING_ORDERS, USUAL
 from slider_resonator.studies.choose.coverage import (
-    FINEST_TOLERANCE,
     MAX_STEPS,
     SIGNAL_NEEDS,
     Coverage,
@@ -27,24 +26,16 @@ from slider_resonator.studies.choose.coverage import (
 from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates, errors
 from slider_resonator.studies.choose.holding import holding_errors, with_holding
 from slider_resonator.studies.choose.input_grid import (
-    InputGrid,
-    inputs_as_they_vary,
-    must_hold,
     sampled_inputs,
 )
 from slider_resonator.studies.choose.plan import Plan, plan_of
+from slider_resonator.studies.choose.runs import Runs
 from slider_resonator.studies.choose.scales import scales_of
-from slider_resonator.studies.choose.stretch import Samples, Stretch, checkpoints_between, follow
+from slider_resonator.studies.choose.stretch import Samples, Stretch, checkpoints_between
 from slider_resonator.studies.choose.windows import Windows, lay_windows
 
-REFERENCE_STEPS = 8
-"""Steps of the resolved run in one step of a candidate, where inputs vary."""
-MIN_POINTS, MAX_POINTS = 4000, 20_000
-"""Points of a resolved run, where inputs vary; at least two in a step of the candidate."""
 HOLDING_STEPS = 500
 """Steps of averaged motion from which the error of holding the inputs follows."""
-WINDOW_STEPS = 4
-"""Steps in a drive period, in windows, that follow inputs as they vary."""
 MAX_FOLLOWED_STEPS = 100_000
 """Steps of a candidate besides a reference that follows lines of inputs, where inputs vary."""
 RANGE_POINTS = 60
@@ -76,8 +67,7 @@ class Probe:
         has_orders = "averaging_order" in instance.fmu.variables
         self.averaging_orders = AVERAGING_ORDERS if has_orders else (None,)
         self._averaged = Model(0, scene.device.friction_law, self.averaging_orders[0])
-        self.drive_periods = 0.0
-        self._references: dict[tuple[float, float, float], Samples] = {}
+        self._runs = Runs(instance, scene, self.scales, self.coverage, self.reference_model)
         self._extrapolations: dict[Candidate, Estimates] = {}
         self._plans: dict[float, Plan] = {}
         self._holdings: dict[float, dict[str, float]] = {}
@@ -87,6 +77,11 @@ class Probe:
     def covers(self) -> str:
         """The resolved part of the scene: whole, windows or beginning."""
         return self.coverage.part
+
+    @property
+    def drive_periods(self) -> float:
+        """Drive periods that the FMU has resolved so far."""
+        return self._runs.drive_periods
 
     @property
     def max_steps(self) -> int:
@@ -116,9 +111,8 @@ class Probe:
         stretch = Stretch(0.0, self.duration, points)
         size = self.duration / RANGE_POINTS
         try:
-            held = self._inputs_as_they_vary(size, stretch)
             candidate = Candidate(self._averaged, START_TOLERANCE, size)
-            slow = self._follow(candidate, held, stretch)["mean_velocity"]
+            slow = self._runs.varying(candidate, size, stretch)["mean_velocity"]
         except FmuError:
             return USUAL
         fast = self.scales.fast_velocity
@@ -138,7 +132,7 @@ class Probe:
 
         Raises FmuError or Refusal where the FMU cannot: then there is no reference.
         """
-        self._reference(step, self._head)
+        self._runs.reference(step, self._head)
 
     def run_errors(self, candidate: Candidate) -> Estimates:
         """Return the errors of a run with the candidate, as estimated by the probe.
@@ -164,9 +158,8 @@ class Probe:
         return self._compared(candidate, candidate.step or self.duration, self._whole)
 
     def _compared(self, candidate: Candidate, step: float, stretch: Stretch) -> Estimates:
-        held = self._sampled_inputs(candidate.model, step, stretch.stop)
-        samples = self._follow(candidate, held, stretch)
-        return self._seen(samples, self._reference(step, stretch))
+        samples = self._runs.sampled(candidate, step, stretch)
+        return self._seen(samples, self._runs.reference(step, stretch))
 
     def _seen(self, samples: Samples, reference: Samples) -> Estimates:
         law = self.reference_model.friction_law
@@ -180,7 +173,7 @@ class Probe:
         """Return the errors of a candidate with inputs as they vary, from head and windows."""
         key = replace(candidate, step=None if self.varying else step)
         if key not in self._extrapolations:
-            head, reference = self._alike(candidate, step, self._head)
+            head, reference = self._runs.alike(candidate, step, self._head)
             drift, velocity = self._drift(candidate, step)
             sizes, seen = self._sizes(step), self._seen(head, reference)
             self._extrapolations[key] = over_the_scene(drift, velocity, sizes, seen)
@@ -188,12 +181,12 @@ class Probe:
 
     def _drift(self, candidate: Candidate, step: float) -> tuple[Drift, float]:
         """Return the drift of a candidate at the end of the scene, its largest velocity error."""
-        head, reference = self._alike(candidate, step, self._head)
+        head, reference = self._runs.alike(candidate, step, self._head)
         u, x = (
             float(head[name][-1] - reference[name][-1]) for name in ("mean_velocity", "position")
         )
         defects = [
-            defect(window, *self._alike(candidate, step, window.stretch), self.scales.period)
+            defect(window, *self._runs.alike(candidate, step, window.stretch), self.scales.period)
             for window in self._windows.windows
         ]
         return carried(defects, u, x, self._head.stop)
@@ -207,13 +200,6 @@ class Probe:
             drift, _ = self._drift(Candidate(self._averaged, START_TOLERANCE, step), step)
             self._final_velocity = abs(self._windows.final_velocity - drift.velocity)
         return {**self._windows.sizes, "mean_velocity": self._final_velocity}
-
-    def _alike(
-        self, candidate: Candidate, step: float, stretch: Stretch
-    ) -> tuple[Samples, Samples]:
-        """Return candidate and resolved device under the same inputs."""
-        held = self._inputs_as_they_vary(step, stretch)
-        return self._follow(candidate, held, stretch), self._reference(step, stretch)
 
     def _holding(self, step: float) -> dict[str, float]:
         """Return the errors that come from holding the inputs over a step (s).
@@ -263,60 +249,3 @@ class Probe:
     @cached_property
     def _windows(self) -> Windows:
         return lay_windows(self.instance, self.scene, self._averaged, self.scales, self._head.stop)
-
-    def _reference(self, step: float, stretch: Stretch) -> Samples:
-        """Return the resolved run at the points of a candidate with this step (s)."""
-        alike = self._in_window(stretch) or not self._reference_has_steps
-        key = 0.0 if alike else step, stretch.start, stretch.stop
-        if key not in self._references:
-            held = self._inputs_as_they_vary(step, stretch)
-            finest = Candidate(self.reference_model, FINEST_TOLERANCE, step)
-            self._references[key] = self._follow(finest, held, stretch)
-        return self._references[key]
-
-    @property
-    def _reference_has_steps(self) -> bool:
-        """Whether the resolved run depends on the step of the candidate."""
-        holds = must_hold(self.scene, interpolates=self.can_interpolate)
-        return holds or "beat" in self.run_needs
-
-    def _in_window(self, stretch: Stretch) -> bool:
-        """Whether inputs that vary are followed as they do, and not as a candidate holds them."""
-        part = stretch.start > 0.0 or stretch.stop < self.duration
-        return self.varying and self.covers == "windows" and part
-
-    def _sampled_inputs(self, model: Model, step: float, stop: float) -> InputGrid:
-        """Return the inputs up to `stop` (s) as a run in this step (s) samples and holds them.
-
-        Where they do not vary other than by jumps, steps that change nothing are left out, and all
-        if there are more than `MAX_STEPS`.
-        """
-        own = self.varying or not (model.any_step or stop / step > MAX_STEPS)
-        return sampled_inputs(self.scene, stop, step if own else stop)
-
-    def _inputs_as_they_vary(self, step: float, stretch: Stretch) -> InputGrid:
-        """Return the inputs without an error of holding them, for a candidate with this step (s).
-
-        Within a window a few steps in a drive period serve; else there are some in its own step.
-        """
-        length = stretch.stop - stretch.start
-        fine = min(step / REFERENCE_STEPS, length / MIN_POINTS)
-        if not self.varying:
-            fine = length
-        elif self._in_window(stretch):
-            fine = self.scales.period / WINDOW_STEPS
-        while self.varying and length / fine > MAX_POINTS and fine < 0.5 * step:
-            fine *= 2.0
-        return inputs_as_they_vary(
-            self.scene, stretch.stop, fine, stretch.start, interpolates=self.can_interpolate
-        )
-
-    def _follow(self, candidate: Candidate, held: InputGrid, stretch: Stretch) -> Samples:
-        if candidate.model.fidelity > 0:
-            self.drive_periods += (stretch.stop - stretch.start) / self.scales.period
-        grid: Array = np.empty(0)
-        if "beat" in self.run_needs and stretch.start == 0.0:
-            step = candidate.step or self.duration
-            steps = int(stretch.stop / step * (1.0 + 1e-9))
-            grid = np.minimum(step * np.arange(steps + 1), stretch.stop)
-        return follow(self.instance, self.scene, candidate.parameters, held, stretch, grid)

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import inf, pi, sqrt
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.schedule import Signal
+from slider_resonator.device.signal import Signal
 from slider_resonator.errors import SceneError
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene

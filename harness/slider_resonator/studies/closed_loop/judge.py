@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
-from slider_resonator.studies.closed_loop.loop import Array, LoopRecord
+from slider_resonator.studies.closed_loop.loop import LoopRecord
 
 AGREEMENT = 1e-6
 """Difference (m/s) of two fidelities that always counts as agreement."""

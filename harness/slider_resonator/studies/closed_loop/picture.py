@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from slider_resonator.output.atomic import replacing
+from slider_resonator.arrays import Array
 from slider_resonator.output.plot_style import COLOURS, save, style
 from slider_resonator.studies.closed_loop.duty import Duty
 from slider_resonator.studies.closed_loop.judge import Agreement
-from slider_resonator.studies.closed_loop.loop import Array, LoopRecord
+from slider_resonator.studies.closed_loop.loop import LoopRecord
 
 DESIGN_COLOUR, PROOF_COLOUR = COLOURS["theory"], COLOURS["slow"]
 BAND_COLOUR = "#d8e6ee"
@@ -38,8 +38,7 @@ def draw_loop(
         _draw_phase(phase, design, proof)
         _draw_difference(difference, design, proof, duty, agreements)
         difference.set(xlabel="time [s]", xlim=(0.0, duty.end))
-        with replacing(path) as temporary:
-            save(figure, temporary)
+        save(figure, path)
 
 
 def _draw_load(axes: Axes, duty: Duty) -> None:

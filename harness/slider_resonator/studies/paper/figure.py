@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.studies.paper import labels
 
-Array = NDArray[np.float64]
 LINE_POINTS = 121
 """Points of a line over a panel."""
 Data = dict[str, Any]

@@ -7,20 +7,14 @@ from math import pi
 import numpy as np
 from matplotlib.figure import Figure as Drawing
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.studies.paper import labels
-from slider_resonator.studies.paper.figure import (
-    SHADES,
-    Array,
-    Data,
-    PaperFigure,
-    markers,
-    panels,
-)
+from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
 from slider_resonator.studies.paper.mapping import resonator_case
 from slider_resonator.studies.paper.measure import plain, record
 

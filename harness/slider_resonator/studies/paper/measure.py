@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from slider_resonator.device.schedule import constant, schedule
+from slider_resonator.device.schedule import schedule
+from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -13,10 +13,11 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.atomic import replacing, write_text
-from slider_resonator.output.console import counted, noting_on_interrupt
+from slider_resonator.output.atomic import write_text
+from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
+from slider_resonator.output.progress import Progress, counted
 from slider_resonator.output.targets import make_folder
 from slider_resonator.studies.paper import (
     average_error,
@@ -74,8 +75,6 @@ RESULTS = "results"
 """Folder of measured data within the report."""
 TIME_LIMIT = 900.0
 """Default time limit of a figure, a table or a group of claims, s."""
-
-Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
@@ -183,5 +182,4 @@ def _draw(figure: PaperFigure, data: Data, out: Path) -> None:
     with style():
         drawing = figure.draw(data)
         for suffix in SUFFIXES:
-            with replacing(out / f"{figure.name}{suffix}") as temporary:
-                save(drawing, temporary)
+            save(drawing, out / f"{figure.name}{suffix}")

@@ -8,20 +8,13 @@ from math import pi
 import numpy as np
 from matplotlib.figure import Figure as Drawing
 
+from slider_resonator.arrays import Array
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.studies.paper import labels
-from slider_resonator.studies.paper.figure import (
-    SHADES,
-    Array,
-    Data,
-    PaperFigure,
-    curve,
-    markers,
-    panels,
-)
+from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, curve, markers, panels
 from slider_resonator.studies.paper.mapping import lugre_case
 from slider_resonator.studies.paper.measure import blocking_force, steady_velocity
 

@@ -107,7 +107,7 @@ class DaskWorkers:
 
 @contextmanager
 def dask_workers(
-    task: Task, digest: str, fmu: Path, address: str, time_limit: float = TIME_LIMIT
+    task: Task, digest: str, fmu: Path, address: str, time_limit: float
 ) -> Iterator[DaskWorkers]:
     """Yield the workers of the scheduler at `address`; HarnessError where none answers."""
     try:

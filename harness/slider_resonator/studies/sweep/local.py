@@ -10,7 +10,7 @@ from pathlib import Path
 
 from slider_resonator.errors import FmuError
 from slider_resonator.studies.sweep.measures import Task
-from slider_resonator.studies.sweep.worker import TIME_LIMIT, ChunkRunner, Point, Rows
+from slider_resonator.studies.sweep.worker import ChunkRunner, Point, Rows
 
 
 def available_cores() -> int:
@@ -48,9 +48,7 @@ class LocalWorkers:
 
 
 @contextmanager
-def local_workers(
-    task: Task, fmu: Path, count: int, time_limit: float = TIME_LIMIT
-) -> Iterator[LocalWorkers]:
+def local_workers(task: Task, fmu: Path, count: int, time_limit: float) -> Iterator[LocalWorkers]:
     """Yield `count` processes for the length of the block; `time_limit` (s) is that of a point."""
     workers = LocalWorkers(task, fmu, count, time_limit)
     try:

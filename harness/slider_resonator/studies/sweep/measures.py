@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from math import tau
 
 import numpy as np
-from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, INTEGERS, OUTPUTS
-from slider_resonator.device.schedule import constant, schedule
+from slider_resonator.device.schedule import schedule
+from slider_resonator.device.signal import constant
 from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
@@ -18,7 +19,6 @@ from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.sweep.axes import AxisError
 
-Array = NDArray[np.float64]
 Cell = float | str | None
 """An entry of the table; None where there is none."""
 

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.colors import Normalize, to_hex
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.fmu.provenance_text import provenance_html
@@ -25,7 +26,6 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import escaped, rendered, write_page
 from slider_resonator.output.table import Row, Table, numbers, texts
 from slider_resonator.studies.sweep.grid import Sweep
-from slider_resonator.studies.sweep.measures import Array
 from slider_resonator.studies.sweep.picture import (
     NO_ANSWER,
     check_picture,

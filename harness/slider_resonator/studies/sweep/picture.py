@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.studies.sweep.grid import Sweep
-from slider_resonator.studies.sweep.measures import Array, unit
+from slider_resonator.studies.sweep.measures import unit
 from slider_resonator.studies.sweep.table import Columns
 
 NO_ANSWER = "no answer"
@@ -64,8 +64,7 @@ def draw_sweep(sweep: Sweep, columns: Columns, path: Path) -> None:
             if not axes.get_xlabel():
                 axes.set_xlabel(variable_label(names[0]))
             _scale(axes, sweep, lines[0] if lines else names[0], None if lines else names[1])
-        with replacing(path) as temporary:
-            save(figure, temporary)
+        save(figure, path)
 
 
 def _map(axes: Axes, sweep: Sweep, values: Mapping[str, Array], result: Array, label: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass
 from importlib.util import find_spec
@@ -14,6 +14,7 @@ from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.studies.sweep.grid import Sweep
 from slider_resonator.studies.sweep.journal import Journal, journal_path
 from slider_resonator.studies.sweep.local import local_workers
@@ -55,7 +56,7 @@ def run_sweep(
     restart: bool = False,
     overwrite: bool = False,
     time_limit: float = TIME_LIMIT,
-    progress: Callable[[str, float], None] = lambda label, share: None,
+    progress: Progress = no_progress,
 ) -> SweepResult:
     """Compute the points that the journal beside `out` does not hold, and write the table.
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from slider_resonator.output.console import counted
-
-Progress = Callable[[str, float], None]
+from slider_resonator.output.progress import Progress, counted
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ from typing import Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted
 from slider_resonator.studies.trade.fmu_methods import FmuMethods, TaskRunner
-from slider_resonator.studies.trade.in_turn import Progress, Timed, in_turn
+from slider_resonator.studies.trade.in_turn import Timed, in_turn
 from slider_resonator.studies.trade.method import Label, Method, SteadyMethod, cpu_seconds
 from slider_resonator.studies.trade.peer_methods import peer_answers, peer_methods
 from slider_resonator.studies.trade.problem import Problem
@@ -51,7 +51,7 @@ def measure_trade(
     instances: Mapping[str, TaskRunner],
     progress: Progress,
     *,
-    repeats: int = REPEATS,
+    repeats: int,
     budget: float = BUDGET,
 ) -> Trade:
     """Measure all methods on a problem; `instances` are our FMUs by name.

@@ -66,7 +66,7 @@ class SteadyMethod:
     clock: Callable[[], float] = process_time
 
 
-def cpu_seconds(work: Callable[[], object], clock: Callable[[], float] = process_time) -> float:
+def cpu_seconds(work: Callable[[], object], clock: Callable[[], float]) -> float:
     """Return the CPU time (s) that some work takes, by its clock."""
     began = clock()
     work()

@@ -9,7 +9,6 @@ from pathlib import Path
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from slider_resonator.output.atomic import replacing
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.studies.trade.result import (
     AVERAGED,
@@ -56,8 +55,7 @@ def draw_picture(trade: Trade, path: Path) -> None:
         figure.axes[0].set_ylabel("share of the peak")
         handles, labels = figure.axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=8.5)
-        with replacing(path) as temporary:
-            save(figure, temporary)
+        save(figure, path)
 
 
 def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look]) -> None:

@@ -12,13 +12,8 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_turns_on, with_steady_phase
-from slider_resonator.device.schedule import (
-    Schedule,
-    Signal,
-    communication_points,
-    in_order,
-    schedule,
-)
+from slider_resonator.device.schedule import Schedule, communication_points, in_order, schedule
+from slider_resonator.device.signal import Signal
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.scenes.scene import Scene
 
@@ -155,9 +150,7 @@ class Problem:
         return Schedule(times, *in_order(held)).held()
 
 
-def problem_of(
-    scene: Scene, varied: Mapping[str, float], max_periods: int | None = None
-) -> Problem:
+def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | None) -> Problem:
     """Return the problem of a scene; `varied` are the values of its sweep.
 
     `max_periods` cuts the run short. Raises SceneError for a scene without a run whose inputs

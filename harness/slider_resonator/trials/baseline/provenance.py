@@ -15,7 +15,8 @@ import numpy as np
 
 from slider_resonator import __version__
 from slider_resonator.fmu.opening import Fmu
-from slider_resonator.scenes.scene import Scene, built_in_scenes
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.trials.baseline.golden import MAX_POINTS
 
 FMU_DIGEST = "fmu_sha256"

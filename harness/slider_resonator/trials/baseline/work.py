@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from itertools import count
 from pathlib import Path
@@ -17,9 +17,10 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import identity_of
 from slider_resonator.output.atomic import replacing
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.targets import make_folder
-from slider_resonator.scenes.scene import Scene, ScenePoint, built_in_scenes, read_scene
+from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
+from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.trials.baseline.golden import Golden, measure_golden
 from slider_resonator.trials.baseline.judge import TOLERANCE, compare_golden
 from slider_resonator.trials.baseline.provenance import (
@@ -41,8 +42,6 @@ from slider_resonator.trials.baseline.store import (
     write_recorded,
 )
 
-Progress = Callable[[str, float], None]
-
 CHANGED = ".changed"
 """Folder beside the scenes with the changed results of the last check; git ignores it."""
 
@@ -51,7 +50,7 @@ def record(
     fmu: Path,
     files: Sequence[Path],
     folder: Path,
-    progress: Progress = lambda scene, share: None,
+    progress: Progress = no_progress,
     *,
     replace: bool = False,
     time_limit: float = TIME_LIMIT,
@@ -101,7 +100,7 @@ def check(
     fmu: Path,
     files: Sequence[Path],
     folder: Path,
-    progress: Progress = lambda scene, share: None,
+    progress: Progress = no_progress,
     *,
     tolerance: float = TOLERANCE,
     time_limit: float = TIME_LIMIT,
@@ -146,7 +145,7 @@ def check(
     )
 
 
-def accept(fmu: Path, folder: Path, names: Sequence[str] = ()) -> tuple[str, ...]:
+def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
     """Accept the changes that the last check of this FMU found; return the names of the scenes.
 
     Without `names` that is every scene that has changed. Raises HarnessError for a name that is not

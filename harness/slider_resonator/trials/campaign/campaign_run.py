@@ -17,7 +17,7 @@ from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.run import run
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted
 from slider_resonator.trials.campaign.expected import AVERAGED, RESOLVED
 from slider_resonator.trials.campaign.random_case import RandomCase
 from slider_resonator.trials.campaign.second_order import OUTPUTS
@@ -63,7 +63,7 @@ class Campaign:
 def run_campaign(
     fmu: Path,
     cases: Sequence[RandomCase],
-    progress: Callable[[str, float], None],
+    progress: Progress,
     time_limit: float = TIME_LIMIT,
     keep: Callable[[Campaign], None] = lambda campaign: None,
 ) -> Campaign:

@@ -14,7 +14,8 @@ from random import Random
 import numpy as np
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.schedule import Schedule, Signal
+from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.signal import Signal
 from slider_resonator.references.averaged.motion_from_start import SWING_LEFT, turns_resolved
 from slider_resonator.references.closed_forms import equivalent_force
 

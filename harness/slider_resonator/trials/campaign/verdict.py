@@ -40,37 +40,37 @@ def judge(case: RandomCase, record: Mapping[str, Array]) -> CaseVerdict:
             reason = f"{name} is not finite"
             return CaseVerdict(case.number, case.model, FAILED, np.inf, name, reason)
     try:
-        wanted = expected(case)
+        reference = expected(case)
     except (RuntimeError, ValueError, ArithmeticError) as error:
         return CaseVerdict(case.number, case.model, NO_REFERENCE, reason=str(error))
     first = 0
     if case.second_order:
-        wanted = of_second_order(case, wanted, float(record["slow_motion_error"].max()))
+        reference = of_second_order(case, reference, float(record["slow_motion_error"].max()))
         record = centre_signals(case.device, record)
         first = 1  # where nothing is slow, averages of first order begin with the steady swing
-    found, signal, words = _worst(record, wanted, first)
+    found, signal, words = _worst(record, reference, first)
     if found <= 1.0:
         return CaseVerdict(case.number, case.model, PASSED, found, signal)
     try:
-        near = moved(case, wanted.resolution).signals
+        near = moved(case, reference.resolution).signals
         if case.second_order:
             near = centre_signals(case.device, near)
-        own, _, _ = _worst(near, wanted, first)
+        own, _, _ = _worst(near, reference, first)
     except (RuntimeError, ValueError, ArithmeticError):
         own = 0.0
     verdict = SENSITIVE if found <= CONDITIONING * own else FAILED
-    reason = f"{words}; the reference with values off by {wanted.resolution:.2g}: {own:.3g}"
+    reason = f"{words}; the reference with values off by {reference.resolution:.2g}: {own:.3g}"
     return CaseVerdict(case.number, case.model, verdict, found, signal, reason)
 
 
-def _worst(record: Mapping[str, Array], wanted: Expected, first: int = 0) -> tuple[float, str, str]:
+def _worst(record: Mapping[str, Array], reference: Expected, first: int) -> tuple[float, str, str]:
     """Return the largest deviation over what is allowed from point `first` on, where, in words."""
     found, signal, words = 0.0, "", ""
-    for name, there in wanted.signals.items():
+    for name, there in reference.signals.items():
         # There is no mean over a period before the first step.
         begin = max(first, int(name == "mean_velocity"))
         off = float(np.abs(record[name] - there)[begin:].max())
-        allowed = wanted.allowed[name]
+        allowed = reference.allowed[name]
         ratio = off / allowed if allowed else 2.0 * float(off > 0.0)
         if not ratio <= found:
             found, signal = ratio, name

@@ -9,7 +9,7 @@ from urllib.parse import quote
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.fmu.provenance_text import HEADING, provenance_markdown
 from slider_resonator.output import markdown
-from slider_resonator.output.atomic import replacing, write_text
+from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Column, Row, Table, texts
 from slider_resonator.output.targets import make_folder
@@ -32,8 +32,7 @@ def write_matrices(matrices: Sequence[Matrix], out: Path, provenance: Provenance
     make_folder(out)
     write_text(out / "extremes.json", to_json(as_plain(matrices), provenance))
     for matrix in matrices:
-        with replacing(out / _picture(matrix)) as temporary:
-            draw_matrix(matrix, temporary)
+        draw_matrix(matrix, out / _picture(matrix))
     parts = ["# Stability at the extremes", *(_page(matrix) for matrix in matrices)]
     parts += [f"## {HEADING}", provenance_markdown(provenance)]
     write_text(out / "extremes.md", "\n\n".join(parts) + "\n")

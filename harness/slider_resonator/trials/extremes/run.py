@@ -12,7 +12,7 @@ from pathlib import Path
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import lacking
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, broken, judge
 from slider_resonator.trials.extremes.observe import observe
@@ -92,7 +92,7 @@ class Matrix:
 def run_matrix(
     fmu: Path,
     cells: Sequence[MatrixCell],
-    progress: Callable[[str, float], None],
+    progress: Progress,
     time_limit: float = TIME_LIMIT,
     keep: Callable[[Matrix], None] = lambda matrix: None,
 ) -> Matrix:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import tau
 from pathlib import Path
 from statistics import median
 
 from slider_resonator.errors import FmuError
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted
 from slider_resonator.trials.hosts.driver_host import DriverFiles, initialised, run_natively
 from slider_resonator.trials.hosts.job import describe
 from slider_resonator.trials.hosts.program import run_program
@@ -64,7 +64,7 @@ class StepCost:
 
 
 def measure_steps(
-    fmu: Path, repeats: int, progress: Callable[[str, float], None], time_limit: float
+    fmu: Path, repeats: int, progress: Progress, time_limit: float
 ) -> tuple[StepCost, ...]:
     """Time every kind of step in the C driver, in turn.
 

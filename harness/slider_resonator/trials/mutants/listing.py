@@ -97,10 +97,10 @@ def _counts(name: str, counts: Mapping[str, int]) -> Row:
     return [name, *(str(counts[status]) for status in STATUSES)]
 
 
-def rejections(run: MutationRun, most: int | None = None) -> Table:
-    """Return what rejected mutants; beyond `most` rows the others are counted together."""
+def rejections(run: MutationRun, max_rows: int | None = None) -> Table:
+    """Return what rejected mutants; beyond `max_rows` the others are counted together."""
     found = run.rejections()
-    shown, others = found[:most], found[most:] if most else []
+    shown, others = found[:max_rows], found[max_rows:] if max_rows else []
     rows = [(what, str(count)) for what, count in shown]
     if others:
         rows.append((f"{len(others)} others", str(sum(count for _, count in others))))

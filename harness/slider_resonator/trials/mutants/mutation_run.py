@@ -5,14 +5,14 @@ from __future__ import annotations
 import hashlib
 import pickle
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from pathlib import Path
 from random import Random
 
 from slider_resonator.errors import FmuError
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.attempt import Bench
@@ -32,8 +32,6 @@ PROBES = 39
 BATCH = 1024
 """Mutants that get their verdicts before the next ones begin."""
 
-Progress = Callable[[str, float], None]
-
 
 def run_mutants(
     path: Path,
@@ -47,7 +45,7 @@ def run_mutants(
     seed: int = 0,
     time_limit: float = TIME_LIMIT,
     journal: Path | None = None,
-    progress: Progress = lambda label, share: None,
+    progress: Progress = no_progress,
 ) -> MutationRun:
     """Try mutants of the FMU at `path` on scenes, survivors on probes, `jobs` at a time.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,15 +10,13 @@ from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted
 from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.trials.mutants.probes import allowed_share
 from slider_resonator.trials.mutants.trial import ExpectedPoint, Observed, observe
 
 
-def scene_points(
-    files: Sequence[Path], progress: Callable[[str, float], None]
-) -> list[ExpectedPoint]:
+def scene_points(files: Sequence[Path], progress: Progress) -> list[ExpectedPoint]:
     """Return every scene and point of a sweep, with the values of its references.
 
     Raises SceneError for a scene that cannot be read, referred to or expects nothing.

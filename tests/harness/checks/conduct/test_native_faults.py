@@ -8,7 +8,7 @@ import pytest
 
 from fmu_src.building.c_sources import slider_sources
 from slider_resonator.checks.validate import validate
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.native_faults import FAULTS, build_faulty
 
 SCENES = sorted({scene for *_, scene in FAULTS.values()})

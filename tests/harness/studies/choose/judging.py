@@ -12,7 +12,8 @@ from math import inf
 import numpy as np
 
 from slider_resonator.checks.measures.frequency import dominant_frequency
-from slider_resonator.device.schedule import Schedule, Signal, communication_points, in_order
+from slider_resonator.device.schedule import Schedule, communication_points, in_order
+from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record

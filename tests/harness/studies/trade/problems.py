@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from slider_resonator.references.resolved import taylor
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.scenes.scene import read_scene
 from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.studies.trade.peers.peer import solution_of
 from slider_resonator.studies.trade.problem import Problem, problem_of
 from slider_resonator.studies.trade.solution import WindowReadings, windows
+from tests.harness.scene_text import scene_of
 
-HEAD = 'name = "mine"\ntitle = "Mine"\n'
 
-
-def problem(folder: Path, text: str, max_periods: int | None = None) -> Problem:
-    path = folder / "mine.toml"
-    path.write_text(HEAD + text)
-    return problem_of(read_scene(path), {}, max_periods)
+def problem(text: str, max_periods: int | None = None) -> Problem:
+    return problem_of(scene_of(text), {}, max_periods)
 
 
 def reference_of(problem: Problem) -> WindowReadings:

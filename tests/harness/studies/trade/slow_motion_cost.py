@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from slider_resonator.device.schedule import constant, schedule
+from slider_resonator.device.schedule import schedule
+from slider_resonator.device.signal import constant
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import Fmu, open_fmu
 from slider_resonator.fmu.record import Record

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import inf
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,34 +35,32 @@ def pick(
     )
 
 
-def test_a_ramp_that_is_passed_on_costs_nothing(tmp_path: Path, instance: Instance) -> None:
-    ramp = problem(tmp_path, RAMP)
+def test_a_ramp_that_is_passed_on_costs_nothing(instance: Instance) -> None:
+    ramp = problem(RAMP)
     found = followed(ramp, pick(ramp, instance, 2, 10.0))
     assert max(found.values()) < 1e-11, f"steps of 10 periods: {found}"
 
 
 def test_a_held_ramp_costs_the_first_power_of_the_step(
-    tmp_path: Path, instance: Instance, monkeypatch: pytest.MonkeyPatch
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(FmuMethods, "interpolates", False)
-    ramp = problem(tmp_path, RAMP)
+    ramp = problem(RAMP)
     steps = np.array([0.01, 0.1, 1.0])
     wrong = [followed(ramp, pick(ramp, instance, 2, step))["slow_displacement"] for step in steps]
     order = np.polyfit(np.log(steps), np.log(wrong), 1)[0]
     assert order == pytest.approx(1.0, abs=0.15), f"inputs lag half a step: {wrong}"
 
 
-def test_under_constant_inputs_the_step_costs_nothing(tmp_path: Path, instance: Instance) -> None:
-    table_1 = problem(tmp_path, TABLE_1, max_periods=20)
+def test_under_constant_inputs_the_step_costs_nothing(instance: Instance) -> None:
+    table_1 = problem(TABLE_1, max_periods=20)
     for step in (0.1, 1.0, 10.0):
         found = followed(table_1, pick(table_1, instance, 2, step))
         assert max(found.values()) < 1e-10, f"steps of {step:g} periods: {found}"
 
 
-def test_averaged_motion_has_a_mean_velocity_and_no_events(
-    tmp_path: Path, instance: Instance
-) -> None:
-    table_1 = problem(tmp_path, TABLE_1, max_periods=200)
+def test_averaged_motion_has_a_mean_velocity_and_no_events(instance: Instance) -> None:
+    table_1 = problem(TABLE_1, max_periods=200)
     method = pick(table_1, instance, 0, 100.0, 1)
     found = followed(table_1, method)
     assert 1e-5 < found["mean_velocity"] < 2e-2, "averaging costs a share of the order of 1/3500"
@@ -72,18 +69,17 @@ def test_averaged_motion_has_a_mean_velocity_and_no_events(
     assert method.label.kind == AVERAGED
 
 
-def test_averages_of_second_order_are_far_closer(tmp_path: Path, instance: Instance) -> None:
-    table_1 = problem(tmp_path, TABLE_1, max_periods=200)
+def test_averages_of_second_order_are_far_closer(instance: Instance) -> None:
+    table_1 = problem(TABLE_1, max_periods=200)
     found = followed(table_1, pick(table_1, instance, 0, 100.0, 2))
     assert 1e-10 < found["mean_velocity"] < 1e-6
     assert found["position"] < 1e-6
 
 
-def test_every_fidelity_step_and_law_is_there(tmp_path: Path, instance: Instance) -> None:
+def test_every_fidelity_step_and_law_is_there(instance: Instance) -> None:
     for text, tolerances in ((TABLE_1, 1), (LUGRE, 5)):
         labels = [
-            m.label
-            for m in FmuMethods(problem(tmp_path, text), "native", InProcess(instance)).methods()
+            m.label for m in FmuMethods(problem(text), "native", InProcess(instance)).methods()
         ]
         assert len({label.name for label in labels}) == len(labels)
         for fidelity in (0, 1, 2):
@@ -94,8 +90,8 @@ def test_every_fidelity_step_and_law_is_there(tmp_path: Path, instance: Instance
             assert len(used) == (tolerances if fidelity else 1)
 
 
-def test_answers_are_those_of_the_commands(tmp_path: Path, instance: Instance) -> None:
-    answers = list(FmuMethods(problem(tmp_path, TABLE_1), "native", InProcess(instance)).answers())
+def test_answers_are_those_of_the_commands(instance: Instance) -> None:
+    answers = list(FmuMethods(problem(TABLE_1), "native", InProcess(instance)).answers())
     found = {(a.label.name, a.quantity): a.find(inf).value for a in answers}
     assert found["native FMU, fidelity 2", "steady_velocity"] == pytest.approx(0.126667, rel=1e-6)
     assert found["native FMU, fidelity 2", "blocking_force"] == pytest.approx(0.0851861, rel=1e-6)
@@ -107,8 +103,8 @@ def test_answers_are_those_of_the_commands(tmp_path: Path, instance: Instance) -
     assert second == pytest.approx(0.12666699702, rel=1e-9)
 
 
-def test_a_run_is_timed_without_its_readings(tmp_path: Path, instance: Instance) -> None:
-    table_1 = problem(tmp_path, TABLE_1, max_periods=10)
+def test_a_run_is_timed_without_its_readings(instance: Instance) -> None:
+    table_1 = problem(TABLE_1, max_periods=10)
     assert pick(table_1, instance, 0, 10.0, 1).seconds(10) > 0.0
     solution = pick(table_1, instance, 2, 10.0).run(10)
     assert solution.steps == 1, "readings are no steps"

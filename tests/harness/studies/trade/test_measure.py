@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -42,10 +41,8 @@ def still(problem: Problem) -> Callable[[int], Solution]:
     return run
 
 
-def test_a_failing_method_is_omitted_with_the_reason(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    short = problem(tmp_path, TABLE_1, max_periods=4)
+def test_a_failing_method_is_omitted_with_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    short = problem(TABLE_1, max_periods=4)
 
     def fails(periods: int) -> Solution:
         raise RuntimeError("the solver gives up")
@@ -61,10 +58,8 @@ def test_a_failing_method_is_omitted_with_the_reason(
     assert ("standing", "event_times") in reported
 
 
-def test_a_method_stops_where_its_budget_ends(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    longer = problem(tmp_path, TABLE_1, max_periods=64)
+def test_a_method_stops_where_its_budget_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    longer = problem(TABLE_1, max_periods=64)
     used = [0.0]
 
     def works(cost: float) -> Callable[[int], Solution]:
@@ -86,9 +81,9 @@ def test_a_method_stops_where_its_budget_ends(
 
 
 def test_a_method_that_cannot_stick_is_omitted_where_the_slider_sticks(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    sticking = problem(tmp_path, STICKING, max_periods=4)
+    sticking = problem(STICKING, max_periods=4)
     only(monkeypatch, made_up("sliding", still(sticking), cannot_stick=True))
     trade = measure_trade(sticking, {}, quiet, repeats=1)
     assert [(o.method, o.quantity) for o in trade.omissions] == [("sliding", "all")]

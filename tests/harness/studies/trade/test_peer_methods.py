@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -11,19 +9,19 @@ from slider_resonator.studies.trade.peer_methods import peer_answers, peer_metho
 from tests.harness.studies.trade.problems import LUGRE, RAMP, TABLE_1, problem
 
 
-def test_every_setting_has_a_name_of_its_own(tmp_path: Path) -> None:
+def test_every_setting_has_a_name_of_its_own() -> None:
     for text in (TABLE_1, LUGRE):
-        names = [method.label.name for method in peer_methods(problem(tmp_path, text))]
+        names = [method.label.name for method in peer_methods(problem(text))]
         assert len(set(names)) == len(names)
 
 
-def test_peers_hold_inputs_over_the_step_of_the_scene(tmp_path: Path) -> None:
-    ramp = problem(tmp_path, RAMP)
+def test_peers_hold_inputs_over_the_step_of_the_scene() -> None:
+    ramp = problem(RAMP)
     lengths = np.diff([inputs.start for inputs in ramp.held(16)])
     assert lengths == pytest.approx(ramp.period / 8)
 
 
-def test_peers_that_start_in_any_state_support_shooting(tmp_path: Path) -> None:
-    answers = {answer.label.family for answer in peer_answers(problem(tmp_path, TABLE_1))}
+def test_peers_that_start_in_any_state_support_shooting() -> None:
+    answers = {answer.label.family for answer in peer_answers(problem(TABLE_1))}
     assert "Moreau-Jean" in answers
     assert not any("at its fastest" in family for family in answers)

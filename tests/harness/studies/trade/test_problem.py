@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import pi
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,8 +22,8 @@ from tests.harness.studies.trade.problems import (
 PERIOD = 2.0 * pi / 3500.0
 
 
-def test_a_scene_without_a_run_is_as_long_as_the_longest_step(tmp_path: Path) -> None:
-    found = problem(tmp_path, TABLE_1)
+def test_a_scene_without_a_run_is_as_long_as_the_longest_step() -> None:
+    found = problem(TABLE_1)
     assert found.periods == MIN_PERIODS == 1000
     assert found.horizons == (31, 62, 125, 250, 500, 1000)
     assert found.constant
@@ -32,14 +31,14 @@ def test_a_scene_without_a_run_is_as_long_as_the_longest_step(tmp_path: Path) ->
     assert found.beat is None
 
 
-def test_the_full_device_is_the_reference_whatever_the_scene_asks_for(tmp_path: Path) -> None:
-    found = problem(tmp_path, "[device]\nfidelity = 0\nfriction_law = 1\ntolerance = 1e-3\n")
+def test_the_full_device_is_the_reference_whatever_the_scene_asks_for() -> None:
+    found = problem("[device]\nfidelity = 0\nfriction_law = 1\ntolerance = 1e-3\n")
     assert (found.device.fidelity, found.device.friction_law) == (2, 1)
     assert found.parameters == {}, "fidelity, law and tolerance are for the methods to set"
 
 
-def test_readings_are_windows_of_a_drive_period(tmp_path: Path) -> None:
-    found = problem(tmp_path, LUGRE, max_periods=8)
+def test_readings_are_windows_of_a_drive_period() -> None:
+    found = problem(LUGRE, max_periods=8)
     assert found.horizons == (1, 2, 4, 8)
     times = found.readings(4)
     assert times[-1] == pytest.approx(4 * PERIOD)
@@ -47,14 +46,14 @@ def test_readings_are_windows_of_a_drive_period(tmp_path: Path) -> None:
     assert not ((times > 2.001 * PERIOD) & (times < 2.999 * PERIOD)).any()
 
 
-def test_a_beat_is_at_the_difference_of_the_frequencies(tmp_path: Path) -> None:
-    found = problem(tmp_path, BEAT)
+def test_a_beat_is_at_the_difference_of_the_frequencies() -> None:
+    found = problem(BEAT)
     assert found.beat == pytest.approx(0.05 * 3500.0 / (2.0 * pi))
     assert found.steady, "21/20 repeats after twenty periods"
 
 
-def test_inputs_that_vary_allow_no_steady_motion(tmp_path: Path) -> None:
-    found = problem(tmp_path, RAMP)
+def test_inputs_that_vary_allow_no_steady_motion() -> None:
+    found = problem(RAMP)
     assert not found.constant
     assert not found.steady
     assert found.periods == 16, "the scene sets the duration of its inputs"
@@ -64,29 +63,25 @@ def test_inputs_that_vary_allow_no_steady_motion(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "device", ["friction_coefficient = 0.0", "normal_preload = 0.0\nnormal_amplitude = 0.0"]
 )
-def test_nothing_draws_a_slider_without_friction_into_a_steady_motion(
-    tmp_path: Path, device: str
-) -> None:
-    assert not problem(tmp_path, f"[device]\n{device}\n").steady
+def test_nothing_draws_a_slider_without_friction_into_a_steady_motion(device: str) -> None:
+    assert not problem(f"[device]\n{device}\n").steady
 
 
-def test_jumps_are_exact_for_every_method(tmp_path: Path) -> None:
-    found = problem(tmp_path, JUMPS)
+def test_jumps_are_exact_for_every_method() -> None:
+    found = problem(JUMPS)
     assert [inputs.start for inputs in found.reference_inputs(16)] == [0.0, 0.0101]
     assert found.held(16) == found.reference_inputs(16)
 
 
-def test_the_reference_follows_ramps(tmp_path: Path) -> None:
-    line, constant = problem(tmp_path, RAMP).reference_inputs(16)
+def test_the_reference_follows_ramps() -> None:
+    line, constant = problem(RAMP).reference_inputs(16)
     assert (line.start, line.stop, line.load) == (0.0, 0.02, 0.0)
     assert line.load_rate == pytest.approx(5.0)
     assert (constant.load, constant.load_rate) == (0.1, 0.0), "from where the ramp ends"
 
 
-def test_lines_that_turn_the_normal_load_back_are_held_at_their_middle(
-    tmp_path: Path,
-) -> None:
-    found = problem(tmp_path, TURNS_BACK)
+def test_lines_that_turn_the_normal_load_back_are_held_at_their_middle() -> None:
+    found = problem(TURNS_BACK)
     held = found.reference_inputs(16, steps=4)
     middles = np.array([0.5 * (inputs.start + inputs.stop) for inputs in held])
     ratios = [inputs.frequency_ratio for inputs in held[:-1]]

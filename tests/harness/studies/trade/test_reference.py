@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -24,24 +22,24 @@ steps_per_period = 4
 """
 
 
-def test_table_1_by_a_run_and_by_shooting(tmp_path: Path) -> None:
-    reference = find_reference(problem(tmp_path, TABLE_1, max_periods=2))
+def test_table_1_by_a_run_and_by_shooting() -> None:
+    reference = find_reference(problem(TABLE_1, max_periods=2))
     assert reference.steady_velocity == pytest.approx(0.12666700, rel=1e-7)
     assert reference.blocking_force == pytest.approx(0.0851861, rel=1e-6)
     assert reference.uncertainty == 0.0, "inputs that do not vary are held without an error"
     assert not reference.sticks, "reversals follow each other without a stick"
 
 
-def test_a_drive_weaker_than_friction_sticks(tmp_path: Path) -> None:
-    assert find_reference(problem(tmp_path, STICKING, max_periods=3)).sticks
+def test_a_drive_weaker_than_friction_sticks() -> None:
+    assert find_reference(problem(STICKING, max_periods=3)).sticks
 
 
-def test_a_ramp_is_followed_without_an_error(tmp_path: Path) -> None:
-    assert find_reference(problem(tmp_path, RAMP)).uncertainty == 0.0
+def test_a_ramp_is_followed_without_an_error() -> None:
+    assert find_reference(problem(RAMP)).uncertainty == 0.0
 
 
-def test_the_uncertainty_is_what_finer_steps_would_change(tmp_path: Path) -> None:
-    ramp = problem(tmp_path, TURNS_BACK)
+def test_the_uncertainty_is_what_finer_steps_would_change() -> None:
+    ramp = problem(TURNS_BACK)
     usual, fine = (
         taylor.simulate(ramp.device, ramp.reference_inputs(16, steps), ramp.readings(16)).position
         for steps in (REFERENCE_STEPS, 8 * REFERENCE_STEPS)
@@ -51,7 +49,7 @@ def test_the_uncertainty_is_what_finer_steps_would_change(tmp_path: Path) -> Non
     assert off / 3.0 < reported < 5.0 * off, f"{reported:.1e} is reported, {off:.1e} would change"
 
 
-def test_a_slider_that_friction_holds_is_known_exactly(tmp_path: Path) -> None:
-    reference = find_reference(problem(tmp_path, HELD_BY_FRICTION))
+def test_a_slider_that_friction_holds_is_known_exactly() -> None:
+    reference = find_reference(problem(HELD_BY_FRICTION))
     assert reference.uncertainty == 0.0, "0 of nothing, not 0 / 0"
     assert not reference.windows.position.any()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import inf
-from pathlib import Path
 
 import pytest
 
@@ -12,8 +11,8 @@ from slider_resonator.studies.trade.shooting import shoot
 from tests.harness.studies.trade.problems import TABLE_1, problem
 
 
-def test_any_integrator_can_be_shot_with(tmp_path: Path) -> None:
-    table_1 = problem(tmp_path, TABLE_1)
+def test_any_integrator_can_be_shot_with() -> None:
+    table_1 = problem(TABLE_1)
     found = shoot(table_1, "steady_velocity", taylor.simulate, 1e-9, inf)
     assert found.value == pytest.approx(0.12666700, rel=1e-7)
     assert 30 <= found.periods <= 100, "a long run needs thousands"

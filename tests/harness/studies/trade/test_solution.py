@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf, nan
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,8 +14,8 @@ from tests.harness.studies.trade.problems import BEAT, TABLE_1, problem
 
 
 @pytest.fixture
-def short(tmp_path: Path) -> Problem:
-    return problem(tmp_path, TABLE_1, max_periods=4)
+def short() -> Problem:
+    return problem(TABLE_1, max_periods=4)
 
 
 def drifting(problem: Problem) -> Solution:
@@ -87,8 +86,8 @@ def test_the_last_event_up_to_each_time() -> None:
 
 
 @pytest.mark.parametrize(("step", "reported"), [(1, True), (7, True), (10, False), (100, False)])
-def test_a_beat_needs_enough_samples(tmp_path: Path, step: int, reported: bool) -> None:
-    beating = problem(tmp_path, BEAT)
+def test_a_beat_needs_enough_samples(step: int, reported: bool) -> None:
+    beating = problem(BEAT)
     assert beating.beat is not None
     ends = beating.ends(1600)[::step]
     history = (ends, np.sin(2.0 * np.pi * 1.001 * beating.beat * ends))

@@ -11,6 +11,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.second_order import CENTRE, CENTRE_VELOCITY, lag_of
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.progress import no_progress
 from slider_resonator.trials.campaign.campaign_run import Campaign, run_campaign
 from slider_resonator.trials.campaign.expected import expected
 from slider_resonator.trials.campaign.listing import as_plain, sentences
@@ -50,7 +51,7 @@ def test_an_fmu_without_second_order_runs_the_other_cases(native_fmu: Path, tmp_
     older = without_later_variables(native_fmu, tmp_path / "older.fmu")
     cases = [random_case(7, number) for number in (0, 6, 7)]
     assert [case.second_order for case in cases] == [False, True, True]
-    campaign = run_campaign(older, cases, lambda label, share: None)
+    campaign = run_campaign(older, cases, no_progress)
     assert campaign.passed, sentences(campaign)
     assert [one.number for one in campaign.verdicts] == [0]
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import FmuError
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
 from slider_resonator.trials.mutants.enumerate_fmu import fmu_mutants
 from slider_resonator.trials.mutants.mutant import Mutant

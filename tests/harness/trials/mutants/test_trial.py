@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.output.progress import no_progress
 from slider_resonator.scenes.scene import scene_from
 from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
 from slider_resonator.trials.mutants.points import probe_points, scene_points
@@ -17,7 +18,7 @@ Faulty = Callable[[str, str, str], Path]
 @pytest.fixture(scope="module")
 def points(tmp_path_factory: pytest.TempPathFactory) -> list[ExpectedPoint]:
     scene = faulty_fmus.scene(tmp_path_factory.mktemp("scene"))
-    return scene_points([scene], lambda label, share: None)
+    return scene_points([scene], no_progress)
 
 
 @pytest.fixture

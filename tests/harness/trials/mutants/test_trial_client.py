@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.output.progress import no_progress
 from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
 from slider_resonator.trials.mutants.attempt import Attempt, Attempted, Bench
 from slider_resonator.trials.mutants.points import scene_points
@@ -24,7 +25,7 @@ def fmu(python_fmu: Path) -> PythonFmu:
 def servers(python_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[TrialServers]:
     folder = tmp_path_factory.mktemp("servers")
     files = [faulty_fmus.scene(folder, name) for name in ("first", "second")]
-    points = scene_points(files, lambda label, share: None)
+    points = scene_points(files, no_progress)
     bench = Bench(python_fmu.resolve(), points, [0.0] * len(points), 1.0)
     with trial_servers(bench, 1, folder) as started:
         yield started

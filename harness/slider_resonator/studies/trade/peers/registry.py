@@ -125,8 +125,8 @@ def _trajectory(
     simulate: Simulate,
     *,
     tolerance: float | None = None,
-    shooting: float = 1e-9,
-    located: bool = True,
+    shooting: float,
+    located: bool,
 ) -> Peer:
     def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
         return solution_of(simulate(device, held, times), located=located)

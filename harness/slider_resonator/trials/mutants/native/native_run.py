@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import ExitStack, closing
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from pathlib import Path
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.errors import FmuError
-from slider_resonator.output.console import counted
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.attempt import Attempt, Bench
 from slider_resonator.trials.mutants.native.changes import Change
@@ -27,8 +27,6 @@ from slider_resonator.trials.mutants.trial import (
     observe_expected,
 )
 from slider_resonator.trials.mutants.trial_client import trial_servers
-
-Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
@@ -87,7 +85,7 @@ def run_changes(
     *,
     jobs: int,
     time_limit: float,
-    progress: Progress = lambda label, share: None,
+    progress: Progress = no_progress,
 ) -> NativeRun:
     """Build the FMU at `path` with each change and try it on scenes, `jobs` at a time.
 

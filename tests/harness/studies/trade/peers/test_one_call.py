@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from slider_resonator.studies.trade.peer_methods import peer_methods
@@ -11,15 +9,15 @@ from slider_resonator.studies.trade.peers.registry import peers
 from tests.harness.studies.trade.problems import RAMP, TABLE_1, problem
 
 
-def test_one_call_of_heyoka_covers_no_inputs_that_vary(tmp_path: Path) -> None:
-    ramp = problem(tmp_path, RAMP)
+def test_one_call_of_heyoka_covers_no_inputs_that_vary() -> None:
+    ramp = problem(RAMP)
     peer = next(peer for peer in peers(ramp) if peer.family == "heyoka at its fastest")
     with pytest.raises(ValueError, match="inputs vary"):
         peer.follow(ramp.device, ramp.held(4), ramp.readings(4))
 
 
-def test_being_led_into_motion_is_not_charged(tmp_path: Path) -> None:
-    short = problem(tmp_path, TABLE_1, max_periods=4)
+def test_being_led_into_motion_is_not_charged() -> None:
+    short = problem(TABLE_1, max_periods=4)
     by_family = {method.label.family: method for method in peer_methods(short)}
     led = by_family["heyoka at its fastest"].run(4)
     assert led.start_cpu is not None

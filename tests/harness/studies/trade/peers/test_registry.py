@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from slider_resonator.studies.trade.peers.peer import Peer
@@ -29,8 +27,8 @@ def most_exact(problem: Problem) -> list[Peer]:
 
 
 @pytest.mark.parametrize("text", [TABLE_1, LUGRE])
-def test_the_last_setting_of_each_family_is_near_the_reference(tmp_path: Path, text: str) -> None:
-    short = problem(tmp_path, text, max_periods=PERIODS)
+def test_the_last_setting_of_each_family_is_near_the_reference(text: str) -> None:
+    short = problem(text, max_periods=PERIODS)
     reference = reference_of(short)
     for peer in most_exact(short):
         if peer.family.startswith("Radau"):
@@ -44,8 +42,8 @@ def test_the_last_setting_of_each_family_is_near_the_reference(tmp_path: Path, t
         assert ("event_times" in found) == ("event_times" not in peer.missing), peer.family
 
 
-def test_a_width_in_fast_velocities_needs_a_steady_vibration(tmp_path: Path) -> None:
-    resonant = problem(tmp_path, UNDAMPED_RESONANCE, max_periods=PERIODS)
+def test_a_width_in_fast_velocities_needs_a_steady_vibration() -> None:
+    resonant = problem(UNDAMPED_RESONANCE, max_periods=PERIODS)
     by_family = {peer.family: peer for peer in peers(resonant)}
     assert "Moreau-Jean" in by_family, "the others follow resonance as it grows"
     with pytest.raises(ValueError, match="there is no steady state"):

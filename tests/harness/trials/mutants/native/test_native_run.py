@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.scenes.scene import find_scene
+from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trials.mutants.native.changes import (
     Change,
     hand_written_faults,

@@ -1,0 +1,60 @@
+"""Calls of FMI functions through ctypes, and fixed sets of variables that they read and write."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from ctypes import c_double
+from functools import partial
+from typing import Any
+
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2Integer, fmi2ValueReference, fmi2Warning
+
+from slider_resonator.fmu.fmi3_slave import Fmi3Slave
+
+
+def call(slave: FMU2Slave | Fmi3Slave, name: str, *arguments: Any) -> None:
+    """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
+
+    Arguments are converted to the types that fmpy has declared for the function.
+    """
+    status = getattr(slave.dll, name)(slave.component, *arguments)
+    if status > fmi2Warning:
+        raise FMICallException(function=name, status=status)
+
+
+class Block:
+    """A fixed set of Real variables, read and written many times without allocation."""
+
+    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
+        size = len(references)
+        self.values = (c_double * size)()
+        arguments = (fmi2ValueReference * size)(*references), size, self.values
+        self._get = partial(call, slave, "fmi2GetReal", *arguments)
+        self._set = partial(call, slave, "fmi2SetReal", *arguments)
+
+    def read(self) -> list[float]:
+        """Return the current values."""
+        self._get()
+        return self.values[:]
+
+    def write(self, values: Sequence[float]) -> None:
+        """Set the variables."""
+        self.values[:] = list(values)
+        self._set()
+
+
+class Derivatives:
+    """First derivatives of a fixed set of inputs, written many times without allocation."""
+
+    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
+        size = len(references)
+        self._values = (c_double * size)()
+        orders = (fmi2Integer * size)(*[1] * size)
+        arguments = (fmi2ValueReference * size)(*references), size, orders, self._values
+        self._set = partial(call, slave, "fmi2SetRealInputDerivatives", *arguments)
+
+    def write(self, values: Sequence[float]) -> None:
+        """Set the derivatives."""
+        self._values[:] = list(values)
+        self._set()
