@@ -20,6 +20,7 @@ from slider_resonator.scenes.scene import Scene
 
 def main() -> None:
     """Answer each scene with a `Result`, or with a `Failure`."""
+    os.nice(5)  # an FMU of Python takes longer than its references: it comes first
     scenes, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no answer
     while True:

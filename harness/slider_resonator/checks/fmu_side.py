@@ -13,18 +13,39 @@ from slider_resonator.scenes.scene import Scene
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
 
+PREDICTIONS = ("steady_velocity", "blocking_force", "prediction_valid", "slow_motion_error")
+"""Outputs that can cost more than the motion: an FMU computes them when they are read."""
+
+PREDICTED = {
+    "predicted_velocity_in_run",
+    "predicted_blocking_force_in_run",
+    "final_predicted_velocity",
+    "final_predicted_blocking_force",
+    "prediction_valid",
+    "slow_motion_error",
+    "slow_error_share",
+}
+"""Quantities that are measured from `PREDICTIONS` in a run."""
+
 
 class FmuSide:
-    """Run, steady motion and blocking force of one FMU instance in one scene."""
+    """Run, steady motion and blocking force of one FMU instance in one scene.
 
-    def __init__(self, instance: Instance, scene: Scene) -> None:
+    The run has the `PREDICTIONS` where the scene expects one of the `PREDICTED`, or with
+    `predictions`.
+    """
+
+    def __init__(self, instance: Instance, scene: Scene, *, predictions: bool = False) -> None:
         self.instance = instance
         self.scene = scene
+        expected = any(expect.quantity in PREDICTED for expect in scene.expect)
+        self._unread = () if predictions or expected else PREDICTIONS
 
     @cached_property
     def record(self) -> Record:
         """The run of the scene."""
-        return run(self.instance, self.scene.parameters, self.scene.schedule())
+        outputs = [name for name in self.instance.fmu.outputs if name not in self._unread]
+        return run(self.instance, self.scene.parameters, self.scene.schedule(), outputs=outputs)
 
     @cached_property
     def steady(self) -> SteadyMotion:

@@ -106,7 +106,8 @@ def judge(point: ExpectedPoint, seen: Observed) -> Rejection | None:
 
 def observe(fmu: FmuSide) -> Observed:
     """Measure what the scene expects, and record the other outputs."""
-    return Observed(measure_all(fmu), {name: fmu.record[name] for name in TRAJECTORY_OUTPUTS})
+    whole = FmuSide(fmu.instance, fmu.scene, predictions=True)
+    return Observed(measure_all(whole), {name: whole.record[name] for name in TRAJECTORY_OUTPUTS})
 
 
 def observe_expected(fmu: FmuSide) -> Observed:
