@@ -45,8 +45,8 @@ def test_error_falls_with_the_tolerance() -> None:
     best = simulate(TABLE_1, until(10 * PERIOD), times)
 
     def error(rtol: float) -> float:
-        tolerances = {"rtol": rtol, "atol": rtol / 100}
-        coarse = simulate(TABLE_1, until(10 * PERIOD), times, method="DOP853", **tolerances)
+        held, atol = until(10 * PERIOD), rtol / 100
+        coarse = simulate(TABLE_1, held, times, method="DOP853", rtol=rtol, atol=atol)
         return max(deviation(best, coarse, signal) for signal in MOTION)
 
     assert error(1e-4) < 1e-8, "the bound on steps alone gives this, since no event costs an order"
