@@ -83,7 +83,7 @@ def _of_c() -> Iterator[Constant]:
 def _value(expression: str, known: dict[str, float]) -> float:
     if re.fullmatch(r"0x[0-9a-f.]+p[-+]?\d+", expression):
         return float.fromhex(expression)
-    value: float = eval(expression, {"__builtins__": {}}, known)
+    value: float = eval(expression.replace("(double)", ""), {"__builtins__": {}}, known)
     return value
 
 

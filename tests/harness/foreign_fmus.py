@@ -39,6 +39,7 @@ def _description(xml: bytes) -> bytes:
         simulation.remove(source_files)
     simulation.attrib.update(dict.fromkeys(FLAGS, "false"), modelIdentifier=IDENTIFIER)
     simulation.set("canBeInstantiatedOnlyOncePerProcess", "true")
+    simulation.set("maxOutputDerivativeOrder", "0")  # the calls are those of the other references
     for element in ("LogCategories", "DefaultExperiment"):
         for found in root.findall(element):
             root.remove(found)

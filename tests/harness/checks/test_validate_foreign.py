@@ -48,7 +48,7 @@ def test_references_order_and_missing_capabilities_do_not_matter(
     stranger: Path, tmp_path: Path
 ) -> None:
     validation = judged(stranger, tmp_path, STEADY)
-    assert validation.exit_code == 0, (validation.run_failures, validation.checks)
+    assert validation.exit_code == 0, [c for c in validation.checks if not c.passed]
     assert len(validation.checks) == 4
 
 
@@ -73,7 +73,7 @@ def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(
     path = tmp_path / "life.toml"
     path.write_text(LIFE + "".join(map(expect.format, counts)))
     (validation,) = validate([stranger], [path])
-    assert validation.exit_code == 0, (validation.run_failures, validation.checks)
+    assert validation.exit_code == 0, [c for c in validation.checks if not c.passed]
     reasons = {one.quantity: one.reason for one in validation.not_applied}
     assert reasons == {
         "restored_differences": "needs canGetAndSetFMUstate = true",

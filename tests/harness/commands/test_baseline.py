@@ -211,4 +211,4 @@ def test_lines_that_an_fmu_cannot_take_do_not_apply(
     assert "canInterpolateInputs" in refused(
         "record", python_fmu, tmp_path / "other", "--scene", line
     )
-    assert len(applicable_scenes(native_fmu)) - len(applicable_scenes(python_fmu)) == 22
+    assert len(applicable_scenes(native_fmu)) - len(applicable_scenes(python_fmu)) == 24

@@ -24,7 +24,7 @@ from slider_resonator.studies.sweep.sweeping import run_sweep
 
 DEADLINE = 120.0
 """Seconds after which a sweep of seconds counts as hanging."""
-KILLS = 20
+KILLS = 8
 
 
 def test_one_and_two_workers_write_the_same_table(
@@ -130,7 +130,7 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
 
 
 @pytest.mark.slow
-def test_a_sweep_killed_20_times_at_random_is_resumed_to_the_same_file(
+def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
     long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "killed.parquet"

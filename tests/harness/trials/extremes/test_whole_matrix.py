@@ -1,6 +1,6 @@
 """The cells of the matrix: each passes, or is refused with name, value and requirement.
 
-All are run each night. Here those of second-order averages, the most expensive, are run in part.
+All are run each night, here some of each axis and model.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from slider_resonator.trials.extremes.matrix import all_cells
 from slider_resonator.trials.extremes.run import Matrix, run_matrix
 from slider_resonator.trials.extremes.verdict import FAILED, REFERENCE, REFUSED
 
-EVERY, EVERY_OF_SECOND_ORDER = 9, 40
-"""Of how many cells the Python FMU runs one."""
-NATIVE_OF_SECOND_ORDER = 5
-"""Of how many cells of second-order averages the native FMU runs one."""
+EVERY, EVERY_OF_SECOND_ORDER = 17, 40
+"""Of how many cells the Python FMU runs one, and of those of second-order averages."""
+NATIVE, NATIVE_OF_SECOND_ORDER = 4, 10
+"""The same for the native FMU."""
 
 LUGRE = {f"LuGre, fidelity {n}" for n in range(3)}
 STEADY_FORCE = {f"{law}, fidelity {n}" for law in ("Coulomb", "LuGre") for n in range(2)}
@@ -61,11 +61,11 @@ def judged(fmu: Path, cells: list[MatrixCell], too_long: frozenset[str] = frozen
 
 @pytest.mark.slow
 def test_native(native_fmu: Path) -> None:
-    cells = cells_in_part(1, NATIVE_OF_SECOND_ORDER)
+    cells = cells_in_part(NATIVE, NATIVE_OF_SECOND_ORDER)
     matrix = judged(native_fmu, cells)
     assert sum(matrix.counts.values()) == len(cells)
     has_reference = sum(one.has(REFERENCE) for one in matrix.verdicts)
-    assert has_reference >= 750, "most cells are compared with a reference that shares no code"
+    assert has_reference >= 0.6 * len(cells), "most cells have a reference"
     assert f"{has_reference} cells compared with a reference" in matrix.summary
     assert matrix.most_expensive is not None
     assert f"(bound {MAX_RELATIVE_COST:g})" in matrix.summary, "the worst cost of a step is printed"
