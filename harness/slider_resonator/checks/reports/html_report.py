@@ -25,6 +25,7 @@ from slider_resonator.checks.verdict import (
 from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.hover_plot import hover_scripts, hover_style
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, texts
 
 MAX_PICTURES = 40
@@ -69,7 +70,7 @@ def _section(number: int, validation: Validation) -> list[str]:
     if validation.not_applied:
         columns = texts("scene", "quantity", "not applicable because")
         table = Table(columns, not_applied(validation))
-        label = f"{len(validation.not_applied)} checks that do not apply"
+        label = number_of(len(validation.not_applied), "check") + " that do not apply"
         parts.append(folded(label, rendered(table)))
     return parts
 
