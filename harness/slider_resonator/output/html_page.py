@@ -43,7 +43,7 @@ pre { background: var(--code); padding: .6rem; overflow-x: auto; font-size: 12px
 """In the dark, pictures and plots are turned over: light becomes dark, and each hue stays."""
 
 
-_WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|[\d.]+e-\d+")
+_WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|(?<= )[\d.]+e-\d+(?= )")
 """Options and small numbers, which browsers would break after a hyphen."""
 
 
@@ -122,8 +122,8 @@ def _element(tag: str, cell: Cell, column: Column) -> str:
 
 
 def _text(cell: Cell) -> str:
-    text = escaped(cell.text).replace("\n", "<br>")
-    text = _WHOLE.sub(r'<span class="lines">\g<0></span>', text)
+    text = _WHOLE.sub(r'<span class="lines">\g<0></span>', escaped(cell.text))
+    text = text.replace("\n", "<br>")
     if cell.target:
         text = f'<a href="#{escaped(cell.target)}">{text}</a>'
     return text if cell.style is Style.PLAIN else f'<span class="{cell.style.value}">{text}</span>'
