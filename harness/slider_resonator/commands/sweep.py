@@ -20,7 +20,7 @@ from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.sweep.grid import Sweep, read_grid
-from slider_resonator.studies.sweep.journal import journal_path
+from slider_resonator.studies.sweep.kept_points import journal_path
 from slider_resonator.studies.sweep.local import available_cores
 from slider_resonator.studies.sweep.sweeping import SweepResult, run_sweep
 from slider_resonator.studies.sweep.table import SUFFIXES

@@ -19,7 +19,7 @@ from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.sweep.grid import read_grid
-from slider_resonator.studies.sweep.journal import Journal, journal_path
+from slider_resonator.studies.sweep.kept_points import journal_path, open_journal
 from slider_resonator.studies.sweep.sweeping import run_sweep
 
 DEADLINE = 120.0
@@ -69,7 +69,7 @@ def test_points_of_another_grid_are_refused_unless_discarded(
     grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "a.csv"
-    with Journal(journal_path(out), "other"):
+    with open_journal(out, "other"):
         pass
     sweep = read_grid(grid)
     with pytest.raises(HarnessError, match="another sweep"):
