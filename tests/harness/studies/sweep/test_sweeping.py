@@ -36,10 +36,10 @@ def test_one_and_two_workers_write_the_same_table(
     assert (tmp_path / "one.parquet").read_bytes() == (tmp_path / "two.parquet").read_bytes()
     assert one == two
     assert (one.points, one.found, one.failed) == (30, 0, 15)
-    assert "friction_coefficient = -1" in str(one.first_error)
+    assert "friction_coefficient = 0.0 refused" in str(one.first_error)
     rows = parquet.read_table(tmp_path / "one.parquet").to_pylist()
     for row in rows:
-        refused = row["friction_coefficient"] < 0.0
+        refused = row["friction_coefficient"] == 0.0
         assert (row["error"] is not None) == (row["velocity.rms"] is None) == refused
     assert not journal_path(tmp_path / "one.parquet").exists()
 
