@@ -23,7 +23,7 @@ from slider_resonator.scenes.scene_files import files_of_scenes
 from slider_resonator.studies.sweep.local import available_cores
 
 
-@click.command("validate", short_help="Compare FMUs with the references, scene by scene.")
+@click.command("validate")
 @fmus_argument
 @scenes_option("all built-in")
 @click.option(
