@@ -54,7 +54,7 @@ MIN_NATIVE_RATE = 0.97
 """Share of the hand-written faults that a scene can see that must be rejected for a pass."""
 
 
-@click.command("mutants", short_help="Make faulty FMUs and count those that validate rejects.")
+@click.command("mutants")
 @other_fmu_argument("the one in dist for the kind of mutant")
 @click.option(
     "--native",
