@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Sequence
 from hashlib import sha256
 from html import escape
@@ -18,8 +19,8 @@ _STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
   color: var(--ink); background: var(--paper); overflow-wrap: break-word }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
-th, td { overflow-wrap: normal }
-th, td { text-align: left; padding: .2rem .6rem; border-bottom: 1px solid var(--line) }
+th, td { text-align: left; vertical-align: top; overflow-wrap: normal; padding: .2rem .6rem;
+  border-bottom: 1px solid var(--line) }
 .n { text-align: right } .n, .lines { white-space: nowrap }
 .pass { color: var(--pass) } .fail { color: var(--fail); font-weight: 600 }
 .note { color: var(--quiet) } .heading { font-weight: 600 } [style*=background] { color: #222 }
@@ -40,6 +41,10 @@ pre { background: var(--code); padding: .6rem; overflow-x: auto; font-size: 12px
   img, .plot, .scale { filter: invert(.93) hue-rotate(180deg) } }
 """
 """In the dark, pictures and plots are turned over: light becomes dark, and each hue stays."""
+
+
+_WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|[\d.]+e-\d+")
+"""Options and small numbers, which browsers would break after a hyphen."""
 
 
 def escaped(text: str) -> str:
@@ -118,6 +123,7 @@ def _element(tag: str, cell: Cell, column: Column) -> str:
 
 def _text(cell: Cell) -> str:
     text = escaped(cell.text).replace("\n", "<br>")
+    text = _WHOLE.sub(r'<span class="lines">\g<0></span>', text)
     if cell.target:
         text = f'<a href="#{escaped(cell.target)}">{text}</a>'
     return text if cell.style is Style.PLAIN else f'<span class="{cell.style.value}">{text}</span>'
