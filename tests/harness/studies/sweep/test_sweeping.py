@@ -24,7 +24,6 @@ from slider_resonator.studies.sweep.sweeping import run_sweep
 
 DEADLINE = 120.0
 """Seconds after which a sweep of seconds counts as hanging."""
-KILLS = 8
 
 
 def test_one_and_two_workers_write_the_same_table(
@@ -129,13 +128,15 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
         time.sleep(0.05)
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize(
+    "kills", [pytest.param(3, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.nightly)]
+)
 def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
-    long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path
+    long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path, kills: int
 ) -> None:
     out = tmp_path / "killed.parquet"
     kept = 0
-    for seed in range(KILLS):
+    for seed in range(kills):
         process = _start(long_grid, native_fmu, out)
         chosen = kept + random.Random(seed).randrange(150)
         _wait_for_points(process, out, chosen)
