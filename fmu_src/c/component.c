@@ -108,12 +108,11 @@ bool component_set(Component *component, const unsigned *references, const doubl
     bool running = is_running(component->now.lifecycle);
     if (!same) {
         if (running) {
-            Moment before = component->now.moment;
-            law_settle_error(present_law(component), &before);
+            const Law *before = present_law(component);
             if (!change(component, changed, references, count, refusal)) {
                 return false;
             }
-            component->now.moment = before;
+            law_settle_error(before, &component->now.moment);
         }
         component->prepared = running;
         memcpy(component->now.values, changed, sizeof changed);

@@ -83,7 +83,7 @@ int law_mode(const Law *law, const Moment *moment);
 /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
 double law_friction_force(const Law *law, const Moment *moment, int mode);
 
-/* Brings the estimate of the error up to a moment, before the law changes. */
+/* Brings the estimate of the error up to a moment at which the law ends. */
 void law_settle_error(const Law *law, Moment *moment);
 
 /* The estimate of the error of the slow velocity at fidelity 0 [m/s]; 0 for resolved motion. */

@@ -34,7 +34,7 @@ bool has_slow_motion(const Law *law) {
     if (!(law->fast.velocity > 0.0) || orbit_phase_of(law).turns == 0) {
         return false;
     }
-    double slow = 4.0 * friction_share(law);
+    double slow = slow_decay_in_turn(law);
     return slow > 0.0 && slow < SEPARATION * decay_in_turn(law) && slow < 1.0 && resolved_is_bounded(law);
 }
 
@@ -400,7 +400,6 @@ static double standing_error(const Law *law, const Moment *moment) {
 }
 
 double orbit_motion_error(const Law *law, const Moment *moment) {
-    double turning = turning_error(law, moment->orbit.turning);
     double loading = loading_error(law, moment->orbit.loading);
-    return fmin(standing_error(law, moment) + turning + loading, law->fast.velocity);
+    return fmin(standing_error(law, moment) + loading, law->fast.velocity);
 }

@@ -75,7 +75,7 @@ static bool prepare_piece(RampedStep *step, const double values[SETTABLE_COUNT],
 
 /* Give the moment after a ramp the phases that belong to held inputs: `begin` are the values before,
  * `duration` [s] ago, and `end` those now. */
-static void settle_phases(const Law *law, const double begin[SETTABLE_COUNT],
+static void settle_phases(const double begin[SETTABLE_COUNT],
                           const double end[SETTABLE_COUNT], const Ramp *ramp, double duration,
                           Moment *after) {
     double w = begin[VR_DRIVE_FREQUENCY];
@@ -87,7 +87,6 @@ static void settle_phases(const Law *law, const double begin[SETTABLE_COUNT],
         after->orbit.under.load = inputs.load;
         bool led = added != 0.0 || ramp->ratio_rate != 0.0;
         after->orbit.varied = led ? VARIED_LEAD : VARIED_LOAD;
-        after->orbit.turning = led ? law_slow_phase(law).fastest : 0.0;
         after->orbit.loading = ramp->load_rate;
     }
 }
@@ -120,7 +119,7 @@ bool ramped_step(RampedStep *step, const Snapshot *now, const Law *held, double 
         left = piece == left ? 0.0 : clock_advance(&clock, piece);
         budget_spend(budget, left > 0.0, MAX_SLOW_PHASES);
         grow(now, left > 0.0 ? clock.elapsed : duration, end);
-        settle_phases(&step->law, values, end, &ramp, piece, after);
+        settle_phases(values, end, &ramp, piece, after);
         memcpy(values, end, sizeof values);
     }
     return true;

@@ -41,6 +41,7 @@ from .slow_motion_error import (
     first_order_error,
     friction_share,
     resolution_error,
+    slow_decay_in_turn,
 )
 from .slow_pass import SlowPass, first_step
 from .slow_phase import rounded_lead
@@ -69,7 +70,7 @@ def has_slow_motion(device: Device, inputs: Inputs, fast: FastVibration) -> bool
     """
     if not fast.velocity > 0.0 or not orbit_phase_of(device, inputs.frequency_ratio).turns:
         return False
-    slow = 4.0 * friction_share(device, fast)
+    slow = slow_decay_in_turn(device, fast)
     separate = 0.0 < slow < SEPARATION * decay_in_turn(device) and slow < 1.0
     return separate and resolved_is_bounded(device, fast)
 
