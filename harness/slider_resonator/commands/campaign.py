@@ -30,7 +30,7 @@ from slider_resonator.trials.campaign.listing import as_plain, sentences
 from slider_resonator.trials.campaign.random_case import random_case
 
 
-@click.command("campaign", short_help="Run random devices and schedules on FMUs.")
+@click.command("campaign")
 @fmus_argument
 @click.option(
     "--cases",

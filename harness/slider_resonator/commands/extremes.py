@@ -32,7 +32,7 @@ from slider_resonator.trials.extremes.run import TIME_LIMIT, Matrix, run_matrix
 from slider_resonator.trials.extremes.verdict import PASSED
 
 
-@click.command("extremes", short_help="Run FMUs at the extremes of every parameter and input.")
+@click.command("extremes")
 @fmus_argument
 @out_folder_option("extremes.json, extremes.md, index.html and a picture for each FMU")
 @time_limit_option(TIME_LIMIT, "For each cell; one that hangs fails.", "--limit")

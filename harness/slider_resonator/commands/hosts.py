@@ -29,7 +29,7 @@ NATIVE_3 = Path("dist/SliderResonator3.fmu")
 NAMES = [host.name for host in hosts()]
 
 
-@click.command("hosts", short_help="Run table 1 in other simulators; compare with fmpy.")
+@click.command("hosts")
 @other_fmu_argument(str(NATIVE))
 @click.option(
     "--python-fmu",

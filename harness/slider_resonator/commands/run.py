@@ -79,7 +79,7 @@ class RunSummary:
     inputs: str | None
 
 
-@click.command("run", short_help="Run one scene and report results and cost.", cls=SettingsCommand)
+@click.command("run", cls=SettingsCommand)
 @native_fmu_argument
 @click.argument("scene", required=False)
 @click.option("--out", type=Target(), help="CSV file of the run.")

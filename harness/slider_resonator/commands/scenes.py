@@ -21,7 +21,7 @@ from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, sce
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
-@click.command("scenes", short_help="List the built-in scenes; help to write your own.")
+@click.command("scenes")
 @click.option("--quantities", is_flag=True, help="List the quantities that a scene can check.")
 @click.option("--show", metavar="NAME|FILE", help="Print the text of a scene.")
 @click.option("--template", is_flag=True, help="Print a commented scene to start from.")

@@ -21,14 +21,14 @@ from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.sweep.grid import Sweep, read_grid
-from slider_resonator.studies.sweep.journal import journal_path
+from slider_resonator.studies.sweep.kept_points import journal_path
 from slider_resonator.studies.sweep.local import available_cores
 from slider_resonator.studies.sweep.sweeping import SweepResult, run_sweep
 from slider_resonator.studies.sweep.table import SUFFIXES
 from slider_resonator.studies.sweep.worker import TIME_LIMIT
 
 
-@click.command("sweep", short_help="Compute measures over a grid of parameters and inputs.")
+@click.command("sweep")
 @click.argument("grid", type=click.Path(path_type=Path))
 @click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")

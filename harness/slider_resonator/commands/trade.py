@@ -39,7 +39,7 @@ TIME_LIMIT = 600.0
 """Default time limit of a run or a search of an FMU, s."""
 
 
-@click.command("trade", short_help="Measure error and cost of every model and peer method.")
+@click.command("trade")
 @click.argument("scenes", nargs=-1)
 @out_folder_option("trade.csv, omissions.csv and index.html")
 @click.option(

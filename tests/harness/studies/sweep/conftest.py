@@ -44,10 +44,10 @@ def wide_grid(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def long_grid(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Enough cheap points to be killed 20 times in between."""
+    """Enough cheap points to be killed a dozen times in between."""
     path = tmp_path_factory.mktemp("long") / "long.toml"
     path.write_text(
-        "[grid]\nfrequency_ratio = [1.0, 3.0]\nphase = { from = 0.0, to = 3.1, count = 4000 }\n",
+        "[grid]\nfrequency_ratio = [1.0, 3.0]\nphase = { from = 0.0, to = 3.1, count = 2000 }\n",
         encoding="utf-8",
     )
     return path
