@@ -112,17 +112,19 @@ def _allowed(scripts: Sequence[str]) -> str:
 
 def _row(row: Sequence[Cell], columns: Sequence[Column]) -> str:
     if len(row) < len(columns):
-        return f'<td colspan="{len(columns)}">{_text(row[0])}</td>'
+        return f'<td colspan="{len(columns)}">{_text(row[0], wrapped=True)}</td>'
     return "".join(_element("td", cell, column) for cell, column in zip(row, columns, strict=True))
 
 
 def _element(tag: str, cell: Cell, column: Column) -> str:
     kind = ' class="n"' if column.numeric else ' class="lines"' if "\n" in cell.text else ""
-    return f"<{tag}{kind}>{_text(cell)}</{tag}>"
+    return f"<{tag}{kind}>{_text(cell, wrapped=not column.numeric)}</{tag}>"
 
 
-def _text(cell: Cell) -> str:
-    text = _WHOLE.sub(r'<span class="lines">\g<0></span>', escaped(cell.text))
+def _text(cell: Cell, *, wrapped: bool) -> str:
+    text = escaped(cell.text)
+    if wrapped:
+        text = _WHOLE.sub(r'<span class="lines">\g<0></span>', text)
     text = text.replace("\n", "<br>")
     if cell.target:
         text = f'<a href="#{escaped(cell.target)}">{text}</a>'
