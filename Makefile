@@ -45,8 +45,9 @@ build: $(READY) ## build both FMUs into dist
 validate: build ## build both FMUs, run every built-in scene and compare them with the references
 	$(PY) -m harness validate
 
-test: $(READY) ## run the tests that take seconds; SLOW=1 runs the slow ones too, COVERAGE=1 reports the lines reached, TESTS=... names some
-	$(if $(COVERAGE),COVERAGE_CORE=sysmon )$(PY) -m pytest -n 2 $(TESTS) $(if $(SLOW),--dist worksteal -m "not interop",--dist loadfile) $(if $(COVERAGE),$(COVER))
+test: $(READY) ## run the tests that take seconds; SLOW=1 runs the slow ones too, NIGHTLY=1 those of the nights, COVERAGE=1 reports the lines reached, TESTS=... names some
+	$(if $(COVERAGE),COVERAGE_CORE=sysmon )$(PY) -m pytest -n 2 $(TESTS) --dist $(if $(SLOW)$(NIGHTLY),worksteal,loadfile) \
+	  $(if $(NIGHTLY),-m "nightly",$(if $(SLOW),-m "not interop and not nightly")) $(if $(COVERAGE),$(COVER))
 
 lint: $(LINT)/.ready ## check style, formatting, types and layers, with the versions of requirements-lint.lock
 	$(LINT)/bin/ruff check .

@@ -24,7 +24,7 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
 
-@click.command("bench", short_help="Measure what a step costs in a C host.")
+@click.command("bench")
 @other_fmu_argument("the native one in dist")
 @click.option(
     "--repeats",

@@ -17,7 +17,6 @@ from slider_resonator.steady.blocking_force import find_blocking
 
 @click.command(
     "blocking",
-    short_help="Find the load that stops an FMU, without a long run.",
     cls=SettingsCommand,
 )
 @search_arguments

@@ -34,7 +34,7 @@ from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
 from slider_resonator.fmu.run import run
 from slider_resonator.output.progress import Progress, progress_bar
-from slider_resonator.output.readable import readable
+from slider_resonator.output.readable import number_of, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import Scene, read_scene
@@ -79,7 +79,7 @@ class RunSummary:
     inputs: str | None
 
 
-@click.command("run", short_help="Run one scene and report results and cost.", cls=SettingsCommand)
+@click.command("run", cls=SettingsCommand)
 @fmu_argument
 @click.argument("scene", required=False)
 @click.option("--out", type=Target(), help="CSV file of the run.")
@@ -263,7 +263,7 @@ def _sentences(summary: RunSummary, scene: Scene) -> str:
         f"scene    {summary.scene}: {one_line(scene.title)}",
         f"FMU      {one_line(summary.fmu)}",
         f"run      {summary.simulated_time:.6g} s, {summary.drive_periods:.6g} drive periods in "
-        f"{summary.communication_steps} communication steps",
+        f"{number_of(summary.communication_steps, 'communication step')}",
         f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
         f"period {readable(summary.mean_velocity, 9)} m/s",
         *([f"inputs   {HOW_INPUTS[summary.inputs]}"] if summary.inputs else []),
@@ -281,6 +281,7 @@ def _contact(summary: RunSummary, scene: Scene) -> list[str]:
     if scene.device.fidelity == 0:
         return []
     return [
-        f"contact  {summary.reversals} reversals, sticking {summary.stick_fraction:.1%} of the "
-        f"last drive period, last event at {summary.last_event_time:.9g} s"
+        f"contact  {number_of(summary.reversals, 'reversal')}, sticking "
+        f"{summary.stick_fraction:.1%} of the last drive period, "
+        f"last event at {summary.last_event_time:.9g} s"
     ]

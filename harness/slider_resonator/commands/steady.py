@@ -17,7 +17,6 @@ from slider_resonator.steady.steady_velocity import find_steady
 
 @click.command(
     "steady",
-    short_help="Find the steady velocity of an FMU, without a long run.",
     cls=SettingsCommand,
 )
 @search_arguments

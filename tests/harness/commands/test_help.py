@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -120,3 +122,11 @@ def test_who_names_no_fmu_is_told_where_one_is(
 def test_a_scene_must_be_named() -> None:
     assert "Missing argument 'SCENE'" in refused("run", "my.fmu")
     assert "Missing argument 'SCENE'" in refused("run")
+
+
+def test_help_of_all_commands_loads_none_of_them() -> None:
+    code = "from slider_resonator.cli import main; main(['--help'])"
+    command = [sys.executable, "-X", "importtime", "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "slider_resonator.cli" in done.stderr
+    assert "slider_resonator.commands." not in done.stderr

@@ -53,7 +53,7 @@ def test_the_original_passes_and_known_faults_are_rejected(
 ) -> None:
     mutants = chosen(fmu, [*HARMFUL, HARMLESS])
     scenes = [find_scene(scene) for scene in SCENES]
-    run = run_mutants(python_fmu, fmu, mutants, scenes, made=99, jobs=2, probes=13)
+    run = run_mutants(python_fmu, fmu, mutants, scenes, made=99, jobs=2, probes=6)
     statuses = {verdict.mutant.name: verdict.status for verdict in run.verdicts}
     assert statuses == {
         m.name: EQUIVALENT if m.change == HARMLESS[1] else REJECTED for m in mutants
