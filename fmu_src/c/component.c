@@ -18,6 +18,7 @@ static bool prepare(Component *component, const double values[SETTABLE_COUNT], R
         return false;
     }
     component->laws[next].bending = component->resolved[next].bending = &component->bending;
+    component->orbits.bending = &component->bending;
     component->present = next;
     component->prepared = true;
     component->theory.known = false;
