@@ -37,7 +37,7 @@ def blocking_command(
 
     \b
     Examples:
-      slider-resonator blocking my.fmu
+      slider-resonator blocking
       slider-resonator blocking my.fmu --set phase=0.4 friction_faces=1 --json
       slider-resonator blocking my.fmu --set friction_law=1 bristle_stiffness=1e4
     """

@@ -21,8 +21,8 @@ from slider_resonator.commands.options import (
     SettingsCommand,
     Target,
     check_left_to_choose,
-    fmu_argument,
     json_option,
+    native_fmu_argument,
     set_option,
     time_limit_option,
 )
@@ -80,7 +80,7 @@ class RunSummary:
 
 
 @click.command("run", cls=SettingsCommand)
-@fmu_argument
+@native_fmu_argument
 @click.argument("scene", required=False)
 @click.option("--out", type=Target(), help="CSV file of the run.")
 @click.option(
@@ -146,6 +146,7 @@ def run_command(
 
     \b
     Examples:
+      slider-resonator run table_1
       slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
       slider-resonator run my.fmu feed_forward --auto
       slider-resonator run my.fmu changing_inputs --interpolate

@@ -39,7 +39,7 @@ def steady_command(
 
     \b
     Examples:
-      slider-resonator steady my.fmu
+      slider-resonator steady
       slider-resonator steady my.fmu --set phase=0.4 load=0.05 --json
       slider-resonator steady my.fmu --set friction_law=1 bristle_stiffness=1e6 tolerance=1e-12
       slider-resonator steady my.fmu --set frequency_ratio=1.37 --max-denominator 100

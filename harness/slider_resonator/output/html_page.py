@@ -43,7 +43,7 @@ pre { background: var(--code); padding: .6rem; overflow-x: auto; font-size: 12px
 """In the dark, pictures and plots are turned over: light becomes dark, and each hue stays."""
 
 
-_WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|[\d.]+e-\d+")
+_WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|(?<= )[\d.]+e-\d+(?= )")
 """Options and small numbers, which browsers would break after a hyphen."""
 
 
@@ -112,18 +112,20 @@ def _allowed(scripts: Sequence[str]) -> str:
 
 def _row(row: Sequence[Cell], columns: Sequence[Column]) -> str:
     if len(row) < len(columns):
-        return f'<td colspan="{len(columns)}">{_text(row[0])}</td>'
+        return f'<td colspan="{len(columns)}">{_text(row[0], wrapped=True)}</td>'
     return "".join(_element("td", cell, column) for cell, column in zip(row, columns, strict=True))
 
 
 def _element(tag: str, cell: Cell, column: Column) -> str:
     kind = ' class="n"' if column.numeric else ' class="lines"' if "\n" in cell.text else ""
-    return f"<{tag}{kind}>{_text(cell)}</{tag}>"
+    return f"<{tag}{kind}>{_text(cell, wrapped=not column.numeric)}</{tag}>"
 
 
-def _text(cell: Cell) -> str:
-    text = escaped(cell.text).replace("\n", "<br>")
-    text = _WHOLE.sub(r'<span class="lines">\g<0></span>', text)
+def _text(cell: Cell, *, wrapped: bool) -> str:
+    text = escaped(cell.text)
+    if wrapped:
+        text = _WHOLE.sub(r'<span class="lines">\g<0></span>', text)
+    text = text.replace("\n", "<br>")
     if cell.target:
         text = f'<a href="#{escaped(cell.target)}">{text}</a>'
     return text if cell.style is Style.PLAIN else f'<span class="{cell.style.value}">{text}</span>'

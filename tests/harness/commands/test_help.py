@@ -115,8 +115,18 @@ def test_who_names_no_fmu_is_told_where_one_is(
     (tmp_path / "dist" / "SliderResonator.fmu").touch()
     monkeypatch.chdir(tmp_path)
     named = str(Path("dist") / "SliderResonator.fmu")
-    for arguments in (("steady",), ("run", "table_1"), ("baseline", "record", "--dir", "x")):
-        assert named in refused(*arguments)
+    assert named in refused("baseline", "record", "--dir", "x")
+
+
+@pytest.mark.parametrize("arguments", [("steady",), ("blocking",), ("run", "table_1")])
+def test_the_default_is_the_native_fmu(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    (tmp_path / "dist").symlink_to(native_fmu.parent)
+    monkeypatch.chdir(tmp_path)
+    result = call(*arguments)
+    assert result.exit_code == 0, result.output
+    assert str(Path("dist") / "SliderResonator.fmu") in result.stdout
 
 
 def test_a_scene_must_be_named() -> None:
