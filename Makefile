@@ -12,7 +12,7 @@ PIP_INSTALL := -m pip install -qq --disable-pip-version-check
 COVER := --cov=slider_resonator --cov=fmu_src --cov-report=html:build/coverage --cov-report=term:skip-covered
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build validate test lint lock docs bench ci hosts interop clean
+.PHONY: help setup build validate test lint lock docs bench ci hosts interop clean distclean
 
 help: ## print this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -45,8 +45,10 @@ build: $(READY) ## build both FMUs into dist
 validate: build ## build both FMUs, run every built-in scene and compare them with the references
 	$(PY) -m harness validate
 
-test: $(READY) ## run the tests that take seconds; SLOW=1 runs the slow ones too, COVERAGE=1 reports the lines reached, TESTS=... names some
-	$(if $(COVERAGE),COVERAGE_CORE=sysmon )$(PY) -m pytest -n 2 $(TESTS) $(if $(SLOW),--dist worksteal -m "not interop",--dist loadfile) $(if $(COVERAGE),$(COVER))
+# Three share two cores where tests are slow: some of those wait for a time limit.
+test: $(READY) ## run the tests that take seconds; SLOW=1 runs the slow ones too, NIGHTLY=1 those of the nights, COVERAGE=1 reports the lines reached, TESTS=... names some
+	$(if $(COVERAGE),COVERAGE_CORE=sysmon )$(PY) -m pytest -n $(if $(SLOW)$(NIGHTLY),3,2) $(TESTS) --dist $(if $(SLOW)$(NIGHTLY),worksteal,loadfile) \
+	  $(if $(NIGHTLY),-m "nightly",$(if $(SLOW),-m "not interop and not nightly")) $(if $(COVERAGE),$(COVER))
 
 lint: $(LINT)/.ready ## check style, formatting, types and layers, with the versions of requirements-lint.lock
 	$(LINT)/bin/ruff check .
@@ -79,7 +81,10 @@ docs: build ## write the documentation site, with the page that runs the compone
 bench: build ## measure what a step costs a host in C
 	$(PY) -m harness bench
 
-clean: ## remove .venv, dist and every cache
+clean: ## remove .venv, dist and every cache in this folder
 	rm -rf $(VENV) $(LINT) .venv-hosts dist build *.egg-info harness/*.egg-info
 	rm -rf .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache .coverage
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+distclean: clean ## remove the compiled sources in ~/.cache/slider-resonator, too, which builds of all checkouts share
+	rm -rf "$$HOME/.cache/slider-resonator"

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TextIO
 
 from fmu_src.building.c_sources import write_sources
 
@@ -25,23 +26,29 @@ def build_folder(target: str | None, sources: Mapping[str, str]) -> Iterator[Pat
     It is that of the target, once no other build uses it. Without a target, where files cannot be
     locked and where no cache can be written it is a temporary one.
     """
-    with TemporaryDirectory(prefix="slider_resonator_") as temporary:
-        if target is None or sys.platform == "win32":
+    lock = _lock_file(target)
+    if lock is None:
+        with TemporaryDirectory(prefix="slider_resonator_") as temporary:
             write_sources(sources, Path(temporary))
             yield Path(temporary)
-            return
-        try:
-            base = Path.home() / ".cache" / "slider-resonator"
-            (base / target).mkdir(parents=True, exist_ok=True)
-            lock = (base / f"{target}.lock").open("w")
-        except (OSError, RuntimeError):
-            write_sources(sources, Path(temporary))
-            yield Path(temporary)
-            return
-        with lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            _update(base / target, sources)
-            yield base / target
+        return
+    with lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        folder = Path(lock.name).with_suffix("")
+        _update(folder, sources)
+        yield folder
+
+
+def _lock_file(target: str | None) -> TextIO | None:
+    """The file whose lock keeps other builds out of the target's folder, None without a folder."""
+    if target is None or sys.platform == "win32":
+        return None
+    try:
+        base = Path.home() / ".cache" / "slider-resonator"
+        (base / target).mkdir(parents=True, exist_ok=True)
+        return (base / f"{target}.lock").open("w")
+    except (OSError, RuntimeError):
+        return None
 
 
 def _update(folder: Path, sources: Mapping[str, str]) -> None:

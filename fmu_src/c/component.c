@@ -18,6 +18,7 @@ static bool prepare(Component *component, const double values[SETTABLE_COUNT], R
         return false;
     }
     component->laws[next].bending = component->resolved[next].bending = &component->bending;
+    component->orbits.bending = &component->bending;
     component->present = next;
     component->prepared = true;
     component->theory.known = false;
@@ -108,12 +109,11 @@ bool component_set(Component *component, const unsigned *references, const doubl
     bool running = is_running(component->now.lifecycle);
     if (!same) {
         if (running) {
-            Moment before = component->now.moment;
-            law_settle_error(present_law(component), &before);
+            const Law *before = present_law(component);
             if (!change(component, changed, references, count, refusal)) {
                 return false;
             }
-            component->now.moment = before;
+            law_settle_error(before, &component->now.moment);
         }
         component->prepared = running;
         memcpy(component->now.values, changed, sizeof changed);
@@ -227,12 +227,13 @@ static bool advance(Component *component, double step_size, double duration, Eve
                     Moment *after, Refusal *refusal) {
     const Snapshot *now = &component->now;
     const Law *law = present_law(component);
+    Budget budget = budget_of(step_size);
     if (inputs_vary(now->derivatives)) {
         return ramped_step(&component->ramped, now, law, duration, &component->table,
-                           &component->orbits, after, refusal);
+                           &component->orbits, &budget, after, refusal);
     }
     return bounded_work_check(law, step_size, refusal)
-           && law_advance(law, &now->moment, duration, search, after, refusal);
+           && law_advance(law, &now->moment, duration, search, &budget, after, refusal);
 }
 
 /* Take over the inputs at the end of a step during which they vary. */

@@ -38,6 +38,7 @@ Reached integrate(AccelerationFunction acceleration, const void *motion, Reached
     double first = acceleration(motion, now.t, now.velocity);
     for (int count = 0; count < max_steps && now.t < end && isfinite(now.velocity); count++) {
         double left = end - now.t, h = fmin(fmin(now.step, longest), left);
+        now.tried++;
         Stage stage = try_step(acceleration, motion, now.t, now.velocity, h, first);
         if (!(stage.error > tolerance)) {
             now.moved += stage.moved;

@@ -5,10 +5,11 @@
 /* Acceleration [m/s^2] at time `t` [s] and velocity `v` [m/s]. */
 typedef double (*AccelerationFunction)(const void *motion, double t, double v);
 
-/* Where an integration is: time [s], velocity [m/s], displacement [m], and the step size to try next
- * [s]. */
+/* Where an integration is: time [s], velocity [m/s], displacement [m], the step size to try next [s], and
+ * the number of steps `tried`. */
 typedef struct {
     double t, velocity, moved, step;
+    int tried;
 } Reached;
 
 /* Integrate to time `end` [s], or for `max_steps` accepted and rejected steps. `tolerance` [m/s] is the

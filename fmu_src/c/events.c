@@ -12,15 +12,15 @@
  * presliding on the hardest bristles takes. */
 enum { MAX_LEGS = 20000 };
 
-/* Legs since a turn of the fastest oscillation began at `began` [s], and `all` legs of the step; a
- * turn takes `turn` [s]. */
+/* Legs since a turn of the fastest oscillation began at `began` [s], and `all` legs, of which there may be
+ * `most`; a turn takes `turn` [s]. */
 typedef struct {
-    int legs, all;
+    int legs, all, most;
     double began, turn;
 } Work;
 
-/* Counts a leg that begins at `time` [s] in a step of `duration` [s]. Refuses too many legs. */
-static bool work_count(Work *work, double time, double duration, Refusal *refusal) {
+/* Counts a leg that begins at `time` [s]. Refuses too many legs. */
+static bool work_count(Work *work, double time, const Budget *budget, Refusal *refusal) {
     if (time - work->began > work->turn) {
         work->began = time;
         work->legs = 0;
@@ -28,11 +28,11 @@ static bool work_count(Work *work, double time, double duration, Refusal *refusa
     work->legs++;
     work->all++;
     if (work->legs > MAX_LEGS) {
-        return refuse_work(refusal, duration, time, MAX_LEGS,
-                           "legs in a turn of the fastest oscillation");
+        return budget_refuse(budget, time, MAX_LEGS, "legs in a turn of the fastest oscillation",
+                             refusal);
     }
-    return work->all <= MAX_STEP_LEGS
-           || refuse_work(refusal, duration, time, MAX_STEP_LEGS, "legs of motion");
+    return work->all <= work->most
+           || budget_refuse(budget, time, MAX_STEP_LEGS, "legs of motion", refusal);
 }
 
 /* Ends a search with the event at the time of the clock, unless the search ignores that time. */
@@ -91,7 +91,7 @@ static void ramp_to(Plant *plant, const Plant *begin, double elapsed, bool turne
 }
 
 bool events_advance(const Law *start, const Moment *moment, double duration, EventSearch *search,
-                    Moment *now, Refusal *refusal) {
+                    Budget *budget, Moment *now, Refusal *refusal) {
     Law moving;
     const Law *law = start;
     if (is_ramped(&start->held.plant)) {
@@ -103,7 +103,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
     const Plant *plant = &held->plant;
     double remaining = duration;
     Clock clock = clock_of(duration);
-    Work work = {.turn = TAU / LONGEST_ARC * held->arc};
+    Work work = {.turn = TAU / LONGEST_ARC * held->arc, .most = budget_left(budget, MAX_STEP_LEGS)};
     Leg leg;
     Moment begin;
     *now = *moment;
@@ -111,7 +111,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {
-        if (!work_count(&work, clock.elapsed, duration, refusal)) {
+        if (!work_count(&work, clock.elapsed, budget, refusal)) {
             return false;
         }
         double switching =
@@ -141,5 +141,6 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
             break;
         }
     }
+    budget_spend(budget, work.all, MAX_STEP_LEGS);
     return true;
 }

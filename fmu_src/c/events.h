@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "budget.h"
 #include "event_search.h"
 #include "law.h"
 #include "moment.h"
@@ -11,9 +12,9 @@
 
 /* Advance by `duration` > 0 [s] from `moment` to `now`, another moment, under the inputs of the law, or to
  * the event that a `search` finds before; NULL searches for none. Refuses, with `now` undefined, where the
- * motion takes too many legs. Where numbers leave the range of floating point, entries of `now` are not
+ * motion takes more legs than the budget has. Where numbers leave the range of floating point, entries of `now` are not
  * finite. */
 bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
-                    Moment *now, Refusal *refusal);
+                    Budget *budget, Moment *now, Refusal *refusal);
 
 #endif

@@ -110,13 +110,13 @@ Moment law_start(const Law *law) {
 }
 
 bool law_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
-                 Moment *after, Refusal *refusal) {
+                 Budget *budget, Moment *after, Refusal *refusal) {
     if (law->resolved != NULL) {
-        return orbit_motion_advance(law, moment, duration, search, after, refusal);
+        return orbit_motion_advance(law, moment, duration, search, budget, after, refusal);
     }
     return is_averaged(&law->device)
-               ? slow_advance(law, moment, duration, after, refusal)
-               : events_advance(law, moment, duration, search, after, refusal);
+               ? slow_advance(law, moment, duration, budget, after, refusal)
+               : events_advance(law, moment, duration, search, budget, after, refusal);
 }
 
 int law_mode(const Law *any, const Moment *moment) {

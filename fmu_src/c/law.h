@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "bristle.h"
+#include "budget.h"
 #include "device.h"
 #include "event_search.h"
 #include "fast_vibration.h"
@@ -71,10 +72,10 @@ Moment law_start(const Law *law);
 
 /* Advance by `duration` > 0 [s] from `moment` to `after`, another moment, or to the event that a `search`
  * finds before; NULL searches for none, and averaged motion has no events. Refuses, with `after`
- * undefined, a motion of too many legs or steps. Where numbers leave the range of floating point, entries
+ * undefined, a motion of more legs or steps than the budget of the communication step has. Where numbers leave the range of floating point, entries
  * of `after` are not finite; loops end all the same. */
 bool law_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
-                 Moment *after, Refusal *refusal);
+                 Budget *budget, Moment *after, Refusal *refusal);
 
 /* Contact mode under the held inputs. */
 int law_mode(const Law *law, const Moment *moment);
@@ -82,7 +83,7 @@ int law_mode(const Law *law, const Moment *moment);
 /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
 double law_friction_force(const Law *law, const Moment *moment, int mode);
 
-/* Brings the estimate of the error up to a moment, before the law changes. */
+/* Brings the estimate of the error up to a moment at which the law ends. */
 void law_settle_error(const Law *law, Moment *moment);
 
 /* The estimate of the error of the slow velocity at fidelity 0 [m/s]; 0 for resolved motion. */

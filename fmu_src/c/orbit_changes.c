@@ -54,7 +54,6 @@ OrbitChanges orbit_note_changes(const Law *law, OrbitState *orbit) {
     changes.turned = orbit->varied != VARIED_LEAD && present.ratio != before.ratio;
     orbit->under = present;
     orbit->varied = HELD_INPUTS;
-    orbit->turning = 0.0;
     orbit->loading = 0.0;
     if (orbit->stage == AVERAGED) {
         orbit->doubt = first_order_error(law);

@@ -135,11 +135,17 @@ static double acceleration_on(const Law *law, const OrbitPoint *point, double lo
     return -point->of[ORBIT_FACTOR] * force / law->held.plant.total_mass;
 }
 
+/* The error [m/s] where nothing is measured, friction adds a mass, and friction and load leave a force [N]. */
+static double error_by_rule(const OrbitRide *ride, double added_mass, double force) {
+    double drift = ride->slow.turns * ride->slow.fastest;
+    return second_order_error(ride->law, added_mass, force) + drift_error(ride->law, drift);
+}
+
 /* The error [m/s] where nothing is measured. */
-static double unmeasured_error(const Law *law, const OrbitPoint *point, double load) {
-    double force = point->of[ORBIT_FRICTION] + load;
-    return point->found ? second_order_error(law, point->of[ORBIT_FACTOR] - 1.0, force)
-                        : first_order_error(law);
+static double unmeasured_error(const OrbitRide *ride, const OrbitPoint *point, double load) {
+    double added_mass = point->of[ORBIT_FACTOR] - 1.0;
+    return point->found ? error_by_rule(ride, added_mass, point->of[ORBIT_FRICTION] + load)
+                        : first_order_error(ride->law);
 }
 
 void error_leave(const Law *law, OrbitState *orbit) {
@@ -158,7 +164,7 @@ static void begin_at(OrbitRide *ride, const ErrorPlace *place, const OpenError *
     orbit->doubt += place->unsure * fabs(place->acceleration);
     if (!place->measured) {
         double added_mass = ride_point(ride, 0.0, open->velocity).of[ORBIT_FACTOR] - 1.0;
-        orbit->doubt = fmax(orbit->doubt, second_order_error(ride->law, added_mass, INFINITY));
+        orbit->doubt = fmax(orbit->doubt, error_by_rule(ride, added_mass, INFINITY));
     }
     bound(ride->law, orbit);
 }
@@ -179,7 +185,7 @@ static void carry_unmeasured(OrbitRide *ride, const ErrorPlace *from, const Erro
         left = left_by_slope(ride, to->velocity, duration);
     }
     orbit->doubt =
-        fmax(left * (orbit->doubt + fabs(orbit->ahead)), unmeasured_error(law, point, load));
+        fmax(left * (orbit->doubt + fabs(orbit->ahead)), unmeasured_error(ride, point, load));
     orbit->ahead = 0.0;
     error_calm(law, duration * law->device.drive_frequency, orbit);
     bound(law, orbit);
@@ -265,7 +271,7 @@ double error_at(OrbitRide *ride, double theta, const OrbitState *now) {
     ErrorPlace place = place_at(ride, orbit->velocity, theta);
     if (!place.measured) {
         OrbitPoint point = ride_point(ride, 0.0, place.velocity);
-        return fmax(orbit->doubt, unmeasured_error(law, &point, law->inputs.load));
+        return fmax(orbit->doubt, unmeasured_error(ride, &point, law->inputs.load));
     }
     double a = place.acceleration;
     double jumped = velocity_of_swing(law, place.swing * fabs(a - orbit->acceleration));

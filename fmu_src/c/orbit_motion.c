@@ -34,7 +34,7 @@ bool has_slow_motion(const Law *law) {
     if (!(law->fast.velocity > 0.0) || orbit_phase_of(law).turns == 0) {
         return false;
     }
-    double slow = 4.0 * friction_share(law);
+    double slow = slow_decay_in_turn(law);
     return slow > 0.0 && slow < SEPARATION * decay_in_turn(law) && slow < 1.0 && resolved_is_bounded(law);
 }
 
@@ -202,15 +202,15 @@ static bool adapt(const Law *law, Moment *now) {
 }
 
 /* Resolve the motion for as long as it has to be and up to `duration` [s]; gives the time that took. */
-static bool resolve(const Law *law, double duration, EventSearch *search, Moment *now,
-                    double *time, Refusal *refusal) {
+static bool resolve(const Law *law, double duration, EventSearch *search, Budget *budget,
+                    Moment *now, double *time, Refusal *refusal) {
     double w = law->device.drive_frequency;
     bool ends = now->orbit.to_go <= w * duration + NOTHING;
     OrbitPoint point;
     *time = ends ? fmin(now->orbit.to_go / w, duration) : duration;
     if (*time * w > NOTHING || !ends) {
         Moment after;
-        if (!events_advance(law->resolved, now, *time, search, &after, refusal)) {
+        if (!events_advance(law->resolved, now, *time, search, budget, &after, refusal)) {
             return false;
         }
         *now = after;
@@ -235,9 +235,9 @@ static double travel_at_mark(const void *motion, double t) {
     return fabs(t - marks->time[0]) < fabs(t - marks->time[1]) ? marks->travel[0] : marks->travel[1];
 }
 
-/* Go along orbits for `duration` [s], the last part of a step of `step_size` [s]. Where one on the way is unknown,
- * `now` stays as it is, to be resolved. */
-static bool follow(const Law *law, double duration, double step_size, Moment *now,
+/* Go along orbits for `duration` [s], the last part of a step. Where one on the way is unknown, `now` stays as it is,
+ * to be resolved. */
+static bool follow(const Law *law, double duration, Budget *budget, Moment *now,
                    Refusal *refusal) {
     OrbitRide ride, *rider = &ride;
     OrbitState *orbit = &now->orbit;
@@ -257,7 +257,6 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         .fast = law->fast.velocity,
         .tolerance = TOLERANCE * law->fast.velocity,
         .step = slow_pass_step(law->fast.velocity, plant->total_mass, full + highest_load, duration),
-        .duration = step_size,
         .beat = slow_phase_beat(&ride.slow),
         .may_settle = !slow_phase_drifts(&ride.slow) && plant->load_rate == 0.0 &&
                       ride.source != FROM_SEARCH,
@@ -277,7 +276,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
             continue;
         }
         double step = reached.step;
-        if (!slow_pass(&plan, marks.time[i], &reached, refusal)) {
+        if (!slow_pass(&plan, marks.time[i], budget, &reached, refusal)) {
             return false;
         }
         if (is_lost(law, &ride, now)) {
@@ -293,7 +292,7 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
         add_swing(&there, &swing, share);
         marks.travel[i] = there.position - start;
     }
-    if (!slow_pass(&plan, duration, &reached, refusal)) {
+    if (!slow_pass(&plan, duration, budget, &reached, refusal)) {
         return false;
     }
     if (is_lost(law, &ride, now)) {
@@ -336,8 +335,8 @@ static bool follow(const Law *law, double duration, double step_size, Moment *no
 }
 
 /* Resolve the `left` [s] of a step `passed` [s] after its beginning, where orbits are unknown. */
-static bool resolve_rest(const Law *law, double passed, double left, EventSearch *search, Moment *now,
-                         Refusal *refusal) {
+static bool resolve_rest(const Law *law, double passed, double left, EventSearch *search,
+                         Budget *budget, Moment *now, Refusal *refusal) {
     double w = law->device.drive_frequency;
     Law full = law_after(law->resolved, passed);
     Moment before = *now;
@@ -345,7 +344,7 @@ static bool resolve_rest(const Law *law, double passed, double left, EventSearch
     if (search != NULL) {
         search->after -= passed;
     }
-    if (!events_advance(&full, &before, left, search, now, refusal)) {
+    if (!events_advance(&full, &before, left, search, budget, now, refusal)) {
         return false;
     }
     now->orbit = orbit;
@@ -359,13 +358,13 @@ static bool resolve_rest(const Law *law, double passed, double left, EventSearch
 }
 
 bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
-                          EventSearch *search, Moment *after, Refusal *refusal) {
+                          EventSearch *search, Budget *budget, Moment *after, Refusal *refusal) {
     double resolved = 0.0, w = law->device.drive_frequency;
     *after = *moment;
     if (!adapt(law, after)) {
         return refuse_infinite_motion(refusal, duration);
     }
-    if (after->orbit.stage == RESOLVED && !resolve(law, duration, search, after, &resolved, refusal)) {
+    if (after->orbit.stage == RESOLVED && !resolve(law, duration, search, budget, after, &resolved, refusal)) {
         return false;
     }
     double left = resolved < duration ? duration - resolved : 0.0;
@@ -374,14 +373,14 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
     }
     if (after->orbit.stage == ON_ORBIT) {
         Law later = is_ramped(&law->held.plant) ? law_after(law, resolved) : *law;
-        if (!follow(&later, left, duration, after, refusal)) {
+        if (!follow(&later, left, budget, after, refusal)) {
             return false;
         }
         if (after->orbit.stage == ON_ORBIT) {
             return true;
         }
     }
-    return resolve_rest(law, resolved, left, search, after, refusal);
+    return resolve_rest(law, resolved, left, search, budget, after, refusal);
 }
 
 /* The estimate under held inputs. */
@@ -401,7 +400,6 @@ static double standing_error(const Law *law, const Moment *moment) {
 }
 
 double orbit_motion_error(const Law *law, const Moment *moment) {
-    double turning = turning_error(law, moment->orbit.turning);
     double loading = loading_error(law, moment->orbit.loading);
-    return fmin(standing_error(law, moment) + turning + loading, law->fast.velocity);
+    return fmin(standing_error(law, moment) + loading, law->fast.velocity);
 }

@@ -27,7 +27,7 @@ OrbitState orbit_motion_start(const Law *law, const Moment *first);
 /* The moment `duration` > 0 [s] later, another than `moment`, or that of an event that a `search`
  * finds before in resolved motion. Refuses as law_advance does. */
 bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
-                          EventSearch *search, Moment *after, Refusal *refusal);
+                          EventSearch *search, Budget *budget, Moment *after, Refusal *refusal);
 
 /* Take into the estimate of the error what it has still to take in, before the law changes. */
 void orbit_motion_settle(const Law *law, Moment *moment);

@@ -50,8 +50,7 @@ typedef struct {
  * velocity V [m/s], slow centre [m] and lead [rad] of the normal load, and what is left of the resonator's own `swing`, by
  * which it differs from the orbit. The step was made `under` these values; `tunings`
  * counts, up to MAX_TUNINGS, how often a parameter changed the orbits. `varied` is how inputs did during
- * it, `turning` [rad/s] how fast the lead then turned at most, and `loading` [N/s] how fast the load grew, both
- * 0 under held inputs. W is `ahead` [m/s] of that of the full device, as far as that is known; what else V
+ * it, and `loading` [N/s] how fast the load grew, 0 under held inputs. W is `ahead` [m/s] of that of the full device, as far as that is known; what else V
  * may err by is `doubt` [m/s], and the resonator's swing that nobody follows is `unrest` [m/s] of mean
  * velocity. `acceleration` [m/s^2] is the slow one. The last four are those before what is `open`, which is
  * measured only where an estimate is needed. */
@@ -63,7 +62,7 @@ typedef struct {
     VisitedLeads leads;
     PaidTables paid;
     int varied;
-    double turning, loading, ahead, doubt, unrest, acceleration;
+    double loading, ahead, doubt, unrest, acceleration;
     OpenError open;
     int tunings;
 } OrbitState;

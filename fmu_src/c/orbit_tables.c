@@ -25,6 +25,7 @@ const PeriodMap *orbit_map_of(OrbitTables *tables, const Device *device, const S
         map->law.inputs.frequency_ratio != slow->waves || !same_device(&tables->device, device)) {
         Refusal refusal;
         tables->mapped = period_map_prepare(map, device, slow->waves, slow->turns, &refusal);
+        map->law.bending = tables->bending;
         tables->device = *device;
     }
     return tables->mapped ? map : NULL;

@@ -16,11 +16,13 @@ enum { SERIES_LEADS = 9, CURVES = 14 };
 enum { SERIES_DEPTH = 2 };
 
 /* Zeroed memory holds no table. `map` is the one that was used last, of these `waves`. `maps` counts the period
- * maps of all that the ride of number `ride` has asked for, whether it was tabulated before or not. */
+ * maps of all that the ride of number `ride` has asked for, whether it was tabulated before or not. `bending` is a cache
+ * for panels of LuGre friction on the map, see Law; NULL where it takes series. */
 typedef struct OrbitTables {
     bool mapped;
     PeriodMap map;
     Device device;
+    struct BendingTables *bending;
     long clock, ride;
     int maps;
     OrbitCurve curve[CURVES];

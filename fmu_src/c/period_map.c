@@ -66,8 +66,9 @@ void orbit_enter(const PeriodMap *map, double lead, double theta, Moment *moment
 bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment *moment,
                    double duration, Moment *after) {
     Law law = law_under(map, lead, load);
+    Budget budget = budget_of(duration);
     Refusal refusal;
-    return events_advance(&law, moment, duration, NULL, after, &refusal) &&
+    return events_advance(&law, moment, duration, NULL, &budget, after, &refusal) &&
            isfinite(after->position + after->state.velocity + after->state.displacement +
                     after->state.rate + after->bristle);
 }

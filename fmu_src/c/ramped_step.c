@@ -8,7 +8,7 @@
 #include "values.h"
 #include "vibrating_load.h"
 
-/* Largest number of slow phases in a step. */
+/* Slow phases that a whole budget buys. */
 enum { MAX_SLOW_PHASES = 1000 };
 
 /* Values after inputs have grown for `t` [s]. */
@@ -75,7 +75,7 @@ static bool prepare_piece(RampedStep *step, const double values[SETTABLE_COUNT],
 
 /* Give the moment after a ramp the phases that belong to held inputs: `begin` are the values before,
  * `duration` [s] ago, and `end` those now. */
-static void settle_phases(const Law *law, const double begin[SETTABLE_COUNT],
+static void settle_phases(const double begin[SETTABLE_COUNT],
                           const double end[SETTABLE_COUNT], const Ramp *ramp, double duration,
                           Moment *after) {
     double w = begin[VR_DRIVE_FREQUENCY];
@@ -87,13 +87,13 @@ static void settle_phases(const Law *law, const double begin[SETTABLE_COUNT],
         after->orbit.under.load = inputs.load;
         bool led = added != 0.0 || ramp->ratio_rate != 0.0;
         after->orbit.varied = led ? VARIED_LEAD : VARIED_LOAD;
-        after->orbit.turning = led ? law_slow_phase(law).fastest : 0.0;
         after->orbit.loading = ramp->load_rate;
     }
 }
 
 bool ramped_step(RampedStep *step, const Snapshot *now, const Law *held, double duration,
-                 FrictionTable *table, OrbitTables *orbits, Moment *after, Refusal *refusal) {
+                 FrictionTable *table, OrbitTables *orbits, Budget *budget, Moment *after,
+                 Refusal *refusal) {
     double values[SETTABLE_COUNT], end[SETTABLE_COUNT], left = duration;
     Clock clock = clock_of(duration);
     *after = now->moment;
@@ -103,21 +103,23 @@ bool ramped_step(RampedStep *step, const Snapshot *now, const Law *held, double 
     if (!reached_check(now, step->reached, duration, refusal)) {
         return false;
     }
-    for (int count = 1; left > 0.0; count++) {
+    while (left > 0.0) {
         Moment before = *after;
         Ramp ramp = ramp_from(values, now->derivatives);
         double piece = time_of_slow_phase(values, &ramp, left);
-        if (count > MAX_SLOW_PHASES) {
-            return refuse_work(refusal, duration, clock.elapsed, MAX_SLOW_PHASES,
-                               "slow phases of the normal load");
+        budget->passed = clock.elapsed;
+        if (budget_left(budget, MAX_SLOW_PHASES) == 0) {
+            return budget_refuse(budget, 0.0, MAX_SLOW_PHASES, "slow phases of the normal load",
+                                 refusal);
         }
         if (!prepare_piece(step, values, &ramp, piece, table, orbits, refusal)
-            || !law_advance(&step->law, &before, piece, NULL, after, refusal)) {
+            || !law_advance(&step->law, &before, piece, NULL, budget, after, refusal)) {
             return false;
         }
         left = piece == left ? 0.0 : clock_advance(&clock, piece);
+        budget_spend(budget, left > 0.0, MAX_SLOW_PHASES);
         grow(now, left > 0.0 ? clock.elapsed : duration, end);
-        settle_phases(&step->law, values, end, &ramp, piece, after);
+        settle_phases(values, end, &ramp, piece, after);
         memcpy(values, end, sizeof values);
     }
     return true;

@@ -21,6 +21,7 @@ typedef struct {
 /* The moment after a step of `duration` [s] from `now` on, whose law is `held`. Refuses inputs that leave their bounds, and
  * what law_advance refuses; `after` is then undefined. */
 bool ramped_step(RampedStep *step, const Snapshot *now, const Law *held, double duration,
-                 FrictionTable *table, OrbitTables *orbits, Moment *after, Refusal *refusal);
+                 FrictionTable *table, OrbitTables *orbits, Budget *budget, Moment *after,
+                 Refusal *refusal);
 
 #endif

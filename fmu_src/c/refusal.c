@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "refusal_texts.h"
-
 /* Exponents from MIN_PLAIN_EXPONENT to MAX_PLAIN_EXPONENT are written without "e", as repr does. */
 enum { MAX_DIGITS = 17, MIN_PLAIN_EXPONENT = -4, MAX_PLAIN_EXPONENT = 15 };
 
@@ -17,15 +15,6 @@ bool refuse(Refusal *refusal, const char *format, ...) {
     vsnprintf(refusal->text, sizeof refusal->text, format, arguments);
     va_end(arguments);
     return false;
-}
-
-bool refuse_work(Refusal *refusal, double step_size, double reached, int max_count,
-                 const char *what) {
-    if (reached > 0.0) {
-        long long exponent = (long long)floor(log10(reached));
-        return refuse_too_much_work(refusal, step_size, max_count, what, exponent);
-    }
-    return refuse_too_much_work_at_once(refusal, step_size, max_count, what);
 }
 
 /* Write the fewest digits that read back as `value` > 0, without a point; return the exponent of the

@@ -13,11 +13,6 @@ typedef struct {
 /* Write the text as snprintf does; return false, so that a function can `return refuse(...)`. */
 bool refuse(Refusal *refusal, const char *format, ...);
 
-/* Refuse a step of `step_size` [s] that takes more than `max_count` of `what`. A step up to `reached`
- * [s] takes less: the text names the power of ten below it. Return false. */
-bool refuse_work(Refusal *refusal, double step_size, double reached, int max_count,
-                 const char *what);
-
 /* The shortest text that reads back as `value`, with a decimal point in every locale, like Python's
  * repr: "0.1", "1e-05", "3500.0", "nan", "inf". Returns `text`. */
 const char *number_text(double value, char text[NUMBER_SIZE]);

@@ -97,15 +97,17 @@ static double time_to_kink(const void *motion, double t) {
 }
 
 /* Motion without vibration, with constant friction in each piece of time. */
-static bool pass_unshaken(const SlowFriction *friction, double duration, Reached *reached,
-                          Refusal *refusal) {
+static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget,
+                          Reached *reached, Refusal *refusal) {
     const Plant *plant = &friction->law->held.plant;
     double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
     double pieces = ceil(duration / longest), piece = duration / pieces;
-    if (pieces > MAX_SLOW_STEPS) {
-        return refuse_work(refusal, duration, MAX_SLOW_STEPS * longest, MAX_SLOW_STEPS,
-                           "steps of averaged motion");
+    int most = budget_left(budget, MAX_SLOW_STEPS);
+    if (pieces > most) {
+        return budget_refuse(budget, most * longest, MAX_SLOW_STEPS, "steps of averaged motion",
+                             refusal);
     }
+    budget_spend(budget, (int)pieces, MAX_SLOW_STEPS);
     double moved = 0.0, rate = plant->load_rate, mass = plant->total_mass;
     for (double k = 0.0; k < pieces; k += 1.0) {
         double resisting = slow_friction_at(friction, (k + 0.5) * piece, INFINITY);
@@ -119,7 +121,7 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Reached
     return true;
 }
 
-/* Largest number of steps of averaged motion that is accepted in one communication step. */
+/* Steps of averaged motion that a whole budget buys. */
 static int max_steps(const SlowFriction *friction) {
     if (!slow_friction_is_expensive(friction)) {
         bool grows = friction->law->held.plant.load_rate != 0.0;
@@ -137,12 +139,12 @@ static double strongest_friction(const Device *device) {
 
 /* Integrate the slow velocity over `duration` [s]. A velocity that settles takes few steps, however long
  * the duration is. */
-static bool pass(const SlowFriction *friction, double duration, Reached *reached,
+static bool pass(const SlowFriction *friction, double duration, Budget *budget, Reached *reached,
                  Refusal *refusal) {
     const Plant *plant = &friction->law->held.plant;
     double fast = friction->law->fast.velocity;
     if (fast == 0.0) {
-        return pass_unshaken(friction, duration, reached, refusal);
+        return pass_unshaken(friction, duration, budget, reached, refusal);
     }
     double last_load = plant->load + plant->load_rate * duration;
     double strongest = strongest_friction(&friction->law->device) +
@@ -154,7 +156,6 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
         .fast = fast,
         .tolerance = TOLERANCE * fast,
         .step = slow_pass_step(fast, plant->total_mass, strongest, duration),
-        .duration = duration,
         .beat = friction->beat,
         .may_settle = !slow_phase_drifts(&friction->slow) && plant->load_rate == 0.0,
         .most = max_steps(friction),
@@ -163,7 +164,7 @@ static bool pass(const SlowFriction *friction, double duration, Reached *reached
         .sway = slow_friction_sway(friction) / plant->total_mass,
     };
     Reached now = {.velocity = reached->velocity, .step = plan.step};
-    if (!slow_pass(&plan, duration, &now, refusal)) {
+    if (!slow_pass(&plan, duration, budget, &now, refusal)) {
         return false;
     }
     *reached = now;
@@ -180,8 +181,8 @@ int slow_mode(const Law *law, const Moment *moment) {
     return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
 }
 
-bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,
-                  Refusal *refusal) {
+bool slow_advance(const Law *law, const Moment *moment, double duration, Budget *budget,
+                  Moment *after, Refusal *refusal) {
     const Plant *plant = &law->held.plant;
     double w = plant->drive_frequency, drive = law->fast.pair_velocity;
     double share = device_mass_fraction(&law->device);
@@ -190,7 +191,7 @@ bool slow_advance(const Law *law, const Moment *moment, double duration, Moment 
     Reached reached = {.velocity = slow_velocity(law, &state, theta)};
     double centre = moment->position + share * state.displacement + drive / w * sin(theta);
     SlowFriction friction = slow_friction_of(law, theta, psi);
-    if (!pass(&friction, duration, &reached, refusal)) {
+    if (!pass(&friction, duration, budget, &reached, refusal)) {
         return false;
     }
     theta = within_turn(theta + w * duration);

@@ -14,10 +14,10 @@
 #include "law.h"
 
 /* Advance by `duration` > 0 [s] from `moment` to `after`, which may be the same. Refuses, with `after`
- * undefined, where that takes too many steps. The initial velocities determine the momentum of the pair,
+ * undefined, where that takes more steps than the budget has. The initial velocities determine the momentum of the pair,
  * not the vibration. */
-bool slow_advance(const Law *law, const Moment *moment, double duration, Moment *after,
-                  Refusal *refusal);
+bool slow_advance(const Law *law, const Moment *moment, double duration, Budget *budget,
+                  Moment *after, Refusal *refusal);
 
 /* Slow velocity V [m/s] of a state at drive phase `theta` [rad]. */
 double slow_velocity(const Law *law, const State *state, double theta);

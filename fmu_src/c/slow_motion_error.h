@@ -10,6 +10,9 @@
  * which averages expand. */
 double friction_share(const Law *law);
 
+/* Decay of the slow motion in a turn of the drive. */
+double slow_decay_in_turn(const Law *law);
+
 /* Decay of the resonator's own vibration in a turn of the drive, the slower of two; infinite without
  * resonator. */
 double decay_in_turn(const Law *law);
@@ -27,9 +30,9 @@ double second_order_error(const Law *law, double added_mass, double force);
 /* Error [m/s] of the integration and of the tables. */
 double resolution_error(const Law *law);
 
-/* What averages of second order err by [m/s] while inputs turn the lead by `turning` [rad/s]; 0 under held
- * inputs. */
-double turning_error(const Law *law, double turning);
+/* What those err by besides [m/s], by rule of thumb, while the lead drifts by `drift` >= 0 [rad/s] over all turns
+ * of an orbit. */
+double drift_error(const Law *law, double drift);
 
 /* The same while the load grows by `loading` [N/s]. */
 double loading_error(const Law *law, double loading);

@@ -55,19 +55,19 @@ static double to_edge(const SlowPass *pass, const Reached *now) {
     return fmax(time, MIN_APPROACH * pass->step);
 }
 
-bool slow_pass(const SlowPass *pass, double end, Reached *now, Refusal *refusal) {
+bool slow_pass(const SlowPass *pass, double end, Budget *budget, Reached *now, Refusal *refusal) {
+    const char *what = "steps of averaged motion";
+    int most = budget_left(budget, pass->most), before = now->tried;
     /* No step is longer than a share of a beat: too many of them are refused before the first. */
-    double furthest = (pass->most + BLOCK) * (BEAT_SHARE * pass->beat);
+    double furthest = most * (BEAT_SHARE * pass->beat);
     if (!pass->may_settle && end - now->t > furthest) {
-        return refuse_work(refusal, pass->duration, now->t + furthest, pass->most,
-                           "steps of averaged motion");
+        return budget_refuse(budget, now->t + furthest, pass->most, what, refusal);
     }
     bool grows = pass->jerk != 0.0;
-    int block = grows ? 1 : BLOCK;
-    for (int count = 0; now->t < end && isfinite(now->velocity); count += block) {
-        if (count >= pass->most) {
-            return refuse_work(refusal, pass->duration, now->t, pass->most,
-                               "steps of averaged motion");
+    while (now->t < end && isfinite(now->velocity)) {
+        int room = most - (now->tried - before);
+        if (room <= 0) {
+            return budget_refuse(budget, now->t, pass->most, what, refusal);
         }
         bool may_settle = pass->may_settle && end - now->t > SETTLING * pass->step;
         if (may_settle && settle(pass->acceleration, pass->motion, pass->fast, end, now)) {
@@ -75,8 +75,12 @@ bool slow_pass(const SlowPass *pass, double end, Reached *now, Refusal *refusal)
         }
         double kink = fmax(pass->to_kink(pass->motion, now->t), MIN_SHARE * pass->beat);
         double smooth = grows ? fmin(kink, to_edge(pass, now)) : kink;
+        int block = grows ? 1 : room < BLOCK ? room : BLOCK;
         *now = integrate(pass->acceleration, pass->motion, *now, fmin(end, now->t + smooth),
                          pass->tolerance, BEAT_SHARE * pass->beat, block);
+        /* A time too short for a step counts as one, so that the loop ends. */
+        now->tried += now->tried == most - room + before;
     }
+    budget_spend(budget, now->tried - before, pass->most);
     return true;
 }

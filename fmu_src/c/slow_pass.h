@@ -4,12 +4,12 @@
 
 #include <stdbool.h>
 
+#include "budget.h"
 #include "dormand_prince.h"
 #include "refusal.h"
 
 /* How to pass: the `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, whether
- * the motion may settle, and the most steps. `duration` [s] is that of the communication step. The
- * acceleration repeats after a `beat` [s], and is smooth for `to_kink(motion, t)` [s] from `t` [s] on.
+ * the motion may settle, and the `most` steps that a whole budget buys. The acceleration repeats after a `beat` [s], and is smooth for `to_kink(motion, t)` [s] from `t` [s] on.
  * Under a load that grows, with `jerk` [m/s^3], friction has an `edge` [m/s] backward and one forward, known to
  * a `margin` [m/s], beyond which it no longer depends on the velocity; there it may speed the motion with up
  * to `sway` [m/s^3] besides. */
@@ -17,7 +17,7 @@ typedef struct {
     AccelerationFunction acceleration;
     double (*to_kink)(const void *motion, double t);
     const void *motion;
-    double fast, tolerance, step, duration, beat;
+    double fast, tolerance, step, beat;
     bool may_settle;
     int most;
     double edge[2], margin, jerk, sway;
@@ -31,7 +31,7 @@ double time_to_stop(double u, double a, double j);
 double slow_pass_step(double fast, double mass, double strongest, double duration);
 
 /* Bring `now` to time `end` [s]; one that settles takes few steps, however long the time. Refuses, with
- * `now` undefined, where that takes too many. */
-bool slow_pass(const SlowPass *pass, double end, Reached *now, Refusal *refusal);
+ * `now` undefined, where that takes more than the budget has. */
+bool slow_pass(const SlowPass *pass, double end, Budget *budget, Reached *now, Refusal *refusal);
 
 #endif

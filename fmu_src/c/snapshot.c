@@ -95,7 +95,6 @@ static const Field FIELDS[] = {
     FIELD(moment.orbit.paid.has_series, INTEGER, 0, 1),
     FIELD(moment.orbit.paid.series_waves, FINITE, 0, 0),
     FIELD(moment.orbit.varied, INTEGER, HELD_INPUTS, VARIED_LEAD),
-    FIELD(moment.orbit.turning, FINITE, 0, 0),
     FIELD(moment.orbit.loading, FINITE, 0, 0),
     FIELD(moment.orbit.ahead, FINITE, 0, 0),
     FIELD(moment.orbit.doubt, FINITE, 0, 0),

@@ -32,14 +32,6 @@ function drawContactBands(plot, times, modes) {
   plot.ctx.restore();
 }
 
-function drawMarker(plot, x, y, colour) {
-  const [left, top] = [plot.valToPos(x, "x", true), plot.valToPos(y, "y", true)];
-  plot.ctx.fillStyle = colour;
-  plot.ctx.beginPath();
-  plot.ctx.arc(left, top, 5 * uPlot.pxRatio, 0, 2 * Math.PI);
-  plot.ctx.fill();
-}
-
 /** Join points in their order: uPlot's own paths need ascending x. */
 function drawLoop(plot, xs, ys) {
   const { ctx, bbox } = plot;
@@ -53,6 +45,11 @@ function drawLoop(plot, xs, ys) {
   ctx.lineWidth = 1.5 * uPlot.pxRatio;
   ctx.stroke();
   ctx.restore();
+}
+
+/** Return how single points look, which are named in the legend. */
+function points(label, stroke) {
+  return { label, stroke, width: 0, points: { show: true, size: 10, fill: stroke } };
 }
 
 /** Return [low, high] with a margin; a width even for equal values. */
@@ -127,24 +124,22 @@ const PLOTS = [
   {
     title: "Steady velocity on load",
     make: ({ curve, outputs, load }) => {
-      const measured = 1e3 * outputs.get("mean_velocity");
-      const predicted = 1e3 * outputs.get("steady_velocity");
-      const speeds = scaled(curve.steady_velocity, 1e3);
+      const loads = scaled(curve.load, 1e3);
+      const present = 1e3 * load;
+      const data = uPlot.join([
+        [loads, scaled(curve.steady_velocity, 1e3)],
+        [[1e3 * outputs.get("blocking_force")], [0]],
+        [[present], [1e3 * outputs.get("steady_velocity")]],
+        [[present], [1e3 * outputs.get("mean_velocity")]],
+      ]);
       return {
-        data: [scaled(curve.load, 1e3), speeds],
-        series: [line("predicted", "#ef6c00")],
-        scales: {
-          x: { time: false, range: () => rangeOf([...scaled(curve.load, 1e3), 1e3 * load]) },
-          y: { range: () => rangeOf([...speeds, measured, predicted]) },
-        },
+        data,
+        series: [
+          line("predicted", "#ef6c00"), points("blocking force", "#ffb74d"),
+          points("predicted at this load", "#ef6c00"), points("mean velocity of the run", "#1976d2"),
+        ],
+        scales: { x: { time: false, range: () => rangeOf([...loads, present]) } },
         axes: [xAxis("load [mN]"), axis("velocity [mm/s]")],
-        hooks: {
-          draw: [(plot) => {
-            drawMarker(plot, 1e3 * outputs.get("blocking_force"), 0, "#ffb74d");
-            drawMarker(plot, 1e3 * load, predicted, "#ef6c00");
-            drawMarker(plot, 1e3 * load, measured, "#1976d2");
-          }],
-        },
       };
     },
   },

@@ -131,7 +131,8 @@ def validate(
 ) -> tuple[Validation, ...]:
     """Compare FMUs with the references; scenes are names, files or folders, by default all.
 
-    `jobs` processes compute the references, by default one for each core.
+    `jobs` processes compute the references and as many at most run an FMU, by default one for each
+    core.
     """
     files = files_of_scenes([str(scene) for scene in scenes])
     paths = [Path(fmu) for fmu in fmus] or [fmu_path("native")]

@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from io import StringIO
 from typing import Any, NoReturn
@@ -26,26 +26,26 @@ from slider_resonator.output.terminal import escaped, indented
 COULD_NOT_RUN = 2
 INTERRUPTED = 130
 """The exit code that shells report for a process ended by SIGINT."""
-COMMANDS = (
-    "baseline",
-    "bench",
-    "blocking",
-    "build",
-    "campaign",
-    "choose",
-    "closed-loop",
-    "extremes",
-    "hosts",
-    "mutants",
-    "paper",
-    "run",
-    "scenes",
-    "steady",
-    "sweep",
-    "trade",
-    "validate",
-)
-"""Each is `<name>_command` in `slider_resonator.commands.<name>`, with _ for -.
+COMMANDS: Mapping[str, str] = {
+    "baseline": "Compare an FMU with its own earlier results.",
+    "bench": "Measure what a step costs in a C host.",
+    "blocking": "Find the load that stops an FMU, without a long run.",
+    "build": "Build the FMUs from the sources of a checkout.",
+    "campaign": "Run random devices and schedules on FMUs.",
+    "choose": "Choose the cheapest model that meets a scene's needs.",
+    "closed-loop": "Hold the slider's velocity with a controller.",
+    "extremes": "Run FMUs at the extremes of every parameter and input.",
+    "hosts": "Run table 1 in other simulators; compare with fmpy.",
+    "mutants": "Make faulty FMUs and count those that validate rejects.",
+    "paper": "Reproduce the figures and statements of the paper.",
+    "run": "Run one scene and report results and cost.",
+    "scenes": "List the built-in scenes; help to write your own.",
+    "steady": "Find the steady velocity of an FMU, without a long run.",
+    "sweep": "Compute measures over a grid of parameters and inputs.",
+    "trade": "Measure error and cost of every model and peer method.",
+    "validate": "Compare FMUs with the references, scene by scene.",
+}
+"""Name to summary. Each is `<name>_command` in `slider_resonator.commands.<name>`, with _ for -.
 
 A command is loaded when it is called: loading all takes longer than running most."""
 
@@ -71,7 +71,13 @@ class HarnessGroup(click.Group):
         name = cmd_name.replace("-", "_")
         module = importlib.import_module(f"slider_resonator.commands.{name}")
         command: click.Command = getattr(module, f"{name}_command")
+        command.short_help = COMMANDS[cmd_name]
         return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write names and summaries without loading the commands."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
 
     def main(
         self,

@@ -26,10 +26,23 @@ class NotApplicable(FmuError):
     """A check that needs what the FMU does not have, and may lack: it says nothing about it."""
 
 
+MAX_LISTED = 60
+"""Number of allowed names up to which a message lists them all."""
+MAX_NEAR = 8
+"""Number of names that it lists of more."""
+
+
 def unknown_name(kind: str, name: str, allowed: Iterable[str]) -> str:
-    """Return "unknown KIND 'NAME'", with the nearest of the allowed names and all of them."""
+    """Return "unknown KIND 'NAME'", with the nearest of the allowed names and all, or some of many.
+
+    The other names of many are those that resemble it most.
+    """
     names = sorted(allowed)
     by_folded = {candidate.lower(): candidate for candidate in names}
     near = get_close_matches(name.lower(), by_folded, n=1, cutoff=0.5)
     hint = f"; did you mean {by_folded[near[0]]!r}?" if near else ""
-    return f"unknown {kind} {name!r}{hint} (must be one of {', '.join(names)})"
+    listed = ", ".join(names)
+    if len(names) > MAX_LISTED:
+        alike = get_close_matches(name.lower(), by_folded, n=MAX_NEAR, cutoff=0.0)
+        listed = f"{len(names)}, such as {', '.join(by_folded[one] for one in alike)}"
+    return f"unknown {kind} {name!r}{hint} (must be one of {listed})"

@@ -23,7 +23,7 @@ FIELDS = (
     *(f"under_{name}" for name in OrbitValues._fields),
     *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
     *(f"paid_{name}" for name in PaidTables._fields),
-    *("varied", "turning", "loading", "ahead", "doubt", "unrest", "acceleration"),
+    *("varied", "loading", "ahead", "doubt", "unrest", "acceleration"),
     *("open_kind", "open_elapsed", "open_velocity", "open_angle", "tunings"),
 )
 HEAD = 8 + 40

@@ -68,7 +68,7 @@ def test_a_step_of_too_much_work_is_refused(
 ) -> None:
     instance = instantiate().initialize(**values)
     refused = f"communicationStepSize = {size!r} refused"
-    with instance.refuses(refused, "more than", work, f"must be at most {limit}"):
+    with instance.refuses(refused, "more work than", work, f"must be at most {limit}"):
         instance.step(size)
     instance.step(carried_out)
 

@@ -208,7 +208,7 @@ def test_a_step_in_which_an_input_leaves_its_bounds_is_refused(
     [
         (2, {"frequency_ratio": 1e15}, "the step must be at most 8000000 turns of it"),
         (1, {"phase": 1e300}, "the step must be at most 8000000 turns of it"),
-        (0, {"frequency_ratio": 1e9}, "it takes more than 1000 slow phases of the normal load"),
+        (0, {"frequency_ratio": 1e9}, "it takes more work than 1000 slow phases of"),
     ],
 )
 def test_the_work_of_a_step_stays_bounded(
@@ -218,6 +218,28 @@ def test_the_work_of_a_step_stays_bounded(
     instance.ramp(**derivatives)
     with instance.refuses("doStep: communicationStepSize = 1.0 refused", text):
         instance.slave.doStep(instance.time, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "turns", "growth", "text"),
+    [
+        ({"averaging_order": 1}, 1e7, 50.0, "400000 steps of averaged motion; must be at most 1e3"),
+        ({"averaging_order": 1, "friction_law": 1}, 1e6, 90.0, "steps of averaged motion"),
+        ({"averaging_order": 2}, 1e7, 50.0, "1000000 legs of motion; must be at most 1e2 s"),
+    ],
+    ids=["Coulomb", "quadratures", "resolved where orbits are unknown"],
+)
+def test_all_slow_phases_of_a_step_draw_from_one_budget(
+    instantiate: Instantiate, values: dict[str, float], turns: float, growth: float, text: str
+) -> None:
+    """Each slow phase alone is within the bound."""
+    start = {"fidelity": 0, "normal_amplitude": 2.0, "phase": 0.4, **values}
+    instance, size = instantiate().initialize(**start), turns * math.tau / 3500.0
+    instance.ramp(frequency_ratio=growth / size)
+    before = instance.get(*OUTPUTS)
+    with instance.refuses(f"communicationStepSize = {size!r} refused: it takes more work", text):
+        instance.slave.doStep(instance.time, size)
+    assert instance.get(*OUTPUTS) == before, "a refusal leaves the state as it was"
 
 
 def test_a_refused_step_leaves_the_inputs(instance: Instance) -> None:

@@ -37,8 +37,6 @@ ONLY_IN_C = {
     *("INPUT_COUNT", "SERIES_ROUNDING", "MAX_BLOCK_LEGS", "MAX_SLOW_PHASES"),
     *(
         "SAME_INPUT",
-        "TURNING",
-        "TURNING_FAST",
         "LOADING",
         "MIN_APPROACH",
         "GRAZING_BAND",

@@ -51,7 +51,7 @@ def test_every_command_is_listed() -> None:
         (["validate", "--scene", "/"], "is a directory; must be a scene"),
         (["blocking", "no.fmu"], "no such file"),
         (["bench", "no.fmu"], "no such file"),
-        (["steady"], "Missing argument"),
+        (["baseline", "record", "--dir", "x"], "Missing argument 'FMU'"),
         (["stedy"], "No such command"),
         (["scenes", "--jsn"], "No such option"),
     ],

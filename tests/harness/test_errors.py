@@ -10,3 +10,11 @@ def test_the_nearest_name_is_suggested_whatever_its_case() -> None:
 
 def test_nothing_is_suggested_for_a_name_unlike_any_other() -> None:
     assert "did you mean" not in unknown_name("input", "xyzzy", ["phase", "load"])
+
+
+def test_of_many_names_those_alike_are_listed() -> None:
+    scenes = [f"scene_{number}" for number in range(200)] + ["steady_contact"]
+    text = unknown_name("scene", "steady_velocity", scenes)
+    assert text.startswith("unknown scene 'steady_velocity'; did you mean 'steady_contact'?")
+    assert "(must be one of 201, such as steady_contact, scene_" in text
+    assert len(text) < 250

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,8 @@ from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.wait import WebDriverWait
 
 from slider_resonator.checks.reports.html_report import write_html
-from slider_resonator.checks.validate import validate
+from slider_resonator.checks.reports.scene_sections import MAX_UNFOLDED
+from slider_resonator.checks.validate import Validation, validate
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.hover_plot import (
@@ -36,6 +38,7 @@ from tests.harness.known_provenance import PROVENANCE
 from tests.harness.studies.trade.test_needs import TRADE
 from tests.harness.trials.campaign.test_page import CAMPAIGN
 from tests.harness.trials.extremes.test_page import MATRIX
+from tests.harness.verdicts import PASSED
 
 pytestmark = pytest.mark.interop
 
@@ -47,6 +50,7 @@ def opened(browser: Chrome, page: Path) -> int:
     """Open a page and scroll to each of its plots; return how many there are."""
     browser.get_log("browser")
     browser.get(page.as_uri())
+    browser.execute_script("document.querySelectorAll('details').forEach((one) => one.open = true)")
     plots = browser.find_elements("css selector", ".plot")
     for plot in plots:
         browser.execute_script("arguments[0].scrollIntoView()", plot)
@@ -132,6 +136,36 @@ def test_validation(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path) 
     text = hovered(browser)
     assert "time [s]: " in text
     assert "position [m]: " in text
+
+
+def test_a_link_unfolds_the_scene_that_it_leads_to(browser: Chrome, tmp_path: Path) -> None:
+    page = tmp_path / "report.html"
+    checks = [replace(PASSED, scene=f"scene_{number}") for number in range(MAX_UNFOLDED + 1)]
+    write_html(page, [Validation("good.fmu", tuple(checks), 1.0)])
+    browser.get(page.as_uri())
+    assert not browser.find_elements("css selector", "details[open]")
+    browser.find_element("link text", "scene_2").click()
+    (unfolded,) = browser.find_elements("css selector", "details[open]")
+    assert unfolded.get_attribute("id") == "scene-0-2"
+
+
+def test_dark_pages_are_readable_and_print_light(browser: Chrome, tmp_path: Path) -> None:
+    def colours(media: str) -> tuple[str, str]:
+        features = [{"name": "prefers-color-scheme", "value": "dark"}]
+        emulated = {"media": media, "features": features}
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", emulated)
+        style = "getComputedStyle(document.body)"
+        ink, paper = browser.execute_script(f"return [{style}.color, {style}.backgroundColor]")
+        return ink, paper
+
+    page = tmp_path / "index.html"
+    write_page(page, "Text", ["<p>text</p>"])
+    browser.get(page.as_uri())
+    try:
+        assert colours("screen") == ("rgb(221, 221, 221)", "rgb(18, 18, 18)")
+        assert colours("print") == ("rgb(34, 34, 34)", "rgb(255, 255, 255)")
+    finally:
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
 
 
 def test_trade(browser: Chrome, tmp_path: Path) -> None:

@@ -139,12 +139,48 @@ def test_a_field_takes_what_its_slider_does_not_reach(browser: Chrome, page: str
     assert message(browser) == "friction_coefficient = much refused: must be a finite number"
 
 
+def test_every_point_of_the_load_speed_curve_is_in_its_legend(browser: Chrome, page: str) -> None:
+    show(browser, page, "load=0.03")
+    (curve,) = [
+        plot
+        for plot in browser.find_elements(By.CSS_SELECTOR, "#plots > div")
+        if "Steady velocity on load" in plot.text
+    ]
+    labels = [label.text for label in curve.find_elements(By.CSS_SELECTOR, ".u-legend .u-label")]
+    assert labels == [
+        *("load [mN]", "predicted", "blocking force"),
+        *("predicted at this load", "mean velocity of the run"),
+    ]
+
+
+def test_in_the_dark_the_page_is_dark(browser: Chrome, page: str) -> None:
+    features = [{"name": "prefers-color-scheme", "value": "dark"}]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})
+    show(browser, page)
+    paper = browser.execute_script("return getComputedStyle(document.body).backgroundColor")
+    turned = browser.execute_script(
+        "return getComputedStyle(document.querySelector('#plots')).filter"
+    )
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
+    assert paper == "rgb(18, 18, 18)"
+    assert turned.startswith("invert")
+
+
 def test_narrow_screens_scroll_only_downwards(browser: Chrome, page: str) -> None:
     phone = {"width": 360, "height": 740, "deviceScaleFactor": 2, "mobile": True}
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", phone)
     show(browser, page)
+    browser.execute_script("document.querySelector('details').open = true")
     widths = browser.execute_script(
         "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
     )
+    labels = browser.execute_script(
+        "return [...document.querySelectorAll('.control label')]"
+        ".map((label) => [label.scrollWidth, label.clientWidth, label.clientHeight])"
+    )
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     assert widths[0] <= widths[1]
+    assert len(labels) > 20
+    for needed, width, height in labels:
+        assert needed <= width, "no name runs into its field"
+        assert height < 30, "no name is split"

@@ -32,8 +32,13 @@ def fuzz(fuzzer: Path, binary: Binary, *arguments: int) -> dict[str, int]:
     return {name: number for name, (number, _) in calls.items()}
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(
+    "seed",
+    [  # The first one happens upon steps of much work.
+        pytest.param(0, marks=pytest.mark.nightly),
+        *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2, 3)),
+    ],
+)
 def test_no_call_crashes_hangs_or_is_refused_in_silence(
     fuzzer: Path, product: Binary, seed: int
 ) -> None:

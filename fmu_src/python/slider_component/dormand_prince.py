@@ -10,13 +10,15 @@ from typing import NamedTuple
 class Reached(NamedTuple):
     """Where an integration is.
 
-    Time [s], velocity [m/s], displacement [m], and the step size to try next [s].
+    Time [s], velocity [m/s], displacement [m], the step size to try next [s], and the number of
+    steps `tried`.
     """
 
     t: float
     velocity: float
     moved: float
     step: float
+    tried: int = 0
 
 
 class _Stage(NamedTuple):
@@ -46,12 +48,13 @@ def integrate(
     [s] bounds the step size: over the period of a periodic acceleration all stages would see the
     same value.
     """
-    t, velocity, displacement, step = now
+    t, velocity, displacement, step, tried = now
     first = acceleration(t, velocity)
     for _ in range(max_steps):
         if not t < end or not isfinite(velocity):
             break
         left = end - t
+        tried += 1
         h = min(step, longest, left)
         stage = _try_step(acceleration, t, velocity, h, first)
         if not stage.error > tolerance:
@@ -60,7 +63,7 @@ def integrate(
             t = t + h if h < left else end
         growth = 0.9 * (tolerance / stage.error) ** 0.2 if stage.error > 0.0 else 5.0
         step = h * min(5.0, max(0.2, growth))
-    return Reached(t, velocity, displacement, step)
+    return Reached(t, velocity, displacement, step, tried)
 
 
 def _try_step(

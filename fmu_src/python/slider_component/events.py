@@ -4,26 +4,29 @@ from __future__ import annotations
 
 from math import inf, tau
 
+from .budget import Budget
 from .clock import Clock
 from .constants import MAX_STEP_LEGS, PYTHON_SLOWDOWN
 from .contact import LIFTED, time_to_switch
 from .friction_law import FrictionLaw
 from .held import LONGEST_ARC, Held
 from .moment import Moment
-from .refusal import too_much_work
 
 MAX_LEGS = 20_000
 """Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
 presliding on the hardest bristles takes."""
 
 
-def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) -> Moment:
+def advance(
+    friction: FrictionLaw, held: Held, moment: Moment, duration: float, budget: Budget
+) -> Moment:
     """The moment `duration` > 0 [s] later, inputs held.
 
-    Raises Refusal for a motion of too many legs, in the step or in a turn.
+    Raises Refusal for a motion of more legs than the budget has, or of too many in a turn.
     """
     plant, arc, window = held.plant, held.arc, held.window
     max_legs = MAX_STEP_LEGS // PYTHON_SLOWDOWN
+    most_legs = budget.left(max_legs)
     turn = tau / LONGEST_ARC * arc
     clock, remaining = Clock(duration), duration
     legs, all_legs, turn_began = 0, 0, 0.0
@@ -36,10 +39,10 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
         legs += 1
         if legs > MAX_LEGS:
             what = "legs in a turn of the fastest oscillation"
-            raise too_much_work(duration, clock.elapsed, MAX_LEGS, what)
+            raise budget.refusal(clock.elapsed, MAX_LEGS, what)
         all_legs += 1
-        if all_legs > max_legs:
-            raise too_much_work(duration, clock.elapsed, max_legs, "legs of motion")
+        if all_legs > most_legs:
+            raise budget.refusal(clock.elapsed, max_legs, "legs of motion")
         switching, longest = inf, remaining if remaining < arc else arc
         if window is not None:
             chi, lifted = now.psi + plant.phase, now.mode == LIFTED
@@ -50,4 +53,5 @@ def advance(friction: FrictionLaw, held: Held, moment: Moment, duration: float) 
         friction.succeed(held, leg, now, leg.zero_of is None and leg.t == switching)
         departs = now.state.velocity == 0.0 and now.mode != -leg.mode
         remaining = clock.advance(leg.t) if leg.t != remaining else 0.0
+    budget.spend(all_legs, max_legs)
     return now

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from .bristle import Bristle, bristle_of
 from .contact import LIFTED, direction_of, flight_window, is_lifted
@@ -13,6 +13,9 @@ from .split_slide import Split, split
 LONGEST_ARC = 60.0
 """The longest leg, as an angle [rad] of the fastest oscillation: avoids the rounding errors of
 large arguments of sine and cosine."""
+MAX_KEPT = 4
+"""Largest number of devices under other phases and loads that are kept: the search for an orbit
+asks for the same few again and again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +33,7 @@ class Held:
     window: tuple[float, float] | None
     arc: float
     bristle: Bristle
+    kept: list[Held] = field(default_factory=list, compare=False, repr=False)
 
     def lifted_at(self, psi: float) -> bool:
         """Whether the contact is lifted at normal phase `psi` [rad]."""
@@ -41,10 +45,16 @@ class Held:
 
     def under(self, phase: float, load: float) -> Held:
         """The same under another phase [rad] and load [N]; nothing prepared depends on these."""
+        for held in self.kept:
+            if held.plant.phase == phase and held.plant.load == load:
+                return held
         plant = replace(self.plant, phase=phase, load=load)
         split = self.split and replace(self.split, plant=plant)
         inputs = replace(self.inputs, phase=phase, load=load)
-        return replace(self, inputs=inputs, plant=plant, split=split)
+        held = replace(self, inputs=inputs, plant=plant, split=split, kept=[])
+        self.kept.append(held)
+        del self.kept[:-MAX_KEPT]
+        return held
 
 
 def hold(device: Device, inputs: Inputs) -> Held:

@@ -37,7 +37,6 @@ SECTION_REACH = 0.5
 class OrbitStatus(IntEnum):
     """Why there is no orbit; texts are those of `NoOrbitError`."""
 
-    FOUND = 0
     UNDAMPED = 1
     STILL = 2
     NOT_CONVERGED = 3

@@ -7,6 +7,7 @@ from math import inf
 from typing import Protocol
 
 from . import events
+from .budget import Budget
 from .device import Device, Inputs
 from .fast_vibration import steady_swing
 from .friction_law import FrictionLaw
@@ -32,7 +33,7 @@ class Law(Protocol):
         ...
 
     def advance(self, moment: Moment, duration: float) -> Moment:
-        """The moment `duration` > 0 [s] later."""
+        """The moment after a communication step of `duration` > 0 [s]."""
         ...
 
     def mode(self, moment: Moment) -> int:
@@ -80,7 +81,7 @@ class ResolvedLaw:
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """See Law."""
-        return events.advance(self.friction, self.held, moment, duration)
+        return events.advance(self.friction, self.held, moment, duration, Budget(duration))
 
     def mode(self, moment: Moment) -> int:
         """See Law."""

@@ -23,6 +23,7 @@ from .resolved_start import swing_by_inertia, velocity_of_swing
 from .shift_tables import gain_between, shifts_at
 from .slow_motion_error import (
     decay_in_turn,
+    drift_error,
     first_order_error,
     friction_share,
     resolution_error,
@@ -194,8 +195,7 @@ class ErrorRide:
         doubt = orbit.doubt + place.unsure * abs(place.acceleration)
         if not place.measured:
             added_mass = self.ride.point(0.0, place.velocity).of.factor - 1.0
-            by_rule = second_order_error(self.device, self.fast, added_mass, inf)
-            doubt = max(doubt, by_rule)
+            doubt = max(doubt, self._by_rule(added_mass, inf))
         return self._bounded(orbit, orbit.ahead, doubt, orbit.unrest, orbit.acceleration)
 
     def _carried(
@@ -319,5 +319,10 @@ class ErrorRide:
         """The error [m/s] where nothing is measured."""
         if not point.found:
             return first_order_error(self.device, self.fast)
-        force = point.of.friction + self.ride.load
-        return second_order_error(self.device, self.fast, point.of.factor - 1.0, force)
+        return self._by_rule(point.of.factor - 1.0, point.of.friction + self.ride.load)
+
+    def _by_rule(self, added_mass: float, force: float) -> float:
+        """The same where friction adds a mass, and friction and load leave a force [N]."""
+        squares = second_order_error(self.device, self.fast, added_mass, force)
+        drift = self.ride.turns * abs(self.ride.slow.drift)
+        return squares + drift_error(self.device, self.fast, drift)

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from math import floor, inf, remainder, tau
 
 from . import events
+from .budget import Budget
 from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import STICK
 from .device import Device, Inputs
@@ -40,6 +41,7 @@ from .slow_motion_error import (
     first_order_error,
     friction_share,
     resolution_error,
+    slow_decay_in_turn,
 )
 from .slow_pass import SlowPass, first_step
 from .slow_phase import rounded_lead
@@ -68,7 +70,7 @@ def has_slow_motion(device: Device, inputs: Inputs, fast: FastVibration) -> bool
     """
     if not fast.velocity > 0.0 or not orbit_phase_of(device, inputs.frequency_ratio).turns:
         return False
-    slow = 4.0 * friction_share(device, fast)
+    slow = slow_decay_in_turn(device, fast)
     separate = 0.0 < slow < SEPARATION * decay_in_turn(device) and slow < 1.0
     return separate and resolved_is_bounded(device, fast)
 
@@ -103,19 +105,19 @@ class OrbitLaw:
     def advance(self, moment: Moment, duration: float) -> Moment:
         """See Law."""
         now = self._adapted(moment.copied())
-        left = duration
+        budget, left = Budget(duration), duration
         if now.orbit.stage == Stage.RESOLVED:
-            now, time = self._resolved(now, duration)
+            now, time = self._resolved(now, duration, budget)
             left = duration - time if time < duration else 0.0
         if not left * self.full.plant.drive_frequency > 0.0:
             return now
         if now.orbit.stage != Stage.RESOLVED:
             ride = self._ride(now, now.orbit.lead).within(left)
-            followed = self._followed(now, ride, left, duration)
+            followed = self._followed(now, ride, left, budget)
             if followed is not None:
                 return followed
             now.orbit = self._resolved_for(now, now.orbit, ride.unknown.angle)
-        return self._advanced(now, left)
+        return self._advanced(now, left, budget)
 
     def mode(self, moment: Moment) -> int:
         """See Law."""
@@ -266,22 +268,22 @@ class OrbitLaw:
         )
         return now, point.of.factor
 
-    def _resolved(self, now: Moment, duration: float) -> tuple[Moment, float]:
+    def _resolved(self, now: Moment, duration: float, budget: Budget) -> tuple[Moment, float]:
         """Resolve the motion for as long as it has to be; gives the time [s] that took."""
         w = self.full.plant.drive_frequency
         to_go = now.orbit.to_go
         ends = to_go <= w * duration + NOTHING
         time = min(to_go / w, duration) if ends else duration
         if time * w > NOTHING or not ends:
-            now = self._advanced(now, time)
+            now = self._advanced(now, time, budget)
         else:
             time = 0.0
         return (self._taken_over(now)[0] if ends else now), time
 
-    def _advanced(self, now: Moment, time: float) -> Moment:
+    def _advanced(self, now: Moment, time: float, budget: Budget) -> Moment:
         """The moment after a time [s] of resolved motion."""
         turned = self.full.plant.drive_frequency * time
-        now = events.advance(self.friction, self.full, now, time)
+        now = events.advance(self.friction, self.full, now, time, budget)
         to_go, waited = max(0.0, now.orbit.to_go - turned), now.orbit.waited + turned
         orbit = now.orbit._replace(to_go=to_go, waited=waited)
         now.orbit = calmed(self.full.device, turned, orbit)
@@ -298,9 +300,9 @@ class OrbitLaw:
         )
 
     def _followed(
-        self, now: Moment, ride: OrbitRide, duration: float, step_size: float
+        self, now: Moment, ride: OrbitRide, duration: float, budget: Budget
     ) -> Moment | None:
-        """Go along orbits for `duration` [s], the last part of a step of `step_size` [s].
+        """Go along orbits for `duration` [s], the last part of a step.
 
         None where one on the way is unknown.
         """
@@ -315,7 +317,6 @@ class OrbitLaw:
             fast.velocity,
             TOLERANCE * fast.velocity,
             step,
-            step_size,
             may_settle=drift == 0.0 and not ride.searches,
             most=MAX_SLOW_STEPS // PYTHON_SLOWDOWN,
             beat=ride.slow.beat,
@@ -339,12 +340,12 @@ class OrbitLaw:
         for mark in (last - tau / w, last):
             if 0.0 < mark < duration:
                 before = reached.step
-                reached = slow_pass.reach(mark, reached)
+                reached = slow_pass.reach(mark, reached, budget)
                 if ride.unknown.angle > 0.0:
                     return None
                 reached = reached._replace(step=max(reached.step, before))
                 marks.append((mark, moment_at(0.0)[0].position - start))
-        reached = slow_pass.reach(duration, reached)
+        reached = slow_pass.reach(duration, reached, budget)
         if ride.unknown.angle > 0.0:
             return None
         reached = reached._replace(t=duration)

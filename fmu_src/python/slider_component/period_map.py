@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from math import cos, inf, isfinite, pi, tau
 
 from . import events
+from .budget import Budget
 from .contact import LIFTED, STICK
 from .device import Device, Inputs
 from .fast_vibration import FastVibration, fast_vibration
@@ -77,7 +78,9 @@ class PeriodMap:
         None where the motion takes too many legs or numbers leave the range of floating point.
         """
         try:
-            after = events.advance(self.friction, self.held.under(lead, load), moment, duration)
+            after = events.advance(
+                self.friction, self.held.under(lead, load), moment, duration, Budget(duration)
+            )
         except (Refusal, ArithmeticError, ValueError):
             return None
         return after if isfinite(after.position + sum(after.state) + after.bristle) else None

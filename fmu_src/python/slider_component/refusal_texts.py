@@ -81,16 +81,16 @@ def too_many_turns(step_size: float, frequency: float, max_turns: int) -> str:
 def too_much_work(step_size: float, max_count: int, what: str, exponent: int) -> str:
     """Refuse a step that takes too much work, where one of 10^exponent s takes less."""
     return (
-        f"doStep: communicationStepSize = {step_size!r} refused: it takes more than {max_count} "
-        f"{what}; must be at most 1e{exponent} s"
+        f"doStep: communicationStepSize = {step_size!r} refused: it takes more work than "
+        f"{max_count} {what}; must be at most 1e{exponent} s"
     )
 
 
 def too_much_work_at_once(step_size: float, max_count: int, what: str) -> str:
     """Refuse a step that takes too much work however short it is."""
     return (
-        f"doStep: communicationStepSize = {step_size!r} refused: it takes more than {max_count} "
-        f"{what}, however short it is; the forces must be changed"
+        f"doStep: communicationStepSize = {step_size!r} refused: it takes more work than "
+        f"{max_count} {what}, however short it is; the forces must be changed"
     )
 
 

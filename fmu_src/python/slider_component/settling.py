@@ -34,7 +34,7 @@ def settled(acceleration: Acceleration, fast: float, end: float, now: Reached) -
         return None
     balance = _balance_between(acceleration, low, at_low, high, at_high)
     moved = now.moved + (balance * left + (now.velocity - balance) / rate)
-    return Reached(end, balance, moved, now.step)
+    return now._replace(t=end, velocity=balance, moved=moved)
 
 
 def _balance_between(

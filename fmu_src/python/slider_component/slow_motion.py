@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from math import ceil, copysign, cos, inf, sin, tau
 
 from .averaged_lugre import MAX_WAVES
+from .budget import Budget
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .dormand_prince import Reached
 from .fast_vibration import FastVibration, fast_vibration, steady_swing
@@ -23,18 +24,15 @@ from .moment import Counts, Moment
 from .motion import State
 from .orbit_state import Stage
 from .period import PeriodMeans
-from .refusal import too_much_work
 from .slow_friction import SlowFriction, slow_friction
 from .slow_motion_error import first_order_error
-from .slow_pass import SlowPass, first_step
+from .slow_pass import STEPS, SlowPass, first_step
 
 TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
 
 WAVES = 10.0
 """Number of waves of the normal load over a turn that doubles the cost of a quadrature."""
-
-WORK = "steps of averaged motion"
 
 MIN_STEPS = 16
 """Lower limit of the number of steps that is accepted."""
@@ -100,13 +98,12 @@ class SlowLaw:
             fast,
             TOLERANCE * fast,
             step,
-            duration,
             may_settle=friction.drift == 0.0,
             most=_max_steps(friction.is_expensive, self.held.inputs.frequency_ratio),
             beat=friction.beat,
             to_kink=friction.to_kink,
         )
-        reached = slow_pass.reach(duration, Reached(0.0, velocity, 0.0, step))
+        reached = slow_pass.reach(duration, Reached(0.0, velocity, 0.0, step), Budget(duration))
         return reached.velocity, reached.moved
 
     def _strongest_friction(self) -> float:
@@ -152,7 +149,7 @@ def slow_law(held: Held, friction: FrictionLaw) -> SlowLaw:
 
 
 def _max_steps(is_expensive: bool, ratio: float) -> int:
-    """Largest number of steps of averaged motion that is accepted in one communication step."""
+    """Steps of averaged motion that a whole budget buys."""
     if not is_expensive:
         return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
     waves = min(abs(ratio), MAX_WAVES)
@@ -170,7 +167,7 @@ def _unshaken(
     pieces = ceil(duration / longest)
     max_pieces = _max_steps(is_expensive=False, ratio=0.0)
     if pieces > max_pieces:
-        raise too_much_work(duration, max_pieces * longest, max_pieces, WORK)
+        raise Budget(duration).refusal(max_pieces * longest, max_pieces, STEPS)
     moved, piece = 0.0, duration / pieces
     for k in range(pieces):
         resisting = friction.at((k + 0.5) * piece, inf)

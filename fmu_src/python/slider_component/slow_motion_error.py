@@ -25,6 +25,16 @@ BY_DAMPING = 6.0
 BY_FLIGHT = 2.0
 """Factor of it under a contact that lifts."""
 
+DRIFTING = 0.6
+"""Error under a lead that drifts, in v_q and the share of friction that varies: by the drift over
+the drive frequency, as the motion within a turn then belongs to no orbit."""
+
+LAGGING = 0.3
+"""The same by the lag of the resonator and the friction share in a beat."""
+
+LAGGING_ON_AVERAGE = 0.015
+"""The same by that lag and the drift on an average of beats."""
+
 ADDED_MASS = 0.5
 """Error of second order in squares of the added mass and v_q."""
 
@@ -64,6 +74,11 @@ def damping_of_bend(device: Device, fast: FastVibration) -> float:
     all_time = bristle.damping * fast.velocity / bristle.coefficient
     bends = 2.0 / pi * bristle.damping / bristle.stiffness * device.drive_frequency
     return min(all_time, bends)
+
+
+def slow_decay_in_turn(device: Device, fast: FastVibration) -> float:
+    """Decay of the slow motion in a turn of the drive."""
+    return 4.0 * friction_share(device, fast)
 
 
 def decay_in_turn(device: Device) -> float:
@@ -122,6 +137,37 @@ def second_order_error(
         sensitivity *= BY_FLIGHT
     squares = sensitivity * share * share + ADDED_MASS * added_mass * added_mass
     return min(away * squares + LEAST_BY_RULE, 1.0) * fast.velocity
+
+
+def _resonator_lag(device: Device) -> float:
+    """The change of the slider's vibration by a change of friction, which the resonator delays.
+
+    Its delay in radians of the drive, and its amplitude over that of the pair as one mass. Both are
+    large near the free resonance of the pair.
+    """
+    w, wn = device.drive_frequency, device.resonator_frequency
+    ratio = device.resonator_mass / device.slider_mass
+    stiffness = (1.0 + ratio) * wn * wn
+    damping = 2.0 * device.damping_ratio * (1.0 + ratio) * wn * w
+    detuned = stiffness - w * w
+    return ratio * w * w * (stiffness + w * w) / (detuned * detuned + damping * damping)
+
+
+def drift_error(device: Device, fast: FastVibration, drift: float) -> float:
+    """What averages of second order err by besides [m/s], by rule of thumb.
+
+    The lead drifts by `drift` >= 0 [rad/s] over all turns of an orbit.
+    """
+    if drift == 0.0:
+        return 0.0
+    share, turned = friction_share(device, fast), drift / device.drive_frequency
+    lifts = device.normal_amplitude > device.normal_preload
+    varying = 1.0 if lifts else device.normal_amplitude / device.normal_preload
+    # The velocity follows a phase slower than itself, and leaves the lag behind.
+    faster = turned / (turned + slow_decay_in_turn(device, fast) / tau)
+    lag = _resonator_lag(device) * (BY_FLIGHT if lifts else 1.0)
+    lagging = LAGGING * faster * share + LAGGING_ON_AVERAGE * varying * turned
+    return min(varying * share * (DRIFTING * turned + lag * lagging), 1.0) * fast.velocity
 
 
 def resolution_error(fast: FastVibration) -> float:

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf, isfinite
 
+from .budget import Budget
 from .dormand_prince import Reached, integrate
-from .refusal import too_much_work
 from .settling import Acceleration, settled
 
 FIRST_STEP = 0.1
@@ -32,40 +32,45 @@ STEPS = "steps of averaged motion"
 class SlowPass:
     """How to pass.
 
-    The `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, the `duration`
-    [s] of the communication step, whether the motion may settle, and the most steps. The
-    acceleration repeats after a `beat` [s], and is smooth for `to_kink(t)` [s] from `t` [s] on.
+    The `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first,
+    whether the motion may settle, and the `most` steps that a whole budget buys. The acceleration
+    repeats after a `beat` [s], and is smooth for `to_kink(t)` [s] from `t` [s] on.
     """
 
     acceleration: Acceleration
     fast: float
     tolerance: float
     step: float
-    duration: float
     may_settle: bool
     most: int
     beat: float = inf
     to_kink: Callable[[float], float] | None = None
 
-    def reach(self, end: float, now: Reached) -> Reached:
+    def reach(self, end: float, now: Reached, budget: Budget) -> Reached:
         """What is reached at time `end` [s]; motion that settles takes few steps, however long.
 
-        Raises Refusal where that takes too many.
+        Raises Refusal where that takes more than the budget has.
         """
+        most, before = budget.left(self.most), now.tried
         # No step is longer than a share of a beat: too many of them are refused before the first.
-        furthest = (self.most + BLOCK) * (BEAT_SHARE * self.beat)
+        furthest = most * (BEAT_SHARE * self.beat)
         if not self.may_settle and end - now.t > furthest:
-            raise too_much_work(self.duration, now.t + furthest, self.most, STEPS)
-        for _ in range(0, self.most, BLOCK):
+            raise budget.refusal(now.t + furthest, self.most, STEPS)
+        while now.t < end and isfinite(now.velocity):
+            room = most - (now.tried - before)
+            if room <= 0:
+                raise budget.refusal(now.t, self.most, STEPS)
             if self.may_settle and end - now.t > SETTLING * self.step:
-                now = settled(self.acceleration, self.fast, end, now) or now
-            if not now.t < end or not isfinite(now.velocity):
-                return now
-            longest = BEAT_SHARE * self.beat
-            smooth = self._end_of_smoothness(now.t, end)
-            now = integrate(self.acceleration, now, smooth, self.tolerance, BLOCK, longest)
-        if now.t < end and isfinite(now.velocity):
-            raise too_much_work(self.duration, now.t, self.most, STEPS)
+                at_rest = settled(self.acceleration, self.fast, end, now)
+                if at_rest is not None:
+                    now = at_rest
+                    break
+            smooth, block = self._end_of_smoothness(now.t, end), min(room, BLOCK)
+            tried, longest = now.tried, BEAT_SHARE * self.beat
+            now = integrate(self.acceleration, now, smooth, self.tolerance, block, longest)
+            # A time too short for a step counts as one, so that the loop ends.
+            now = now._replace(tried=max(now.tried, tried + 1))
+        budget.spend(now.tried - before, self.most)
         return now
 
     def _end_of_smoothness(self, t: float, end: float) -> float:

@@ -95,24 +95,24 @@ def _without_events(references: ReferenceSide) -> Tube:
 
 EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "steady_velocity": {
-        "located_events": lambda references: references.steady_velocity,
-        "closed_form": lambda references: references.averaged_velocity,
-        "averaged": lambda references: references.predicted_velocity,
+        "located_events": lambda references: references.steady.steady_velocity,
+        "closed_form": lambda references: references.steady.averaged_velocity,
+        "averaged": lambda references: references.steady.predicted_velocity,
     },
     "blocking_force": {
-        "located_events": lambda references: references.blocking_force,
-        "closed_form": lambda references: references.averaged_blocking_force,
-        "averaged": lambda references: references.predicted_blocking_force,
+        "located_events": lambda references: references.steady.blocking_force,
+        "closed_form": lambda references: references.steady.averaged_blocking_force,
+        "averaged": lambda references: references.steady.predicted_blocking_force,
     },
     "predicted_velocity": {
-        "located_events": lambda references: references.full_device.steady_velocity,
-        "closed_form": lambda references: references.averaged_velocity,
-        "averaged": lambda references: references.predicted_velocity,
+        "located_events": lambda references: references.steady.full_device.steady_velocity,
+        "closed_form": lambda references: references.steady.averaged_velocity,
+        "averaged": lambda references: references.steady.predicted_velocity,
     },
     "predicted_blocking_force": {
-        "located_events": lambda references: references.full_device.blocking_force,
-        "closed_form": lambda references: references.averaged_blocking_force,
-        "averaged": lambda references: references.predicted_blocking_force,
+        "located_events": lambda references: references.steady.full_device.blocking_force,
+        "closed_form": lambda references: references.steady.averaged_blocking_force,
+        "averaged": lambda references: references.steady.predicted_blocking_force,
     },
     "predicted_velocity_in_run": {
         "averaged": lambda references: references.predictions("predicted_velocity"),
@@ -121,15 +121,15 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: references.predictions("predicted_blocking_force"),
     },
     "final_predicted_velocity": {
-        "located_events": lambda references: references.at_the_end.full_device.steady_velocity,
-        "averaged": lambda references: references.at_the_end.predicted_velocity,
+        "located_events": lambda references: references.steady_at_end.full_device.steady_velocity,
+        "averaged": lambda references: references.steady_at_end.predicted_velocity,
     },
     "final_predicted_blocking_force": {
-        "located_events": lambda references: references.at_the_end.full_device.blocking_force,
-        "averaged": lambda references: references.at_the_end.predicted_blocking_force,
+        "located_events": lambda references: references.steady_at_end.full_device.blocking_force,
+        "averaged": lambda references: references.steady_at_end.predicted_blocking_force,
     },
     "prediction_valid": {
-        "averaged": lambda references: references.at_the_end.prediction_valid,
+        "averaged": lambda references: references.steady_at_end.prediction_valid,
     },
     "position": {
         **_resolved("position"),
@@ -183,8 +183,8 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "reversals_in_run": {**_in_run(reversal_counts), "averaged": _without_events},
     "event_times": {**_in_run(last_events), "averaged": _without_events},
     "last_event_time": _at_the_end(ReferenceSide.last_event_time),
-    "ripple_amplitude": {"closed_form": lambda references: references.ripple_amplitude},
+    "ripple_amplitude": {"closed_form": lambda references: references.steady.ripple_amplitude},
     "ripple_frequency": {"closed_form": lambda references: 1.0 / references.drive_period},
-    "beat_frequency": {"closed_form": lambda references: references.difference_frequency},
+    "beat_frequency": {"closed_form": lambda references: references.steady.difference_frequency},
 }
 """Quantity to its references, by name, each with the function that gives its value."""

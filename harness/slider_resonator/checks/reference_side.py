@@ -1,4 +1,4 @@
-"""The references in a scene: trajectories, steady motion, closed forms, each computed once."""
+"""The references in a scene: trajectories, averaged motion, steady motion, each computed once."""
 
 from __future__ import annotations
 
@@ -19,14 +19,9 @@ from slider_resonator.checks.period_means import (
     mean_velocities,
     stick_fractions,
 )
-from slider_resonator.device.device import Device
+from slider_resonator.checks.steady_references import SteadyReferences
+from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import (
-    averaged_coulomb,
-    prediction_validity,
-    uniform_average,
-)
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import (
     AveragedOutputs,
@@ -39,10 +34,6 @@ from slider_resonator.references.averaged.motion_from_start import (
 from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.steady.reference_steady import (
-    reference_blocking_force,
-    reference_steady_velocity,
-)
 
 _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
     "located_events": located_events.simulate,
@@ -50,30 +41,16 @@ _SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
     "bristle_state": lugre_scipy.simulate_lugre,
 }
 
-FULL = 2
-"""Fidelity of the full device."""
-
 TUBE_POINTS = 3
 """Points on each side of a time at which a tube samples the reference."""
 
 
 class ReferenceSide:
-    """Trajectories, steady motion and closed forms for one scene, computed on first use.
+    """The references in one scene, computed on first use."""
 
-    Steady motion and closed forms are for constant `inputs` by name (rad, N, 1) and a `device`, by
-    default those at the start.
-    """
-
-    def __init__(
-        self,
-        scene: Scene,
-        inputs: Mapping[str, float] | None = None,
-        device: Device | None = None,
-    ) -> None:
+    def __init__(self, scene: Scene) -> None:
         self.scene = scene
-        self.device = device or scene.device
-        start = {name: signal.at(0.0) for name, signal in scene.signals.items()}
-        self.inputs = start if inputs is None else inputs
+        self.device = scene.device
         self._trajectories: dict[str, Trajectory] = {}
         self._around: dict[tuple[str, float], Trajectory] = {}
 
@@ -187,57 +164,17 @@ class ReferenceSide:
         return float(stick_fractions(run, end, self.turns)[0])
 
     @cached_property
-    def steady_velocity(self) -> float | None:
-        """Mean velocity (m/s) of the steady motion, by shooting with located events."""
-        try:
-            guess = self.predicted_velocity
-        except ValueError:
-            guess = 0.0
-        inputs = (self.inputs["phase"], self.inputs["load"], self.inputs["frequency_ratio"])
-        return reference_steady_velocity(self.device, *inputs, guess)
+    def steady(self) -> SteadyReferences:
+        """The references for the device and the inputs at the start."""
+        start = {name: signal.at(0.0) for name, signal in self.scene.signals.items()}
+        return SteadyReferences(self.device, **start)
 
     @cached_property
-    def blocking_force(self) -> float | None:
-        """Load (N) that makes the mean velocity zero, by shooting with located events."""
-        phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
-        return reference_blocking_force(self.device, phase, ratio)
+    def steady_at_end(self) -> SteadyReferences:
+        """The references for the device and the inputs at the end of the run."""
+        return self._steady_after(self.scene.schedule().held())
 
-    @property
-    def full_device(self) -> ReferenceSide:
-        """The references for the full device, whatever the fidelity of the scene."""
-        return ReferenceSide(self.scene, self.inputs, replace(self.device, fidelity=FULL))
-
-    @property
-    def predicted_velocity(self) -> float:
-        """Steady velocity (m/s) of averaged motion: any ratio, both laws, with lift-off."""
-        phase, load = self.inputs["phase"], self.inputs["load"]
-        ratio = self.inputs["frequency_ratio"]
-        if self.device.friction_law == 1:
-            return uniform_average.device_steady_velocity(self.device, phase, load, ratio)
-        return averaged_coulomb.device_steady_velocity_at_ratio(self.device, phase, ratio, load)
-
-    @property
-    def predicted_blocking_force(self) -> float:
-        """Blocking force (N) of averaged motion, as for `predicted_velocity`."""
-        phase, ratio = self.inputs["phase"], self.inputs["frequency_ratio"]
-        if self.device.friction_law == 1:
-            return uniform_average.device_blocking_force(self.device, phase, ratio)
-        return averaged_coulomb.device_blocking_force_at_ratio(self.device, phase, ratio)
-
-    @property
-    def prediction_valid(self) -> float:
-        """1 where averaged theory applies, 0 where not."""
-        phase, load = self.inputs["phase"], self.inputs["load"]
-        ratio = self.inputs["frequency_ratio"]
-        valid = prediction_validity.prediction_valid(self.device, phase, load, ratio)
-        return 1.0 if valid else 0.0
-
-    @property
-    def at_the_end(self) -> ReferenceSide:
-        """The device and the inputs at the end of the run, as constant ones."""
-        return self._under(self.scene.schedule().held())
-
-    def _under(self, held: Sequence[HeldInputs]) -> ReferenceSide:
+    def _steady_after(self, held: Sequence[HeldInputs]) -> SteadyReferences:
         """Return the references for inputs as they are at the end of the last of these.
 
         The phase (rad) includes the lead of the normal force from earlier frequency ratios.
@@ -250,44 +187,18 @@ class ReferenceSide:
             * (h.stop - h.start)
             for h in held
         )
-        inputs = {"phase": now.phase + lead, "load": now.load, "frequency_ratio": ratio}
-        return ReferenceSide(self.scene, inputs, now.tuned_device(self.scene.device))
+        device = now.tuned_device(self.device)
+        return SteadyReferences(device, now.phase + lead, now.load, ratio)
 
     def predictions(self, name: str) -> Array:
         """Return a prediction over the run, by its name, shape (n,); m/s or N."""
         held = self.scene.schedule().held()
         if any(inputs.vary for inputs in held):
             raise ValueError("inputs change between communication points; must be held")
-        values = np.array([getattr(self._under(held[: i + 1]), name) for i in range(len(held))])
+        steady = (self._steady_after(held[: i + 1]) for i in range(len(held)))
+        values = np.array([getattr(references, name) for references in steady])
         starts = np.array([inputs.start for inputs in held[1:]])
         return np.asarray(values[np.searchsorted(starts, self.times, side="left")])
-
-    @property
-    def averaged_velocity(self) -> float:
-        """Steady velocity (m/s) of averaged theory, (5) and (20); for equal frequencies only."""
-        self._require_equal_frequencies()
-        phase, load = self.inputs["phase"], self.inputs["load"]
-        return closed_forms.device_steady_velocity(self.device, phase, load)
-
-    @property
-    def averaged_blocking_force(self) -> float:
-        """Blocking force (N) of averaged theory, (22) for all faces; for equal frequencies only."""
-        self._require_equal_frequencies()
-        return closed_forms.device_blocking_force(self.device, self.inputs["phase"])
-
-    @property
-    def ripple_amplitude(self) -> float:
-        """Amplitude (m) of the fast displacement, (33)-(34)."""
-        return closed_forms.equivalent_force(self.device).ripple_amplitude
-
-    @property
-    def difference_frequency(self) -> float:
-        """Distance (Hz) of the normal force's frequency from a multiple of the drive's: the beat.
-
-        For a ratio near 1 it is that of appendix A.
-        """
-        ratio = self.inputs["frequency_ratio"]
-        return abs(ratio - round(ratio)) / self.drive_period
 
     @cached_property
     def turns(self) -> DriveTurns:
@@ -299,11 +210,6 @@ class ReferenceSide:
         turned = [r * (h.stop - h.start) / (2.0 * pi) for r, h in zip(rates, held, strict=True)]
         times = (held[0].start, *(inputs.stop for inputs in held))
         return DriveTurns(self.drive_period, times, (0.0, *np.cumsum(turned).tolist()))
-
-    def _require_equal_frequencies(self) -> None:
-        ratio = self.inputs["frequency_ratio"]
-        if ratio != 1.0:
-            raise ValueError(f"frequency_ratio = {ratio!r}: the closed form allows only 1")
 
 
 def _drive_frequency(inputs: HeldInputs, device: Device) -> float:

@@ -110,7 +110,8 @@ def validate(
     """Compare each FMU with the references in every scene and at every point of its sweep.
 
     Expected values are computed once for all FMUs, while they run: by `jobs` processes, or with 1
-    by this one. The verdicts and their order are those with 1. `progress` gets the scene at work
+    by this one; an FMU that shows no fault runs in up to `jobs` processes. The verdicts and their
+    order are those with 1. `progress` gets the scene at work
     and the share of all the work that is done. An FMU that does not answer within `time_limit` (s)
     for a point is stopped. Raises SceneError for a faulty scene file; what is wrong with an FMU is
     among the run failures of its validation.
@@ -120,7 +121,7 @@ def validate(
     with ExpectedValues(points, jobs) as expected:
         judgings = [_Judging(path, expected, work) for path in fmu_paths]
         for judging in judgings:
-            judging.measure(points, time_limit)
+            judging.measure(points, time_limit, jobs)
         validations = tuple(judging.finish() for judging in judgings)
     progress("", 1.0)
     return validations
@@ -164,7 +165,7 @@ class _Judging:
         self._not_applied: list[NotApplied] = []
         self._overviews: dict[str, Overview | None] = {}
 
-    def measure(self, points: Sequence[ScenePoint], time_limit: float) -> None:
+    def measure(self, points: Sequence[ScenePoint], time_limit: float, jobs: int) -> None:
         """Run the points, and judge those at the head whose expected values are there by then."""
         self._began = perf_counter()
         self._identity = identity_of(self._path)
@@ -173,7 +174,7 @@ class _Judging:
             self._work.begin(point, self._work.measured)
             self._expected.prepare(point)
 
-        runs = measure_points(self._path, points, measure_all, time_limit, meanwhile)
+        runs = measure_points(self._path, points, measure_all, time_limit, meanwhile, jobs)
         with closing(runs) as finished:
             for one in finished:
                 self._work.measured += 1

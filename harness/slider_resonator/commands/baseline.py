@@ -32,7 +32,7 @@ dir_option = click.option(
 limited = time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep.")
 
 
-@click.group("baseline", short_help="Compare an FMU with its own earlier results.")
+@click.group("baseline")
 def baseline_command() -> None:
     """Keep an FMU's results under version control and compare with them.
 

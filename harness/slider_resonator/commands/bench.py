@@ -20,11 +20,12 @@ from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt
 from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
 
-@click.command("bench", short_help="Measure what a step costs in a C host.")
+@click.command("bench")
 @other_fmu_argument("the native one in dist")
 @click.option(
     "--repeats",
@@ -62,7 +63,9 @@ def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bo
         return
     print_table(_table(costs))
     print_text(f"A period costs {ratio:.2f} times as much in steps of one as in long steps.")
-    print_text(f"Medians of {repeats} repeats in turn; the ratio is that of the fastest.")
+    print_text(
+        f"Medians of {number_of(repeats, 'repeat')} in turn; the ratio is that of the fastest."
+    )
 
 
 def _table(costs: Sequence[StepCost]) -> Table:

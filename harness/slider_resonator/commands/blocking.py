@@ -17,7 +17,6 @@ from slider_resonator.steady.blocking_force import find_blocking
 
 @click.command(
     "blocking",
-    short_help="Find the load that stops an FMU, without a long run.",
     cls=SettingsCommand,
 )
 @search_arguments
@@ -38,7 +37,7 @@ def blocking_command(
 
     \b
     Examples:
-      slider-resonator blocking my.fmu
+      slider-resonator blocking
       slider-resonator blocking my.fmu --set phase=0.4 friction_faces=1 --json
       slider-resonator blocking my.fmu --set friction_law=1 bristle_stiffness=1e4
     """

@@ -15,7 +15,6 @@ SCRIPT = Path(__file__).resolve().parents[3] / "build_fmu.py"
 
 @click.command(
     "build",
-    short_help="Build the FMUs from the sources of a checkout.",
     context_settings={"ignore_unknown_options": True},
 )
 @click.argument("arguments", nargs=-1, type=click.UNPROCESSED)

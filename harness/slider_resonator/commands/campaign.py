@@ -22,6 +22,7 @@ from slider_resonator.output.atomic import write_text
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.progress import part_of, progress_bar
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.campaign.campaign_run import TIME_LIMIT, Campaign, run_campaign
@@ -29,7 +30,7 @@ from slider_resonator.trials.campaign.listing import as_plain, sentences
 from slider_resonator.trials.campaign.random_case import random_case
 
 
-@click.command("campaign", short_help="Run random devices and schedules on FMUs.")
+@click.command("campaign")
 @fmus_argument
 @click.option(
     "--cases",
@@ -133,5 +134,6 @@ def _kept(finished: Sequence[Campaign], files: Sequence[Path]) -> str:
     ran = sum(len(campaign.verdicts) for campaign in finished)
     places = " and ".join(map(str, files))
     return (
-        f"the verdicts of {ran} cases are kept in {places}; the same command runs all cases again"
+        f"the verdicts of {number_of(ran, 'case')} are kept in {places}; the same command runs "
+        "all cases again"
     )

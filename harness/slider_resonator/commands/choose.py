@@ -39,7 +39,6 @@ UNITS = {
 
 @click.command(
     "choose",
-    short_help="Choose the cheapest model that meets a scene's needs.",
     cls=SettingsCommand,
 )
 @click.argument("scene")

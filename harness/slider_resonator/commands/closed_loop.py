@@ -48,7 +48,7 @@ AGREEMENT_COLUMNS = (
 )
 
 
-@click.command("closed-loop", short_help="Hold the slider's velocity with a controller.")
+@click.command("closed-loop")
 @click.argument("package", type=click.Path(path_type=Path), required=False)
 @out_folder_option("closed_loop.png and closed_loop.csv")
 @click.option(

@@ -22,6 +22,7 @@ from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import part_of, progress_bar
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.extremes.cell import MatrixCell
@@ -31,7 +32,7 @@ from slider_resonator.trials.extremes.run import TIME_LIMIT, Matrix, run_matrix
 from slider_resonator.trials.extremes.verdict import PASSED
 
 
-@click.command("extremes", short_help="Run FMUs at the extremes of every parameter and input.")
+@click.command("extremes")
 @fmus_argument
 @out_folder_option("extremes.json, extremes.md, index.html and a picture for each FMU")
 @time_limit_option(TIME_LIMIT, "For each cell; one that hangs fails.", "--limit")
@@ -107,7 +108,10 @@ def _kept(matrices: Sequence[Matrix], out: Path) -> str:
     if not matrices:
         return "no cell has run; nothing is kept"
     ran = sum(len(matrix.verdicts) for matrix in matrices)
-    return f"the verdicts of {ran} cells are kept in {out}; the same command runs all cells again"
+    return (
+        f"the verdicts of {number_of(ran, 'cell')} are kept in {out}; the same command runs "
+        "all cells again"
+    )
 
 
 def _sentences(matrix: Matrix) -> str:

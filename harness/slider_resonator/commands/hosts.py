@@ -1,4 +1,4 @@
-"""`hosts`: run table 1 in other simulators and write the table of the README."""
+"""`hosts`: run table 1 in other simulators and write the table of docs/hosts.md."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ NATIVE_3 = Path("dist/SliderResonator3.fmu")
 NAMES = [host.name for host in hosts()]
 
 
-@click.command("hosts", short_help="Run table 1 in other simulators; compare with fmpy.")
+@click.command("hosts")
 @other_fmu_argument(str(NATIVE))
 @click.option(
     "--python-fmu",
@@ -92,7 +92,7 @@ def hosts_command(
     Examples:
       slider-resonator hosts
       slider-resonator hosts my.fmu --host "C driver" --json
-      slider-resonator hosts --out README.md
+      slider-resonator hosts --out docs/hosts.md
     """
     native = fmu or NATIVE
     everyone = hosts(own_environment)

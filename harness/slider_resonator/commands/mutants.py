@@ -54,7 +54,7 @@ MIN_NATIVE_RATE = 0.97
 """Share of the hand-written faults that a scene can see that must be rejected for a pass."""
 
 
-@click.command("mutants", short_help="Make faulty FMUs and count those that validate rejects.")
+@click.command("mutants")
 @other_fmu_argument("the one in dist for the kind of mutant")
 @click.option(
     "--native",
@@ -162,6 +162,7 @@ def mutants_command(
                 only_list=only_list,
                 jobs=jobs or available_cores(),
                 time_limit=time_limit,
+                journal=journal,
                 as_json=as_json,
             )
         )
@@ -180,7 +181,7 @@ def mutants_command(
         else:
             print_mutants(output(), chosen)
         return
-    with noting_on_interrupt(nothing_kept), progress_bar() as progress:
+    with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
         run = run_mutants(
             path,
             original,
@@ -203,6 +204,13 @@ def mutants_command(
     context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)
 
 
+def _kept(journal: Path | None) -> str:
+    """Return what an interruption leaves, and how to go on."""
+    if journal is None:
+        return f"{nothing_kept()}; --journal FILE keeps the verdicts"
+    return f"the verdicts so far are kept in {journal}; the same command goes on from there"
+
+
 def _chosen_changes(files: tuple[str, ...], count: int | None, seed: int) -> list[Change]:
     """Return the changes of some files, or a sample of them; HarnessError for an unknown file."""
     made = [*hand_written_faults(), *harmless_variants()]
@@ -222,6 +230,7 @@ def _native(
     only_list: bool,
     jobs: int,
     time_limit: float,
+    journal: Path | None,
     as_json: bool,
 ) -> int:
     """List or run changes of the native FMU and return the exit code."""
@@ -232,13 +241,14 @@ def _native(
             print_changes(output(), changes)
         return 0
     provenance = provenance_of(path)
-    with noting_on_interrupt(nothing_kept), progress_bar() as progress:
+    with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
         run = run_changes(
             path,
             changes,
             files_of_scenes(scenes),
             jobs=jobs,
             time_limit=time_limit,
+            journal=journal,
             progress=progress,
         )
     if as_json:

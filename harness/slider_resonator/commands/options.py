@@ -131,6 +131,11 @@ def fmu_argument(command: Callable[..., Any]) -> Callable[..., Any]:
     return _fmu_argument(command, _must_be_given, "")
 
 
+def native_fmu_argument(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add an FMU as `fmu_argument` does; the default is that of `default_fmu`."""
+    return _fmu_argument(command, default_fmu, "the native one in dist")
+
+
 def other_fmu_argument(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return what adds an FMU as `fmu_argument`, or None; `default` is the text about that."""
     return partial(_fmu_argument, chosen=lambda given: given, default=default)

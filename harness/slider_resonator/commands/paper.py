@@ -21,7 +21,7 @@ from slider_resonator.studies.paper.listing import verdicts
 from slider_resonator.studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce
 
 
-@click.command("paper", short_help="Reproduce the figures and statements of the paper.")
+@click.command("paper")
 @out_folder_option("figures, tables and claims")
 @click.option(
     "--only",

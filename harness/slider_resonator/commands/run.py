@@ -21,8 +21,8 @@ from slider_resonator.commands.options import (
     SettingsCommand,
     Target,
     check_left_to_choose,
-    fmu_argument,
     json_option,
+    native_fmu_argument,
     set_option,
     time_limit_option,
 )
@@ -34,7 +34,7 @@ from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
 from slider_resonator.fmu.run import run
 from slider_resonator.output.progress import Progress, progress_bar
-from slider_resonator.output.readable import readable
+from slider_resonator.output.readable import number_of, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import Scene, read_scene
@@ -79,8 +79,8 @@ class RunSummary:
     inputs: str | None
 
 
-@click.command("run", short_help="Run one scene and report results and cost.", cls=SettingsCommand)
-@fmu_argument
+@click.command("run", cls=SettingsCommand)
+@native_fmu_argument
 @click.argument("scene", required=False)
 @click.option("--out", type=Target(), help="CSV file of the run.")
 @click.option(
@@ -146,6 +146,7 @@ def run_command(
 
     \b
     Examples:
+      slider-resonator run table_1
       slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
       slider-resonator run my.fmu feed_forward --auto
       slider-resonator run my.fmu changing_inputs --interpolate
@@ -263,7 +264,7 @@ def _sentences(summary: RunSummary, scene: Scene) -> str:
         f"scene    {summary.scene}: {one_line(scene.title)}",
         f"FMU      {one_line(summary.fmu)}",
         f"run      {summary.simulated_time:.6g} s, {summary.drive_periods:.6g} drive periods in "
-        f"{summary.communication_steps} communication steps",
+        f"{number_of(summary.communication_steps, 'communication step')}",
         f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
         f"period {readable(summary.mean_velocity, 9)} m/s",
         *([f"inputs   {HOW_INPUTS[summary.inputs]}"] if summary.inputs else []),
@@ -281,6 +282,7 @@ def _contact(summary: RunSummary, scene: Scene) -> list[str]:
     if scene.device.fidelity == 0:
         return []
     return [
-        f"contact  {summary.reversals} reversals, sticking {summary.stick_fraction:.1%} of the "
-        f"last drive period, last event at {summary.last_event_time:.9g} s"
+        f"contact  {number_of(summary.reversals, 'reversal')}, sticking "
+        f"{summary.stick_fraction:.1%} of the last drive period, "
+        f"last event at {summary.last_event_time:.9g} s"
     ]

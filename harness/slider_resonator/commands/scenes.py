@@ -11,6 +11,7 @@ import click
 from slider_resonator.commands.options import Target, json_option
 from slider_resonator.commands.results import print_json, print_table
 from slider_resonator.output.atomic import write_text
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.json_schema import scene_schema
@@ -20,7 +21,7 @@ from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, sce
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
-@click.command("scenes", short_help="List the built-in scenes; help to write your own.")
+@click.command("scenes")
 @click.option("--quantities", is_flag=True, help="List the quantities that a scene can check.")
 @click.option("--show", metavar="NAME|FILE", help="Print the text of a scene.")
 @click.option("--template", is_flag=True, help="Print a commented scene to start from.")
@@ -88,7 +89,7 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
 def _check(scene: str) -> None:
     for path in scene_files(scene):
         checks = sum(len(point.scene.expect) for point in read_scene(path).points())
-        click.echo(escaped(f"{path}: valid, {checks} checks"))
+        click.echo(escaped(f"{path}: valid, {number_of(checks, 'check')}"))
 
 
 def _list_quantities(as_json: bool) -> None:

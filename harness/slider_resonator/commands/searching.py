@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from slider_resonator.commands.options import (
-    fmu_argument,
     json_option,
     max_denominator_option,
+    native_fmu_argument,
     set_option,
     time_limit_option,
 )
@@ -23,7 +23,8 @@ from slider_resonator.steady.search_result import SearchResult
 def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the FMU and the options of a search to a command."""
     time_limit = time_limit_option(TIME_LIMIT, "For the whole search.")
-    for parameter in (json_option, time_limit, max_denominator_option, set_option, fmu_argument):
+    options = (json_option, time_limit, max_denominator_option, set_option)
+    for parameter in (*options, native_fmu_argument):
         command = parameter(command)
     return command
 
@@ -37,7 +38,8 @@ def print_search_result(
     provenance: Provenance,
 ) -> int:
     """Print the result of a search and return the exit code, 1 when there is no value."""
-    text = _sentences(result, what, value, unit)
+    (fmu,) = provenance.fmus
+    text = f"{_sentences(result, what, value, unit)}\nFMU              {one_line(fmu.fmu)}"
     print_result(result, text, as_json=as_json, provenance=provenance)
     return 1 if value is None else 0
 

@@ -17,7 +17,6 @@ from slider_resonator.steady.steady_velocity import find_steady
 
 @click.command(
     "steady",
-    short_help="Find the steady velocity of an FMU, without a long run.",
     cls=SettingsCommand,
 )
 @search_arguments
@@ -40,7 +39,7 @@ def steady_command(
 
     \b
     Examples:
-      slider-resonator steady my.fmu
+      slider-resonator steady
       slider-resonator steady my.fmu --set phase=0.4 load=0.05 --json
       slider-resonator steady my.fmu --set friction_law=1 bristle_stiffness=1e6 tolerance=1e-12
       slider-resonator steady my.fmu --set frequency_ratio=1.37 --max-denominator 100

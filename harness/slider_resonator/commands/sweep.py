@@ -17,17 +17,18 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result, print_text
 from slider_resonator.fmu.provenance import Provenance, provenance_of
 from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.studies.sweep.grid import Sweep, read_grid
-from slider_resonator.studies.sweep.journal import journal_path
+from slider_resonator.studies.sweep.kept_points import journal_path
 from slider_resonator.studies.sweep.local import available_cores
 from slider_resonator.studies.sweep.sweeping import SweepResult, run_sweep
 from slider_resonator.studies.sweep.table import SUFFIXES
 from slider_resonator.studies.sweep.worker import TIME_LIMIT
 
 
-@click.command("sweep", short_help="Compute measures over a grid of parameters and inputs.")
+@click.command("sweep")
 @click.argument("grid", type=click.Path(path_type=Path))
 @click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
@@ -143,11 +144,13 @@ def _draw(
 
 
 def _sentences(result: SweepResult, out: Path) -> str:
-    lines = [f"written  {one_line(str(out))}: {result.points} points"]
+    lines = [f"written  {one_line(str(out))}: {number_of(result.points, 'point')}"]
     if result.found:
         lines.append(f"found    {result.found} of them finished before")
     if result.unanswered:
-        lines.append(f"none     {result.unanswered} points have no answer to a measure")
+        lines.append(f"none     no answer to a measure at {number_of(result.unanswered, 'point')}")
     if result.failed:
-        lines.append(f"failed   {result.failed} points; the first error: {result.first_error}")
+        lines.append(
+            f"failed   {number_of(result.failed, 'point')}; the first error: {result.first_error}"
+        )
     return "\n".join(lines)

@@ -21,6 +21,7 @@ from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import part_of, progress_bar
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
 from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import read_scene
@@ -38,7 +39,7 @@ TIME_LIMIT = 600.0
 """Default time limit of a run or a search of an FMU, s."""
 
 
-@click.command("trade", short_help="Measure error and cost of every model and peer method.")
+@click.command("trade")
 @click.argument("scenes", nargs=-1)
 @out_folder_option("trade.csv, omissions.csv and index.html")
 @click.option(
@@ -167,4 +168,6 @@ def _print(trade: Trade) -> None:
         print_text(f"  {one_line(target)}")
         for line in sentences:
             print_text(f"    {one_line(line)}")
-    print_text(f"  {len(trade.rows)} rows, {len(trade.omissions)} omissions")
+    print_text(
+        f"  {number_of(len(trade.rows), 'row')}, {number_of(len(trade.omissions), 'omission')}"
+    )

@@ -23,7 +23,7 @@ from slider_resonator.scenes.scene_files import files_of_scenes
 from slider_resonator.studies.sweep.local import available_cores
 
 
-@click.command("validate", short_help="Compare FMUs with the references, scene by scene.")
+@click.command("validate")
 @fmus_argument
 @scenes_option("all built-in")
 @click.option(
@@ -48,8 +48,9 @@ def validate_command(
 ) -> None:
     """Compare FMUs with the references, scene by scene.
 
-    Without FMUS: those in dist, the native one first. Each FMU runs in a process of its own while
-    --jobs others compute the references, once for all FMUs. Exit code: 0 when every check passes,
+    Without FMUS: those in dist, the native one first. Each FMU runs in processes of its own, one
+    until it has shown no fault for a while and then up to --jobs, while as many others compute the
+    references, once for all FMUs. Exit code: 0 when every check passes,
     1 when one fails, 2 when something could not run: an FMU that is corrupt, lacks a variable or
     gives it another unit, has no binary for this platform, cannot be instantiated, refuses a scene,
     crashes or exceeds the time limit. The reports are written in each case, and a table is appended

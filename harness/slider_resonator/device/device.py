@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any
 
+FULL = 2
+"""Fidelity of the full device."""
+
 
 @dataclass(frozen=True)
 class Bounds:

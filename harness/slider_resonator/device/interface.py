@@ -40,6 +40,17 @@ class Variable:
     since: str = FIRST
     without: float | None = None
 
+    @property
+    def requirement(self) -> str:
+        """What a value must be, in words."""
+        kind = "an integer" if self.kind == "Integer" else "a finite number"
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        if self.minimum is None:
+            return kind
+        if self.maximum is None:
+            return f"{kind} of at least {self.minimum:g}{unit}"
+        return f"{kind} from {self.minimum:g} to {self.maximum:g}{unit}"
+
 
 _input = partial(Variable, causality="input", variability="continuous")
 _output = partial(Variable, causality="output", variability="continuous")

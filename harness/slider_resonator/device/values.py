@@ -2,30 +2,24 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import inf, isfinite
 
-from slider_resonator.device.interface import INTEGERS
+from slider_resonator.device.interface import VARIABLES
 
 LARGEST_INTEGER = 2**31 - 1
 """FMI 2.0 passes Integers as C ints, which would silently lose the upper bits of more."""
 
 
-POSITIVE = frozenset({"slider_mass", "resonator_frequency", "drive_frequency"})
-"""Parameters that the harness itself divides by, for instance to count drive periods."""
-NOT_NEGATIVE = frozenset({"resonator_mass", "normal_preload"})
-"""Parameters whose sums and roots it takes before an FMU sees them."""
-
-
 def check_value(name: str, value: float) -> None:
-    """Raise ValueError, with name, value and requirement; other ranges are left to the FMU."""
-    if name in INTEGERS:
+    """Raise ValueError, with name, value and requirement, unless the interface has such a value."""
+    variable = VARIABLES[name]
+    low = -inf if variable.minimum is None else variable.minimum
+    high = inf if variable.maximum is None else variable.maximum
+    if variable.kind == "Integer":
         check_integer(name, value)
-    elif not isfinite(value):
-        raise ValueError(f"{name} = {value!r}: must be a finite number")
-    elif name in NOT_NEGATIVE and value < 0.0:
-        raise ValueError(f"{name} = {value!r}: must be a number from 0 on")
-    elif name in POSITIVE and not value > 0.0:
-        raise ValueError(f"{name} = {value!r}: must be a number above 0")
+        value = int(value)
+    if not isfinite(value) or not low <= value <= high:
+        raise ValueError(f"{name} = {value!r}: must be {variable.requirement}")
 
 
 def check_integer(name: str, value: float) -> None:

@@ -229,4 +229,12 @@ const seen = new IntersectionObserver((entries) => entries.forEach(({ isIntersec
   if (isIntersecting) drawOnce(target);
 }), { rootMargin: "300px" });
 boxes.forEach((box) => seen.observe(box));
-window.addEventListener("beforeprint", () => boxes.forEach(drawOnce));  // all of the page is printed
+const isUnfolded = (box) => !box.closest("details:not([open])");
+window.addEventListener("beforeprint", () => [...boxes].filter(isUnfolded).forEach(drawOnce));  // far ones, too
+
+function unfoldTarget() {
+  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (target instanceof HTMLDetailsElement) target.open = true;
+}
+window.addEventListener("hashchange", unfoldTarget);
+unfoldTarget();

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Sequence
 from hashlib import sha256
 from html import escape
@@ -13,20 +14,37 @@ from slider_resonator.output.printable import printable
 from slider_resonator.output.table import Cell, Column, Style, Table
 
 _STYLE = """
+:root { color-scheme: light dark; --ink: #222; --paper: #fff; --quiet: #666; --line: #ddd;
+  --code: #f6f6f6; --pass: #1a7f37; --fail: #b3261e; --shade: #0003 }
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
-  color: #222; overflow-wrap: break-word }
+  color: var(--ink); background: var(--paper); overflow-wrap: break-word }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
-th, td { overflow-wrap: normal }
-th, td { text-align: left; padding: .2rem .6rem; border-bottom: 1px solid #ddd }
+th, td { text-align: left; vertical-align: top; overflow-wrap: normal; padding: .2rem .6rem;
+  border-bottom: 1px solid var(--line) }
 .n { text-align: right } .n, .lines { white-space: nowrap }
-.pass { color: #1a7f37 } .fail { color: #b3261e; font-weight: 600 } .note { color: #666 }
-.heading { font-weight: 600 }
-.wide { overflow-x: auto; margin: .8rem 0 }
+.pass { color: var(--pass) } .fail { color: var(--fail); font-weight: 600 }
+.note { color: var(--quiet) } .heading { font-weight: 600 } [style*=background] { color: #222 }
+.wide { overflow-x: auto; margin: .8rem 0; background:
+  linear-gradient(to right, var(--paper) 50%, transparent) local 0/2rem 100% no-repeat,
+  linear-gradient(to left, var(--paper) 50%, transparent) local 100%/2rem 100% no-repeat,
+  linear-gradient(to right, var(--shade), transparent) 0/.6rem 100% no-repeat,
+  linear-gradient(to left, var(--shade), transparent) 100%/.6rem 100% no-repeat }
 @media (max-width: 50rem) {
-  td:not(.n) { min-width: 7rem } td:last-child:not(.n) { min-width: 14rem } }
+  td:not(.n) { min-width: 7rem } td:last-child:not(.n) { min-width: 14rem }
+  td:has(> .pass:only-child, > .fail:only-child) { min-width: 0 } }
 img { max-width: 100% } summary { cursor: pointer; margin: 1rem 0 }
-pre { background: #f6f6f6; padding: .6rem; overflow-x: auto; font-size: 12px }
+summary > h3 { display: inline }
+pre { background: var(--code); padding: .6rem; overflow-x: auto; font-size: 12px }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --ink: #ddd; --paper: #121212; --quiet: #999; --line: #383838; --code: #1e1e1e;
+    --pass: #6cc785; --fail: #ff8a80; --shade: #fff3 }
+  img, .plot, .scale { filter: invert(.93) hue-rotate(180deg) } }
 """
+"""In the dark, pictures and plots are turned over: light becomes dark, and each hue stays."""
+
+
+_WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|(?<= )[\d.]+e-\d+(?= )")
+"""Options and small numbers, which browsers would break after a hyphen."""
 
 
 def escaped(text: str) -> str:
@@ -38,13 +56,21 @@ def rendered(table: Table) -> str:
     """Return the table as HTML, which scrolls by itself where the page is narrower."""
     head = "".join(_element("th", Cell(column.heading), column) for column in table.columns)
     body = "\n".join(f"<tr>{_row(row, table.columns)}</tr>" for row in table.cells)
-    rows = f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody>"
-    return f'<div class="wide"><table>{rows}</table></div>'
+    headings = f"<thead><tr>{head}</tr></thead>" if any(c.heading for c in table.columns) else ""
+    return f'<div class="wide"><table>{headings}<tbody>\n{body}\n</tbody></table></div>'
 
 
 def folded(summary: str, html: str) -> str:
     """Return HTML, such as a wide table, that a click on the summary unfolds."""
     return f"<details><summary>{escaped(summary)}</summary>{html}</details>"
+
+
+def section(anchor: str, heading: str, note: str, html: str, *, unfolded: bool) -> str:
+    """Return a section with an id and a heading, that a click, or a link to it, unfolds."""
+    return (
+        f'<details id="{escaped(anchor)}"{" open" if unfolded else ""}>'
+        f"<summary><h3>{escaped(heading)}</h3> {escaped(note)}</summary>{html}</details>"
+    )
 
 
 def write_page(
@@ -86,17 +112,20 @@ def _allowed(scripts: Sequence[str]) -> str:
 
 def _row(row: Sequence[Cell], columns: Sequence[Column]) -> str:
     if len(row) < len(columns):
-        return f'<td colspan="{len(columns)}">{_text(row[0])}</td>'
+        return f'<td colspan="{len(columns)}">{_text(row[0], wrapped=True)}</td>'
     return "".join(_element("td", cell, column) for cell, column in zip(row, columns, strict=True))
 
 
 def _element(tag: str, cell: Cell, column: Column) -> str:
     kind = ' class="n"' if column.numeric else ' class="lines"' if "\n" in cell.text else ""
-    return f"<{tag}{kind}>{_text(cell)}</{tag}>"
+    return f"<{tag}{kind}>{_text(cell, wrapped=not column.numeric)}</{tag}>"
 
 
-def _text(cell: Cell) -> str:
-    text = escaped(cell.text).replace("\n", "<br>")
+def _text(cell: Cell, *, wrapped: bool) -> str:
+    text = escaped(cell.text)
+    if wrapped:
+        text = _WHOLE.sub(r'<span class="lines">\g<0></span>', text)
+    text = text.replace("\n", "<br>")
     if cell.target:
         text = f'<a href="#{escaped(cell.target)}">{text}</a>'
     return text if cell.style is Style.PLAIN else f'<span class="{cell.style.value}">{text}</span>'

@@ -7,7 +7,6 @@ from typing import ClassVar, Literal
 from pydantic import Field, field_validator, model_validator
 
 from slider_resonator.device.interface import TUNABLES
-from slider_resonator.device.values import check_value
 from slider_resonator.scenes.device_keys import device_schema
 from slider_resonator.scenes.key_table import (
     KeyTable,
@@ -112,15 +111,6 @@ class TuningTable(KeyTable):
     friction_coefficient: InputTable | None = key(
         "friction coefficient", {"csv": "friction.csv", "column": "mu"}, unit="1"
     )
-
-    @model_validator(mode="after")
-    def _possible(self) -> TuningTable:
-        for name, table in self.given.items():
-            points = table.steps or table.ramp or ()
-            for value in (*(value for _, value in points), table.constant):
-                if value is not None:
-                    check_value(name, value)
-        return self
 
     @property
     def given(self) -> dict[str, InputTable]:

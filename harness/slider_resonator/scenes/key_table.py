@@ -7,9 +7,10 @@ from typing import Annotated, Any, ClassVar
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
-from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
+from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
@@ -61,5 +62,6 @@ def checked_device(device: dict[str, float]) -> dict[str, float]:
                 raise ValueError(f"{name}: {unknown_name('parameter', name, PARAMETERS)}")
             check_value(name, value)
         except ValueError as error:
-            raise PydanticCustomError(NAMED, "{text}", {"text": str(error)}) from error
+            text = f"{error} ({PARAMETER_MEANINGS[name]})" if name in INTEGERS else str(error)
+            raise PydanticCustomError(NAMED, "{text}", {"text": text}) from error
     return device

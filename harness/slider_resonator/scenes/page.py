@@ -138,7 +138,7 @@ def _device_section() -> str:
         [
             "## [device]\n",
             "The parameters of the FMU; the defaults are the device of table 1. The tunable ones "
-            "can change in a run, in [tuning]. The FMU itself refuses values out of bounds.\n",
+            "can change in a run, in [tuning]. Values out of bounds are refused.\n",
             table,
         ]
     )

@@ -15,6 +15,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
+from slider_resonator.device.values import check_value
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.csv_signal import csv_points
 from slider_resonator.scenes.expect_table import ExpectTable
@@ -260,12 +261,16 @@ def _tables_of(inputs: InputsTable) -> dict[str, InputTable]:
 def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
     try:
         if table.steps is not None:
-            return steps(table.steps)
-        if table.ramp is not None:
-            return ramp(table.ramp)
-        if table.csv is not None:
-            return _csv_signal(folder / table.csv, table.column or name, table.between)
-        return constant(table.constant or 0.0)
+            signal = steps(table.steps)
+        elif table.ramp is not None:
+            signal = ramp(table.ramp)
+        elif table.csv is not None:
+            signal = _csv_signal(folder / table.csv, table.column or name, table.between)
+        else:
+            signal = constant(table.constant or 0.0)
+        for value in signal.values:
+            check_value(name, value)
+        return signal
     except ValueError as error:
         raise SceneError(f"{where}: {error}") from error
 

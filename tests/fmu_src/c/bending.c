@@ -54,7 +54,8 @@ int run_bending(const double *values, double tolerance, int panels, int warm, do
         now = law_start(&law);
     }
     for (int i = 0; done && i < steps; i++) {
-        done = law_advance(&law, &now, step_size, NULL, &after, &refusal);
+        Budget budget = budget_of(step_size);
+        done = law_advance(&law, &now, step_size, NULL, &budget, &after, &refusal);
         const double state[STATES] = {after.position, after.state.velocity, after.state.displacement,
                                       after.state.rate, after.bristle};
         for (int k = 0; k < STATES; k++) {
@@ -75,8 +76,9 @@ static bool compare(const Law *series, const BendingPanel *panel, const Moment *
     Refusal refusal;
     KnownPhasors known;
     double travel;
+    Budget budget = budget_of(t);
     State state = bending_panel_end(panel, t, &travel, &known);
-    if (!law_advance(series, now, t, NULL, &after, &refusal)) {
+    if (!law_advance(series, now, t, NULL, &budget, &after, &refusal)) {
         return false;
     }
     *velocity = fabs(state.velocity - after.state.velocity);
@@ -101,8 +103,10 @@ int panel_errors(const double *values, double start, double tolerance, double sh
     const Plant *plant = &law.held.plant;
     now = law_start(&law);
     EventSearch search = event_search(0.0);
-    if (!law_advance(&law, &now, start, NULL, &later, &refusal) ||
-        !law_advance(&law, &later, TAU / plant->drive_frequency, &search, &reversal, &refusal) ||
+    Budget budget = budget_of(start);
+    if (!law_advance(&law, &now, start, NULL, &budget, &later, &refusal) ||
+        !law_advance(&law, &later, TAU / plant->drive_frequency, &search, &budget, &reversal,
+                     &refusal) ||
         !search.found || reversal.mode == LIFTED || reversal.state.velocity != 0.0) {
         return 0;
     }

@@ -16,6 +16,7 @@ from slider_resonator.checks.measures.tube import Tube, no_tube
 from slider_resonator.checks.measuring import measure
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.reference_side import ReferenceSide
+from slider_resonator.checks.steady_references import SteadyReferences
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
@@ -96,7 +97,9 @@ def test_nan_fails(velocity: float | None) -> None:
 
 def test_a_reference_without_a_result_fails() -> None:
     expect = {"quantity": "steady_velocity", "reference": "located_events", "relative": 1.0}
-    assert not judge(steady(0.1), reference(steady_velocity=None), STILL, **expect).passed
+    assert not judge(
+        steady(0.1), reference(steady=SimpleNamespace(steady_velocity=None)), STILL, **expect
+    ).passed
 
 
 def test_words_must_be_equal() -> None:
@@ -132,17 +135,10 @@ def test_a_signal_is_judged_by_its_largest_deviation(signal: np.ndarray, passed:
 
 
 def test_a_comparison_that_makes_no_sense_could_not_run() -> None:
-    class Refusing:
-        scene = fmu().scene
-
-        @property
-        def averaged_velocity(self) -> float:
-            raise ValueError("frequency_ratio = 3.0: the closed form allows only 1")
-
     with pytest.raises(SceneError, match=r"scene.toml: steady_velocity cannot be compared"):
         judge(
             steady(0.1),
-            cast(ReferenceSide, Refusing()),
+            reference(steady=SteadyReferences(Device(), 0.0, 0.0, frequency_ratio=3.0)),
             quantity="steady_velocity",
             reference="closed_form",
             relative=1e-6,

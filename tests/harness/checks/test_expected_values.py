@@ -11,6 +11,7 @@ from slider_resonator.checks import expected_values
 from slider_resonator.checks.expected_values import ExpectedValues, values_in
 from slider_resonator.checks.validate import Validation, points_to_check, validate
 from slider_resonator.errors import HarnessError, SceneError
+from slider_resonator.fmu.isolation import tasks
 from slider_resonator.scenes.scene import ScenePoint, read_scene
 from slider_resonator.scenes.scene_files import find_scene
 
@@ -20,6 +21,7 @@ SCENES = [find_scene(name) for name in ("overload", "stuck", "table_1", "lift_of
 @pytest.fixture(autouse=True)
 def few_points_suffice(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(expected_values, "MIN_POINTS", 1)
+    monkeypatch.setattr(tasks, "ALONE", 0.0)
 
 
 def points(*names: str) -> list[ScenePoint]:

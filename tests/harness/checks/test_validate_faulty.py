@@ -76,12 +76,14 @@ def test_a_refused_scene_does_not_keep_others_from_being_judged(
     native_fmu: Path, tmp_path: Path, scene: Path
 ) -> None:
     refused = faulty_fmus.scene(tmp_path, "refused")
-    refused.write_text(refused.read_text() + "\n[device]\nfriction_faces = 7\n")
+    refused.write_text(
+        refused.read_text() + "\n[device]\nfriction_law = 1\nfriction_coefficient = 0\n"
+    )
     validation = judged(native_fmu, refused, scene)
     assert validation.exit_code == 2
     (run_failure,) = validation.run_failures
     assert run_failure.scene == "refused"
-    assert "friction_faces = 7 refused" in run_failure.reason
+    assert "friction_coefficient = 0.0 refused" in run_failure.reason
     assert [(c.scene, c.passed) for c in validation.checks] == [("short", True)]
 
 

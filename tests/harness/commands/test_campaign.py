@@ -11,7 +11,7 @@ def test_a_case_is_repeated_with_its_values(native_fmu: Path, tmp_path: Path) ->
     arguments = ["campaign", native_fmu, "--seed", "1", "--case", "10", "--out", out]
     result = call(*arguments)
     assert result.exit_code == 0, result.output
-    assert "seed 1, 1 cases: 1 passed" in result.output
+    assert "seed 1, 1 case: 1 passed" in result.output
     assert "slider_mass = " in result.output
     again = json.loads(call(*arguments, "--json").stdout)
     written = json.loads(out.read_text())

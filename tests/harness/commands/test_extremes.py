@@ -49,7 +49,7 @@ def test_one_cell_is_run_by_its_name(
     cells, options = [GOOD, WRONG], (native_fmu, "--out", tmp_path / "out", "--cell")
     code, text = extremes_of(monkeypatch, cells, *options, GOOD.name)
     assert code == 0, text
-    assert "1 cells: 1 passed" in text
+    assert "1 cell: 1 passed" in text
     code, text = extremes_of(monkeypatch, cells, *options, GOOD.name.replace(",", ""))
     assert code == 2
     words = " ".join(text.split())

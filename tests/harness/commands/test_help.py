@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -113,10 +115,28 @@ def test_who_names_no_fmu_is_told_where_one_is(
     (tmp_path / "dist" / "SliderResonator.fmu").touch()
     monkeypatch.chdir(tmp_path)
     named = str(Path("dist") / "SliderResonator.fmu")
-    for arguments in (("steady",), ("run", "table_1"), ("baseline", "record", "--dir", "x")):
-        assert named in refused(*arguments)
+    assert named in refused("baseline", "record", "--dir", "x")
+
+
+@pytest.mark.parametrize("arguments", [("steady",), ("blocking",), ("run", "table_1")])
+def test_the_default_is_the_native_fmu(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    (tmp_path / "dist").symlink_to(native_fmu.parent)
+    monkeypatch.chdir(tmp_path)
+    result = call(*arguments)
+    assert result.exit_code == 0, result.output
+    assert str(Path("dist") / "SliderResonator.fmu") in result.stdout
 
 
 def test_a_scene_must_be_named() -> None:
     assert "Missing argument 'SCENE'" in refused("run", "my.fmu")
     assert "Missing argument 'SCENE'" in refused("run")
+
+
+def test_help_of_all_commands_loads_none_of_them() -> None:
+    code = "from slider_resonator.cli import main; main(['--help'])"
+    command = [sys.executable, "-X", "importtime", "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "slider_resonator.cli" in done.stderr
+    assert "slider_resonator.commands." not in done.stderr

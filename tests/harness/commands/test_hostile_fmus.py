@@ -6,16 +6,19 @@ One FMU does what the environment variable FAULT names, which also tells its pro
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
-from collections.abc import Mapping
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
 
+from slider_resonator.fmu.limits import DEFAULTS, MEMORY
 from tests.harness import faulty_fmus
+from tests.harness.calling import call
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc; adopts orphans")
 
@@ -38,6 +41,7 @@ FAULTS: Mapping[str, tuple[int, str]] = {
 }
 """What the FMU does in fmi2DoStep, with the exit code of `validate` and the reason."""
 QUICK = ("fork_twice", "fork_and_kill_parent")
+"""Run as processes of their own, and by default."""
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +51,7 @@ def hostile_fmu(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> P
 
 
 def processes_of(mark: str) -> list[str]:
-    """The processes that have inherited FAULT with this value."""
+    """The processes that have inherited FAULT with this value; this one was started without."""
     found = []
     for environment in Path("/proc").glob("[0-9]*/environ"):
         try:
@@ -58,45 +62,73 @@ def processes_of(mark: str) -> list[str]:
     return found
 
 
-class Ran:
-    """A command with a fault: how it ended, and what it has left."""
+@dataclass(frozen=True)
+class Ended:
+    """How a command ended: exit code, standard error and what it left in its folder."""
 
-    def __init__(self, fault: str, folder: Path, *arguments: object) -> None:
-        mark = f"{fault}:{folder}"
-        temporary, here = folder / "temporary", folder / "here"
+    code: int
+    errors: str
+    left: list[Path]
+
+
+class Runner:
+    """Runs commands with a fault in `folder`, in this process unless `apart`.
+
+    A process of its own takes most of its time to load; this one sees all that a command leaves.
+    """
+
+    def __init__(self, folder: Path, patch: pytest.MonkeyPatch) -> None:
+        self._folder = folder
+        self._patch = patch
+
+    def run(self, fault: str, *arguments: object, apart: bool = False) -> Ended:
+        mark = f"{fault}:{self._folder}"
+        temporary, here = self._folder / "temporary", self._folder / "here"
         temporary.mkdir()
         here.mkdir()
-        self.done = subprocess.run(
-            [sys.executable, "-m", "slider_resonator", *map(str, arguments)],
-            env={**os.environ, "FAULT": mark, "TMPDIR": str(temporary)},
-            cwd=here,
-            capture_output=True,
-            text=True,
-            timeout=120.0,
-            check=False,
-        )
+        self._patch.setenv("FAULT", mark)
+        self._patch.setenv("TMPDIR", str(temporary))
+        self._patch.setenv(MEMORY, str(DEFAULTS[MEMORY]))  # an option sets it for good
+        self._patch.setattr(tempfile, "tempdir", None)
+        self._patch.chdir(here)
+        code, errors = (_apart if apart else _here)(arguments)
         assert not processes_of(mark), "no process is left"
         assert not list(temporary.iterdir()), "no folder is left"
-        self.left = list(here.iterdir())
+        return Ended(code, errors, list(here.iterdir()))
+
+
+def _apart(arguments: Sequence[object]) -> tuple[int, str]:
+    command = [sys.executable, "-m", "slider_resonator", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120.0, check=False)
+    return done.returncode, done.stderr
+
+
+def _here(arguments: Sequence[object]) -> tuple[int, str]:
+    done = call(*arguments)
+    return done.exit_code, done.stderr
+
+
+@pytest.fixture
+def runner(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Runner:
+    return Runner(tmp_path, monkeypatch)
 
 
 @pytest.mark.parametrize(
     "fault",
     [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in FAULTS],
 )
-def test_validate_outlives_an_fmu(hostile_fmu: Path, tmp_path: Path, fault: str) -> None:
+def test_validate_outlives_an_fmu(
+    hostile_fmu: Path, tmp_path: Path, runner: Runner, fault: str
+) -> None:
     names = ("a", "b", "c", "d")
     scenes = [argument for n in names for argument in ("--scene", faulty_fmus.scene(tmp_path, n))]
     reports = [tmp_path / f"report.{kind}" for kind in ("json", "xml", "html")]
     options = [word for r in reports for word in (f"--{r.suffix[1:]}".replace("xml", "junit"), r)]
-    ran = Ran(
-        fault,
-        tmp_path,
-        *("--max-memory", 400, "validate", hostile_fmu, "--time-limit", 2, *scenes, *options),
-    )
+    validate = ("--max-memory", 400, "validate", hostile_fmu, "--time-limit", 2)
+    ran = runner.run(fault, *validate, *scenes, *options, apart=fault in QUICK)
     code, reason = FAULTS[fault]
-    assert ran.done.returncode == code, ran.done.stderr
-    assert reason in ran.done.stderr
+    assert ran.code == code, ran.errors
+    assert reason in ran.errors
     assert not ran.left, "the FMU does not run in the user's folder"
     validation = json.loads(reports[0].read_text())
     assert bool(validation["errors"]) == (code == 2)
@@ -143,11 +175,12 @@ COMMANDS = (
 @pytest.mark.parametrize("fault", ["exit", "fork_and_kill_parent"])
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_outlives_an_fmu(
-    commands: Mapping[str, list[object]], tmp_path: Path, command: str, fault: str
+    commands: Mapping[str, list[object]], runner: Runner, command: str, fault: str
 ) -> None:
-    ran = Ran(fault, tmp_path, *commands[command])
+    apart = command == "bench"  # which keeps what it has compiled to the end of its process
+    ran = runner.run(fault, *commands[command], apart=apart)
     # A point of a sweep that fails is a row with its error.
-    assert ran.done.returncode == (1 if command == "sweep" else 2), ran.done.stderr
-    assert "Traceback" not in ran.done.stderr
-    assert ran.done.stderr or command == "sweep"
+    assert ran.code == (1 if command == "sweep" else 2), ran.errors
+    assert "Traceback" not in ran.errors
+    assert ran.errors or command == "sweep"
     assert not ran.left

@@ -31,12 +31,12 @@ def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> 
 
 
 def test_a_failed_point_is_reported_and_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
-    grid = _grid(tmp_path, "[list]\nfriction_coefficient = [0.1, -1]")
+    grid = _grid(tmp_path, "[fixed]\nfriction_law = 1\n[list]\nfriction_coefficient = [0.1, 0]")
     arguments = ["--out", tmp_path / "a.csv", "--fmu", native_fmu, "--workers", "1"]
     result = call("sweep", grid, *arguments)
     assert result.exit_code == 1
-    assert "failed   1 points; the first error:" in result.output
-    assert "friction_coefficient = -1" in result.output
+    assert "failed   1 point; the first error:" in result.output
+    assert "friction_coefficient = 0.0 refused" in result.output
 
 
 @pytest.mark.parametrize(

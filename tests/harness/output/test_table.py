@@ -124,6 +124,14 @@ def test_html_marks_numbers_and_styles_and_escapes_foreign_text() -> None:
     assert "::error::x �[31m<b>`c`" in cells.text
 
 
+def test_html_keeps_options_and_small_numbers_in_one_piece() -> None:
+    cells = [["4e-8 m of 5e-3 mm: run --cell 'a-b' my-file"]]
+    page = html_page.rendered(Table(texts("note"), cells))
+    assert page.count('<span class="lines">') == 2
+    assert '<span class="lines">--cell</span>' in page
+    assert '<span class="lines">5e-3</span>' in page
+
+
 def test_html_in_an_attribute_stays_there() -> None:
     assert html_page.escaped("\" onload='x'") == "&quot; onload=&#x27;x&#x27;"
     assert html_page.folded("<2 rows>", "<table></table>").startswith(

@@ -75,6 +75,42 @@ BELOW_THE_HEAD = {
     "fraction for an integer": Mistake(
         "[device]\nfidelity = 1.5\n", "fidelity", "must be an integer"
     ),
+    "a fidelity that does not exist": Mistake(
+        "[device]\nfidelity = 3\n",
+        "device.fidelity = 3",
+        "an integer from 0 to 2 (0 averaged",
+    ),
+    "no face with friction": Mistake(
+        "[device]\nfriction_faces = 0\n",
+        "device.friction_faces = 0",
+        "must be an integer from 1 to 2",
+    ),
+    "a negative friction coefficient": Mistake(
+        "[device]\nfriction_coefficient = -0.1\n",
+        "device.friction_coefficient = -0.1",
+        "must be a finite number of at least 0",
+    ),
+    "a tolerance that is too large": Mistake(
+        "[device]\ntolerance = 0.1\n", "device.tolerance = 0.1", "from 1e-14 to 0.01"
+    ),
+    "a second instance out of bounds": Mistake(
+        RUN + "[beside.device]\nfriction_law = 2\n",
+        "beside.device.friction_law = 2",
+        "must be an integer from 0 to 1 (0 Coulomb, 1 LuGre)",
+    ),
+    "tuned out of bounds": Mistake(
+        RUN + "[tuning]\nnormal_preload = { steps = [[0, 1], [0.05, -1]] }\n",
+        "tuning.normal_preload: normal_preload = -1.0",
+        "at least 0 N",
+    ),
+    "tuned out of bounds by a CSV": Mistake(
+        RUN + '[tuning]\nfriction_coefficient = { csv = "negative.csv" }\n',
+        "tuning.friction_coefficient: friction_coefficient = -1.0",
+        "of at least 0",
+    ),
+    "swept out of bounds": Mistake(
+        "[sweep]\nvariable = 'fidelity'\nvalues = [0, 3]\n", "sweep: fidelity = 3", "from 0 to 2"
+    ),
     "negative step": Mistake(
         "[run]\nstop_time = 0.1\nstep_size = -0.01\n",
         "run.step_size = -0.01",
@@ -244,7 +280,7 @@ BELOW_THE_HEAD = {
     "a length above the tables": Mistake("stop_time = 1\n", "stop_time", "must be in [run]"),
     # Values:
     "an impossible parameter": Mistake(
-        "[device]\nslider_mass = -1\n", "device.slider_mass = -1.0", "above 0"
+        "[device]\nslider_mass = -1\n", "device.slider_mass = -1.0", "of at least 1e-12 kg"
     ),
     "a law by its name": Mistake(
         '[device]\nfriction_law = "lugre"\n', "device.friction_law", "0 Coulomb, 1 LuGre"
@@ -307,6 +343,7 @@ def test_a_mistake_is_one_line_with_file_key_and_remedy(name: str, tmp_path: Pat
     (tmp_path / "short.csv").write_text("time,load\n0,0\n0.05,1\n")
     (tmp_path / "semicolons.csv").write_text("time;load\n0;0,5\n1;1,5\n")
     (tmp_path / "bare.csv").write_text("0,0\n1,1\n")
+    (tmp_path / "negative.csv").write_text("time,value\n0,0.1\n0.1,-1\n")
     (tmp_path / "words.csv").write_text("time,load\n0,none\n")
     (tmp_path / "twice.csv").write_text("time,load,load\n0,0,1\n0.1,1,2\n")
     (tmp_path / "utf16.csv").write_text("time,load\n0,0\n1,1\n", encoding="utf-16")

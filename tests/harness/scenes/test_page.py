@@ -154,7 +154,8 @@ NOT_IN_A_SCHEMA = {
     *("tuned and fixed", "no tolerance", "not a number", "a bound of a signal"),
     *("CSV of another encoding", "CSV with a word", "CSV with semicolons", "CSV without a header"),
     "CSV with a column twice",
-    *("a sweep of what changes", "a tube without a reference for it"),
+    *("a sweep of what changes", "a tube without a reference for it", "swept out of bounds"),
+    *("tuned out of bounds", "tuned out of bounds by a CSV"),
 }
 """Mistakes that depend on other tables, files or numbers in a way that a schema cannot say."""
 

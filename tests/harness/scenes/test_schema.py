@@ -76,7 +76,10 @@ def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> N
         ("[run]\nstop_time = -1.0\nstep_size = 0.1\n", ["run.stop_time", "-1.0", "above 0"]),
         ('[sweep]\nvariable = "load"\nvalues = []\n', ["sweep.values", "at least one"]),
         ('[sweep]\nvariable = "fidelity"\nvalues = [1.5]\n', ["sweep", "1.5", "an integer"]),
-        ("[device]\ndrive_frequency = 0\n", ["device", "drive_frequency = 0.0", "above 0"]),
+        (
+            "[device]\ndrive_frequency = 0\n",
+            ["device", "drive_frequency = 0.0", "of at least 1e-06 rad/s"],
+        ),
         ("[run]\nstop_time = 1e9\nstep_size = 1e-4\n", ["run", "1e+09", "1e+13", "3000000"]),
         ("[run]\nstop_time = 1\nsteps_per_period = 1e308\n", ["run", "communication steps"]),
         ("device = 3\n", ["device = 3", "a table"]),
@@ -96,7 +99,7 @@ def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> N
         ),
         (
             RUN + "[tuning]\ndrive_frequency = { steps = [[0, 1], [1, 0]] }\n",
-            ["drive_frequency = 0.0", "above 0"],
+            ["drive_frequency = 0.0", "of at least 1e-06 rad/s"],
         ),
         ("[tuning]\nnormal_preload = 1\n", ["tuning.normal_preload", "[run] is missing"]),
         ("[beside.device]\nslider_mas = 1\n", ["beside.device", "'slider_mass'"]),

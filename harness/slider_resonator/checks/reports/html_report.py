@@ -7,6 +7,7 @@ from pathlib import Path
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.deviation_plot import deviation_png
+from slider_resonator.checks.reports.headline import headline
 from slider_resonator.checks.reports.scene_sections import scene_sections
 from slider_resonator.checks.validate import (
     Curves,
@@ -25,7 +26,8 @@ from slider_resonator.checks.verdict import (
 from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.hover_plot import hover_scripts, hover_style
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
-from slider_resonator.output.table import Table, texts
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.table import Table, numbers, texts
 
 MAX_PICTURES = 40
 """Maximum pictures for each FMU, one per sweep: a very faulty FMU fails everywhere."""
@@ -55,6 +57,10 @@ def _section(number: int, validation: Validation) -> list[str]:
         f'<p><span class="{colour}">{outcome}</span>: {passed} of {len(validation.checks)} checks '
         f"passed in {validation.wall_time:.1f} s</p>",
     ]
+    for heading, rows in headline(validation.checks):
+        cells = [(name, passed, value, off) for name, value, off, passed in rows]
+        answer = Table((*texts("", ""), *numbers("", "")), cells)
+        parts.append(f"<h3>{escaped(heading.text)}</h3>{rendered(answer)}")
     without = judged_without(validation)
     if without:
         parts.append(f"<p>{escaped(without)}</p>")
@@ -69,7 +75,7 @@ def _section(number: int, validation: Validation) -> list[str]:
     if validation.not_applied:
         columns = texts("scene", "quantity", "not applicable because")
         table = Table(columns, not_applied(validation))
-        label = f"{len(validation.not_applied)} checks that do not apply"
+        label = number_of(len(validation.not_applied), "check") + " that do not apply"
         parts.append(folded(label, rendered(table)))
     return parts
 

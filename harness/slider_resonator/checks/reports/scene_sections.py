@@ -11,20 +11,24 @@ from slider_resonator.checks.validate import Validation
 from slider_resonator.checks.verdict import measure_of, title, value_text
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html
-from slider_resonator.output.html_page import escaped, rendered
+from slider_resonator.output.html_page import rendered, section
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 DIGITS = 8
 HEIGHT = 240
 REFERENCE, FMU = "#f0a58f", "#1f3b57"
+MAX_UNFOLDED = 3
+"""Number of scenes up to which those that pass are unfolded, too."""
 MIN_DECADES = 2.0
 """Width of a sweep from which on its axis is logarithmic."""
 COLUMNS = (
-    *texts("quantity"),
+    *texts("quantity", ""),
     *numbers("FMU", "reference", "off by", "allowed"),
-    *texts("in", "", "why"),
+    *texts("in", "why"),
 )
+"""The verdict is beside the name, where a phone shows it, too."""
 
 
 def scene_sections(validation: Validation, prefix: str) -> list[str]:
@@ -37,15 +41,17 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
         scenes.setdefault(check.scene, []).append(check)
     overviews = {overview.scene: overview for overview in validation.overviews}
     ids = {scene: f"{prefix}-{number}" for number, scene in enumerate(scenes)}
-    columns = (*texts("scene"), *numbers("checks", "failed", "nearest to its bound"), *texts(""))
+    columns = (*texts("scene", ""), *numbers("checks", "failed", "largest share of a tolerance"))
     rows = [_index_row(Cell(name, target=ids[name]), checks) for name, checks in scenes.items()]
     parts = ["<h3>Scenes</h3>", rendered(Table(columns, rows))]
     for name, checks in scenes.items():
-        parts.append(f'<section id="{ids[name]}"><h3>{escaped(name)}</h3>')
         plot = _of_signal(overviews[name]) if name in overviews else _over_sweep(checks)
-        parts += [plot_html(plot)] if plot is not None else []
-        table = Table(COLUMNS, [_row(check) for check in checks])
-        parts.append(f"{rendered(table)}</section>")
+        drawn = "" if plot is None else plot_html(plot)
+        table = rendered(Table(COLUMNS, [_row(check) for check in checks]))
+        failed = sum(not check.passed for check in checks)
+        note = f"{failed} of {number_of(len(checks), 'check')} failed" if failed else "pass"
+        unfolded = failed > 0 or len(scenes) <= MAX_UNFOLDED
+        parts.append(section(ids[name], name, note, drawn + table, unfolded=unfolded))
     return parts
 
 
@@ -53,7 +59,7 @@ def _index_row(name: Cell, checks: Sequence[Check]) -> Row:
     failed = sum(not check.passed for check in checks)
     worst = max(check.severity for check in checks)
     share = f"{worst:.2g}" if math.isfinite(worst) else "beyond"
-    return (name, str(len(checks)), str(failed), share, verdict(not failed))
+    return (name, verdict(not failed), str(len(checks)), str(failed), share)
 
 
 def _of_signal(overview: Overview) -> HoverPlot:
@@ -111,5 +117,5 @@ def _row(check: Check) -> Row:
     sizes = ["-" if s is None else f"{s:.2g}" for s in (check.deviation, check.allowed)]
     unit = f" [{check.unit}]" if check.unit not in ("", "1") else ""
     values = [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
-    cells = (title(check) + unit, *values, *sizes, measure_of(check))
-    return (*cells, verdict(check.passed), check.why)
+    first = (title(check) + unit, verdict(check.passed))
+    return (*first, *values, *sizes, measure_of(check), check.why)

@@ -20,6 +20,7 @@ from slider_resonator.checks.verdict import (
     value_text,
 )
 from slider_resonator.output.fitting_table import STYLES, aligned, words
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.output.terminal import escaped, rendered
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -80,7 +81,8 @@ def _not_applied_lines(validation: Validation, details: bool) -> Iterator[str]:
             yield from (f"{scene}: {quantity}: {reason}" for scene, quantity in checks)
         else:
             scenes = len({scene for scene, _ in checks})
-            yield f"{len(checks)} checks of {scenes} scenes: {reason} (--details lists them)"
+            alike = f"{number_of(len(checks), 'check')} of {number_of(scenes, 'scene')}"
+            yield f"{alike}: {reason} (--details lists them)"
 
 
 def _print_headline(console: Console, checks: Sequence[Check]) -> None:

@@ -64,10 +64,14 @@ class IsolatedFmu:
 
     Opening the FMU and each task may take `time_limit` (s). Raises FmuError when the FMU cannot be
     used, FmuDied when it ends the process. Use it in a `with` block, or call `close` or `kill`.
+    One thread may use it; another one that sets `stop` ends it, with FmuDied, while it waits.
     """
 
-    def __init__(self, fmu: Path, time_limit: float = TIME_LIMIT) -> None:
+    def __init__(
+        self, fmu: Path, time_limit: float = TIME_LIMIT, stop: threading.Event | None = None
+    ) -> None:
         self.time_limit = time_limit
+        self._stop = stop or threading.Event()
         self._killed = False
         self._resources = ExitStack()
         # Also for the unpacked FMU, which a process that has crashed leaves behind.
@@ -175,6 +179,9 @@ class IsolatedFmu:
     def _receive(self, deadline: float) -> Message:
         """Return the next message; does not rely on the end of the pipe, which a child may hold."""
         while True:
+            if self._stop.is_set():
+                self.kill()
+                raise FmuDied("the process of the FMU has been stopped")
             ended = self._process.poll()
             left = deadline - monotonic()
             try:

@@ -11,9 +11,13 @@ from typing import Any, Generic, TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
+from slider_resonator.fmu.isolation.tasks_ahead import TasksAhead
 
 MAX_CRASHES = 3
 """Crashes after which no more tasks are run."""
+ALONE = 2.0
+"""Time (s) in which one process must have failed in no task before others start; short runs end
+sooner."""
 
 Item = TypeVar("Item")
 
@@ -38,10 +42,13 @@ def run_tasks(
     name: Callable[[Item], str],
     meanwhile: Callable[[Item], None] = lambda item: None,
     max_crashes: int | None = MAX_CRASHES,
+    jobs: int = 1,
 ) -> Generator[Finished[Item], None, None]:
-    """Run a task for each item, one after the other, and yield each outcome.
+    """Run a task for each item, and yield each outcome, in this order.
 
-    `meanwhile` is called for an item while the FMU works on it. After a crash or an exceeded limit
+    `meanwhile` is called for an item while the FMU works on it, or has. An FMU that shows no fault
+    gets up to `jobs` processes; the outcomes are those of one that runs the tasks in turn, for an
+    FMU in which each run is independent of those before. After a crash or an exceeded limit
     the other items of that `name` are left out. All remaining items are left out after an exceeded
     limit of time, memory or processes, after `max_crashes` crashes, and after crashes that took
     `time_limit` (s) together; with None for `max_crashes` the run always goes on.
@@ -49,9 +56,16 @@ def run_tasks(
     process: IsolatedFmu | None = None
     crashed: set[str] = set()
     crashes, wasted = 0, 0.0
+    ahead = TasksAhead(fmu, [task for _, task in tasks], time_limit, jobs - 1)
+    start = monotonic()
     try:
         for index, (item, task) in enumerate(tasks):
+            done = ahead.result(index)
             if name(item) in crashed:
+                continue
+            if done is not None:
+                meanwhile(item)
+                yield Finished(item, done.value)
                 continue
             if process is None:
                 try:
@@ -65,6 +79,7 @@ def run_tasks(
                 meanwhile(item)
                 result = process.result()
             except HarnessError as error:
+                ahead.stop()
                 process.kill()
                 process = None
                 if isinstance(error, FmuDied):
@@ -73,6 +88,8 @@ def run_tasks(
                     wasted += time_limit if error.over_limit else monotonic() - began
                 yield Finished(item, error=error)
             else:
+                if monotonic() - start >= ALONE:
+                    ahead.start()
                 yield Finished(item, result)
             if max_crashes is not None and (crashes >= max_crashes or wasted >= time_limit):
                 rest = [name(other) for other, _ in tasks[index + 1 :]]
@@ -86,6 +103,7 @@ def run_tasks(
             except FmuDied as error:
                 yield Finished(None, error=error)
     finally:
+        ahead.end()
         if process is not None:
             process.kill()
 

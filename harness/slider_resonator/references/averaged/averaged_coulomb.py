@@ -62,19 +62,13 @@ def mean_friction(
 
 
 def slow_acceleration(
-    velocity: float,
-    strength: float,
-    amplitude_ratio: float,
-    phase: float,
-    *,
-    ratio: float = 1.0,
-    load: float = 0.0,
+    velocity: float, strength: float, amplitude_ratio: float, phase: float
 ) -> float:
-    """Return the acceleration of the slow motion, (4) with the load of (20).
+    """Return the acceleration of the slow motion, (4).
 
     With `drifting_phase` as the phase it is (A.2).
     """
-    return -mean_friction(velocity, strength, amplitude_ratio, phase, ratio) - load
+    return -mean_friction(velocity, strength, amplitude_ratio, phase)
 
 
 def linear_slow_acceleration(

@@ -31,18 +31,14 @@ from slider_resonator.device.held_inputs import (
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.references.averaged.held_curve import HeldCurve
 from slider_resonator.references.averaged.held_orbit import HeldOrbit
-from slider_resonator.references.averaged.held_orbit_that_sticks import (
-    Simulate,
-    any_held_orbit,
-)
+from slider_resonator.references.averaged.held_orbit_that_sticks import any_held_orbit
 from slider_resonator.references.averaged.hold import Hold
 from slider_resonator.references.averaged.vibrating_contact import turns_until_repeat
 from slider_resonator.references.phase import advanced
-from slider_resonator.references.resolved import located_events
 from slider_resonator.references.resolved.equations import State, initial_state
 
 _LEADS = 9
-"""Leads of the normal load between which F2 is interpolated while the phase drifts."""
+"""Leads of the normal load, an odd number, between which F2 is interpolated in a drift."""
 
 _LEAD_DIGITS = 12
 """Decimal places to which leads are equal: inputs that come back then find their curve."""
@@ -111,21 +107,17 @@ def simulate_slow_motion(
     times: Array,
     *,
     start: SlowStart | None = None,
-    leads: int = _LEADS,
-    simulate: Simulate = located_events.simulate,
 ) -> SlowMotion:
     """Return the slow motion of second order under held inputs at ``times`` (shape (n,), s).
 
     ``times`` ascend within ``[held[0].start, held[-1].stop]``. The motion begins at ``start``, by
     default with the initial values of the device and theta = psi = 0. Phase and load may have
-    rates. ``leads`` (odd) is the number of leads of the normal load that are tabulated where it
-    drifts, ``simulate`` the resolved motion for orbits that stick. Raises ValueError for a ratio
-    without slow phase, inputs with gaps, times outside them, and as `Hold` does; RuntimeError where
-    there is no orbit.
+    rates. Raises ValueError for a ratio without slow phase, inputs with gaps, times outside them,
+    and as `Hold` does; RuntimeError where there is no orbit.
     """
     check_contiguous(held, rates=("phase_rate", "load_rate"))
     check_times(times, held)
-    curves = _Curves(device, leads, simulate)
+    curves = _Curves(device)
     start = start or slow_start(device, initial_state(replace(device, fidelity=2)))
     momentum, centre, theta, psi = astuple(start)
     rows = np.empty((0, 5))
@@ -153,8 +145,6 @@ class _Curves:
     """The load-speed curves of a device at the leads that were asked for."""
 
     device: Device
-    leads: int
-    simulate: Simulate
     known: dict[tuple[float, float, int], HeldCurve] = field(default_factory=dict)
 
     def at(self, lead: float, ratio: float, turns: int) -> HeldCurve:
@@ -162,7 +152,7 @@ class _Curves:
         key = (lead, ratio, turns)
         if key not in self.known:
             hold = Hold(self.device, 0.0, lead, ratio, turns)
-            self.known[key] = HeldCurve(hold, simulate=self.simulate)
+            self.known[key] = HeldCurve(hold)
         return self.known[key]
 
 
@@ -234,7 +224,7 @@ class _Slow:
     def _friction(self, time: float, velocity: float) -> tuple[float, float]:
         if not self._drift:
             return self._curve(self._lead).friction(velocity)
-        count = self._curves.leads
+        count = _LEADS
         steps = 2.0 * math.pi * np.arange(count) / count
         past = self._lead + self._drift * time - steps
         orders = np.arange(1, count // 2 + 1)
@@ -261,7 +251,7 @@ class _Slow:
             return self._curve(self._lead).orbit(velocity)
         lead = self._lead + self._drift * time
         hold = Hold(self._curves.device, velocity, lead, self._ratio, self._turns)
-        return any_held_orbit(hold, simulate=self._curves.simulate)
+        return any_held_orbit(hold)
 
     def _curve(self, lead: float) -> HeldCurve:
         return self._curves.at(lead, self._ratio, self._turns)

@@ -22,6 +22,9 @@ HEAD = (
 )
 
 
+_UNITS = {"_m_per_s": "m/s", "_N": "N", "_rad": "rad", "_um": "um", "_hertz": "Hz"}
+"""How the name of a number ends, and its unit."""
+
 _CLAIM_COLUMNS = texts("statement", "where", "measured", "verdict", "why")
 
 
@@ -137,11 +140,16 @@ def verdicts(claims: Sequence[Claim]) -> str:
 
 
 def _claim_row(claim: Claim) -> Row:
-    measured = "\n".join(
-        f"{name.replace('_', ' ')} {_number(value)}" for name, value in claim.numbers.items()
-    )
+    measured = "\n".join(_named_number(name, value) for name, value in claim.numbers.items())
     verdict = Cell(claim.verdict) if claim.confirmed else Cell("NOT CONFIRMED", Style.FAIL)
     return (claim.statement, claim.where, measured, verdict, claim.why)
+
+
+def _named_number(name: str, value: float | None) -> str:
+    """Return a number of a claim with its unit, by which its name may end."""
+    ending = next((ending for ending in _UNITS if name.endswith(ending)), "")
+    label = name.removesuffix(ending).replace("_", " ")
+    return f"{label}: {_number(value)} {_UNITS.get(ending, '')}".rstrip()
 
 
 def _number(value: float | None) -> str:

@@ -24,6 +24,7 @@ from slider_resonator.output.hover_plot import (
     plot_html,
 )
 from slider_resonator.output.html_page import escaped, rendered, write_page
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Table, numbers, texts
 from slider_resonator.studies.sweep.grid import Sweep
 from slider_resonator.studies.sweep.picture import (
@@ -51,7 +52,7 @@ def check_page(sweep: Sweep, option: str) -> None:
 def write_sweep_page(path: Path, sweep: Sweep, columns: Columns, provenance: Provenance) -> None:
     """Write the page of a sweep over one or two variables; HarnessError when that is impossible."""
     failed = sum(error is not None for error in columns["error"])
-    counts = f"<p>{len(sweep.points)} points, {failed} of them failed.</p>"
+    counts = f"<p>{number_of(len(sweep.points), 'point')}, {failed} of them failed.</p>"
     parts = [counts, rendered(_setup(sweep))]
     for measure in sweep.task.measures:
         parts += _measure(sweep, columns, measure)

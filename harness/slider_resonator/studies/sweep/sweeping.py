@@ -16,7 +16,7 @@ from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.studies.sweep.grid import Sweep
-from slider_resonator.studies.sweep.journal import Journal, journal_path
+from slider_resonator.studies.sweep.kept_points import open_journal, rows_of
 from slider_resonator.studies.sweep.local import local_workers
 from slider_resonator.studies.sweep.running import Workers, run_points
 from slider_resonator.studies.sweep.table import (
@@ -74,24 +74,29 @@ def run_sweep(
     with open_fmu(fmu):
         pass  # the file is checked once, not at every point
     fmu_digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
-    with Journal(journal_path(out), _digest(sweep, fmu_digest), restart=restart) as journal:
-        found = len(journal.rows)
-        left = [(n, point) for n, point in enumerate(sweep.points) if n not in journal.rows]
+    with open_journal(out, _digest(sweep, fmu_digest), restart=restart) as journal:
+        rows = rows_of(journal)
+        found = len(rows)
+        left = [(n, point) for n, point in enumerate(sweep.points) if n not in rows]
 
-        def keep(rows: Sequence[Row]) -> None:
-            journal.add(rows)
-            done = len(journal.rows)
-            progress(f"point {done} of {len(sweep.points)}", done / len(sweep.points))
+        def keep(new: Sequence[Row]) -> None:
+            journal.add(new)
+            rows.update((row[0], row) for row in new)
+            progress(f"point {len(rows)} of {len(sweep.points)}", len(rows) / len(sweep.points))
+
+        def note() -> str:
+            points = f"{len(rows)} of {len(sweep.points)} points"
+            return f"{points} are kept in {journal.path}; the same command goes on from there"
 
         keep([])
         if left:
             count = min(workers, len(left))
             with (
-                noting_on_interrupt(lambda: _kept(journal, len(sweep.points))),
+                noting_on_interrupt(note),
                 _workers(sweep, fmu_digest, fmu, count, dask, time_limit) as at_work,
             ):
                 run_points(at_work, sweep.task, left, keep)
-        columns = table_columns(sweep.task, sweep.points, journal.rows)
+        columns = table_columns(sweep.task, sweep.points, rows)
         write_table(out, sweep.task, columns)
         journal.remove()
     errors = [error for error in columns["error"] if error is not None]
@@ -112,13 +117,6 @@ def _unanswered(sweep: Sweep, columns: Columns) -> int:
     return sum(
         error is None and None in values
         for error, values in zip(columns["error"], measures, strict=True)
-    )
-
-
-def _kept(journal: Journal, points: int) -> str:
-    return (
-        f"{len(journal.rows)} of {points} points are kept in {journal.path}; the same command goes "
-        "on from there"
     )
 
 

@@ -26,8 +26,10 @@ PANELS = ("position", "mean_velocity")
 OURS = {"native": "#1f5f8b", "Python": "#6fa8d0"}
 MARKERS = {(2, None): "o", (1, None): "s", (0, 1): "^", (0, 2): "d", (0, None): "^"}
 """Markers of our FMUs, by fidelity and averaging order."""
-NAME_HEIGHTS = {(1, "native"): 17, (0, "native"): 7, (2, "native"): 7}
-"""Heights [pt] of the names of our FMUs over their cheapest points, by fidelity and build."""
+NAME_HEIGHTS = {(1, "native"): 17, (1, "Python"): -26}
+"""Heights [pt] of the names of our FMUs over their cheapest points, by fidelity and build, where
+they are not `NAME_HEIGHT`: fidelity 1 and order 1 lie on the same line."""
+NAME_HEIGHT = {"native": 7, "Python": -16}
 PEER_MARKERS = "DvPX*<>ph8|H"
 PEER_COLOURS = (
     *("#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"),
@@ -94,7 +96,7 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
         )
     answers = all(row.answer != "run" for row in drawn)
     per = "answer" if answers else "simulated second"
-    axes.margins(y=0.1)
+    axes.margins(y=0.14)
     axes.set(xscale="log", yscale="log", xlabel=f"CPU time per {per} [s]")
 
 
@@ -106,7 +108,7 @@ def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
         axes.annotate(
             family.replace(" FMU, fidelity ", " "),
             (cheapest.cost, _shown(cheapest, quantity)),
-            xytext=(0, NAME_HEIGHTS.get((cheapest.fidelity or 0, build), -16)),
+            xytext=(0, NAME_HEIGHTS.get((cheapest.fidelity or 0, build), NAME_HEIGHT[build])),
             textcoords="offset points",
             fontsize=8,
             color=_our_colour(family),

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.device import Device
+from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
@@ -20,8 +20,6 @@ from slider_resonator.trials.campaign.random_case import RandomCase
 
 RESOLVED = ("position", "velocity", "resonator_displacement", "resonator_velocity")
 AVERAGED = ("position", "mean_velocity")
-FULL = 2
-"""Fidelity of the full device, to which averages of second order come close."""
 EXACT = 1e-10
 """Error of resolved motion with Coulomb friction, over the peaks: rounding, at events too."""
 AVERAGED_ERROR = 1.1e-6

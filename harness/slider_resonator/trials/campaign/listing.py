@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.terminal import one_line
 from slider_resonator.trials.campaign.campaign_run import Campaign
 from slider_resonator.trials.campaign.random_case import RandomCase
@@ -37,8 +38,8 @@ def sentences(campaign: Campaign, cases: Sequence[RandomCase] = ()) -> str:
     """Return what a campaign found, in lines; of `cases` the values, too."""
     counts = ", ".join(f"{count} {verdict}" for verdict, count in campaign.counts.items())
     lines = [
-        f"{one_line(campaign.fmu)}: seed {campaign.seed}, {len(campaign.verdicts)} cases: "
-        f"{counts}; {campaign.wall_time:.0f} s"
+        f"{one_line(campaign.fmu)}: seed {campaign.seed}, "
+        f"{number_of(len(campaign.verdicts), 'case')}: {counts}; {campaign.wall_time:.0f} s"
     ]
     lines += [
         f"  nearest to the bound, {one.model}: {one.found:.2g} of it in {one.signal}, "

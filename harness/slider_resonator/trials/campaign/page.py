@@ -31,7 +31,7 @@ from slider_resonator.trials.campaign.verdict import (
 )
 
 FAILED_COLOUR, GREY = "#b3261e", "#78909c"
-LEAST = 1e-8
+MIN_SHOWN = 1e-8
 """Error over tolerance below which a point is drawn at this value."""
 MEANINGS = {
     PASSED: "every signal is within the errors that its numerics state",
@@ -142,7 +142,7 @@ def _height(one: CaseVerdict) -> float | None:
         return None
     if one.verdict == FAILED and one.found == 0.0:
         return None  # it crashed or hung
-    return max(one.found, LEAST)
+    return max(one.found, MIN_SHOWN)
 
 
 def _note(campaign: Campaign, one: CaseVerdict) -> str:

@@ -13,6 +13,7 @@ from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.output.progress import Progress, counted
+from slider_resonator.output.readable import number_of
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.judge import MAX_RELATIVE_COST, broken, judge
 from slider_resonator.trials.extremes.observe import observe
@@ -72,7 +73,7 @@ class Matrix:
     def summary(self) -> str:
         """The counts and the worst cost, in words."""
         lines = [
-            f"{len(self.verdicts)} cells: {self.count(PASSED)} passed, "
+            f"{number_of(len(self.verdicts), 'cell')}: {self.count(PASSED)} passed, "
             f"{self.count(REFUSED)} refused by name, {self.count(FAILED)} failed, "
             f"{self.not_run or 'none'} {'not run' if self.not_run else 'skipped'}; "
             f"{self.wall_time:.0f} s",

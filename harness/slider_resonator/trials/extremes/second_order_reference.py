@@ -9,14 +9,11 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.second_order import allowed_off, centre_signals, lag_of
-from slider_resonator.device.device import Device
+from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.trials.extremes.cell import MatrixCell
 from slider_resonator.trials.extremes.observe import Observation
 from slider_resonator.trials.extremes.verdict import REFERENCE, BoundCheck
-
-FULL = 2
-"""Fidelity of the full device."""
 
 
 def full_device(cell: MatrixCell) -> Device:

@@ -1,4 +1,4 @@
-"""The host table: Markdown that a README holds between two marks."""
+"""The host table: Markdown that a page holds between two marks."""
 
 from __future__ import annotations
 

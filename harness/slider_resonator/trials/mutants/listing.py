@@ -10,6 +10,7 @@ from rich.text import Text
 
 from slider_resonator.output.fitting_table import STYLES
 from slider_resonator.output.fitting_text import fitting, terminal_width
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import escaped, rendered
 from slider_resonator.trials.mutants.mutant import KINDS, Mutant
@@ -52,7 +53,7 @@ def print_mutants(console: Console, mutants: list[Mutant]) -> None:
         console.print(
             Text(f"{mutant.name} [{mutant.kind}]", "bold"), escaped(mutant.diff), sep="\n"
         )
-    console.print(f"{len(mutants)} mutants")
+    console.print(f"{number_of(len(mutants), 'mutant')}")
 
 
 def run_as_plain(run: MutationRun) -> dict[str, Any]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import pickle
 import time
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -16,7 +14,7 @@ from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.archive import PythonFmu
 from slider_resonator.trials.mutants.attempt import Bench
-from slider_resonator.trials.mutants.kept_verdicts import KeptVerdicts
+from slider_resonator.trials.mutants.kept_verdicts import entry_of, open_journal, verdicts_on
 from slider_resonator.trials.mutants.mutant import Mutant
 from slider_resonator.trials.mutants.points import probe_points, scene_points
 from slider_resonator.trials.mutants.probes import probe_scenes
@@ -51,7 +49,7 @@ def run_mutants(
 
     Verdicts that `journal` holds from an earlier run are taken from there. Raises FmuError when
     the unchanged FMU is rejected, SceneError as `scene_points` does, HarnessError as
-    `KeptVerdicts` does.
+    `Journal` does.
     """
     began = time.perf_counter()
     with ExitStack() as resources:
@@ -61,8 +59,9 @@ def run_mutants(
         _check_original(path, points, time_limit)
         probing = probe_points(path, probe_scenes(probes, seed), time_limit)
         every = [*points, *probing]
-        kept = KeptVerdicts(journal or folder / "verdicts", _digest(path, every), mutants)
-        resources.callback(kept.close)
+        kept_in = open_journal(journal or folder / "verdicts", path, every)
+        resources.enter_context(kept_in)
+        kept = verdicts_on(kept_in, mutants)
         reach = reaches(fmu, every, time_limit, jobs)
         bench = Bench(path.resolve(), every, [one.cost for one in reach], time_limit)
         servers = resources.enter_context(trial_servers(bench, jobs, folder))
@@ -70,27 +69,18 @@ def run_mutants(
         trials = StagedTrials(fmu, bench, [one.places for one in reach], len(points), servers, pool)
 
         def keep(verdict: MutantVerdict) -> None:
-            kept.add(verdict)
-            done = len(kept.verdicts)
-            label = counted(f"{verdict.status}: {verdict.mutant.name}", done - 1, len(mutants))
-            progress(label, done / len(mutants))
+            kept_in.add([entry_of(verdict)])
+            kept[verdict.mutant.name] = verdict
+            label = counted(f"{verdict.status}: {verdict.mutant.name}", len(kept) - 1, len(mutants))
+            progress(label, len(kept) / len(mutants))
 
         # The finished batches of a run that is cut off are a random sample.
         in_random_order = Random(seed).sample(mutants, len(mutants))
-        waiting = [mutant for mutant in in_random_order if mutant.name not in kept.verdicts]
+        waiting = [mutant for mutant in in_random_order if mutant.name not in kept]
         for begin in range(0, len(waiting), BATCH):
             trials.judge(waiting[begin : begin + BATCH], keep)
-        verdicts = tuple(kept.verdicts[mutant.name] for mutant in mutants)
+        verdicts = tuple(kept[mutant.name] for mutant in mutants)
     return MutationRun(str(path), made, len(probing), verdicts, time.perf_counter() - began)
-
-
-def _digest(path: Path, points: Sequence[ExpectedPoint]) -> str:
-    """Return a text that differs for another FMU, and for other points or expected values."""
-    content = hashlib.sha256(path.read_bytes())
-    for point in points:
-        content.update(repr((point.name, point.scene, point.share)).encode())
-        content.update(pickle.dumps(point.expected))
-    return content.hexdigest()
 
 
 def _check_original(path: Path, points: Sequence[ExpectedPoint], time_limit: float) -> None:

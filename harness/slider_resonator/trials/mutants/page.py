@@ -31,8 +31,7 @@ def write_mutants(path: Path, run: MutationRun, provenance: Provenance) -> None:
         rendered(tally("kind", run)),
         rendered(tally("file", run)),
         rendered(rejections(run)),
-        "<h2>Survivors</h2>",
-        *(_mutant(verdict, opened=True) for verdict in run.having(SURVIVED)),
+        *_group("Survivors", run.having(SURVIVED), opened=True),
         *_group("Equivalent within the allowed deviation", run.having(EQUIVALENT)),
         *_group("Not reached", run.having(NOT_REACHED)),
         provenance_html(provenance),
@@ -45,11 +44,12 @@ def _legend(run: MutationRun) -> Table:
     return Table([*texts(""), *numbers("mutants"), *texts("")], rows)
 
 
-def _group(heading: str, verdicts: Sequence[MutantVerdict]) -> list[str]:
-    return [f"<h2>{heading}</h2>", *(_mutant(verdict) for verdict in verdicts)]
+def _group(heading: str, verdicts: Sequence[MutantVerdict], *, opened: bool = False) -> list[str]:
+    shown = [_mutant(verdict, opened=opened) for verdict in verdicts] or ["<p>None.</p>"]
+    return [f"<h2>{heading}</h2>", *shown]
 
 
-def _mutant(verdict: MutantVerdict, *, opened: bool = False) -> str:
+def _mutant(verdict: MutantVerdict, *, opened: bool) -> str:
     lines = "\n".join(map(_line, verdict.mutant.diff.splitlines()[2:]))
     return (
         f"<details{' open' if opened else ''}><summary>{escaped(verdict.mutant.name)}</summary>"

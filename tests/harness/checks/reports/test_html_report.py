@@ -11,6 +11,7 @@ import numpy as np
 
 from slider_resonator.checks.overview import Overview
 from slider_resonator.checks.reports.html_report import write_html
+from slider_resonator.checks.reports.scene_sections import MAX_UNFOLDED
 from slider_resonator.checks.validate import Validation
 from tests.harness.verdicts import BAD, BROKEN, GOOD, PASSED, SIGNAL, SLOWER, TIMES
 from tests.html_pages import Page
@@ -44,7 +45,25 @@ def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None
     sections = [name for name in tags.ids if name.startswith("scene-")]
     assert sections == ["scene-0-0", "scene-1-0", "scene-1-1"]
     rows = tags.tags.count("tr")
+    rows -= 2 * text.count("<h3>steady velocity: ")
     assert rows == 2 + 3 + 3 + 4 + 5, "indices, heads and checks of the scenes, provenance"
+
+
+def test_the_page_opens_with_the_steady_velocity_in_its_unit(tmp_path: Path) -> None:
+    text, _ = page(tmp_path, GOOD)
+    assert text.index("steady velocity: phase_sweep") < text.index("<h3>Scenes</h3>")
+    assert "0.126667 m/s" in text
+    assert "off by 1.0e-10 m/s" in text
+
+
+def test_of_many_scenes_those_that_fail_are_unfolded(tmp_path: Path) -> None:
+    good = [replace(PASSED, scene=f"scene_{number}") for number in range(MAX_UNFOLDED)]
+    text, tags = page(tmp_path, Validation("bad.fmu", (*good, SLOWER), 1.0))
+    assert re.findall(r'<details id="([^"]*)" open>', text) == ["scene-0-3"]
+    assert tags.tags.count("details") == 4
+    assert "<h3>phase_sweep</h3> 1 of 1 check failed" in text
+    few, _ = page(tmp_path, Validation("good.fmu", tuple(good), 1.0))
+    assert few.count('" open>') == MAX_UNFOLDED
 
 
 def test_output_of_an_fmu_is_escaped_in_markup(tmp_path: Path) -> None:

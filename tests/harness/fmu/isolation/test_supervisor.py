@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import select
+import socket
 import time
 from collections.abc import Iterator
 
@@ -36,15 +37,9 @@ class Clock:
         return list(range(PROGRAM, PROGRAM + next(self._counts)))
 
 
-class Control:
-    """A socket that is never ready."""
-
-    def fileno(self) -> int:
-        return 3
-
-
-def watch(max_memory: int = 1 << 30) -> dict[str, int]:
-    return supervisor._watch(PROGRAM, Control(), 4, max_memory)  # type: ignore[arg-type]
+def watch() -> dict[str, int]:
+    with socket.socket() as control:
+        return supervisor._watch(PROGRAM, control, wakeup=control.fileno(), max_memory=1 << 30)
 
 
 @pytest.mark.parametrize(("cost", "interval"), [(0.001, 0.1), (0.02, 0.5), (0.5, 1.0)])

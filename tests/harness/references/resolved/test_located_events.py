@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -67,9 +68,9 @@ def test_error_falls_with_the_tolerance() -> None:
     ],
 )
 def test_exponentials_agree_with_stepwise_integration(
-    changes: dict[str, float], inputs: dict[str, float]
+    changes: dict[str, Any], inputs: dict[str, float]
 ) -> None:
-    device = replace(TABLE_1, **changes)  # type: ignore[arg-type]
+    device = replace(TABLE_1, **changes)
     times = np.linspace(0.0, 12 * PERIOD, 301)
     ramp = replace(until(12 * PERIOD, **inputs)[0], load_rate=3.0)
     for held in (until(12 * PERIOD, **inputs), [ramp]):

@@ -1,4 +1,7 @@
-"""The choice for 200 scenes at random, each judged by whole runs."""
+"""The choice for 200 scenes at random, each judged by whole runs.
+
+All are judged each night, the first ones on each push.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from slider_resonator.studies.choose.choosing import choose_with
 from tests.harness.studies.choose.generated_scenes import COUNT, generated_scene
 from tests.harness.studies.choose.judging import Judge, Verdict, described, judge
 
-CHUNK = 25
+FIRST, CHUNK = 10, 25
 REFEREED = (46, 50)
 """Short scenes with Coulomb friction, whose inputs do not vary but by jumps."""
 
@@ -50,13 +53,22 @@ def judged(instance: Instance, seeds: range) -> None:
 def test_choices_for_the_first_scenes_meet_the_needs_at_little_cost(
     instance: Instance,
 ) -> None:
-    judged(instance, range(10))
+    judged(instance, range(FIRST))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("first", range(0, COUNT, CHUNK))
-def test_choices_meet_the_needs_at_little_cost(instance: Instance, first: int) -> None:
-    judged(instance, range(first, first + CHUNK))
+@pytest.mark.parametrize(
+    "seeds",
+    [
+        pytest.param(range(FIRST, CHUNK), marks=pytest.mark.slow),
+        pytest.param(range(CHUNK, 2 * CHUNK), marks=pytest.mark.slow),
+        *(
+            pytest.param(range(first, first + CHUNK), marks=pytest.mark.nightly)
+            for first in range(2 * CHUNK, COUNT, CHUNK)
+        ),
+    ],
+)
+def test_choices_meet_the_needs_at_little_cost(instance: Instance, seeds: range) -> None:
+    judged(instance, seeds)
 
 
 def test_some_scenes_suit_averaging_and_some_do_not() -> None:

@@ -29,7 +29,7 @@ def test_claims_are_written_as_markdown_and_json(tmp_path: Path) -> None:
     claims = json.loads((tmp_path / "claims.json").read_text(encoding="utf-8"))["claims"]
     assert [claim["confirmed"] for claim in claims] == [True, False]
     table = (tmp_path / "claims.md").read_text(encoding="utf-8")
-    assert "| It moves | (5) | v m per s 0.5 | agrees | it \\| does |" in table
+    assert "| It moves | (5) | v: 0.5 m/s | agrees | it \\| does |" in table
     assert "**NOT CONFIRMED**" in table
 
 

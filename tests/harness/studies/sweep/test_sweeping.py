@@ -19,12 +19,11 @@ from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.studies.sweep.grid import read_grid
-from slider_resonator.studies.sweep.journal import Journal, journal_path
+from slider_resonator.studies.sweep.kept_points import journal_path, open_journal
 from slider_resonator.studies.sweep.sweeping import run_sweep
 
 DEADLINE = 120.0
 """Seconds after which a sweep of seconds counts as hanging."""
-KILLS = 8
 
 
 def test_one_and_two_workers_write_the_same_table(
@@ -36,10 +35,10 @@ def test_one_and_two_workers_write_the_same_table(
     assert (tmp_path / "one.parquet").read_bytes() == (tmp_path / "two.parquet").read_bytes()
     assert one == two
     assert (one.points, one.found, one.failed) == (30, 0, 15)
-    assert "friction_coefficient = -1" in str(one.first_error)
+    assert "friction_coefficient = 0.0 refused" in str(one.first_error)
     rows = parquet.read_table(tmp_path / "one.parquet").to_pylist()
     for row in rows:
-        refused = row["friction_coefficient"] < 0.0
+        refused = row["friction_coefficient"] == 0.0
         assert (row["error"] is not None) == (row["velocity.rms"] is None) == refused
     assert not journal_path(tmp_path / "one.parquet").exists()
 
@@ -69,7 +68,7 @@ def test_points_of_another_grid_are_refused_unless_discarded(
     grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "a.csv"
-    with Journal(journal_path(out), "other"):
+    with open_journal(out, "other"):
         pass
     sweep = read_grid(grid)
     with pytest.raises(HarnessError, match="another sweep"):
@@ -129,13 +128,15 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
         time.sleep(0.05)
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize(
+    "kills", [pytest.param(3, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.nightly)]
+)
 def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
-    long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path
+    long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path, kills: int
 ) -> None:
     out = tmp_path / "killed.parquet"
     kept = 0
-    for seed in range(KILLS):
+    for seed in range(kills):
         process = _start(long_grid, native_fmu, out)
         chosen = kept + random.Random(seed).randrange(150)
         _wait_for_points(process, out, chosen)

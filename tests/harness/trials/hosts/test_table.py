@@ -8,7 +8,7 @@ from slider_resonator.trials.hosts.hosts import hosts
 from slider_resonator.trials.hosts.runs import CASES, FMI_3, HostComparison, HostResult
 from slider_resonator.trials.hosts.table import BEGIN, COLUMNS, END, host_table, write_table
 
-README = Path(__file__).parents[4] / "README.md"
+PAGE = Path(__file__).parents[4] / "docs" / "hosts.md"
 RESULT = HostResult(
     "a host",
     "1.2",
@@ -40,8 +40,8 @@ def test_the_table_goes_between_its_marks(tmp_path: Path) -> None:
     assert path.read_text() == f"before\n{BEGIN}\n{table}\n{END}\nafter\n"
 
 
-def test_the_table_of_the_readme_is_one_that_this_code_writes() -> None:
-    text = README.read_text(encoding="utf-8")
+def test_the_table_of_the_page_is_one_that_this_code_writes() -> None:
+    text = PAGE.read_text(encoding="utf-8")
     between = text.partition(BEGIN)[2].partition(END)[0].strip().splitlines()
     head, _, *rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in between]
     assert head == [column.heading for column in COLUMNS]

@@ -10,10 +10,11 @@ from rich.text import Text
 
 from slider_resonator.output.fitting_table import STYLES
 from slider_resonator.output.fitting_text import fitting, terminal_width
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import escaped, rendered
+from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict, NativeRun
 from slider_resonator.trials.mutants.native.changes import Change
-from slider_resonator.trials.mutants.native.native_run import ChangeVerdict, NativeRun
 
 
 def print_changes(console: Console, changes: Sequence[Change]) -> None:
@@ -22,7 +23,7 @@ def print_changes(console: Console, changes: Sequence[Change]) -> None:
         kind = "harmless" if change.harmless else "fault"
         console.print(Text(f"{change.name} [{kind}]", "bold"))
         console.print(Text(escaped(f"{change.file}: {change.meaning}\n{_diff(change)}")))
-    console.print(f"{len(changes)} changes")
+    console.print(f"{number_of(len(changes), 'change')}")
 
 
 def print_native_run(console: Console, run: NativeRun) -> None:

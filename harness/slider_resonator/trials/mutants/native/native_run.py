@@ -6,7 +6,6 @@ import time
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import ExitStack, closing
-from dataclasses import dataclass
 from pathlib import Path
 
 from slider_resonator.checks.fmu_side import FmuSide
@@ -15,7 +14,10 @@ from slider_resonator.errors import FmuError
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.trials.mutants.attempt import Attempt, Bench
+from slider_resonator.trials.mutants.kept_verdicts import open_journal
+from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict, NativeRun
 from slider_resonator.trials.mutants.native.changes import Change
+from slider_resonator.trials.mutants.native.kept_changes import entry_of, verdicts_on
 from slider_resonator.trials.mutants.native.workshop import Workshop, read_native_sources
 from slider_resonator.trials.mutants.points import scene_points
 from slider_resonator.trials.mutants.rejecting_points import RejectingPoints
@@ -29,55 +31,6 @@ from slider_resonator.trials.mutants.trial import (
 from slider_resonator.trials.mutants.trial_client import trial_servers
 
 
-@dataclass(frozen=True)
-class ChangeVerdict:
-    """Whether a change is rejected, by which scene and quantity, and why.
-
-    A rejected one without a quantity could not be run.
-    """
-
-    change: Change
-    rejected: bool
-    scene: str = ""
-    quantity: str = ""
-    reason: str = ""
-
-    @property
-    def explained(self) -> bool:
-        """Whether it is a fault that no scene can see, with the reason given beside it."""
-        return bool(self.change.survives) and not self.rejected
-
-
-@dataclass(frozen=True)
-class NativeRun:
-    """The verdicts on changes of an FMU; `wall_time` is in s."""
-
-    fmu: str
-    verdicts: tuple[ChangeVerdict, ...]
-    wall_time: float
-
-    @property
-    def faults(self) -> tuple[ChangeVerdict, ...]:
-        """The verdicts on faults."""
-        return tuple(v for v in self.verdicts if not v.change.harmless)
-
-    @property
-    def survivors(self) -> tuple[ChangeVerdict, ...]:
-        """The faults that pass every scene, those with a reason too."""
-        return tuple(v for v in self.faults if not v.rejected)
-
-    @property
-    def false_alarms(self) -> tuple[ChangeVerdict, ...]:
-        """The harmless variants that a scene rejects."""
-        return tuple(v for v in self.verdicts if v.change.harmless and v.rejected)
-
-    @property
-    def rate(self) -> float | None:
-        """Rejected faults as a share of those that a scene can see; None without any."""
-        seen = [v for v in self.faults if not v.explained]
-        return sum(v.rejected for v in seen) / len(seen) if seen else None
-
-
 def run_changes(
     path: Path,
     changes: Sequence[Change],
@@ -85,12 +38,14 @@ def run_changes(
     *,
     jobs: int,
     time_limit: float,
+    journal: Path | None = None,
     progress: Progress = no_progress,
 ) -> NativeRun:
     """Build the FMU at `path` with each change and try it on scenes, `jobs` at a time.
 
-    Raises HarnessError when a change does not fit the sources or there is no compiler, FmuError
-    when the FMU has no sources or is rejected unchanged, SceneError as `scene_points` does.
+    Verdicts that `journal` holds from an earlier run are taken from there. Raises HarnessError when
+    a change does not fit the sources, there is no compiler, or as `Journal` does, FmuError when the
+    FMU has no sources or is rejected unchanged, SceneError as `scene_points` does.
     """
     began = time.perf_counter()
     sources = read_native_sources(path)
@@ -104,12 +59,14 @@ def run_changes(
         unchanged = workshop.fmu(folder / "unchanged.fmu")
         costs = _costs(unchanged, points, time_limit)
         order = sorted(range(len(points)), key=costs.__getitem__)
+        kept_in = open_journal(journal or folder / "verdicts", path, points)
+        resources.enter_context(kept_in)
+        kept = verdicts_on(kept_in, changes)
         bench = Bench(unchanged, points, costs, time_limit)
         servers = resources.enter_context(trial_servers(bench, jobs, folder))
 
-        def verdict(number: int) -> ChangeVerdict:
-            change = changes[number]
-            library = workshop.library(change.name, {change.file: texts[number]})
+        def verdict(change: Change, text: str) -> ChangeVerdict:
+            library = workshop.library(change.name, {change.file: text})
             seen = servers.attempt(
                 Attempt({workshop.binary: library}, rejecting.first(change.file, order))
             )
@@ -121,16 +78,22 @@ def run_changes(
             return ChangeVerdict(change, True, found.scene, found.quantity, found.reason)
 
         with ThreadPoolExecutor(jobs) as pool:
-            futures = [pool.submit(verdict, number) for number in range(len(changes))]
+            futures = [
+                pool.submit(verdict, change, text)
+                for change, text in zip(changes, texts, strict=True)
+                if change.name not in kept
+            ]
             try:
-                for done, future in enumerate(as_completed(futures), start=1):
+                for future in as_completed(futures):
                     one = future.result()
+                    kept_in.add([entry_of(one)])
+                    kept[one.change.name] = one
                     word = "rejected" if one.rejected else "passes"
-                    label = counted(f"{one.change.name} {word}", done - 1, len(changes))
-                    progress(label, done / len(changes))
+                    label = counted(f"{one.change.name} {word}", len(kept) - 1, len(changes))
+                    progress(label, len(kept) / len(changes))
             finally:
                 pool.shutdown(wait=True, cancel_futures=True)
-    verdicts = tuple(future.result() for future in futures)
+    verdicts = tuple(kept[change.name] for change in changes)
     return NativeRun(str(path), verdicts, time.perf_counter() - began)
 
 

@@ -16,7 +16,7 @@ FAULTS, VARIANTS = hand_written_faults(), harmless_variants()
 SHELL = {
     *("fmi2_functions.c", "fmi2_model_exchange.c", "fmi2_state.c", "fmi2_steps.c"),
     "fmi2_derivatives.c",
-    *("fmi2_values.c", "fmi2_version.c", "instance.c", "state_access.c", "refusal.c"),
+    *("fmi2_values.c", "fmi2_version.c", "instance.c", "state_access.c", "refusal.c", "budget.c"),
     *("state_bytes.c", "values.c", "experiment.c"),
 }
 """Sources without physics, and those that the build generates."""

@@ -6,13 +6,15 @@ import pytest
 
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict, NativeRun
 from slider_resonator.trials.mutants.native.changes import (
     Change,
     hand_written_faults,
     harmless_variants,
 )
-from slider_resonator.trials.mutants.native.native_run import ChangeVerdict, NativeRun, run_changes
+from slider_resonator.trials.mutants.native.native_run import run_changes
 from slider_resonator.trials.mutants.native.workshop import read_native_sources
+from slider_resonator.trials.mutants.trial_client import TrialServers
 
 SCENES = ("less_than_a_period", "lugre_less_than_a_period", "averaged_less_than_a_period")
 REJECTED = ("mean_before_first_period", "first_bristle_sign", "swing_sign")
@@ -26,16 +28,22 @@ def named(*names: str) -> list[Change]:
 
 
 @pytest.mark.slow
-def test_faults_are_rejected_and_variants_accepted(native_fmu: Path) -> None:
+def test_faults_are_rejected_and_variants_accepted_and_verdicts_kept(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     changes = named(*REJECTED, SEEN_ELSEWHERE, *HARMLESS)
     files = [find_scene(scene) for scene in SCENES]
-    run = run_changes(native_fmu, changes, files, jobs=1, time_limit=30.0)
+    journal = tmp_path / "verdicts"
+    run = run_changes(native_fmu, changes, files, jobs=1, time_limit=30.0, journal=journal)
     rejected = {verdict.change.name for verdict in run.verdicts if verdict.rejected}
     assert rejected == set(REJECTED)
     assert [verdict.change.name for verdict in run.survivors] == [SEEN_ELSEWHERE]
     assert run.false_alarms == ()
     assert run.rate == 0.75
     assert all(verdict.quantity for verdict in run.verdicts if verdict.rejected)
+    monkeypatch.delattr(TrialServers, "attempt")  # nothing is left to be tried
+    again = run_changes(native_fmu, changes, files, jobs=1, time_limit=30.0, journal=journal)
+    assert again.verdicts == run.verdicts
 
 
 def test_a_unit_includes_headers_of_headers(native_fmu: Path) -> None:

@@ -1,0 +1,33 @@
+/* The work of one communication step: all its parts draw from one budget. */
+#ifndef SLIDER_BUDGET_H
+#define SLIDER_BUDGET_H
+
+#include <stdbool.h>
+
+#include "refusal.h"
+
+/* The step has `step_size` [s], of which `passed` [s] were over when its present part began. `spent` is the
+ * share of the budget that is spent. */
+typedef struct {
+    double step_size, passed, spent;
+} Budget;
+
+static inline Budget budget_of(double step_size) {
+    return (Budget){.step_size = step_size};
+}
+
+/* How much is left of a kind of work of which a whole budget buys `max_count`. */
+static inline int budget_left(const Budget *budget, int max_count) {
+    return budget->spent < 1.0 ? (int)((1.0 - budget->spent) * max_count) : 0;
+}
+
+static inline void budget_spend(Budget *budget, int count, int max_count) {
+    budget->spent += (double)count / max_count;
+}
+
+/* Refuse work of which a whole budget buys `max_count` of `what`. A step up to `reached` [s] after the present
+ * part began takes less: the text names the power of ten below it. Return false. */
+bool budget_refuse(const Budget *budget, double reached, int max_count, const char *what,
+                   Refusal *refusal);
+
+#endif

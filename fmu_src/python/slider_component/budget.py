@@ -1,0 +1,36 @@
+"""The work of one communication step: all its parts draw from one budget."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import floor, log10
+
+from . import refusal_texts
+from .refusal import Refusal
+
+
+@dataclass(slots=True)
+class Budget:
+    """The work of a step of `step_size` [s]; `spent` is the share of it that is spent."""
+
+    step_size: float
+    spent: float = 0.0
+
+    def left(self, max_count: int) -> int:
+        """How much is left of a kind of work of which a whole budget buys `max_count`."""
+        return int((1.0 - self.spent) * max_count) if self.spent < 1.0 else 0
+
+    def spend(self, count: int, max_count: int) -> None:
+        """Spend `count` of that work."""
+        self.spent += count / max_count
+
+    def refusal(self, reached: float, max_count: int, what: str) -> Refusal:
+        """Return the refusal of work of which a whole budget buys `max_count` of `what`.
+
+        A step up to `reached` [s] takes less: the text names the power of ten below it.
+        """
+        size = self.step_size
+        if reached > 0.0:
+            exponent = floor(log10(reached))
+            return Refusal(refusal_texts.too_much_work(size, max_count, what, exponent))
+        return Refusal(refusal_texts.too_much_work_at_once(size, max_count, what))

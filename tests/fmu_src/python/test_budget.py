@@ -1,0 +1,49 @@
+"""The work of a communication step: what its parts take adds up."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from fmu_src.python.slider_component import events
+from fmu_src.python.slider_component.budget import Budget
+from fmu_src.python.slider_component.constants import MAX_STEP_LEGS, PYTHON_SLOWDOWN
+from fmu_src.python.slider_component.device import Inputs
+from fmu_src.python.slider_component.dormand_prince import Reached
+from fmu_src.python.slider_component.friction_laws import friction_law_of
+from fmu_src.python.slider_component.held import hold
+from fmu_src.python.slider_component.law import law_of
+from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.refusal import Refusal
+from fmu_src.python.slider_component.slow_pass import SlowPass
+from tests.fmu_src.orbit_devices import TABLE_1
+
+MAX_LEGS = MAX_STEP_LEGS // PYTHON_SLOWDOWN
+PERIOD = math.tau / TABLE_1.drive_frequency
+MOST = 100
+
+
+def slow_pass() -> SlowPass:
+    return SlowPass(lambda _t, v: -v, 1.0, 1e-9, 0.01, may_settle=False, most=MOST)
+
+
+def test_resolved_motion_spends_its_legs_and_stops_where_the_budget_ends() -> None:
+    moment = law_of(TABLE_1, Inputs()).start(State(0.0, 0.0, 0.0), 0.0)
+    friction, held = friction_law_of(0), hold(TABLE_1, Inputs())
+    budget = Budget(1.0)
+    events.advance(friction, held, moment, 10.0 * PERIOD, budget)
+    legs = budget.spent * MAX_LEGS
+    assert 20.0 <= legs <= 40.0, "two legs or some more in a turn"
+    budget.spent = 1.0 - 0.5 * budget.spent
+    with pytest.raises(Refusal, match=f"= 1.0 refused: it takes more work than {MAX_LEGS} legs"):
+        events.advance(friction, held, moment, 10.0 * PERIOD, budget)
+
+
+def test_slow_motion_has_the_steps_that_other_work_left() -> None:
+    whole = Budget(5.0)
+    reached = slow_pass().reach(2.0, Reached(0.0, 1.0, 0.0, 0.01), whole)
+    assert whole.spent == pytest.approx(reached.tried / MOST)
+    slow_pass().reach(2.0, Reached(0.0, 1.0, 0.0, 0.01), Budget(5.0, spent=0.99 - whole.spent))
+    with pytest.raises(Refusal, match=f"= 5.0 refused: it takes more work than {MOST} steps"):
+        slow_pass().reach(2.0, Reached(0.0, 1.0, 0.0, 0.01), Budget(5.0, spent=1.01 - whole.spent))
