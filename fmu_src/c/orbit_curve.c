@@ -6,10 +6,8 @@
 #include "elementary.h"
 #include "orbit_drift.h"
 #include "orbit_newton.h"
+#include "slow_motion_error.h"
 #include "state.h"
-
-/* Size of the last coefficients up to which a panel holds, in the scale of their quantity. */
-#define MAX_REST 1e-9
 
 /* Sum of the last coefficients up to which they are rounding, over the largest. */
 #define ROUNDING 1e-13
@@ -248,6 +246,7 @@ void orbit_panel_make(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMa
     OrbitPoint points[ORBIT_NODES];
     panel->found = find_nodes(panel, curve, map, points);
     panel->holds = panel->found || panel->depth >= MAX_DEPTH_MISSING;
+    double accuracy = table_accuracy(&curve->device);
     if (!panel->found) {
         return;
     }
@@ -261,7 +260,7 @@ void orbit_panel_make(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMa
         }
         double rest = fmax(fabs(panel->coefficient[q][ORBIT_NODES - 1]),
                            fabs(panel->coefficient[q][ORBIT_NODES - 2]));
-        if (rest > MAX_REST * scale_of(map, curve, (OrbitQuantity)q) && panel->depth < MAX_DEPTH) {
+        if (rest > accuracy * scale_of(map, curve, (OrbitQuantity)q) && panel->depth < MAX_DEPTH) {
             panel->holds = false;
         }
     }

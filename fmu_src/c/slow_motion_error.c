@@ -33,8 +33,10 @@
  * than 1 for the swing with which that begins. */
 #define LOADING 1.2
 
-/* Error of the integration and of the tables, in v_q; and the least that the rule of thumb gives. */
+/* Error of the integration and of the tables, in v_q; the share of the tolerance of LuGre friction that tables err
+ * by where that is more; and the least that the rule of thumb gives. */
 #define RESOLUTION 1e-9
+#define SHARE_OF_TOLERANCE 0.01
 #define LEAST_BY_RULE 1e-8
 
 /* Damping of bristles over Coulomb friction; 0 without bristles. A bristle bends over a path of 2 mu/s0 after
@@ -110,8 +112,13 @@ double second_order_error(const Law *law, double added_mass, double force) {
     return fmin(away * squares + LEAST_BY_RULE, 1.0) * law->fast.velocity;
 }
 
+double table_accuracy(const Device *device) {
+    bool lugre = device->friction_law != 0;
+    return lugre ? fmax(RESOLUTION, SHARE_OF_TOLERANCE * device->tolerance) : RESOLUTION;
+}
+
 double resolution_error(const Law *law) {
-    return RESOLUTION * law->fast.velocity;
+    return table_accuracy(&law->device) * law->fast.velocity;
 }
 
 /* The change of the slider's vibration by a change of friction, which the resonator delays: its delay in

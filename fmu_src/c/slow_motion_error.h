@@ -27,6 +27,9 @@ double first_order_error(const Law *law);
  * mass, and friction and load leave a mean `force` [N]: without it motion is steady, and its orbit exact. */
 double second_order_error(const Law *law, double added_mass, double force);
 
+/* Error of tables in the scale of each quantity: that up to which the last coefficients of a panel are left. */
+double table_accuracy(const Device *device);
+
 /* Error [m/s] of the integration and of the tables. */
 double resolution_error(const Law *law);
 

@@ -39,9 +39,6 @@ MAX_DEPTH = 6
 MAX_DEPTH_MISSING = 2
 """Most halvings of a panel in which an orbit is missing."""
 
-MAX_REST = 1e-9
-"""Size of the last coefficients up to which a panel holds, in the scale of their quantity."""
-
 ROUNDING = 1e-13
 """Sum of the last coefficients up to which they are rounding, over the largest."""
 
@@ -171,10 +168,13 @@ def point_of(period_map: PeriodMap, orbit: HeldOrbit) -> OrbitPoint:
 
 
 class OrbitCurve:
-    """The orbits of a period map at one lead. Raises NoOrbitError where there are none."""
+    """The orbits of a period map at one lead. Raises NoOrbitError where there are none.
 
-    def __init__(self, period_map: PeriodMap, lead: float) -> None:
-        self._map, self.lead = period_map, lead
+    A panel holds when its last coefficients are at most `accuracy`, in the scale of their quantity.
+    """
+
+    def __init__(self, period_map: PeriodMap, lead: float, accuracy: float) -> None:
+        self._map, self.lead, self._accuracy = period_map, lead, accuracy
         high, forward = self._beyond(FORWARD)
         low, backward = self._beyond(BACKWARD)
         if not low < high:
@@ -213,7 +213,7 @@ class OrbitCurve:
         holds, coefficients = True, []
         for values, scale in zip(zip(*points, strict=True), self._scales(), strict=True):
             c = [_coefficient(values, k) for k in range(ORBIT_NODES)]
-            if max(abs(c[-1]), abs(c[-2])) > MAX_REST * scale and depth < MAX_DEPTH:
+            if max(abs(c[-1]), abs(c[-2])) > self._accuracy * scale and depth < MAX_DEPTH:
                 holds = False
             coefficients.append(trimmed(c))
         return OrbitPanel(depth, index, holds, tuple(coefficients), maps)

@@ -144,7 +144,8 @@ class ErrorRide:
         a = place.acceleration
         jumped = velocity_of_swing(self.device, place.swing * abs(a - orbit.acceleration))
         shifted = abs(orbit.ahead + place.lag * a) + (place.of_turn + place.unsure) * abs(a)
-        error = shifted + orbit.doubt + orbit.unrest + jumped + resolution_error(self.fast)
+        error = shifted + orbit.doubt + orbit.unrest + jumped
+        error += resolution_error(self.device, self.fast)
         return min(error, self.fast.velocity)
 
     @property
@@ -289,7 +290,9 @@ class ErrorRide:
         share, fast = friction_share(self.device, self.fast), self.fast.velocity
         if abs(start.acceleration) > SETTLED * share * self.device.drive_frequency * fast:
             return abs(end.acceleration / start.acceleration)
-        if abs(orbit.ahead) + orbit.doubt < NEGLIGIBLE_ERROR * resolution_error(self.fast):
+        if abs(orbit.ahead) + orbit.doubt < NEGLIGIBLE_ERROR * resolution_error(
+            self.device, self.fast
+        ):
             return 1.0
         return self._left_by_slope(end.velocity, duration)
 

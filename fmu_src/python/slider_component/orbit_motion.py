@@ -149,7 +149,8 @@ class OrbitLaw:
         if orbit.stage == Stage.AVERAGED:
             return first_order_error(device, self.fast)
         if orbit.stage != Stage.ON_ORBIT:
-            error = abs(orbit.ahead) + orbit.doubt + orbit.unrest + resolution_error(self.fast)
+            error = abs(orbit.ahead) + orbit.doubt + orbit.unrest
+            error += resolution_error(device, self.fast)
             return min(error, self.fast.velocity)
         ride = self._ride(moment, orbit.lead)
         theta = ride.theta(0.0, moment.theta, self.full.inputs.phase + moment.psi)

@@ -23,6 +23,7 @@ from .orbit_search import OrbitSearch
 from .orbit_shifts import NO_SHIFT, ShiftPoint
 from .period_map import PeriodMap, period_map
 from .shift_tables import ShiftCurve
+from .slow_motion_error import table_accuracy
 
 SERIES_LEADS = 9
 """Leads between which orbits are interpolated by a Fourier series."""
@@ -332,7 +333,7 @@ _map = lru_cache(maxsize=CURVES)(period_map)
 @lru_cache(maxsize=CURVES)
 def _curve(device: Device, waves: float, turns: int, lead: float) -> OrbitCurve | None:
     try:
-        return OrbitCurve(_map(device, waves, turns), lead)
+        return OrbitCurve(_map(device, waves, turns), lead, table_accuracy(device))
     except NoOrbitError:
         return None
 

@@ -44,6 +44,10 @@ STIFF_UP_TO = 1.5
 SOFT_FROM = 3.0
 """The same from which on it counts as soft."""
 
+SHARE_OF_TOLERANCE = 0.01
+"""Share of the tolerance of LuGre friction that tables may err by, where it is more than
+`RESOLUTION`."""
+
 RESOLUTION = 1e-9
 """Error of the integration and of the tables, in v_q."""
 
@@ -170,6 +174,16 @@ def drift_error(device: Device, fast: FastVibration, drift: float) -> float:
     return min(varying * share * (DRIFTING * turned + lag * lagging), 1.0) * fast.velocity
 
 
-def resolution_error(fast: FastVibration) -> float:
+def table_accuracy(device: Device) -> float:
+    """Error of tables in the scale of each quantity.
+
+    It is that up to which the last coefficients of a panel are left.
+    """
+    if device.friction_law == 0:
+        return RESOLUTION
+    return max(RESOLUTION, SHARE_OF_TOLERANCE * device.tolerance)
+
+
+def resolution_error(device: Device, fast: FastVibration) -> float:
     """Error [m/s] of the integration and of the tables."""
-    return RESOLUTION * fast.velocity
+    return table_accuracy(device) * fast.velocity

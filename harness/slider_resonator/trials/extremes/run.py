@@ -72,12 +72,13 @@ class Matrix:
     @property
     def summary(self) -> str:
         """The counts and the worst cost, in words."""
+        compared = sum(one.has(REFERENCE) for one in self.verdicts)
         lines = [
             f"{number_of(len(self.verdicts), 'cell')}: {self.count(PASSED)} passed, "
             f"{self.count(REFUSED)} refused by name, {self.count(FAILED)} failed, "
             f"{self.not_run or 'none'} {'not run' if self.not_run else 'skipped'}; "
             f"{self.wall_time:.0f} s",
-            f"{sum(one.has(REFERENCE) for one in self.verdicts)} cells compared with a reference, "
+            f"{number_of(compared, 'cell')} compared with a reference, "
             f"which gave up in {sum(one.has(NO_REFERENCE) for one in self.verdicts)} others",
         ]
         worst = self.most_expensive
