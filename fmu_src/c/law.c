@@ -105,7 +105,6 @@ Moment law_start(const Law *law) {
         first.means.mean_velocity = slow_velocity(law, &first.state, first.theta);
     } else {
         first.bristle = law->friction->first_bristle(law);
-        first.counts.sliding = first.mode == LIFTED ? 0 : first.mode;
     }
     return first;
 }

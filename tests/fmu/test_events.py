@@ -70,3 +70,15 @@ def test_a_slide_just_before_the_contact_lifts_is_a_reversal(
     instance.set(load=0.1)
     instance.step(2.0 * before)
     assert instance.get("contact_mode", "reversals") == (2.0, 1.0)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_a_first_slide_is_no_reversal_whatever_the_load_was_before(
+    instantiate: Callable[[], Instance], law: int
+) -> None:
+    """Some hosts set inputs only after initialization, which may end under one that pushes."""
+    still = {"base_amplitude": 0.0, "resonator_mass": 0.0, "friction_law": law}
+    instance = instantiate().initialize(load=10.0, **still)
+    instance.set(load=-10.0)
+    instance.step(1e-3)
+    assert instance.get("contact_mode", "reversals") == (1.0, 0.0)

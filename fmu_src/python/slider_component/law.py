@@ -8,7 +8,6 @@ from typing import Protocol
 
 from . import events
 from .budget import Budget
-from .contact import LIFTED
 from .device import Device, Inputs
 from .fast_vibration import steady_swing
 from .friction_law import FrictionLaw
@@ -78,9 +77,7 @@ class ResolvedLaw:
             state = state._replace(velocity=velocity)
         bristle = self.friction.first_bristle(self.held)
         at_rest = Moment(state, position, 0.0, 0.0, 0, Counts(), inf, PeriodMeans(), bristle)
-        mode = self.mode(at_rest)
-        counts = Counts(sliding=0 if mode == LIFTED else mode)
-        return replace(at_rest, mode=mode, counts=counts)
+        return replace(at_rest, mode=self.mode(at_rest))
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """See Law."""

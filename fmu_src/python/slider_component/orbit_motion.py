@@ -18,7 +18,7 @@ from math import floor, inf, remainder, tau
 from . import events
 from .budget import Budget
 from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
-from .contact import LIFTED, STICK
+from .contact import STICK
 from .device import Device, Inputs
 from .dormand_prince import Reached
 from .fast_vibration import FastVibration
@@ -96,7 +96,6 @@ class OrbitLaw:
         bristle = self.friction.first_bristle(self.full)
         moment = Moment(state, position, 0.0, 0.0, 0, Counts(), inf, PeriodMeans(), bristle)
         moment.mode = self.mode(moment)
-        moment.counts = Counts(sliding=0 if moment.mode == LIFTED else moment.mode)
         to_go = resolved_angle(self.full.device, self.fast, state, 0.0)
         moment.orbit = OrbitState(
             Stage.RESOLVED, to_go, under=orbit_values(self.full.device, self.full.inputs)

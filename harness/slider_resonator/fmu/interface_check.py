@@ -13,11 +13,21 @@ from fmpy.model_description import (
     Unknown,
 )
 
-from slider_resonator.device.interface import FIRST, VARIABLES, Variable
+from slider_resonator.device.interface import FIRST, INPUTS, VARIABLES, Variable
 from slider_resonator.fmu.units import unit_problems
 
 INITIAL: Mapping[str, str] = {"input": "exact", "parameter": "exact", "output": "calculated"}
 """What `initial` may say where it says anything, by causality."""
+
+INPUTS_AT_START: Mapping[str, Set[str]] = {
+    "position": frozenset(),
+    "velocity": frozenset(),
+    "normal_force": frozenset({"phase"}),
+    "reversals": frozenset(),
+    "last_event_time": frozenset(),
+    "blocking_force": frozenset({"phase", "frequency_ratio"}),
+}
+"""Inputs on which some outputs may depend at the start; any other makes a false algebraic loop."""
 
 
 def interface_problems(description: ModelDescription) -> list[str]:
@@ -43,7 +53,8 @@ def description_faults(description: ModelDescription) -> list[str]:
     """Return every deviation from starts, bounds, nominal values, variabilities, dependencies.
 
     Nominal values and the bounds of an output may be left out, and so may its dependencies: it then
-    depends on all inputs. The default experiment must be one that can be run.
+    depends on all inputs. The default experiment must be one that can be run, and no other tool
+    must be needed.
     """
     faults = [*_experiment_faults(description.defaultExperiment)]
     units = {unit.name: {shown.name for shown in unit.displayUnits} for unit in _units(description)}
@@ -67,6 +78,10 @@ def description_faults(description: ModelDescription) -> list[str]:
                 faults.append(f"{name} is declared to depend on {other}, which does not act on it")
     for unknown in description.outputs:
         faults += _linear_faults(unknown)
+    for unknown in description.initialUnknowns:
+        faults += _loop_faults(unknown)
+    if description.coSimulation.needsExecutionTool:
+        faults.append("needsExecutionTool is true, must be false: hosts refuse the FMU")
     return faults
 
 
@@ -104,6 +119,15 @@ def _linear_faults(unknown: Unknown) -> Iterator[str]:
         if kind != "dependent":
             name = unknown.variable.name
             yield f"{name} is declared {kind} in {other.name}, must be dependent"
+
+
+def _loop_faults(unknown: Unknown) -> Iterator[str]:
+    """Find inputs on which an output is declared to depend at the start, and does not."""
+    name = unknown.variable.name
+    if name in INPUTS_AT_START:
+        declared = {other.name for other in unknown.dependencies or ()} & set(INPUTS)
+        for other in sorted(declared - INPUTS_AT_START[name]):
+            yield f"{name} is declared to depend on {other} at the start, which does not act on it"
 
 
 def _units(description: ModelDescription) -> Sequence[Unit]:

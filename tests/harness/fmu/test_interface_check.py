@@ -36,6 +36,16 @@ CHANGES: dict[str, tuple[bytes, bytes, str]] = {
         b'dependenciesKind="constant dependent dependent"',
         "friction_force is declared constant in phase",
     ),
+    "needs a tool": (
+        b'needsExecutionTool="false"',
+        b'needsExecutionTool="true" ',
+        "needsExecutionTool is true, must be false",
+    ),
+    "loop at the start": (
+        b'index="26" dependencies="21" dependenciesKind="dependent"',
+        b'index="26" dependencies="2 21" dependenciesKind="dependent dependent"',
+        "position is declared to depend on load at the start",
+    ),
     "display unit": (b'displayUnit="mm"', b'displayUnit="mile"', "displayUnit of"),
 }
 

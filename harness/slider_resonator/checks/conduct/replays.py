@@ -28,6 +28,8 @@ SAVED_AT = (0.0, 0.37, 0.81)
 """Shares of the steps of a run after which its state is saved."""
 TRANSFERRED_AT = (0.22, 0.53, 0.87)
 """Shares of the steps after which another instance takes over."""
+BREAKING_LOAD = 10.0
+"""Added load (N) under which initialization ends where inputs are set only after it."""
 DETOUR = 3
 """Steps under other values before a state is restored."""
 
@@ -201,7 +203,8 @@ def beside_differences(fmu: FmuSide) -> Findings:
 def overwritten_differences(fmu: FmuSide) -> Findings:
     """Set another and a refused value before each value, at the start and in the run.
 
-    Before the run outputs are read under the other values.
+    Before the run outputs are read under the other values. Initialization ends under a load that
+    breaks a stick; the inputs of the scene are set after it, as many hosts do.
     """
     plain = _Comparison(fmu)
     instance, schedule = fmu.instance, plain.schedule
@@ -221,7 +224,9 @@ def overwritten_differences(fmu: FmuSide) -> Findings:
             with suppress(FMICallException):  # some values have no meaning together
                 instance.read(instance.fmu.outputs)
             instance.set({name: value})
+        instance.set({"load": values["load"] + BREAKING_LOAD})
         instance.begin()
+        instance.set_inputs(running.inputs[0].tolist())
         running.read()
         for step in range(running.steps):
             present = running.values_at(step)

@@ -44,6 +44,9 @@ load that repeats after several turns: of turns times the ratio, times the turns
 STEPS_PER_BEAT = 32
 """Smallest number of integrator steps while the phase of the normal load drifts by a turn."""
 
+STEPS_PER_PASSAGE = 8
+"""Smallest number of integrator steps while V passes from one grazing velocity to the other."""
+
 
 @dataclass(frozen=True)
 class AveragedMotion:
@@ -170,8 +173,25 @@ def _slow_motion(
         return slide_of_block(velocity, friction, inputs.load, device.total_mass, times)
     slope, drift = _slow_acceleration(device, force, inputs, theta, psi)
     max_step = 2.0 * math.pi / (STEPS_PER_BEAT * drift) if drift else math.inf
+    if inputs.load_rate:
+        max_step = min(max_step, _passage(device, inputs, fast) / STEPS_PER_PASSAGE)
     moved, slow = slow_trajectory(slope, times, velocity / fast, max_step)
     return fast * moved, fast * slow
+
+
+def _passage(device: Device, inputs: HeldInputs, fast: float) -> float:
+    """Return the shortest time (s) in which V passes the velocities at which the slider reverses.
+
+    Beyond them friction is constant, and an integrator would step across them. Infinite under a
+    load that never exceeds the preload's friction: it takes V to no edge.
+    """
+    span = inputs.stop - inputs.start
+    load = max(abs(inputs.load), abs(inputs.load + inputs.load_rate * span))
+    per_normal = device.friction_faces * device.friction_coefficient
+    if load <= per_normal * device.normal_preload:
+        return math.inf
+    friction = per_normal * (device.normal_preload + device.normal_amplitude)
+    return 2.0 * fast * device.total_mass / (load + friction)
 
 
 def _slow_acceleration(

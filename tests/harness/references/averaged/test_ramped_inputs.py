@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -111,3 +112,17 @@ def test_ramps_that_are_not_covered_are_refused() -> None:
     block = replace(DEVICE, base_amplitude=0.0)
     with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
         simulate_averaged(block, [LOAD], TIMES)
+
+
+def test_a_load_beyond_friction_takes_the_slider_through_the_vibration() -> None:
+    """In one line or in many, though the integrator may step far where friction is constant."""
+    device = Device(fidelity=0, friction_coefficient=0.75948, initial_velocity=0.45596)
+    line = HeldInputs(0.0, 0.1394, -1.758, 4.3372, 1.0, load_rate=-60.69)
+    times = np.array([0.0, 0.1394])
+    cuts = np.linspace(0.0, 0.1394, 101)
+    parts = [
+        replace(line.later(float(start)), start=float(start), stop=float(stop))
+        for start, stop in pairwise(cuts)
+    ]
+    whole, fine = (first_order(device, held, times)[-1] for held in ([line], parts))
+    assert whole == pytest.approx(fine, rel=1e-8)
