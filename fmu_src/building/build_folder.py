@@ -14,6 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import TextIO
 
 from fmu_src.building.c_sources import write_sources
+from fmu_src.building.cache import cache_folder
 
 if sys.platform != "win32":
     import fcntl
@@ -41,13 +42,13 @@ def build_folder(target: str | None, sources: Mapping[str, str]) -> Iterator[Pat
 
 def _lock_file(target: str | None) -> TextIO | None:
     """The file whose lock keeps other builds out of the target's folder, None without a folder."""
-    if target is None or sys.platform == "win32":
+    base = cache_folder()
+    if target is None or base is None or sys.platform == "win32":
         return None
     try:
-        base = Path.home() / ".cache" / "slider-resonator"
-        (base / target).mkdir(parents=True, exist_ok=True)
+        (base / target).mkdir(exist_ok=True)
         return (base / f"{target}.lock").open("w")
-    except (OSError, RuntimeError):
+    except OSError:
         return None
 
 

@@ -17,6 +17,7 @@ from platform import machine
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.build_folder import build_folder
 from fmu_src.building.c_sources import FmiVersion
+from fmu_src.building.cache import cached
 from fmu_src.building.platforms import Platform
 from fmu_src.building.universal_binary import universal_binary
 
@@ -93,8 +94,11 @@ def compile_binaries(
     )
 
     def run(job: tuple[Platform, str | None]) -> bytes:
-        binary = _compile(sources, model, job[0], job[1], compiler)
-        progress(f"compiled for {job[1] or job[0].name}")
+        platform, target = job
+        flags = (*FLAGS, *LINKING[platform.suffix])
+        output = f"{model}{platform.suffix}"
+        binary = compile_binary(sources, output, target, flags, compiler)
+        progress(f"compiled for {target or platform.name}")
         return binary
 
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
@@ -119,24 +123,35 @@ def _paths_3(platform: Platform, model: str, compiler: Compiler) -> list[str]:
     return [p for name, p in paths.items() if name.startswith("aarch64") == arm]
 
 
-def _compile(
+def compile_binary(
     sources: Mapping[str, str],
-    model: str,
-    platform: Platform,
+    output: str,
     target: str | None,
+    flags: Sequence[str],
     compiler: Compiler,
 ) -> bytes:
-    """Compile one binary, from relative names, so that it contains no path of this machine."""
-    with build_folder(target, sources) as folder:
-        output = f"{model}{platform.suffix}"
-        command = [*compiler.command, *(("-target", target) if target else ()), *FLAGS]
-        command += [*LINKING[platform.suffix], "-o", output]
-        command += [*sorted(name for name in sources if name.endswith(".c")), "-lm"]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-        binary = folder / output
-        if done.returncode != 0 or not binary.is_file():
-            raise BuildError(
-                f"{compiler.description} could not compile for {target or platform.name}:\n"
-                f"{done.stderr.strip()}"
-            )
-        return binary.read_bytes()
+    """Return the file `output`, compiled from C files and headers (name -> text).
+
+    That of the last build is taken where all that it depends on is the same. Raises BuildError with
+    the compiler's messages.
+    """
+    # Relative names: the binary contains no path of this machine.
+    names = sorted(name for name in sources if name.endswith(".c"))
+    arguments = [*(("-target", target) if target else ()), *flags, "-o", output, *names, "-lm"]
+
+    def make() -> bytes:
+        with build_folder(target, sources) as folder:
+            command = [*compiler.command, *arguments]
+            done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+            binary = folder / output
+            if done.returncode != 0 or not binary.is_file():
+                raise BuildError(
+                    f"{compiler.description} could not compile for {target or 'this machine'}:\n"
+                    f"{done.stderr.strip()}"
+                )
+            return binary.read_bytes()
+
+    if target is None:
+        return make()  # by a compiler that may change without another name
+    origin = repr((compiler.description, arguments, sorted(sources.items())))
+    return cached(f"{target}-{output}", origin.encode(), make)

@@ -6,16 +6,13 @@ import base64
 import gzip
 import json
 import re
-import subprocess
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from fmu_src import __version__
 from fmu_src.building.archive import check_folder, replace_file
-from fmu_src.building.build_error import BuildError
-from fmu_src.building.build_folder import build_folder
 from fmu_src.building.c_sources import slider_sources
-from fmu_src.building.compiling import Compiler, default_compiler
+from fmu_src.building.compiling import Compiler, compile_binary, default_compiler
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
 from fmu_src.units import UNITS
@@ -35,8 +32,8 @@ _NAMES_OF_FMI = "fmi2_version.c"
 
 _TARGET = "wasm32-wasi"
 _FLAGS = (
-    *("-target", _TARGET, "-mexec-model=reactor"),
-    *("-std=c99", "-O2", "-g0", "-ffp-contract=off", "-fno-math-errno", "-Wl,--strip-all"),
+    *("-mexec-model=reactor", "-std=c99", "-O2", "-g0", "-ffp-contract=off"),
+    *("-fno-math-errno", "-Wl,--strip-all"),
 )
 
 
@@ -65,7 +62,8 @@ def web_page(code: Mapping[str, str], compiler: Compiler) -> bytes:
     files = page_files()
     shell = {n for n in code if n.startswith(_FMI_SHELL)} - {_NAMES_OF_FMI}
     sources = {name: text for name, text in code.items() if name not in shell}
-    kernel = _compile({**sources, "page.c": files["page.c"]}, compiler)
+    sources["page.c"] = files["page.c"]
+    kernel = compile_binary(sources, "page.wasm", _TARGET, _FLAGS, compiler)
     parts = {
         "version": __version__,
         "style": files["page.css"],
@@ -79,20 +77,6 @@ def web_page(code: Mapping[str, str], compiler: Compiler) -> bytes:
     }
     page = re.sub(r"\{\{(\w+)\}\}", lambda part: parts[part[1]], files["page.html"])
     return page.encode()
-
-
-def _compile(sources: Mapping[str, str], compiler: Compiler) -> bytes:
-    """Return the WebAssembly module of C files and headers (name -> text)."""
-    with build_folder(_TARGET, sources) as folder:
-        names = sorted(name for name in sources if name.endswith(".c"))
-        command = [*compiler.command, *_FLAGS, "-o", "page.wasm", *names, "-lm"]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-        module = folder / "page.wasm"
-        if done.returncode != 0 or not module.is_file():
-            raise BuildError(
-                f"{compiler.description} could not compile for WebAssembly:\n{done.stderr.strip()}"
-            )
-        return module.read_bytes()
 
 
 def _row(reference: int, variable: Variable) -> dict[str, object]:
