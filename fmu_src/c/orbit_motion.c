@@ -9,16 +9,12 @@
 #include "events.h"
 #include "orbit_changes.h"
 #include "orbit_error.h"
+#include "orbit_follow.h"
 #include "orbit_price.h"
 #include "orbit_ride.h"
-#include "orbit_swing.h"
 #include "refusal_texts.h"
 #include "resolved_start.h"
 #include "slow_motion_error.h"
-#include "slow_pass.h"
-
-/* Error per step of the slow motion, relative to the fast velocity. */
-#define TOLERANCE 3e-10
 
 /* Change of the slow velocity at which it belongs to W, over the fast velocity; iterations. */
 #define TAKEN 1e-14
@@ -58,20 +54,6 @@ static double lead_of(const Law *law, const Moment *moment) {
     return least;
 }
 
-/* Drive phase [rad] over all turns of the orbit in which the normal phase `chi` [rad] fits the lead. */
-static double orbit_theta(const OrbitRide *ride, double t, double theta, double chi) {
-    double best = INFINITY, phase = theta, lead = ride_lead(ride, t);
-    for (int turn = 0; turn < ride->slow.turns; turn++) {
-        double there = theta + TAU * turn;
-        double miss = fabs(remainder(chi - lead - ride->slow.waves * there, TAU));
-        if (miss < best) {
-            best = miss;
-            phase = there;
-        }
-    }
-    return phase;
-}
-
 void orbit_motion_settle(const Law *law, Moment *moment) {
     OrbitState *orbit = &moment->orbit;
     if (orbit->open.kind == NOTHING_OPEN) {
@@ -80,7 +62,7 @@ void orbit_motion_settle(const Law *law, Moment *moment) {
     OrbitRide ride;
     ride_begin(&ride, law, moment, orbit->lead);
     double chi = law->inputs.phase + moment->psi;
-    error_settle(&ride, orbit_theta(&ride, 0.0, moment->theta, chi), orbit);
+    error_settle(&ride, ride_theta(&ride, 0.0, moment->theta, chi), orbit);
 }
 
 /* Resolve the motion for a drive angle [rad] at least. */
@@ -95,16 +77,7 @@ static void resolve_for(const Law *law, Moment *now, double angle) {
     orbit->to_go = fmax(orbit->to_go, angle);
 }
 
-/* Whether an orbit of the ride is unknown; motion is then to be resolved. */
-static bool is_lost(const Law *law, const OrbitRide *ride, Moment *now) {
-    if (ride->unknown > 0.0) {
-        resolve_for(law, now, ride->unknown);
-        return true;
-    }
-    return false;
-}
-
-/* Go over to the orbit whose W and centre are those of a moment; tells the orbit. Where it is unknown, motion is
+/* Go over to the orbit whose W and centre are those of a moment; gives the orbit. Where it is unknown, motion is
  * resolved on. */
 static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     OrbitState *orbit = &now->orbit;
@@ -118,14 +91,15 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     ride_begin(&ride, law, now, orbit->lead);
     const PeriodMap *map = ride.map;
     double share = map->law.held.plant.mass_fraction;
-    double theta = orbit_theta(&ride, 0.0, now->theta, law->inputs.phase + now->psi);
+    double theta = ride_theta(&ride, 0.0, now->theta, law->inputs.phase + now->psi);
     double momentum = momentum_velocity(map, &now->state, now->theta), velocity = momentum;
     bool settled = false;
     for (int i = 0; i < MAX_TAKING && !settled; i++) {
         if (!ride_moment(&ride, 0.0, theta, velocity, 0.0, &there, point)) {
             return false;
         }
-        if (is_lost(law, &ride, now)) {
+        if (ride.unknown > 0.0) {
+            resolve_for(law, now, ride.unknown);
             point->of[ORBIT_FACTOR] = 1.0;
             return true;
         }
@@ -225,115 +199,6 @@ static bool resolve(const Law *law, double duration, EventSearch *search, Budget
     return !ends || take_over(law, now, &point) || refuse_infinite_motion(refusal, duration);
 }
 
-/* Positions [m] at the ends of periods within a ride. */
-typedef struct {
-    double time[2], travel[2];
-} Marks;
-
-static double travel_at_mark(const void *motion, double t) {
-    const Marks *marks = motion;
-    return fabs(t - marks->time[0]) < fabs(t - marks->time[1]) ? marks->travel[0] : marks->travel[1];
-}
-
-/* Go along orbits for `duration` [s], the last part of a step. Where one on the way is unknown, `now` stays as it is,
- * to be resolved. */
-static bool follow(const Law *law, double duration, Budget *budget, Moment *now,
-                   Refusal *refusal) {
-    OrbitRide ride, *rider = &ride;
-    OrbitState *orbit = &now->orbit;
-    ride_begin(&ride, law, now, orbit->lead);
-    ride_within(&ride, duration);
-    const Plant *plant = &law->held.plant;
-    double w = plant->drive_frequency, length = TAU / w;
-    double share = device_mass_fraction(&law->device);
-    double chi = law->inputs.phase + now->psi, start = now->position, centre = orbit->centre;
-    double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
-    double highest_load =
-        fmax(fabs(plant->load), fabs(plant->load + plant->load_rate * duration));
-    SlowPass plan = {
-        .acceleration = ride_acceleration,
-        .to_kink = ride_to_kink,
-        .motion = &rider,
-        .fast = law->fast.velocity,
-        .tolerance = TOLERANCE * law->fast.velocity,
-        .step = slow_pass_step(law->fast.velocity, plant->total_mass, full + highest_load, duration),
-        .beat = slow_phase_beat(&ride.slow),
-        .may_settle = !slow_phase_drifts(&ride.slow) && plant->load_rate == 0.0 &&
-                      ride.source != FROM_SEARCH,
-        .most = MAX_SLOW_STEPS,
-        .jerk = -plant->load_rate / plant->total_mass,
-        .sway = slow_friction_sway(&ride.first) / plant->total_mass,
-    };
-    ride_edges(&ride, plan.edge, &plan.margin);
-    error_open(orbit_theta(&ride, 0.0, now->theta, chi), orbit);
-    Reached reached = {.velocity = orbit->velocity, .step = plan.step};
-    double last = period_last_end(now->theta, w, duration);
-    Marks marks = {{last - length, last}, {0.0, 0.0}};
-    OrbitPoint point;
-    Moment there;
-    for (int i = 0; i < 2; i++) {
-        if (!(marks.time[i] > 0.0 && marks.time[i] < duration)) {
-            continue;
-        }
-        double step = reached.step;
-        if (!slow_pass(&plan, marks.time[i], budget, &reached, refusal)) {
-            return false;
-        }
-        if (is_lost(law, &ride, now)) {
-            return true;
-        }
-        reached.step = fmax(reached.step, step);
-        double theta = orbit_theta(&ride, reached.t, 0.0, chi + turned_by(plant, reached.t));
-        if (!ride_moment(&ride, reached.t, theta, reached.velocity, centre + reached.moved, &there,
-                         &point)) {
-            return refuse_infinite_motion(refusal, duration);
-        }
-        Response swing = swing_after(law, &orbit->swing, reached.t);
-        add_swing(&there, &swing, share);
-        marks.travel[i] = there.position - start;
-    }
-    if (!slow_pass(&plan, duration, budget, &reached, refusal)) {
-        return false;
-    }
-    if (is_lost(law, &ride, now)) {
-        return true;
-    }
-    double theta = within_turn(now->theta + w * duration);
-    double there_theta = orbit_theta(&ride, duration, theta, chi + turned_by(plant, duration));
-    if (!ride_moment(&ride, duration, there_theta, reached.velocity, centre + reached.moved, &there,
-                     &point)) {
-        return refuse_infinite_motion(refusal, duration);
-    }
-    if (is_lost(law, &ride, now)) {
-        return true;
-    }
-    Response swing = swing_after(law, &orbit->swing, duration);
-    add_swing(&there, &swing, share);
-    Segment segment = {duration, there.position - start, there.state.velocity, false,
-                       travel_at_mark, &marks};
-    now->theta = period_advance(&now->means, &segment, now->theta, w);
-    now->psi = within_turn(now->psi + turned_by(plant, duration));
-    now->position = there.position;
-    now->state = there.state;
-    now->bristle = there.bristle;
-    now->stops = there.stops;
-    now->mode = there.mode;
-    now->event_age = INFINITY;
-    orbit->velocity = reached.velocity;
-    orbit->centre = centre + reached.moved;
-    orbit->swing = swing;
-    error_follow(&ride, &point, there_theta, duration, orbit);
-    orbit->lead = ride_lead(&ride, duration);
-    if (slow_phase_drifts(&ride.slow)) {
-        orbit->waited += w * duration;
-        if (orbit_is_due(law, orbit)) {
-            orbit_pay(law, orbit, orbit->lead);
-        }
-        orbit->lead = within_turn(orbit->lead);
-    }
-    return true;
-}
-
 /* Resolve the `left` [s] of a step `passed` [s] after its beginning, where orbits are unknown. */
 static bool resolve_rest(const Law *law, double passed, double left, EventSearch *search,
                          Budget *budget, Moment *now, Refusal *refusal) {
@@ -373,12 +238,17 @@ bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
     }
     if (after->orbit.stage == ON_ORBIT) {
         Law later = is_ramped(&law->held.plant) ? law_after(law, resolved) : *law;
-        if (!follow(&later, left, budget, after, refusal)) {
+        OrbitRide ride;
+        bool followed;
+        ride_begin(&ride, &later, after, after->orbit.lead);
+        ride_within(&ride, left);
+        if (!orbit_follow(&later, &ride, left, budget, after, &followed, refusal)) {
             return false;
         }
-        if (after->orbit.stage == ON_ORBIT) {
+        if (followed) {
             return true;
         }
+        resolve_for(&later, after, ride.unknown);
     }
     return resolve_rest(law, resolved, left, search, budget, after, refusal);
 }
@@ -395,7 +265,7 @@ static double standing_error(const Law *law, const Moment *moment) {
     OrbitRide ride;
     ride_begin(&ride, law, moment, orbit->lead);
     double chi = law->inputs.phase + moment->psi;
-    double theta = orbit_theta(&ride, 0.0, moment->theta, chi);
+    double theta = ride_theta(&ride, 0.0, moment->theta, chi);
     return error_at(&ride, theta, orbit);
 }
 

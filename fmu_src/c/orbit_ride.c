@@ -211,6 +211,19 @@ OrbitPoint ride_point(OrbitRide *ride, double t, double velocity) {
     return point;
 }
 
+double ride_theta(const OrbitRide *ride, double t, double theta, double chi) {
+    double best = INFINITY, phase = theta, lead = ride_lead(ride, t);
+    for (int turn = 0; turn < ride->slow.turns; turn++) {
+        double there = theta + TAU * turn;
+        double miss = fabs(remainder(chi - lead - ride->slow.waves * there, TAU));
+        if (miss < best) {
+            best = miss;
+            phase = there;
+        }
+    }
+    return phase;
+}
+
 bool ride_moment(OrbitRide *ride, double t, double theta, double velocity, double centre,
                  Moment *moment, OrbitPoint *point) {
     const PeriodMap *map = ride->map;

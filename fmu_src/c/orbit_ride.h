@@ -12,10 +12,10 @@
  * that series where the lead drifts, or from Newton's method each time. */
 typedef enum { FROM_CURVE, FROM_COMBINED, FROM_SERIES, FROM_SEARCH } OrbitSource;
 
-/* The ride from drive phase `theta` [rad] on, where the lead is `lead` [rad]. `last` is the orbit found
- * last, `searched` whether there is one; `stops` are those of the moment before; `may_search` says whether orbits that no table has are searched. Where there is no orbit, or where the orbits of the ride take more than
- * `max_maps`, motion has to be resolved for the drive angle `unknown` [rad]; for outputs averages of `first`
- * order serve there. */
+/* The ride from drive phase `theta` [rad] on, where the lead is `lead` [rad]. `last` is the orbit found last, `searched`
+ * whether there is one; `stops` are those of the moment before; `may_search` says whether orbits that no table has
+ * are searched. Where there is no orbit, or where the orbits of the ride take more than `max_maps`, motion has to be
+ * resolved for the drive angle `unknown` [rad]; for outputs averages of `first` order serve there. */
 typedef struct {
     const Law *law;
     const PeriodMap *map;
@@ -62,6 +62,10 @@ void ride_edges(const OrbitRide *ride, double edge[2], double *margin);
 /* The orbit at that time and velocity. Without an orbit it is the vibration under averaged friction, and
  * its error that of first order. */
 OrbitPoint ride_point(OrbitRide *ride, double t, double velocity);
+
+/* Drive phase [rad] over all turns of the orbit, for one within a turn: that at which the normal phase `chi`
+ * [rad] fits the lead at time `t` [s]. */
+double ride_theta(const OrbitRide *ride, double t, double theta, double chi);
 
 /* The moment on the orbit at time `t` [s] and drive phase `theta` [rad], with this slow velocity [m/s]
  * and slow centre [m]; `theta` goes over all turns of the orbit, whose phases those of the moment are. */

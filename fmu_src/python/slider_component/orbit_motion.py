@@ -13,41 +13,32 @@ has decayed. A load leaves V as it is; another phase, preload or amplitude leave
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import floor, inf, remainder, tau
+from math import inf, remainder, tau
 
 from . import events
 from .budget import Budget
-from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
-from .contact import STICK
 from .device import Device, Inputs
-from .dormand_prince import Reached
 from .fast_vibration import FastVibration
 from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
 from .orbit_changes import noted, orbit_values
-from .orbit_curve import OrbitPoint
 from .orbit_error import ErrorRide, calmed, left_orbits
+from .orbit_follow import LostOrbitError, followed
 from .orbit_price import is_due, orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
 from .orbit_state import OpenKind, OrbitState, Stage, Swing
-from .oscillator import free_response
-from .period import MARK_TOLERANCE, PeriodMeans
+from .period import PeriodMeans
 from .resolved_start import lag_angle, resolved_angle, resolved_is_bounded
 from .slow_friction import SlowFriction, slow_friction
 from .slow_motion_error import (
     decay_in_turn,
     first_order_error,
-    friction_share,
     resolution_error,
     slow_decay_in_turn,
 )
-from .slow_pass import SlowPass, first_step
 from .slow_phase import rounded_lead
-
-TOLERANCE = 3e-10
-"""Error per step of the slow motion, relative to the fast velocity."""
 
 TAKEN = 1e-14
 """Change of the slow velocity at which it belongs to W, over the fast velocity."""
@@ -73,10 +64,6 @@ def has_slow_motion(device: Device, inputs: Inputs, fast: FastVibration) -> bool
     slow = slow_decay_in_turn(device, fast)
     separate = 0.0 < slow < SEPARATION * decay_in_turn(device) and slow < 1.0
     return separate and resolved_is_bounded(device, fast)
-
-
-class LostOrbitError(ArithmeticError):
-    """The motion on an orbit left the range of floating point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,9 +100,9 @@ class OrbitLaw:
             return now
         if now.orbit.stage != Stage.RESOLVED:
             ride = self._ride(now, now.orbit.lead).within(left)
-            followed = self._followed(now, ride, left, budget)
-            if followed is not None:
-                return followed
+            after = followed(self.full, self.fast, ride, now, left, budget)
+            if after is not None:
+                return after
             now.orbit = self._resolved_for(now, now.orbit, ride.unknown.angle)
         return self._advanced(now, left, budget)
 
@@ -223,7 +210,7 @@ class OrbitLaw:
         return orbit.resolved_for(angle)
 
     def _taken_over(self, now: Moment) -> tuple[Moment, float]:
-        """Go over to the orbit whose W and centre are those of a moment; tells 1 + kappa_m.
+        """Go over to the orbit whose W and centre are those of a moment; gives 1 + kappa_m.
 
         Where there is no orbit, motion is resolved on.
         """
@@ -289,109 +276,3 @@ class OrbitLaw:
         orbit = now.orbit._replace(to_go=to_go, waited=waited)
         now.orbit = calmed(self.full.device, turned, orbit)
         return now
-
-    def _swing_after(self, swing: Swing, t: float) -> Swing:
-        """The resonator's own swing `t` [s] later: it moves the pair, but not its momentum."""
-        slip = self.full.plant.slip
-        cosine, sine = free_response(slip, t)
-        y, u = swing
-        return Swing(
-            y * (cosine + slip.decay * sine) + u * sine,
-            u * (cosine - slip.decay * sine) - slip.stiffness * y * sine,
-        )
-
-    def _followed(
-        self, now: Moment, ride: OrbitRide, duration: float, budget: Budget
-    ) -> Moment | None:
-        """Go along orbits for `duration` [s], the last part of a step.
-
-        None where one on the way is unknown.
-        """
-        plant, orbit, fast = self.full.plant, now.orbit, self.fast
-        w, q = plant.drive_frequency, plant.normal_frequency
-        chi, start = self.full.inputs.phase + now.psi, now.position
-        drift = ride.slow.drift
-        full = friction_share(self.full.device, fast) * plant.total_mass * w * fast.velocity
-        step = first_step(fast.velocity, plant.total_mass, full + abs(plant.load), duration)
-        slow_pass = SlowPass(
-            ride.acceleration,
-            fast.velocity,
-            TOLERANCE * fast.velocity,
-            step,
-            may_settle=drift == 0.0 and not ride.searches,
-            most=MAX_SLOW_STEPS // PYTHON_SLOWDOWN,
-            beat=ride.slow.beat,
-            to_kink=ride.first.to_kink,
-        )
-        reached = Reached(0.0, orbit.velocity, 0.0, step)
-        errors = self._errors(ride)
-        orbit = errors.opened(ride.theta(0.0, now.theta, chi), orbit)
-
-        def moment_at(theta: float) -> tuple[Moment, Swing, OrbitPoint]:
-            t = reached.t
-            phase = ride.theta(t, theta, chi + q * t)
-            found = ride.moment(t, phase, reached.velocity, orbit.centre + reached.moved)
-            if found is None:
-                raise LostOrbitError
-            swing = self._swing_after(orbit.swing, t)
-            return _with_swing(found[0], swing, plant.mass_fraction), swing, found[1]
-
-        last = (tau * floor((now.theta + w * duration + MARK_TOLERANCE) / tau) - now.theta) / w
-        marks: list[tuple[float, float]] = []
-        for mark in (last - tau / w, last):
-            if 0.0 < mark < duration:
-                before = reached.step
-                reached = slow_pass.reach(mark, reached, budget)
-                if ride.unknown.angle > 0.0:
-                    return None
-                reached = reached._replace(step=max(reached.step, before))
-                marks.append((mark, moment_at(0.0)[0].position - start))
-        reached = slow_pass.reach(duration, reached, budget)
-        if ride.unknown.angle > 0.0:
-            return None
-        reached = reached._replace(t=duration)
-        end = (now.theta + w * duration) % tau
-        there, swing, point = moment_at(end)
-        if ride.unknown.angle > 0.0:
-            return None
-        moved = orbit.centre + reached.moved
-        orbit = orbit._replace(velocity=reached.velocity, centre=moved, swing=swing)
-        phase = ride.theta(duration, end, chi + q * duration)
-        orbit = errors.followed(point, phase, duration, orbit)
-        travelled = there.position - start
-
-        def travel_at(t: float) -> float:
-            rest = duration - t
-            if abs(rest) * w <= MARK_TOLERANCE:
-                return travelled - there.state.velocity * rest
-            return min(marks, key=lambda mark: abs(mark[0] - t))[1]
-
-        means, theta = now.means.advanced(duration, now.theta, w, False, travel_at, travelled)
-        lead = ride.lead_at(duration)
-        if drift != 0.0:
-            orbit = orbit._replace(waited=orbit.waited + w * duration)
-            ratio = self.full.inputs.frequency_ratio
-            if is_due(self.full.device, ratio, orbit):
-                orbit = with_paid(self.full.device, ratio, orbit, lead)
-        return replace(
-            now,
-            state=there.state,
-            position=there.position,
-            theta=theta,
-            psi=(now.psi + q * duration) % tau,
-            mode=there.mode,
-            event_age=inf,
-            means=means,
-            bristle=there.bristle,
-            orbit=orbit._replace(lead=lead % tau if drift != 0.0 else lead),
-        )
-
-
-def _with_swing(moment: Moment, swing: Swing, share: float) -> Moment:
-    """A moment on an orbit with the swing. A slider that sticks stays at rest."""
-    velocity, displacement, rate = moment.state
-    if moment.mode != STICK:
-        velocity -= share * swing.rate
-    moment.state = State(velocity, displacement + swing.displacement, rate + swing.rate)
-    moment.position -= share * swing.displacement
-    return moment

@@ -1,0 +1,121 @@
+#include "orbit_follow.h"
+
+#include <math.h>
+
+#include "angle.h"
+#include "constants.h"
+#include "orbit_error.h"
+#include "orbit_price.h"
+#include "orbit_swing.h"
+#include "refusal_texts.h"
+#include "slow_motion_error.h"
+#include "slow_pass.h"
+
+/* Error per step of the slow motion, relative to the fast velocity. */
+#define TOLERANCE 3e-10
+
+/* Positions [m] at the ends of periods within a ride. */
+typedef struct {
+    double time[2], travel[2];
+} Marks;
+
+static double travel_at_mark(const void *motion, double t) {
+    const Marks *marks = motion;
+    return fabs(t - marks->time[0]) < fabs(t - marks->time[1]) ? marks->travel[0] : marks->travel[1];
+}
+
+bool orbit_follow(const Law *law, OrbitRide *ride, double duration, Budget *budget, Moment *now,
+                  bool *followed, Refusal *refusal) {
+    OrbitState *orbit = &now->orbit;
+    *followed = false;
+    const Plant *plant = &law->held.plant;
+    double w = plant->drive_frequency, length = TAU / w;
+    double share = device_mass_fraction(&law->device);
+    double chi = law->inputs.phase + now->psi, start = now->position, centre = orbit->centre;
+    double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
+    double highest_load =
+        fmax(fabs(plant->load), fabs(plant->load + plant->load_rate * duration));
+    SlowPass plan = {
+        .acceleration = ride_acceleration,
+        .to_kink = ride_to_kink,
+        .motion = &ride,
+        .fast = law->fast.velocity,
+        .tolerance = TOLERANCE * law->fast.velocity,
+        .step = slow_pass_step(law->fast.velocity, plant->total_mass, full + highest_load, duration),
+        .beat = slow_phase_beat(&ride->slow),
+        .may_settle = !slow_phase_drifts(&ride->slow) && plant->load_rate == 0.0 &&
+                      ride->source != FROM_SEARCH,
+        .most = MAX_SLOW_STEPS,
+        .jerk = -plant->load_rate / plant->total_mass,
+        .sway = slow_friction_sway(&ride->first) / plant->total_mass,
+    };
+    ride_edges(ride, plan.edge, &plan.margin);
+    error_open(ride_theta(ride, 0.0, now->theta, chi), orbit);
+    Reached reached = {.velocity = orbit->velocity, .step = plan.step};
+    double last = period_last_end(now->theta, w, duration);
+    Marks marks = {{last - length, last}, {0.0, 0.0}};
+    OrbitPoint point;
+    Moment there;
+    for (int i = 0; i < 2; i++) {
+        if (!(marks.time[i] > 0.0 && marks.time[i] < duration)) {
+            continue;
+        }
+        double step = reached.step;
+        if (!slow_pass(&plan, marks.time[i], budget, &reached, refusal)) {
+            return false;
+        }
+        if (ride->unknown > 0.0) {
+            return true;
+        }
+        reached.step = fmax(reached.step, step);
+        double theta = ride_theta(ride, reached.t, 0.0, chi + turned_by(plant, reached.t));
+        if (!ride_moment(ride, reached.t, theta, reached.velocity, centre + reached.moved, &there,
+                         &point)) {
+            return refuse_infinite_motion(refusal, duration);
+        }
+        Response swing = swing_after(law, &orbit->swing, reached.t);
+        add_swing(&there, &swing, share);
+        marks.travel[i] = there.position - start;
+    }
+    if (!slow_pass(&plan, duration, budget, &reached, refusal)) {
+        return false;
+    }
+    if (ride->unknown > 0.0) {
+        return true;
+    }
+    double theta = within_turn(now->theta + w * duration);
+    double there_theta = ride_theta(ride, duration, theta, chi + turned_by(plant, duration));
+    if (!ride_moment(ride, duration, there_theta, reached.velocity, centre + reached.moved, &there,
+                     &point)) {
+        return refuse_infinite_motion(refusal, duration);
+    }
+    if (ride->unknown > 0.0) {
+        return true;
+    }
+    Response swing = swing_after(law, &orbit->swing, duration);
+    add_swing(&there, &swing, share);
+    Segment segment = {duration, there.position - start, there.state.velocity, false,
+                       travel_at_mark, &marks};
+    now->theta = period_advance(&now->means, &segment, now->theta, w);
+    now->psi = within_turn(now->psi + turned_by(plant, duration));
+    now->position = there.position;
+    now->state = there.state;
+    now->bristle = there.bristle;
+    now->stops = there.stops;
+    now->mode = there.mode;
+    now->event_age = INFINITY;
+    orbit->velocity = reached.velocity;
+    orbit->centre = centre + reached.moved;
+    orbit->swing = swing;
+    error_follow(ride, &point, there_theta, duration, orbit);
+    orbit->lead = ride_lead(ride, duration);
+    if (slow_phase_drifts(&ride->slow)) {
+        orbit->waited += w * duration;
+        if (orbit_is_due(law, orbit)) {
+            orbit_pay(law, orbit, orbit->lead);
+        }
+        orbit->lead = within_turn(orbit->lead);
+    }
+    *followed = true;
+    return true;
+}
