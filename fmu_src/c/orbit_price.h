@@ -3,7 +3,7 @@
  * A table pays where motion stays with it. So inputs that ask for another one are followed by resolved
  * motion first, for as long as costs what the table does: whether they change soon or stay, motion costs
  * about twice the cheaper way at most. From the start on a lead that drifts is followed by searches for as
- * long. The state tells what is paid for, as the tables are a cache. */
+ * long. The state says what is paid for, as the tables are a cache. */
 #ifndef SLIDER_ORBIT_PRICE_H
 #define SLIDER_ORBIT_PRICE_H
 

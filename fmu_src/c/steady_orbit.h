@@ -9,7 +9,7 @@
 #include "held_orbit.h"
 
 /* Finds the steady motion under `load` [N] to which motion at other velocities tends. Orbits at a
- * few velocities tell how many there are: ORBIT_RUNS_AWAY for none, ORBIT_UNDETERMINED for several,
+ * few velocities show how many there are: ORBIT_RUNS_AWAY for none, ORBIT_UNDETERMINED for several,
  * ORBIT_UNSTABLE for one that motion leaves, and the reason of the last failure where no orbit was found. */
 OrbitStatus steady_orbit(const PeriodMap *map, double lead, double load, HeldOrbit *orbit);
 

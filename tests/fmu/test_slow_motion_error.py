@@ -122,7 +122,7 @@ def test_the_estimate_is_that_of_random_devices(
     """At least a third of the error in all of them, at most ten times in nine of ten."""
     draw = random.Random(seed)
     ratios: list[float] = []
-    told: list[bool] = []
+    covered: list[bool] = []
     while len(ratios) < count:
         case = case_of(draw, law)
         phase = case.values["phase"] + draw.choice([0.0, draw.uniform(-1.0, 1.0)])
@@ -138,12 +138,12 @@ def test_the_estimate_is_that_of_random_devices(
             if found is None:
                 continue
             when = "after the jump" if inputs else "from rest"
-            assert found.ratio >= 1.0 / 3.0, f"{when} the largest error is not told: {case}"
+            assert found.ratio >= 1.0 / 3.0, f"{when} the largest error is not covered: {case}"
             pairs = zip(found.errors, found.estimates, strict=True)
-            told += [error <= 3.0 * estimate for error, estimate in pairs]
+            covered += [error <= 3.0 * estimate for error, estimate in pairs]
             if not inputs:
                 ratios.append(found.ratio)
-    assert sum(told) >= 0.98 * len(told), "at the ends of single steps errors are not told"
+    assert sum(covered) >= 0.98 * len(covered), "errors at the ends of single steps"
     exact = sum(ratio <= 10.0 for ratio in ratios) / len(ratios)
     assert exact >= 0.9, f"estimates over errors: {sorted(ratios)}"
 
@@ -172,15 +172,15 @@ def test_the_estimate_knows_the_lag_of_a_resonator_under_a_drifting_phase(
 ) -> None:
     values = {**NEAR_RESONANCE, "frequency_ratio": ratio, "normal_amplitude": amplitude}
     slow, full = (instantiate().initialize(**values, fidelity=fidelity) for fidelity in (0, 2))
-    largest, told = 0.0, 0.0
+    largest, reported = 0.0, 0.0
     for index in range(60):
         for instance in (slow, full):
             instance.step(6.0 * math.tau / 737.6)
         mean, estimate = slow.get("mean_velocity", "slow_motion_error")
         if index >= 20:  # resolved before
             largest = max(largest, abs(mean - full.get("mean_velocity")[0]))
-            told = max(told, estimate)
-    assert largest <= 3.0 * told <= 30.0 * 3.0 * largest
+            reported = max(reported, estimate)
+    assert largest <= 3.0 * reported <= 30.0 * 3.0 * largest
 
 
 @pytest.mark.slow
@@ -202,8 +202,8 @@ def test_the_estimate_is_that_of_random_devices_under_drifting_phases(
             found = compared((slow, full), case, {})
             if found is not None:
                 ratios.append(found.ratio)
-    told = sum(ratio >= 1.0 / 3.0 for ratio in ratios) / len(ratios)
-    assert told >= 0.9, f"estimates over errors: {sorted(ratios)[:20]}"
+    covered = sum(ratio >= 1.0 / 3.0 for ratio in ratios) / len(ratios)
+    assert covered >= 0.9, f"estimates over errors: {sorted(ratios)[:20]}"
 
 
 def test_the_estimate_follows_the_error_of_table_1(instantiate: Instantiate) -> None:

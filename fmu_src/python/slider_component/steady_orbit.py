@@ -71,7 +71,7 @@ class _Scan:
 def steady_orbit(period_map: PeriodMap, lead: float, load: float) -> HeldOrbit:
     """The steady motion under `load` [N] to which motion at other velocities tends.
 
-    Orbits at a few velocities tell how many there are. Raises NoOrbitError: RUNS_AWAY for none,
+    Orbits at a few velocities show how many there are. Raises NoOrbitError: RUNS_AWAY for none,
     UNDETERMINED for several, UNSTABLE for one that motion leaves, NOT_CONVERGED beyond `MAX_SPEED`,
     and the reason of the last failure where no orbit was found.
     """

@@ -173,7 +173,7 @@ function tellPoints(plot, spec, tip) {
   });
   over.tabIndex = 0;
   over.setAttribute("role", "application");
-  over.setAttribute("aria-label", `${spec.title}: ${spec.y.label} over ${spec.x.label}; arrow keys tell its points`);
+  over.setAttribute("aria-label", `${spec.title}: ${spec.y.label} over ${spec.x.label}; arrow keys read its points`);
   tip.setAttribute("role", "status");
   over.append(tip);
 }

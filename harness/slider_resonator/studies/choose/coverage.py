@@ -50,7 +50,7 @@ SIGNAL_NEEDS = frozenset({"position", "velocity", "event_times"})
 class Coverage:
     """The resolved part of a scene whose `run_needs` are measured in a run.
 
-    `part` is "whole", "windows" or "beginning", `varying` tells whether an input varies other than
+    `part` is "whole", "windows" or "beginning", `varying` says whether an input varies other than
     by jumps, and `corners` are the drive periods at which inputs jump or change their slope.
     """
 

@@ -19,7 +19,7 @@ DRIVING = ("base_amplitude", "drive_frequency", "tangential_force")
 MAX_TURNS = 3
 """Largest number of turns of the drive after which the phase is looked at."""
 MAX_STAYS = 2000
-"""Largest number of stays that are told apart; of more, several count as one."""
+"""Largest number of stays that are distinguished; of more, several count as one."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Stay:
 
     `lead` is the same where the orbits are, up to rounding. `tuned` says whether the change is that
     of a parameter, `driven` whether it shakes the resonator. `beats` are the turns of the slow
-    phase by the frequency ratio, and `count` tells how many changes it is.
+    phase by the frequency ratio, and `count` is how many changes it is.
     """
 
     periods: float

@@ -39,7 +39,7 @@ HOLDING_STEPS = 500
 MAX_FOLLOWED_STEPS = 100_000
 """Steps of a candidate besides a reference that follows lines of inputs, where inputs vary."""
 RANGE_POINTS = 60
-"""Points at which averaged motion tells the range of the slow velocity."""
+"""Points at which averaged motion gives the range of the slow velocity."""
 CAUTION = 3.0
 """Safety factor on errors extrapolated from the beginning, besides their growth with time."""
 

@@ -76,7 +76,7 @@ def _late_jumps(model: Model) -> Iterator[MatrixCell]:
 
 
 def _neutral(model: Model) -> Iterator[MatrixCell]:
-    """Even ratios with flight while sliding turns: friction tells no velocity from the next."""
+    """Even ratios with flight while sliding turns: friction favours no velocity."""
     for ratio, amplitude, phase in ((2.0, 3.0, 0.3), (4.0, 3.0, 2.5)):
         parameters = {"normal_amplitude": amplitude}
         holds = tuple(

@@ -37,13 +37,13 @@ CENTRE_SIGNALS = {"velocity": CENTRE_VELOCITY, "position": CENTRE}
 
 @both_fmus
 def test_the_first_cases_pass(fmu: Fmu) -> None:
-    told: list[tuple[str, float]] = []
+    reported: list[tuple[str, float]] = []
     cases = [random_case(7, number) for number in range(CASES)]
-    campaign = run_campaign(fmu.path, cases, lambda label, share: told.append((label, share)))
+    campaign = run_campaign(fmu.path, cases, lambda label, share: reported.append((label, share)))
     assert campaign.passed, sentences(campaign)
-    assert [share for _, share in told] == sorted(share for _, share in told)
-    assert len(told) == CASES
-    assert told[-1][0].startswith(f"{CASES} of {CASES}: ")
+    assert [share for _, share in reported] == sorted(share for _, share in reported)
+    assert len(reported) == CASES
+    assert reported[-1][0].startswith(f"{CASES} of {CASES}: ")
     assert all(verdict.found <= 1.0 for verdict in campaign.verdicts)
 
 
