@@ -207,8 +207,9 @@ def test_a_scene_without_needs_is_refused(instance: Instance) -> None:
 
 def test_a_device_that_the_fmu_refuses_is_no_answer(instance: Instance) -> None:
     run = "[run]\ndrive_periods = 10\nsteps_per_period = 1\n[need]\nposition = { rel = 1.0 }\n"
+    device = "[device]\nfriction_law = 1\nfriction_coefficient = 0.0\n"
     with pytest.raises(Refusal, match="friction_coefficient"):
-        choose_with(instance, scene_of(f"[device]\nfriction_coefficient = -1.0\n{run}"))
+        choose_with(instance, scene_of(device + run))
 
 
 def test_the_python_fmu_gets_the_same_answer(native_fmu: Path, python_fmu: Path) -> None:

@@ -26,6 +26,7 @@ def test_all_kinds_are_made_in_all_files_that_compute(
     assert {m.kind for m in mutants} == set(KINDS)
     assert {m.file for m in mutants} == {*fmu.modules, DESCRIPTION} - {
         "__init__.py",
+        "refusal.py",
         "refusal_texts.py",
         "friction_law.py",
         "averaged_friction.py",
