@@ -13,9 +13,9 @@
 enum { MAX_LEGS = 20000 };
 
 /* Legs since a turn of the fastest oscillation began at `began` [s], and `all` legs, of which there may be
- * `most`; a turn takes `turn` [s]. */
+ * `max_all`; a turn takes `turn` [s]. */
 typedef struct {
-    int legs, all, most;
+    int legs, all, max_all;
     double began, turn;
 } Work;
 
@@ -31,7 +31,7 @@ static bool work_count(Work *work, double time, const Budget *budget, Refusal *r
         return budget_refuse(budget, time, MAX_LEGS, "legs in a turn of the fastest oscillation",
                              refusal);
     }
-    return work->all <= work->most
+    return work->all <= work->max_all
            || budget_refuse(budget, time, MAX_STEP_LEGS, "legs of motion", refusal);
 }
 
@@ -103,7 +103,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
     const Plant *plant = &held->plant;
     double remaining = duration;
     Clock clock = clock_of(duration);
-    Work work = {.turn = TAU / LONGEST_ARC * held->arc, .most = budget_left(budget, MAX_STEP_LEGS)};
+    Work work = {.turn = TAU / LONGEST_ARC * held->arc, .max_all = budget_left(budget, MAX_STEP_LEGS)};
     Leg leg;
     Moment begin;
     *now = *moment;

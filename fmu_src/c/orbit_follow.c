@@ -45,7 +45,7 @@ bool orbit_follow(const Law *law, OrbitRide *ride, double duration, Budget *budg
         .beat = slow_phase_beat(&ride->slow),
         .may_settle = !slow_phase_drifts(&ride->slow) && plant->load_rate == 0.0 &&
                       ride->source != FROM_SEARCH,
-        .most = MAX_SLOW_STEPS,
+        .max_steps = MAX_SLOW_STEPS,
         .jerk = -plant->load_rate / plant->total_mass,
         .sway = slow_friction_sway(&ride->first) / plant->total_mass,
     };

@@ -98,8 +98,8 @@ void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double le
 void ride_within(OrbitRide *ride, double duration) {
     double turns = ride->law->device.drive_frequency * duration / TAU;
     if (ride->source == FROM_SEARCH && !(turns > ride->max_maps)) {
-        int most = (int)(SEARCH_MAPS + SEARCH_MAPS_IN_TURN * turns);
-        ride->max_maps = most < ride->max_maps ? most : ride->max_maps;
+        int maps = (int)(SEARCH_MAPS + SEARCH_MAPS_IN_TURN * turns);
+        ride->max_maps = maps < ride->max_maps ? maps : ride->max_maps;
     }
 }
 

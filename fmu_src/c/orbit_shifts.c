@@ -53,11 +53,11 @@ static OrbitBend bend_of(const Neighbours *found, int states) {
     return bend;
 }
 
-/* By how much V is ahead at the phases, in periods; and the most by which single turns differ. */
+/* By how much V is ahead at the phases, in periods; and the largest of the times by which single turns differ. */
 static double lags_of(const Neighbours *found, int turns, double lag[LAG_PHASES]) {
     const OrbitProbe *here = &found->here;
     const OrbitLinearisation *linear = &here->linear;
-    double decay = linear->factor * linear->slope, way[LAG_PHASES], most = 0.0;
+    double decay = linear->factor * linear->slope, way[LAG_PHASES], largest = 0.0;
     for (int i = 0; i < LAG_PHASES; i++) {
         double n = here->since[i], moved = velocity_by_excess(linear, n);
         double by = (found->after.momentum[i] - here->passage.momentum[i]) / found->step;
@@ -69,9 +69,9 @@ static double lags_of(const Neighbours *found, int turns, double lag[LAG_PHASES]
     }
     for (int i = 0; i < LAG_PHASES && turns > 1; i++) {
         int turn = (LAG_PHASES + turns / 2) / turns;
-        most = fmax(most, fabs(way[(i + turn) % LAG_PHASES] - way[i]));
+        largest = fmax(largest, fabs(way[(i + turn) % LAG_PHASES] - way[i]));
     }
-    return turns * most / linear->factor;
+    return turns * largest / linear->factor;
 }
 
 void shift_point_make(ShiftPoint *point, const PeriodMap *map, double lead, double middle,

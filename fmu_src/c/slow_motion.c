@@ -102,9 +102,9 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Budget 
     const Plant *plant = &friction->law->held.plant;
     double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
     double pieces = ceil(duration / longest), piece = duration / pieces;
-    int most = budget_left(budget, MAX_SLOW_STEPS);
-    if (pieces > most) {
-        return budget_refuse(budget, most * longest, MAX_SLOW_STEPS, "steps of averaged motion",
+    int allowed = budget_left(budget, MAX_SLOW_STEPS);
+    if (pieces > allowed) {
+        return budget_refuse(budget, allowed * longest, MAX_SLOW_STEPS, "steps of averaged motion",
                              refusal);
     }
     budget_spend(budget, (int)pieces, MAX_SLOW_STEPS);
@@ -158,7 +158,7 @@ static bool pass(const SlowFriction *friction, double duration, Budget *budget, 
         .step = slow_pass_step(fast, plant->total_mass, strongest, duration),
         .beat = friction->beat,
         .may_settle = !slow_phase_drifts(&friction->slow) && plant->load_rate == 0.0,
-        .most = max_steps(friction),
+        .max_steps = max_steps(friction),
         .edge = {-fast, fast},
         .jerk = -plant->load_rate / plant->total_mass,
         .sway = slow_friction_sway(friction) / plant->total_mass,

@@ -57,17 +57,17 @@ static double to_edge(const SlowPass *pass, const Reached *now) {
 
 bool slow_pass(const SlowPass *pass, double end, Budget *budget, Reached *now, Refusal *refusal) {
     const char *what = "steps of averaged motion";
-    int most = budget_left(budget, pass->most), before = now->tried;
+    int allowed = budget_left(budget, pass->max_steps), before = now->tried;
     /* No step is longer than a share of a beat: too many of them are refused before the first. */
-    double furthest = most * (BEAT_SHARE * pass->beat);
+    double furthest = allowed * (BEAT_SHARE * pass->beat);
     if (!pass->may_settle && end - now->t > furthest) {
-        return budget_refuse(budget, now->t + furthest, pass->most, what, refusal);
+        return budget_refuse(budget, now->t + furthest, pass->max_steps, what, refusal);
     }
     bool grows = pass->jerk != 0.0;
     while (now->t < end && isfinite(now->velocity)) {
-        int room = most - (now->tried - before);
+        int room = allowed - (now->tried - before);
         if (room <= 0) {
-            return budget_refuse(budget, now->t, pass->most, what, refusal);
+            return budget_refuse(budget, now->t, pass->max_steps, what, refusal);
         }
         bool may_settle = pass->may_settle && end - now->t > SETTLING * pass->step;
         if (may_settle && settle(pass->acceleration, pass->motion, pass->fast, end, now)) {
@@ -79,8 +79,8 @@ bool slow_pass(const SlowPass *pass, double end, Budget *budget, Reached *now, R
         *now = integrate(pass->acceleration, pass->motion, *now, fmin(end, now->t + smooth),
                          pass->tolerance, BEAT_SHARE * pass->beat, block);
         /* A time too short for a step counts as one, so that the loop ends. */
-        now->tried += now->tried == most - room + before;
+        now->tried += now->tried == allowed - room + before;
     }
-    budget_spend(budget, now->tried - before, pass->most);
+    budget_spend(budget, now->tried - before, pass->max_steps);
     return true;
 }

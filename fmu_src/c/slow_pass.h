@@ -8,18 +8,18 @@
 #include "dormand_prince.h"
 #include "refusal.h"
 
-/* How to pass: the `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, whether
- * the motion may settle, and the `most` steps that a whole budget buys. The acceleration repeats after a `beat` [s], and is smooth for `to_kink(motion, t)` [s] from `t` [s] on.
- * Under a load that grows, with `jerk` [m/s^3], friction has an `edge` [m/s] backward and one forward, known to
- * a `margin` [m/s], beyond which it no longer depends on the velocity; there it may speed the motion with up
- * to `sway` [m/s^3] besides. */
+/* How to pass: the `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, whether the motion
+ * may settle, and the `max_steps` that a whole budget buys. The acceleration repeats after a `beat` [s], and is
+ * smooth for `to_kink(motion, t)` [s] from `t` [s] on. Under a load that grows, with `jerk` [m/s^3], friction has an
+ * `edge` [m/s] backward and one forward, known to a `margin` [m/s], beyond which it no longer depends on the
+ * velocity; there it may speed the motion with up to `sway` [m/s^3] besides. */
 typedef struct {
     AccelerationFunction acceleration;
     double (*to_kink)(const void *motion, double t);
     const void *motion;
     double fast, tolerance, step, beat;
     bool may_settle;
-    int most;
+    int max_steps;
     double edge[2], margin, jerk, sway;
 } SlowPass;
 

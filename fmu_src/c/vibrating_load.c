@@ -25,8 +25,8 @@ int max_turns_to_repeat(const Device *device) {
 }
 
 int turns_to_repeat(const Device *device, double ratio, double tolerance) {
-    int most = max_turns_to_repeat(device);
-    for (int turns = 1; turns <= most; turns++) {
+    int max_turns = max_turns_to_repeat(device);
+    for (int turns = 1; turns <= max_turns; turns++) {
         if (fabs(turns * ratio - nearbyint(turns * ratio)) <= tolerance / turns) {
             return turns;
         }

@@ -48,7 +48,7 @@ def followed(
         TOLERANCE * fast.velocity,
         step,
         may_settle=drift == 0.0 and not ride.searches,
-        most=MAX_SLOW_STEPS // PYTHON_SLOWDOWN,
+        max_steps=MAX_SLOW_STEPS // PYTHON_SLOWDOWN,
         beat=ride.slow.beat,
         to_kink=ride.first.to_kink,
     )

@@ -120,8 +120,8 @@ class OrbitRide:
         turns = self.map.held.plant.drive_frequency * duration / tau
         if not self.searches or turns > self.max_maps:
             return self
-        most = int(SEARCH_MAPS + SEARCH_MAPS_IN_TURN * turns)
-        return replace(self, max_maps=min(self.max_maps, most))
+        maps = int(SEARCH_MAPS + SEARCH_MAPS_IN_TURN * turns)
+        return replace(self, max_maps=min(self.max_maps, maps))
 
     def lead_at(self, t: float) -> float:
         """The lead [rad] at time `t` [s] from the beginning."""

@@ -166,7 +166,7 @@ def _lags(found: _Neighbours, turns: int) -> tuple[Vector, float]:
         )
         lags.append(-(here.momentum_by_excess[i] - by * moved) / (by * linear.factor))
         ways.append(here.way_by_excess[i] - travelled - way_by * moved)
-    most, turn = 0.0, (LAG_PHASES + turns // 2) // turns
+    largest, turn = 0.0, (LAG_PHASES + turns // 2) // turns
     if turns > 1:
-        most = max(abs(ways[(i + turn) % LAG_PHASES] - ways[i]) for i in range(LAG_PHASES))
-    return lags, turns * most / linear.factor
+        largest = max(abs(ways[(i + turn) % LAG_PHASES] - ways[i]) for i in range(LAG_PHASES))
+    return lags, turns * largest / linear.factor

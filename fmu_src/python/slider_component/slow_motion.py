@@ -99,7 +99,7 @@ class SlowLaw:
             TOLERANCE * fast,
             step,
             may_settle=friction.drift == 0.0,
-            most=_max_steps(friction.is_expensive, self.held.inputs.frequency_ratio),
+            max_steps=_max_steps(friction.is_expensive, self.held.inputs.frequency_ratio),
             beat=friction.beat,
             to_kink=friction.to_kink,
         )

@@ -33,7 +33,7 @@ class SlowPass:
     """How to pass.
 
     The `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first,
-    whether the motion may settle, and the `most` steps that a whole budget buys. The acceleration
+    whether the motion may settle, and `max_steps`, which a whole budget buys. The acceleration
     repeats after a `beat` [s], and is smooth for `to_kink(t)` [s] from `t` [s] on.
     """
 
@@ -42,7 +42,7 @@ class SlowPass:
     tolerance: float
     step: float
     may_settle: bool
-    most: int
+    max_steps: int
     beat: float = inf
     to_kink: Callable[[float], float] | None = None
 
@@ -51,15 +51,15 @@ class SlowPass:
 
         Raises Refusal where that takes more than the budget has.
         """
-        most, before = budget.left(self.most), now.tried
+        allowed, before = budget.left(self.max_steps), now.tried
         # No step is longer than a share of a beat: too many of them are refused before the first.
-        furthest = most * (BEAT_SHARE * self.beat)
+        furthest = allowed * (BEAT_SHARE * self.beat)
         if not self.may_settle and end - now.t > furthest:
-            raise budget.refusal(now.t + furthest, self.most, STEPS)
+            raise budget.refusal(now.t + furthest, self.max_steps, STEPS)
         while now.t < end and isfinite(now.velocity):
-            room = most - (now.tried - before)
+            room = allowed - (now.tried - before)
             if room <= 0:
-                raise budget.refusal(now.t, self.most, STEPS)
+                raise budget.refusal(now.t, self.max_steps, STEPS)
             if self.may_settle and end - now.t > SETTLING * self.step:
                 at_rest = settled(self.acceleration, self.fast, end, now)
                 if at_rest is not None:
@@ -70,7 +70,7 @@ class SlowPass:
             now = integrate(self.acceleration, now, smooth, self.tolerance, block, longest)
             # A time too short for a step counts as one, so that the loop ends.
             now = now._replace(tried=max(now.tried, tried + 1))
-        budget.spend(now.tried - before, self.most)
+        budget.spend(now.tried - before, self.max_steps)
         return now
 
     def _end_of_smoothness(self, t: float, end: float) -> float:

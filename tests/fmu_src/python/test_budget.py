@@ -21,11 +21,11 @@ from tests.fmu_src.orbit_devices import TABLE_1
 
 MAX_LEGS = MAX_STEP_LEGS // PYTHON_SLOWDOWN
 PERIOD = math.tau / TABLE_1.drive_frequency
-MOST = 100
+MAX_STEPS = 100
 
 
 def slow_pass() -> SlowPass:
-    return SlowPass(lambda _t, v: -v, 1.0, 1e-9, 0.01, may_settle=False, most=MOST)
+    return SlowPass(lambda _t, v: -v, 1.0, 1e-9, 0.01, may_settle=False, max_steps=MAX_STEPS)
 
 
 def test_resolved_motion_spends_its_legs_and_stops_where_the_budget_ends() -> None:
@@ -43,7 +43,7 @@ def test_resolved_motion_spends_its_legs_and_stops_where_the_budget_ends() -> No
 def test_slow_motion_has_the_steps_that_other_work_left() -> None:
     whole = Budget(5.0)
     reached = slow_pass().reach(2.0, Reached(0.0, 1.0, 0.0, 0.01), whole)
-    assert whole.spent == pytest.approx(reached.tried / MOST)
+    assert whole.spent == pytest.approx(reached.tried / MAX_STEPS)
     slow_pass().reach(2.0, Reached(0.0, 1.0, 0.0, 0.01), Budget(5.0, spent=0.99 - whole.spent))
-    with pytest.raises(Refusal, match=f"= 5.0 refused: it takes more work than {MOST} steps"):
+    with pytest.raises(Refusal, match=f"= 5.0 refused: it takes more work than {MAX_STEPS} steps"):
         slow_pass().reach(2.0, Reached(0.0, 1.0, 0.0, 0.01), Budget(5.0, spent=1.01 - whole.spent))
