@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import subprocess
 from contextlib import suppress
@@ -42,10 +43,24 @@ def windows_driver() -> Path:
     return compile_program(compiler, SOURCES / "driver.c", program, LIKE_THE_FMU)
 
 
+def make_prefix() -> None:
+    """Make the folder of Wine where there is none; two at once would leave it without libraries."""
+    prefix = Path(os.environ.get("WINEPREFIX") or Path.home() / ".wine")
+    parent = os.open(prefix.parent, os.O_RDONLY)
+    try:
+        fcntl.flock(parent, fcntl.LOCK_EX)
+        if not (prefix / "system.reg").exists():
+            subprocess.run(["wine", "wineboot", "--init"], check=False, timeout=120.0)
+            subprocess.run(["wineserver", "-w"], check=False, timeout=120.0)
+    finally:
+        os.close(parent)
+
+
 if __name__ == "__main__":
     os.environ.setdefault("WINEDEBUG", "-all")
     # Without these a new Wine prefix asks to download Mono and Gecko.
     os.environ.setdefault("WINEDLLOVERRIDES", "mscoree=;mshtml=")
+    make_prefix()
     serve(run)
     # The server is killed after this process; it saves what Wine needs when it ends by itself.
     with suppress(OSError, subprocess.TimeoutExpired):
