@@ -29,7 +29,7 @@ SAVED_AT = (0.0, 0.37, 0.81)
 TRANSFERRED_AT = (0.22, 0.53, 0.87)
 """Shares of the steps after which another instance takes over."""
 BREAKING_LOAD = 10.0
-"""Added load (N) under which initialization ends where inputs are set only after it."""
+"""Added load (N) under which initialization ends where the load is set after it."""
 DETOUR = 3
 """Steps under other values before a state is restored."""
 
@@ -203,8 +203,7 @@ def beside_differences(fmu: FmuSide) -> Findings:
 def overwritten_differences(fmu: FmuSide) -> Findings:
     """Set another and a refused value before each value, at the start and in the run.
 
-    Before the run outputs are read under the other values. Initialization ends under a load that
-    breaks a stick; the inputs of the scene are set after it, as many hosts do.
+    Before the run outputs are read under the other values.
     """
     plain = _Comparison(fmu)
     instance, schedule = fmu.instance, plain.schedule
@@ -224,9 +223,7 @@ def overwritten_differences(fmu: FmuSide) -> Findings:
             with suppress(FMICallException):  # some values have no meaning together
                 instance.read(instance.fmu.outputs)
             instance.set({name: value})
-        instance.set({"load": values["load"] + BREAKING_LOAD})
         instance.begin()
-        instance.set_inputs(running.inputs[0].tolist())
         running.read()
         for step in range(running.steps):
             present = running.values_at(step)
@@ -240,12 +237,21 @@ def overwritten_differences(fmu: FmuSide) -> Findings:
 
 
 def separate_differences(fmu: FmuSide) -> Findings:
-    """Set what changes, and nothing else, each value by a call of its own."""
+    """Set what changes, and nothing else, each value by a call of its own.
+
+    Initialization ends under a load that breaks a stick; that of the scene is set after it, as many
+    hosts do.
+    """
     plain = _Comparison(fmu)
-    instance = fmu.instance
+    instance, schedule = fmu.instance, plain.schedule
+    running = Running(instance, schedule)
+    before = running.first
+    load = before["load"]
+    loaded = {**plain.parameters, **before, "load": load + BREAKING_LOAD}
+    instance.start(loaded, running.stop_time, start_time=schedule.start_time)
     with instance.explained():
-        running = _started(instance, plain.parameters, plain.schedule)
-        before = running.first
+        instance.set({"load": load})
+        running.read()
         for step in range(running.steps):
             present = running.values_at(step)
             for name, value in reversed(present.items()):
