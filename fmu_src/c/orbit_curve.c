@@ -25,27 +25,40 @@ enum { WAY_PARTS = 8, PEAK_PARTS = 16, PEAK_REFINEMENTS = 4 };
 /* Waves of the normal load in a turn up to which the samples follow them. */
 #define MAX_PEAK_WAVES 8.0
 
-/* Displacement [m] of the pair's centre from the slider at a state, but for the drive's. */
-static double centre_of(const PeriodMap *map, const Moment *moment) {
+/* The `sum` of what w1 adds to the way since the section [m] at the ends of the parts [s] of a period. */
+typedef struct {
+    const PeriodMap *map;
+    const HeldOrbit *orbit;
+    double part, first, sum;
+} WaySum;
+
+/* Place [m] of the pair's centre at a position, without what the drive moves it. */
+static double centre_of(const PeriodMap *map, const State *state, double position, double theta) {
     const Plant *plant = &map->law.held.plant;
-    return moment->position + plant->mass_fraction * moment->state.displacement +
-           map->fast.pair_velocity / plant->drive_frequency * sin(moment->theta);
+    return position + plant->mass_fraction * state->displacement +
+           map->fast.pair_velocity / plant->drive_frequency * sin(theta);
+}
+
+static void add_way(void *observer, int index, const State *state, double position) {
+    WaySum *way = observer;
+    double since = (index + 1) * way->part;
+    double theta = way->orbit->section.theta + way->map->law.held.plant.drive_frequency * since;
+    double centre = centre_of(way->map, state, position, theta);
+    way->sum += centre - way->first - way->orbit->velocity * since;
 }
 
 /* The mean over a period of what w1 adds to the way since the section [m]; false where a map fails. */
 static bool mean_way(const PeriodMap *map, const HeldOrbit *orbit, double *mean) {
+    const Moment *section = &orbit->section;
     int parts = WAY_PARTS * map->turns;
-    double part = map->period / parts, first = centre_of(map, &orbit->section), sum = 0.0;
-    Moment now = orbit->section;
-    for (int i = 1; i < parts; i++) {
-        Moment next;
-        if (!orbit_advance(map, orbit->lead, -orbit->friction, &now, part, &next)) {
-            return false;
-        }
-        sum += centre_of(map, &next) - first - orbit->velocity * i * part;
-        now = next;
+    double first = centre_of(map, &section->state, section->position, section->theta);
+    WaySum way = {map, orbit, map->period / parts, first, 0.0};
+    Trace trace = {way.part, way.part, parts - 1, 0, add_way, &way};
+    Moment end;
+    if (!orbit_trace(map, orbit->lead, -orbit->friction, section, (parts - 1) * way.part, &trace, &end)) {
+        return false;
     }
-    *mean = sum / parts;
+    *mean = way.sum / parts;
     return true;
 }
 
@@ -68,8 +81,12 @@ bool orbit_point_of(const PeriodMap *map, const HeldOrbit *orbit, OrbitPoint *po
     return true;
 }
 
-/* Velocity [m/s] of the slider against `direction` less the mean one, `angle` [rad] after a moment of the
- * orbit; `there` is the moment then. */
+/* Velocity [m/s] of the slider against `direction` less the mean one. */
+static double against(const HeldOrbit *orbit, const State *state) {
+    return orbit->direction * (orbit->velocity - state->velocity);
+}
+
+/* The same `angle` [rad] after a moment of the orbit; `there` is the moment then. */
 static double vibration_after(const PeriodMap *map, const HeldOrbit *orbit, const Moment *moment,
                               double angle, Moment *there) {
     double duration = angle / map->law.held.plant.drive_frequency;
@@ -78,7 +95,24 @@ static double vibration_after(const PeriodMap *map, const HeldOrbit *orbit, cons
         !orbit_advance(map, orbit->lead, -orbit->friction, moment, duration, there)) {
         return NAN;
     }
-    return orbit->direction * (orbit->velocity - there->state.velocity);
+    return against(orbit, &there->state);
+}
+
+/* The sample that is the largest, and its index. */
+typedef struct {
+    const HeldOrbit *orbit;
+    double size;
+    int index;
+} LargestSample;
+
+static void keep_largest(void *observer, int index, const State *state, double position) {
+    LargestSample *largest = observer;
+    double size = against(largest->orbit, state);
+    (void)position;
+    if (size > largest->size) {
+        largest->size = size;
+        largest->index = index;
+    }
 }
 
 /* Peak [m/s] of the vibration against the direction of sliding, which it takes off from V: the largest of
@@ -86,17 +120,15 @@ static double vibration_after(const PeriodMap *map, const HeldOrbit *orbit, cons
 static double grazing_peak(const PeriodMap *map, const HeldOrbit *orbit) {
     double waves = fmin(fabs(map->law.inputs.frequency_ratio), MAX_PEAK_WAVES);
     int parts = PEAK_PARTS * map->turns * (1 + (int)waves);
-    double part = TAU * map->turns / parts, best = -INFINITY;
-    Moment now = orbit->section, base = now, next;
-    for (int i = 0; i < parts; i++) {
-        double size = vibration_after(map, orbit, &now, part, &next);
-        if (size > best) {
-            best = size;
-            base = now;
-        }
-        now = next;
+    double part = TAU * map->turns / parts, time = map->period / parts;
+    LargestSample largest = {orbit, -INFINITY, 0};
+    Trace trace = {time, time, parts, 0, keep_largest, &largest};
+    Moment base, next;
+    if (!orbit_trace(map, orbit->lead, -orbit->friction, &orbit->section, map->period, &trace, &next)) {
+        return NAN;
     }
-    double place = part;
+    vibration_after(map, orbit, &orbit->section, part * largest.index, &base);
+    double place = part, best = largest.size;
     for (int i = 0; i < PEAK_REFINEMENTS; i++, part *= 0.1) {
         double behind = vibration_after(map, orbit, &base, place - part, &next);
         double ahead = vibration_after(map, orbit, &base, place + part, &next);
@@ -142,11 +174,11 @@ double orbit_panel_at(const OrbitPanel *panel, OrbitQuantity quantity, double pl
     double x = 2.0 * (place * panel->parts - panel->index) - 1.0;
     double ahead = 0.0, behind = 0.0;
     for (int k = panel->terms[quantity] - 1; k > 0; k--) {
-        double next = 2.0 * x * ahead - behind + c[k];
+        double next = 2.0 * x * ahead + (c[k] - behind);
         behind = ahead;
         ahead = next;
     }
-    return x * ahead - behind + c[0];
+    return x * ahead + (c[0] - behind);
 }
 
 /* Scale in which a quantity has to hold. */
@@ -242,6 +274,22 @@ void orbit_panel_end(OrbitPanel *panel) {
     }
 }
 
+/* The coefficients of the polynomials through the points. */
+static void transform(const OrbitPoint points[ORBIT_NODES], OrbitPanel *panel) {
+    for (int k = 0; k < ORBIT_NODES; k++) {
+        double sum[ORBIT_QUANTITIES] = {0.0};
+        for (int j = 0; j < ORBIT_NODES; j++) {
+            double cosine = cos(PI * k * (j + 0.5) / ORBIT_NODES);
+            for (int q = 0; q < ORBIT_QUANTITIES; q++) {
+                sum[q] += points[j].of[q] * cosine;
+            }
+        }
+        for (int q = 0; q < ORBIT_QUANTITIES; q++) {
+            panel->coefficient[q][k] = sum[q] * (k > 0 ? 2.0 : 1.0) / ORBIT_NODES;
+        }
+    }
+}
+
 void orbit_panel_make(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap *map) {
     OrbitPoint points[ORBIT_NODES];
     panel->found = find_nodes(panel, curve, map, points);
@@ -250,14 +298,8 @@ void orbit_panel_make(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMa
     if (!panel->found) {
         return;
     }
+    transform(points, panel);
     for (int q = 0; q < ORBIT_QUANTITIES; q++) {
-        for (int k = 0; k < ORBIT_NODES; k++) {
-            double sum = 0.0;
-            for (int j = 0; j < ORBIT_NODES; j++) {
-                sum += points[j].of[q] * cos(PI * k * (j + 0.5) / ORBIT_NODES);
-            }
-            panel->coefficient[q][k] = sum * (k > 0 ? 2.0 : 1.0) / ORBIT_NODES;
-        }
         double rest = fmax(fabs(panel->coefficient[q][ORBIT_NODES - 1]),
                            fabs(panel->coefficient[q][ORBIT_NODES - 2]));
         if (rest > accuracy * scale_of(map, curve, (OrbitQuantity)q) && panel->depth < MAX_DEPTH) {

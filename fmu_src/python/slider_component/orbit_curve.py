@@ -22,10 +22,12 @@ from .held_orbit import (
     is_same_orbit,
 )
 from .moment import Moment
+from .motion import State
 from .orbit_drift import held_orbit_offset
 from .orbit_newton import MAX_MAPS
 from .orbit_shifts import ShiftPoint, shift_point
 from .period_map import PeriodMap
+from .trace import Trace
 
 ORBIT_NODES = 12
 """Nodes of a panel."""
@@ -117,8 +119,8 @@ class OrbitPanel:
         x = 2.0 * (place * (1 << self.depth) - self.index) - 1.0
         ahead = behind = 0.0
         for k in range(len(c) - 1, 0, -1):
-            ahead, behind = 2.0 * x * ahead - behind + c[k], ahead
-        return x * ahead - behind + c[0]
+            ahead, behind = 2.0 * x * ahead + (c[k] - behind), ahead
+        return x * ahead + (c[0] - behind)
 
     def point(self, place: float) -> OrbitPoint:
         """All quantities there."""
@@ -285,18 +287,24 @@ def _coefficient(values: tuple[float, ...], k: int) -> float:
     return total * (2.0 if k > 0 else 1.0) / ORBIT_NODES
 
 
-def _centre(period_map: PeriodMap, moment: Moment) -> float:
-    """Place [m] of the pair's centre, without what the drive moves it."""
+def _centre(period_map: PeriodMap, state: State, position: float, theta: float) -> float:
+    """Place [m] of the pair's centre at a position, without what the drive moves it."""
     plant = period_map.held.plant
-    driven = period_map.fast.pair_velocity / plant.drive_frequency * sin(moment.theta)
-    return moment.position + plant.mass_fraction * moment.state.displacement + driven
+    driven = period_map.fast.pair_velocity / plant.drive_frequency * sin(theta)
+    return position + plant.mass_fraction * state.displacement + driven
 
 
-def _advanced(period_map: PeriodMap, orbit: HeldOrbit, moment: Moment, duration: float) -> Moment:
+def _advanced(
+    period_map: PeriodMap,
+    orbit: HeldOrbit,
+    moment: Moment,
+    duration: float,
+    trace: Trace | None = None,
+) -> Moment:
     """The moment `duration` [s] later. Raises NoOrbitError where the map fails."""
     if not duration > 0.0:
         return moment
-    after = period_map.advance(orbit.lead, -orbit.friction, moment, duration)
+    after = period_map.advance(orbit.lead, -orbit.friction, moment, duration, trace)
     if after is None:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
     return after
@@ -304,12 +312,17 @@ def _advanced(period_map: PeriodMap, orbit: HeldOrbit, moment: Moment, duration:
 
 def _mean_way(period_map: PeriodMap, orbit: HeldOrbit) -> float:
     """The mean over a period of what w1 adds to the way since the section [m]."""
-    parts = WAY_PARTS * period_map.turns
-    part, first, total = period_map.period / parts, _centre(period_map, orbit.section), 0.0
-    now = orbit.section
-    for i in range(1, parts):
-        now = _advanced(period_map, orbit, now, part)
-        total += _centre(period_map, now) - first - orbit.velocity * i * part
+    parts, section = WAY_PARTS * period_map.turns, orbit.section
+    part, w, total = period_map.period / parts, period_map.held.plant.drive_frequency, 0.0
+    first = _centre(period_map, section.state, section.position, section.theta)
+
+    def add(index: int, state: State, position: float) -> None:
+        nonlocal total
+        since = (index + 1) * part
+        centre = _centre(period_map, state, position, section.theta + w * since)
+        total += centre - first - orbit.velocity * since
+
+    _advanced(period_map, orbit, section, (parts - 1) * part, Trace(part, part, parts - 1, add))
     return total / parts
 
 
@@ -321,20 +334,23 @@ def _grazing_peak(period_map: PeriodMap, orbit: HeldOrbit) -> float:
     w = period_map.held.plant.drive_frequency
     waves = min(abs(period_map.held.inputs.frequency_ratio), MAX_PEAK_WAVES)
     parts = PEAK_PARTS * period_map.turns * (1 + int(waves))
-    part, best = tau * period_map.turns / parts, -inf
-    now = base = orbit.section
+    part, time = tau * period_map.turns / parts, period_map.period / parts
+    best, largest = -inf, 0
 
-    def against(moment: Moment) -> float:
-        return orbit.direction * (orbit.velocity - moment.state.velocity)
+    def against(state: State) -> float:
+        return orbit.direction * (orbit.velocity - state.velocity)
 
-    for _ in range(parts):
-        following = _advanced(period_map, orbit, now, part / w)
-        if against(following) > best:
-            best, base = against(following), now
-        now = following
+    def keep_largest(index: int, state: State, _position: float) -> None:
+        nonlocal best, largest
+        if against(state) > best:
+            best, largest = against(state), index
+
+    trace = Trace(time, time, parts, keep_largest)
+    _advanced(period_map, orbit, orbit.section, period_map.period, trace)
+    base = _advanced(period_map, orbit, orbit.section, part * largest / w)
 
     def at(angle: float) -> float:
-        return against(_advanced(period_map, orbit, base, angle / w))
+        return against(_advanced(period_map, orbit, base, angle / w).state)
 
     place = part
     for _ in range(PEAK_REFINEMENTS):

@@ -20,6 +20,7 @@ from fmu_src.python.slider_component.motion import State
 from fmu_src.python.slider_component.orbit_price import CURVE_TURNS, SEARCH_TURNS
 from fmu_src.python.slider_component.orbit_state import MAX_LEADS, Stage
 from fmu_src.python.slider_component.period_map import PeriodMap
+from fmu_src.python.slider_component.trace import Trace
 from tests.fmu_src.orbit_devices import SOFT_BRISTLE
 
 FAST_VELOCITY = 0.2366097
@@ -207,9 +208,16 @@ class CountedMaps:
         self._maps = 0
         advance = PeriodMap.advance
 
-        def counted(period_map: PeriodMap, *arguments: Any) -> Moment | None:
-            self._maps += arguments[-1] > 0.9 * period_map.period
-            return advance(period_map, *arguments)
+        def counted(
+            period_map: PeriodMap,
+            lead: float,
+            load: float,
+            moment: Moment,
+            duration: float,
+            trace: Trace | None = None,
+        ) -> Moment | None:
+            self._maps += duration > 0.9 * period_map.period
+            return advance(period_map, lead, load, moment, duration, trace)
 
         monkeypatch.setattr(PeriodMap, "advance", counted)
 
