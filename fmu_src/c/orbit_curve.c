@@ -20,7 +20,7 @@
 
 /* Parts of a turn over which the mean of the way is taken, and where the peak of a vibration is looked
  * for. */
-enum { WAY_PARTS = 8, PEAK_PARTS = 16, PEAK_REFINEMENTS = 4 };
+enum { WAY_PARTS = 8, PEAK_PARTS = 16, PEAK_REFINEMENTS = 3 };
 
 /* Waves of the normal load in a turn up to which the samples follow them. */
 #define MAX_PEAK_WAVES 8.0

@@ -56,7 +56,7 @@ WAY_PARTS = 8
 PEAK_PARTS = 16
 """Parts of a turn in which the peak of a vibration is looked for."""
 
-PEAK_REFINEMENTS = 4
+PEAK_REFINEMENTS = 3
 """Parabolas that refine it."""
 
 MAX_PEAK_WAVES = 8.0

@@ -1,18 +1,25 @@
-"""What second-order averages cost against resolved motion of the same accuracy, over run length.
+"""What second-order averages cost against resolved motion of the same accuracy and first order.
 
-`python -m tests.harness.studies.trade.slow_motion_cost dist/SliderResonator.fmu` prints a table for
-each device: CPU times of whole runs, start and preparation included, and what each errs by in the
-final mean velocity. Times of both are taken in turn; their ratio is the median of these pairs.
+`python -m tests.harness.studies.trade.slow_motion_cost dist/SliderResonator.fmu` prints two tables
+for each device. Over run length: CPU times of whole runs, start and preparation included, and what
+each errs by in the final mean velocity. Times of both are taken in turn; their ratio is the median
+of these pairs. And over the steps of one run, 1000 drive periods each: what a step costs with
+averages of either order. The first one is the preparation.
 """
 
 from __future__ import annotations
 
+import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
+from time import perf_counter
 
+import numpy as np
+
+from slider_resonator.arrays import Array
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.fmu.instance import Instance, instantiate
@@ -28,7 +35,16 @@ MAX_ERROR = 1e-6
 """Largest relative error of the mean velocity."""
 PAIRS = 5
 TOLERANCES = tuple(10.0**-digits for digits in range(4, 13))
+PERIODS = 1000.0
+"""Drive periods in a step whose cost is compared with that of first order."""
+STEPS = 60
+SHOWN_STEPS = (1, 2, 5, 10, 15, 20, 30, 60)
+INSTANCES = 25
+"""Instances of which the fastest step counts."""
+DRIVE_FREQUENCY = 3500.0
+"""That of table 1 (rad/s)."""
 AVERAGED: Mapping[str, float] = {"fidelity": 0, "averaging_order": 2}
+FIRST_ORDER: Mapping[str, float] = {"fidelity": 0, "averaging_order": 1}
 RESOLVED: Mapping[str, float] = {"fidelity": 2}
 FINEST: Mapping[str, float] = {"fidelity": 2, "tolerance": 1e-13}
 DEVICES: Mapping[str, Mapping[str, float]] = {
@@ -104,8 +120,43 @@ def cost(fmu: Fmu, device: Mapping[str, float], length: float) -> Cost:
     )
 
 
+def elapsed(action: Callable[[], object]) -> float:
+    """Return how long (s) an action takes."""
+    began = perf_counter()
+    action()
+    return perf_counter() - began
+
+
+def step_times(fmu: Fmu, values: Mapping[str, float]) -> Array:
+    """Return what steps of PERIODS drive periods take (s), shape (STEPS,).
+
+    The time of a call that does nothing is taken off.
+    """
+    size = PERIODS * math.tau / values.get("drive_frequency", DRIVE_FREQUENCY)
+    times = np.full(STEPS, np.inf)
+    for _ in range(INSTANCES):
+        with instantiate(fmu) as instance:
+            instance.start(values)
+            nothing = instance.block([])
+            taken = [elapsed(lambda: instance.step_by(size)) for _ in range(STEPS)]
+            idle = min(elapsed(nothing.read) for _ in range(STEPS))
+        times = np.minimum(times, np.array(taken) - idle)
+    return times
+
+
+def print_steps(fmu: Fmu, device: Mapping[str, float]) -> None:
+    """Print what steps cost with averages of either order, and the largest ratio."""
+    first, second = (step_times(fmu, {**device, **order}) for order in (FIRST_ORDER, AVERAGED))
+    ratios = second / first
+    print(f"  step of {PERIODS:.0f} periods   order 1    order 2  ratio")
+    for step in SHOWN_STEPS:
+        times = f"{1e6 * first[step - 1]:7.1f} us {1e6 * second[step - 1]:7.1f} us"
+        print(f"  {step:20d} {times} {ratios[step - 1]:6.2f}")
+    print(f"  largest ratio after the first step {ratios[1:].max():.2f}", flush=True)
+
+
 def main(path: Path) -> None:
-    """Print a table for each device."""
+    """Print two tables for each device."""
     with open_fmu(path) as fmu:
         for name, device in DEVICES.items():
             print(f"{name}\n  length   averaged      again   resolved  ratio  again  errors")
@@ -116,6 +167,7 @@ def main(path: Path) -> None:
                 errors = f"{found.averaged_error:.0e} {found.resolved_error:.0e}"
                 ratios = f"{found.ratio:6.1f} {found.ratio_again:6.1f}"
                 print(f"{found.length:6.1f} s {shown} {ratios}  {errors}", flush=True)
+            print_steps(fmu, device)
 
 
 if __name__ == "__main__":
