@@ -169,16 +169,22 @@ void orbit_curve_begin(OrbitCurve *curve, const PeriodMap *map, double lead) {
     curve->reach = 0.5 * (high - low);
 }
 
+/* Clenshaw's recurrences for the even and the odd polynomials, T_2j(x) = T_j(y) and T_2j+1(x) = x (U_j(y) - U_j-1(y))
+ * with y = T_2(x): the two run side by side. */
 double orbit_panel_at(const OrbitPanel *panel, OrbitQuantity quantity, double place) {
     const double *c = panel->coefficient[quantity];
-    double x = 2.0 * (place * panel->parts - panel->index) - 1.0;
-    double ahead = 0.0, behind = 0.0;
-    for (int k = panel->terms[quantity] - 1; k > 0; k--) {
-        double next = 2.0 * x * ahead + (c[k] - behind);
-        behind = ahead;
-        ahead = next;
+    double x = 2.0 * (place * panel->parts - panel->index) - 1.0, y = 2.0 * x * x - 1.0;
+    double even = 0.0, even_behind = 0.0, odd = 0.0, odd_behind = 0.0;
+    for (int k = panel->terms[quantity] - 2; k > 0; k -= 2) {
+        double next = 2.0 * y * even + (c[k] - even_behind);
+        even_behind = even;
+        even = next;
+        next = 2.0 * y * odd + (c[k + 1] - odd_behind);
+        odd_behind = odd;
+        odd = next;
     }
-    return x * ahead + (c[0] - behind);
+    double last_odd = 2.0 * y * odd + (c[1] - odd_behind);
+    return y * even + (c[0] - even_behind) + x * (last_odd - odd);
 }
 
 /* Scale in which a quantity has to hold. */
@@ -271,6 +277,7 @@ void orbit_panel_end(OrbitPanel *panel) {
             rest += fabs(c[--panel->terms[q]]);
         }
         panel->terms[q] += rest > ROUNDING * largest;
+        panel->terms[q] += panel->terms[q] % 2;
     }
 }
 

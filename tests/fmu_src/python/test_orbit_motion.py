@@ -236,6 +236,15 @@ def test_preparation_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     assert maps.taken() < 60, "what was tabulated serves the next instance"
 
 
+def test_an_estimate_that_nobody_reads_costs_no_maps(monkeypatch: pytest.MonkeyPatch) -> None:
+    forget_tables()
+    maps = CountedMaps(monkeypatch)
+    moment = run(TABLE_1, Inputs(), 5000, 5)
+    assert maps.taken() < 85, "a linearised orbit for the estimate takes 15"
+    assert law_of(TABLE_1, Inputs()).slow_motion_error(moment) > 0.0
+    assert maps.taken() > 50
+
+
 def run_through(device: Device, changes: Sequence[Inputs], periods: float) -> Moment:
     """So many periods under each of the inputs."""
     moment = law_of(device, changes[0]).start(State(0.0, 0.0, 0.0), 0.0)
