@@ -169,8 +169,8 @@ void orbit_curve_begin(OrbitCurve *curve, const PeriodMap *map, double lead) {
     curve->reach = 0.5 * (high - low);
 }
 
-/* Clenshaw's recurrences for the even and the odd polynomials, T_2j(x) = T_j(y) and T_2j+1(x) = x (U_j(y) - U_j-1(y))
- * with y = T_2(x): the two run side by side. */
+/* Clenshaw's recurrences for the even and the odd polynomials, T_2j(x) = T_j(y) and
+ * T_2j+1(x) = x (U_j(y) - U_j-1(y)) with y = T_2(x): the two run side by side. */
 double orbit_panel_at(const OrbitPanel *panel, OrbitQuantity quantity, double place) {
     const double *c = panel->coefficient[quantity];
     double x = 2.0 * (place * panel->parts - panel->index) - 1.0, y = 2.0 * x * x - 1.0;

@@ -36,6 +36,36 @@ typedef struct {
     double velocity, theta, ahead;
 } RidePlace;
 
+/* Begin at a slow velocity [m/s]; `rider` points to a pointer to the ride. */
+static void slow_ride_begin(SlowRide *slow, OrbitRide *const *rider, double velocity, double duration) {
+    const OrbitRide *ride = *rider;
+    const Law *law = ride->law;
+    const Plant *plant = &law->held.plant;
+    SlowPass *plan = &slow->plan;
+    double fast = law->fast.velocity, mass = plant->total_mass;
+    double full = friction_share(law) * mass * plant->drive_frequency * fast;
+    double last_load = plant->load + plant->load_rate * duration;
+    double strongest = full + fmax(fabs(plant->load), fabs(last_load));
+    *plan = (SlowPass){
+        .acceleration = ride_acceleration,
+        .to_kink = ride_to_kink,
+        .motion = rider,
+        .fast = fast,
+        .tolerance = TOLERANCE * fast,
+        .step = slow_pass_step(fast, mass, strongest, duration),
+        .beat = slow_phase_beat(&ride->slow),
+        .may_settle = !slow_phase_drifts(&ride->slow) && plant->load_rate == 0.0 &&
+                      ride->source != FROM_SEARCH,
+        .max_steps = MAX_SLOW_STEPS,
+        .jerk = -plant->load_rate / mass,
+        .sway = slow_friction_sway(&ride->first) / mass,
+    };
+    ride_edges(ride, plan->edge, &plan->margin);
+    slow->reached = (Reached){.velocity = velocity, .step = plan->step};
+    slow->settled = plan->may_settle && is_settled(ride_acceleration, rider, fast,
+                                                   ROUNDING * EPSILON * strongest / mass, &slow->reached);
+}
+
 /* Follow the slow motion up to time `end` [s]. */
 static bool slow_ride(SlowRide *slow, double end, Budget *budget, Refusal *refusal) {
     Reached *now = &slow->reached;
@@ -60,31 +90,10 @@ bool orbit_follow(const Law *law, OrbitRide *ride, double duration, Budget *budg
     double w = plant->drive_frequency, length = TAU / w;
     double share = device_mass_fraction(&law->device);
     double chi = law->inputs.phase + now->psi, start = now->position, centre = orbit->centre;
-    double full = friction_share(law) * plant->total_mass * w * law->fast.velocity;
-    double highest_load =
-        fmax(fabs(plant->load), fabs(plant->load + plant->load_rate * duration));
-    double strongest = full + highest_load, noise = ROUNDING * EPSILON * strongest / plant->total_mass;
-    SlowRide slow = {.reached = {.velocity = orbit->velocity}};
-    Reached *reached = &slow.reached;
-    SlowPass *plan = &slow.plan;
-    *plan = (SlowPass){
-        .acceleration = ride_acceleration,
-        .to_kink = ride_to_kink,
-        .motion = &ride,
-        .fast = law->fast.velocity,
-        .tolerance = TOLERANCE * law->fast.velocity,
-        .step = slow_pass_step(law->fast.velocity, plant->total_mass, strongest, duration),
-        .beat = slow_phase_beat(&ride->slow),
-        .may_settle = !slow_phase_drifts(&ride->slow) && plant->load_rate == 0.0 &&
-                      ride->source != FROM_SEARCH,
-        .max_steps = MAX_SLOW_STEPS,
-        .jerk = -plant->load_rate / plant->total_mass,
-        .sway = slow_friction_sway(&ride->first) / plant->total_mass,
-    };
-    ride_edges(ride, plan->edge, &plan->margin);
-    slow.settled = plan->may_settle && is_settled(ride_acceleration, &ride, plan->fast, noise, reached);
+    SlowRide slow;
+    const Reached *reached = &slow.reached;
+    slow_ride_begin(&slow, &ride, orbit->velocity, duration);
     error_open(ride_theta(ride, 0.0, now->theta, chi), orbit);
-    reached->step = plan->step;
     double last = period_last_end(now->theta, w, duration);
     Marks marks = {{last - length, last}, {0.0, 0.0}};
     RidePlace place = {NAN, 0.0, 0.0};
@@ -101,7 +110,7 @@ bool orbit_follow(const Law *law, OrbitRide *ride, double duration, Budget *budg
         if (ride->unknown > 0.0) {
             return true;
         }
-        reached->step = fmax(reached->step, step);
+        slow.reached.step = fmax(reached->step, step);
         double theta = ride_theta(ride, reached->t, 0.0, chi + turned_by(plant, reached->t));
         bool same = slow.settled && reached->velocity == place.velocity && theta == place.theta;
         if (!same) {
