@@ -18,7 +18,8 @@ from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt
-from slider_resonator.output.progress import counted, part_of, progress_bar
+from slider_resonator.output.progress import counted, part_of
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line

@@ -18,7 +18,8 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt
-from slider_resonator.output.progress import counted, progress_bar
+from slider_resonator.output.progress import counted
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, texts, verdict
 from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
 from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
