@@ -21,7 +21,7 @@ from slider_resonator.output.console import nothing_kept, noting_on_interrupt
 from slider_resonator.output.progress import counted
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, texts, verdict
-from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
+from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
 from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
 from slider_resonator.trials.hosts.table import host_table, write_table
 
@@ -55,11 +55,12 @@ NAMES = [host.name for host in hosts()]
     help=f"Run only this host. Repeatable. One of {', '.join(NAMES)}.",
 )
 @click.option(
-    "--own-environment",
+    "--own-environments",
     type=click.Path(path_type=Path, file_okay=False),
-    default=OWN_ENVIRONMENT,
+    default=OWN_ENVIRONMENTS,
     show_default=True,
-    help="Virtual environment of cofmupy, as `make hosts` creates it.",
+    help="Folder with the environments of cofmupy and of the newest fmpy, as `make hosts` "
+    "creates them.",
 )
 @click.option(
     "--out",
@@ -76,7 +77,7 @@ def hosts_command(
     python_fmu: Path,
     fmi3_fmu: Path,
     chosen: Sequence[str],
-    own_environment: Path,
+    own_environments: Path,
     out: Path | None,
     time_limit: float,
     as_json: bool,
@@ -96,7 +97,7 @@ def hosts_command(
       slider-resonator hosts --out docs/hosts.md
     """
     native = fmu or NATIVE
-    everyone = hosts(own_environment)
+    everyone = hosts(own_environments)
     selected = [host for host in everyone if host.name in (chosen or NAMES)]
     missing = _missing([everyone[0], *selected])
     if everyone[0] in missing or (missing and (chosen or out)):

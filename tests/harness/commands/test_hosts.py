@@ -79,7 +79,7 @@ def test_hosts_that_are_not_installed_are_no_verdict(
     done = call(
         "hosts",
         *(native_fmu, *others, "--host", "cofmupy"),
-        *("--own-environment", tmp_path / "nowhere", "--out", out, "--json"),
+        *("--own-environments", tmp_path / "nowhere", "--out", out, "--json"),
     )
     assert done.exit_code == 2
     assert "cofmupy: there is no" in json.loads(done.stdout)["error"]
