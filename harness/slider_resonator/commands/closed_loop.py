@@ -144,7 +144,7 @@ def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> N
     differences: list[Row] = [
         (
             *(entry.host, f"{entry.start:g}", f"{1e3 * entry.load:g}"),
-            *(f"{1e6 * entry.difference:.1f}", f"{entry.time:.2f}", _predicted(entry)),
+            *(f"{1e6 * entry.difference:.2g}", f"{entry.time:.2f}", _predicted(entry)),
             verdict(entry.passed),
         )
         for entry in agreements
@@ -155,4 +155,4 @@ def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> N
 def _predicted(agreement: Agreement) -> str:
     if agreement.predicted is None:
         return "fidelity 0 rejected"
-    return f"{1e6 * agreement.predicted:.1f}"
+    return f"{1e6 * agreement.predicted:.2g}"
