@@ -29,7 +29,11 @@ _numbers = count(1)
 
 
 class _Explained:
-    """A context in which a failed FMI call becomes a Refusal with the log of the FMU."""
+    """A context in which a failed FMI call becomes a Refusal with the log of the FMU.
+
+    A Python FMU in this process can also fail by an exception that it leaves set: ctypes raises
+    SystemError then.
+    """
 
     def __init__(self, instance: Instance) -> None:
         self.instance = instance
@@ -38,9 +42,11 @@ class _Explained:
         del self.instance.messages[:]
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        if isinstance(error, FMICallException):
+        if isinstance(error, FMICallException | SystemError):
             instance = self.instance
             logged = fmu_log.in_one_line(instance.messages)
+            if isinstance(error, SystemError):
+                logged = f"the FMU left a Python exception behind: {error.__cause__!r}"
             reason = logged or f"{error} The FMU logged no reason."
             where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
             raise Refusal(f"{where}: {reason}") from error

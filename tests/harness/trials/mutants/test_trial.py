@@ -64,6 +64,17 @@ def test_a_hang_a_crash_and_an_error_reject(
     assert not outcome.quantity
 
 
+def test_a_value_that_is_no_number_rejects(faulty: Faulty, points: list[ExpectedPoint]) -> None:
+    """pythonfmu then leaves a Python exception set, and fmi2GetReal reports nothing."""
+    values = "return self._component.get(*(v.name for v in _variables("
+    outcome = trial(
+        faulty("slave.py", f'{values}"Real", vrs)))', "return [None] * len(vrs)"), points, 60.0
+    )
+    assert isinstance(outcome, Rejection)
+    assert "left a Python exception behind: TypeError" in outcome.reason
+    assert not outcome.quantity
+
+
 def test_an_fmu_that_cannot_be_loaded_is_rejected(
     faulty: Faulty, points: list[ExpectedPoint]
 ) -> None:
