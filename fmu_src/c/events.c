@@ -35,6 +35,15 @@ static bool work_count(Work *work, double time, const Budget *budget, Refusal *r
            || budget_refuse(budget, time, MAX_STEP_LEGS, "legs of motion", refusal);
 }
 
+/* Refuses a motion that takes too many legs even if each is as long as may be. A search for an event may
+ * end it before. */
+static bool work_fits(const Work *work, double duration, double longest, const EventSearch *search,
+                      const Budget *budget, Refusal *refusal) {
+    double most = work->max_all * longest;
+    return search != NULL || duration <= most
+           || budget_refuse(budget, most, MAX_STEP_LEGS, "legs of motion", refusal);
+}
+
 /* Ends a search with the event at the time of the clock, unless the search ignores that time. */
 static bool found_at(EventSearch *search, const Clock *clock) {
     if (search == NULL || !(clock->elapsed > search->after)) {
@@ -106,6 +115,9 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
     Work work = {.turn = TAU / LONGEST_ARC * held->arc, .max_all = budget_left(budget, MAX_STEP_LEGS)};
     Leg leg;
     Moment begin;
+    if (!work_fits(&work, duration, held->arc, search, budget, refusal)) {
+        return false;
+    }
     *now = *moment;
     leg_reset(&leg);
     leg.departs = now->state.velocity == 0.0;

@@ -28,6 +28,8 @@ def advance(
     max_legs = MAX_STEP_LEGS // PYTHON_SLOWDOWN
     most_legs = budget.left(max_legs)
     turn = tau / LONGEST_ARC * arc
+    if duration > most_legs * arc:
+        raise budget.refusal(most_legs * arc, max_legs, "legs of motion")
     clock, remaining = Clock(duration), duration
     legs, all_legs, turn_began = 0, 0, 0.0
     departs = moment.state.velocity == 0.0

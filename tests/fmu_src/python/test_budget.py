@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from unittest.mock import Mock
 
 import pytest
 
@@ -38,6 +39,16 @@ def test_resolved_motion_spends_its_legs_and_stops_where_the_budget_ends() -> No
     budget.spent = 1.0 - 0.5 * budget.spent
     with pytest.raises(Refusal, match=f"= 1.0 refused: it takes more work than {MAX_LEGS} legs"):
         events.advance(friction, held, moment, 10.0 * PERIOD, budget)
+
+
+def test_motion_of_too_many_legs_is_refused_before_it_begins() -> None:
+    """At 3.5e299 rad/s the velocity underflows in a leg, whose search takes thousands of steps."""
+    inputs = Inputs(frequency_ratio=1e296)
+    moment = law_of(TABLE_1, inputs).start(State(0.0, 0.0, 0.0), 0.0)
+    friction = Mock(wraps=friction_law_of(0))
+    with pytest.raises(Refusal, match=f"it takes more work than {MAX_LEGS} legs of motion"):
+        events.advance(friction, hold(TABLE_1, inputs), moment, 1e-3, Budget(1e-3))
+    friction.follow.assert_not_called()
 
 
 def test_slow_motion_has_the_steps_that_other_work_left() -> None:
