@@ -99,8 +99,30 @@ static void ramp_to(Plant *plant, const Plant *begin, double elapsed, bool turne
         turned ? 0.0 : begin->normal_frequency + begin->normal_rate * elapsed;
 }
 
-bool events_advance(const Law *start, const Moment *moment, double duration, EventSearch *search,
-                    Budget *budget, Moment *now, Refusal *refusal) {
+/* Looks at the motion on a leg that begins at a moment, `elapsed` [s] after the beginning of the motion. */
+static void look(Trace *trace, const Leg *leg, const Moment *begin, double elapsed) {
+    double t, travelled;
+    for (; trace->seen < trace->count; trace->seen++) {
+        t = trace->first + trace->seen * trace->every - elapsed;
+        if (t > leg->t) {
+            return;
+        }
+        State state = leg_state_at(leg, fmax(t, 0.0), &travelled);
+        trace->see(trace->observer, trace->seen, &state, begin->position + travelled);
+    }
+}
+
+/* Looks at the end of a motion, where rounding puts the last looks behind it. */
+static void look_at_end(Trace *trace, const Moment *end) {
+    for (; trace->seen < trace->count; trace->seen++) {
+        trace->see(trace->observer, trace->seen, &end->state, end->position);
+    }
+}
+
+/* Either or both of `search` and `trace` may be NULL. */
+static bool follow_events(const Law *start, const Moment *moment, double duration,
+                          EventSearch *search, Trace *trace, Budget *budget, Moment *now,
+                          Refusal *refusal) {
     Law moving;
     const Law *law = start;
     if (is_ramped(&start->held.plant)) {
@@ -135,6 +157,9 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
             begin = *now;
         }
         friction->follow(&leg, law, now, longest, switching);
+        if (trace != NULL) {
+            look(trace, &leg, now, clock.elapsed);
+        }
         leg_finish(&leg, held, now);
         if (law == &moving) {
             ramp_to(&moving.held.plant, &start->held.plant, clock.elapsed + leg.t, leg.t == turning);
@@ -154,5 +179,18 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
         }
     }
     budget_spend(budget, work.all, MAX_STEP_LEGS);
+    if (trace != NULL) {
+        look_at_end(trace, now);
+    }
     return true;
+}
+
+bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                    Budget *budget, Moment *now, Refusal *refusal) {
+    return follow_events(law, moment, duration, search, NULL, budget, now, refusal);
+}
+
+bool events_trace(const Law *law, const Moment *moment, double duration, Trace *trace, Budget *budget,
+                  Moment *now, Refusal *refusal) {
+    return follow_events(law, moment, duration, NULL, trace, budget, now, refusal);
 }

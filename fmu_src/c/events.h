@@ -9,6 +9,7 @@
 #include "law.h"
 #include "moment.h"
 #include "refusal.h"
+#include "trace.h"
 
 /* Advance by `duration` > 0 [s] from `moment` to `now`, another moment, under the inputs of the law, or to
  * the event that a `search` finds before; NULL searches for none. Refuses, with `now` undefined, where the
@@ -16,5 +17,9 @@
  * finite. */
 bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Budget *budget, Moment *now, Refusal *refusal);
+
+/* The same without a search, but with a `trace` that looks at the motion on its way, up to its end. */
+bool events_trace(const Law *law, const Moment *moment, double duration, Trace *trace, Budget *budget,
+                  Moment *now, Refusal *refusal);
 
 #endif

@@ -207,28 +207,33 @@ static double travel_at(const void *motion, double t) {
     return NAN;
 }
 
-/* The state at the end of the leg; sets its displacement `travelled` too. */
-static State end_of(Leg *leg) {
+/* The state at a time [s], the displacement `travelled` then [m], and the phasors if they are `known`. */
+static State place_of(const Leg *leg, double t, double *travelled, KnownPhasors *known) {
     State state = {NAN, NAN, NAN};
-    leg->known.known = false;
+    known->known = false;
     switch (leg->kind) {
     case RESTS:
-        leg->travelled = 0.0;
-        return stick_state(&leg->motion.stick, leg->t);
+        *travelled = 0.0;
+        return stick_state(&leg->motion.stick, t);
     case SLIDES:
-        return slide_end(&leg->motion.slide, leg->t, &leg->travelled, &leg->known);
+        return slide_end(&leg->motion.slide, t, travelled, known);
     case FOLLOWS_SERIES:
-        leg->travelled = taylor_slide_travel(&leg->motion.series, leg->t);
-        return taylor_slide_state(&leg->motion.series, leg->t);
+        *travelled = taylor_slide_travel(&leg->motion.series, t);
+        return taylor_slide_state(&leg->motion.series, t);
     case BENDS_AND_SLIDES:
-        return bending_panel_end(&leg->motion.panel, leg->t, &leg->travelled, &leg->known);
+        return bending_panel_end(&leg->motion.panel, t, travelled, known);
     }
     return state;
 }
 
+State leg_state_at(const Leg *leg, double t, double *travelled) {
+    KnownPhasors there;
+    return place_of(leg, t, travelled, &there);
+}
+
 void leg_finish(Leg *leg, const Held *held, Moment *now) {
     const Plant *plant = &held->plant;
-    now->state = end_of(leg);
+    now->state = place_of(leg, leg->t, &leg->travelled, &leg->known);
     Segment segment = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
     now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
     now->psi = within_turn(now->psi + turned_by(plant, leg->t));

@@ -15,31 +15,44 @@
 
 /* Parts of a turn over which the mean of the way is taken, and where the peak of a vibration is looked
  * for. */
-enum { WAY_PARTS = 8, PEAK_PARTS = 16, PEAK_REFINEMENTS = 4 };
+enum { WAY_PARTS = 8, PEAK_PARTS = 16, PEAK_REFINEMENTS = 3 };
 
 /* Waves of the normal load in a turn up to which the samples follow them. */
 #define MAX_PEAK_WAVES 8.0
 
-/* Displacement [m] of the pair's centre from the slider at a state, but for the drive's. */
-static double centre_of(const PeriodMap *map, const Moment *moment) {
+/* The `sum` of what w1 adds to the way since the section [m] at the ends of the parts [s] of a period. */
+typedef struct {
+    const PeriodMap *map;
+    const HeldOrbit *orbit;
+    double part, first, sum;
+} WaySum;
+
+/* Place [m] of the pair's centre at a position, without what the drive moves it. */
+static double centre_of(const PeriodMap *map, const State *state, double position, double theta) {
     const Plant *plant = &map->law.held.plant;
-    return moment->position + plant->mass_fraction * moment->state.displacement +
-           map->fast.pair_velocity / plant->drive_frequency * sin(moment->theta);
+    return position + plant->mass_fraction * state->displacement +
+           map->fast.pair_velocity / plant->drive_frequency * sin(theta);
+}
+
+static void add_way(void *observer, int index, const State *state, double position) {
+    WaySum *way = observer;
+    double since = (index + 1) * way->part;
+    double theta = way->orbit->section.theta + way->map->law.held.plant.drive_frequency * since;
+    double centre = centre_of(way->map, state, position, theta);
+    way->sum += centre - way->first - way->orbit->velocity * since;
 }
 
 bool orbit_way(const PeriodMap *map, const HeldOrbit *orbit, double *way) {
+    const Moment *section = &orbit->section;
     int parts = WAY_PARTS * map->turns;
-    double part = map->period / parts, first = centre_of(map, &orbit->section), sum = 0.0;
-    Moment now = orbit->section;
-    for (int i = 1; i < parts; i++) {
-        Moment next;
-        if (!orbit_advance(map, orbit->lead, -orbit->friction, &now, part, &next)) {
-            return false;
-        }
-        sum += centre_of(map, &next) - first - orbit->velocity * i * part;
-        now = next;
+    double first = centre_of(map, &section->state, section->position, section->theta);
+    WaySum sums = {map, orbit, map->period / parts, first, 0.0};
+    Trace trace = {sums.part, sums.part, parts - 1, 0, add_way, &sums};
+    Moment end;
+    if (!orbit_trace(map, orbit->lead, -orbit->friction, section, (parts - 1) * sums.part, &trace, &end)) {
+        return false;
     }
-    *way = -sum / parts;
+    *way = -sums.sum / parts;
     return true;
 }
 
@@ -61,8 +74,12 @@ bool orbit_point_of(const PeriodMap *map, const HeldOrbit *orbit, OrbitPoint *po
     return orbit_way(map, orbit, &point->of[ORBIT_WAY]);
 }
 
-/* Velocity [m/s] of the slider against `direction` less the mean one, `angle` [rad] after a moment of the
- * orbit; `there` is the moment then. */
+/* Velocity [m/s] of the slider against `direction` less the mean one. */
+static double against(const HeldOrbit *orbit, const State *state) {
+    return orbit->direction * (orbit->velocity - state->velocity);
+}
+
+/* The same `angle` [rad] after a moment of the orbit; `there` is the moment then. */
 static double vibration_after(const PeriodMap *map, const HeldOrbit *orbit, const Moment *moment,
                               double angle, Moment *there) {
     double duration = angle / map->law.held.plant.drive_frequency;
@@ -71,7 +88,24 @@ static double vibration_after(const PeriodMap *map, const HeldOrbit *orbit, cons
         !orbit_advance(map, orbit->lead, -orbit->friction, moment, duration, there)) {
         return NAN;
     }
-    return orbit->direction * (orbit->velocity - there->state.velocity);
+    return against(orbit, &there->state);
+}
+
+/* The sample that is the largest, and its index. */
+typedef struct {
+    const HeldOrbit *orbit;
+    double size;
+    int index;
+} LargestSample;
+
+static void keep_largest(void *observer, int index, const State *state, double position) {
+    LargestSample *largest = observer;
+    double size = against(largest->orbit, state);
+    (void)position;
+    if (size > largest->size) {
+        largest->size = size;
+        largest->index = index;
+    }
 }
 
 /* Peak [m/s] of the vibration against the direction of sliding, which it takes off from V: the largest of
@@ -79,17 +113,15 @@ static double vibration_after(const PeriodMap *map, const HeldOrbit *orbit, cons
 static double grazing_peak(const PeriodMap *map, const HeldOrbit *orbit) {
     double waves = fmin(fabs(map->law.inputs.frequency_ratio), MAX_PEAK_WAVES);
     int parts = PEAK_PARTS * map->turns * (1 + (int)waves);
-    double part = TAU * map->turns / parts, best = -INFINITY;
-    Moment now = orbit->section, base = now, next;
-    for (int i = 0; i < parts; i++) {
-        double size = vibration_after(map, orbit, &now, part, &next);
-        if (size > best) {
-            best = size;
-            base = now;
-        }
-        now = next;
+    double part = TAU * map->turns / parts, time = map->period / parts;
+    LargestSample largest = {orbit, -INFINITY, 0};
+    Trace trace = {time, time, parts, 0, keep_largest, &largest};
+    Moment base, next;
+    if (!orbit_trace(map, orbit->lead, -orbit->friction, &orbit->section, map->period, &trace, &next)) {
+        return NAN;
     }
-    double place = part;
+    vibration_after(map, orbit, &orbit->section, part * largest.index, &base);
+    double place = part, best = largest.size;
     for (int i = 0; i < PEAK_REFINEMENTS; i++, part *= 0.1) {
         double behind = vibration_after(map, orbit, &base, place - part, &next);
         double ahead = vibration_after(map, orbit, &base, place + part, &next);
@@ -130,16 +162,22 @@ void orbit_curve_begin(OrbitCurve *curve, const PeriodMap *map, double lead) {
     curve->reach = 0.5 * (high - low);
 }
 
+/* Clenshaw's recurrences for the even and the odd polynomials, T_2j(x) = T_j(y) and
+ * T_2j+1(x) = x (U_j(y) - U_j-1(y)) with y = T_2(x): the two run side by side. */
 double orbit_panel_at(const OrbitPanel *panel, OrbitQuantity quantity, double place) {
     const double *c = panel->coefficient[quantity];
-    double x = 2.0 * (place * panel->parts - panel->index) - 1.0;
-    double ahead = 0.0, behind = 0.0;
-    for (int k = panel->terms[quantity] - 1; k > 0; k--) {
-        double next = 2.0 * x * ahead - behind + c[k];
-        behind = ahead;
-        ahead = next;
+    double x = 2.0 * (place * panel->parts - panel->index) - 1.0, y = 2.0 * x * x - 1.0;
+    double even = 0.0, even_behind = 0.0, odd = 0.0, odd_behind = 0.0;
+    for (int k = panel->terms[quantity] - 2; k > 0; k -= 2) {
+        double next = 2.0 * y * even + (c[k] - even_behind);
+        even_behind = even;
+        even = next;
+        next = 2.0 * y * odd + (c[k + 1] - odd_behind);
+        odd_behind = odd;
+        odd = next;
     }
-    return x * ahead - behind + c[0];
+    double last_odd = 2.0 * y * odd + (c[1] - odd_behind);
+    return y * even + (c[0] - even_behind) + x * (last_odd - odd);
 }
 
 void orbit_panel_begin(OrbitPanel *panel, int depth, int index) {
@@ -159,5 +197,6 @@ void orbit_panel_end(OrbitPanel *panel) {
             rest += fabs(c[--panel->terms[q]]);
         }
         panel->terms[q] += rest > NEGLIGIBLE_TERMS * largest;
+        panel->terms[q] += panel->terms[q] % 2;
     }
 }

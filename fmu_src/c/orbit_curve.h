@@ -44,7 +44,7 @@ typedef struct {
 } OrbitPoint;
 
 /* Chebyshev coefficients over the panel `index` of 2^depth = `parts` in which each base panel is halved, of
- * each quantity the first `terms` that are not rounding. `holds` is false where it has to be halved,
+ * each quantity the first `terms` that are not rounding, an even number. `holds` is false where it has to be halved,
  * `found` where an orbit is missing. `maps` is how often a period was mapped for it. */
 typedef struct {
     bool known, found, holds;

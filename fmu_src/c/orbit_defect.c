@@ -35,43 +35,55 @@ static double driven_way(const PeriodMap *map, double theta) {
     return map->fast.pair_velocity / map->law.held.plant.drive_frequency * sin(theta);
 }
 
+/* A passage on its way, under way from the section: from the phase `first` on. */
+typedef struct {
+    const PeriodMap *map;
+    const HeldOrbit *orbit;
+    int first;
+    OrbitPassage *passage;
+} Passing;
+
+static void pass_phase(void *observer, int index, const State *state, double position) {
+    const Passing *passing = observer;
+    const PeriodMap *map = passing->map;
+    const HeldOrbit *orbit = passing->orbit;
+    OrbitPassage *passage = passing->passage;
+    int phase = (passing->first + index) % LAG_PHASES;
+    double theta = TAU * map->turns * phase / LAG_PHASES, length = map->period * map->speed;
+    double way = position / length - orbit->velocity / map->speed * part_since(map, orbit, phase);
+    double share = map->law.held.plant.mass_fraction, start = driven_way(map, orbit->section.theta);
+    double centre = share * state->displacement + driven_way(map, theta) - start;
+    passage->momentum[phase] = momentum_velocity(map, state, theta) / map->speed;
+    passage->way[phase] = way;
+    passage->section -= (way + centre / length) / LAG_PHASES;
+}
+
 bool orbit_pass(const PeriodMap *map, const HeldOrbit *orbit, const OrbitLinearisation *linear,
                 double excess, OrbitPassage *passage) {
     OrbitEquations equations = {.map = map, .lead = orbit->lead, .theta = orbit->section.theta,
                                 .stops = orbit->section.stops};
     Unknowns unknowns = unknowns_of(&equations, &orbit->section, -orbit->friction);
-    int states = map->states, first = 0;
+    Passing passing = {map, orbit, 0, passage};
+    int states = map->states;
     for (int i = 0; i < states; i++) {
         unknowns.at[i] += excess * linear->lag[i];
     }
     unknowns.at[states] += excess;
-    double load = map->force * unknowns.at[states], length = map->period * map->speed, reached = 0.0;
-    double start = driven_way(map, equations.theta), share = map->law.held.plant.mass_fraction;
-    Moment now = section_of(&equations, &unknowns), next;
-    passage->section = 0.0;
+    double load = map->force * unknowns.at[states];
+    Moment section = section_of(&equations, &unknowns), after;
     for (int i = 1; i < LAG_PHASES; i++) {
-        first = part_since(map, orbit, i) < part_since(map, orbit, first) ? i : first;
+        bool sooner = part_since(map, orbit, i) < part_since(map, orbit, passing.first);
+        passing.first = sooner ? i : passing.first;
     }
-    for (int i = 0; i <= LAG_PHASES; i++) {
-        int phase = (first + i) % LAG_PHASES;
-        double since = i < LAG_PHASES ? part_since(map, orbit, phase) : 1.0;
-        double duration = (since - reached) * map->period;
-        next = now;
-        if (duration > 0.0 && !orbit_advance(map, orbit->lead, load, &now, duration, &next)) {
-            return false;
-        }
-        now = next;
-        reached = since;
-        if (i < LAG_PHASES) {
-            passage->momentum[phase] = momentum_velocity(map, &now.state, now.theta) / map->speed;
-            passage->way[phase] = now.position / length - orbit->velocity / map->speed * since;
-            double centre = share * now.state.displacement + driven_way(map, now.theta) - start;
-            passage->section -= (passage->way[phase] + centre / length) / LAG_PHASES;
-        }
+    double first = part_since(map, orbit, passing.first) * map->period;
+    Trace trace = {first, map->period / LAG_PHASES, LAG_PHASES, 0, pass_phase, &passing};
+    passage->section = 0.0;
+    if (!orbit_trace(map, orbit->lead, load, &section, map->period, &trace, &after)) {
+        return false;
     }
-    Unknowns end = unknowns_of(&equations, &now, load);
+    Unknowns end = unknowns_of(&equations, &after, load);
     memcpy(passage->values, end.at, (size_t)states * sizeof end.at[0]);
-    passage->values[states] = now.position / length;
+    passage->values[states] = after.position / (map->period * map->speed);
     return true;
 }
 

@@ -64,19 +64,18 @@ static ErrorPlace place_at(OrbitRide *ride, double velocity, double theta) {
 }
 
 /* What the swing that resolved motion leaves adds to mean velocity [m/s], by the orbit that lags. */
-static double error_of_swing(const OrbitRide *ride, double velocity, double theta,
-                             const Moment *now) {
+static double error_of_swing(const OrbitRide *ride, const OpenError *open) {
     const PeriodMap *map = ride->map;
     const Law *law = ride->law;
     HeldOrbit orbit;
     Moment there;
-    if (held_orbit_at(map, ride->lead, velocity, NULL, &orbit) != ORBIT_FOUND ||
+    if (held_orbit_at(map, ride->lead, open->velocity, NULL, &orbit) != ORBIT_FOUND ||
         held_orbit_linearise(map, &orbit) != ORBIT_FOUND ||
-        !held_orbit_moment(map, &orbit, law->inputs.load, theta, &there)) {
+        !held_orbit_moment(map, &orbit, law->inputs.load, open->angle, &there)) {
         return 0.0;
     }
-    double displacement = now->state.displacement - there.state.displacement;
-    double rate = (now->state.rate - there.state.rate) / law->device.drive_frequency;
+    double displacement = open->displacement - there.state.displacement;
+    double rate = (open->rate - there.state.rate) / law->device.drive_frequency;
     return velocity_of_swing(law, hypot(displacement, rate));
 }
 
@@ -161,6 +160,7 @@ void error_calm(const Law *law, double angle, OrbitState *orbit) {
 /* Take in the end of resolved motion. */
 static void begin_at(OrbitRide *ride, const ErrorPlace *place, const OpenError *open,
                      OrbitState *orbit) {
+    orbit->unrest = error_of_swing(ride, open);
     orbit->doubt += place->unsure * fabs(place->acceleration);
     if (!place->measured) {
         double added_mass = ride_point(ride, 0.0, open->velocity).of[ORBIT_FACTOR] - 1.0;
@@ -236,8 +236,8 @@ static void settle_on(OrbitRide *ride, const OrbitPoint *point, double theta, Or
 void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, double theta,
                  const Moment *now, OrbitState *orbit) {
     orbit->acceleration = acceleration_on(ride->law, point, ride->law->inputs.load);
-    orbit->unrest = error_of_swing(ride, velocity, theta, now);
-    orbit->open = (OpenError){TAKEN_OVER, 0.0, velocity, theta};
+    orbit->open =
+        (OpenError){TAKEN_OVER, 0.0, velocity, theta, now->state.displacement, now->state.rate};
     if (!has_shifts(ride)) {
         settle_on(ride, point, theta, orbit);
     }
@@ -245,7 +245,7 @@ void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, doub
 
 void error_open(double theta, OrbitState *orbit) {
     if (orbit->open.kind == NOTHING_OPEN) {
-        orbit->open = (OpenError){FOLLOWED, 0.0, orbit->velocity, theta};
+        orbit->open = (OpenError){.kind = FOLLOWED, .velocity = orbit->velocity, .angle = theta};
     }
 }
 

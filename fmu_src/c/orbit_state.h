@@ -39,10 +39,10 @@ typedef struct {
 typedef enum { NOTHING_OPEN, FOLLOWED, TAKEN_OVER } OpenKind;
 
 /* That motion: `elapsed` [s] under held inputs, from a slow `velocity` [m/s] and a drive phase `angle` [rad] over
- * all turns on. */
+ * all turns on. Where resolved motion ended, the resonator had the `displacement` [m] and the `rate` [m/s]. */
 typedef struct {
     int kind;
-    double elapsed, velocity, angle;
+    double elapsed, velocity, angle, displacement, rate;
 } OpenError;
 
 /* `to_go` is the drive angle [rad] that is still to be resolved, `waited` what has been, or on an orbit whose lead

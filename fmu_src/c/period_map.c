@@ -63,14 +63,25 @@ void orbit_enter(const PeriodMap *map, double lead, double theta, Moment *moment
     moment->counts.sliding = moment->mode == LIFTED ? STICK : moment->mode;
 }
 
+static bool is_finite(const Moment *moment) {
+    return isfinite(moment->position + moment->state.velocity + moment->state.displacement +
+                    moment->state.rate + moment->bristle);
+}
+
 bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment *moment,
                    double duration, Moment *after) {
     Law law = law_under(map, lead, load);
     Budget budget = budget_of(duration);
     Refusal refusal;
-    return events_advance(&law, moment, duration, NULL, &budget, after, &refusal) &&
-           isfinite(after->position + after->state.velocity + after->state.displacement +
-                    after->state.rate + after->bristle);
+    return events_advance(&law, moment, duration, NULL, &budget, after, &refusal) && is_finite(after);
+}
+
+bool orbit_trace(const PeriodMap *map, double lead, double load, const Moment *moment,
+                 double duration, Trace *trace, Moment *after) {
+    Law law = law_under(map, lead, load);
+    Budget budget = budget_of(duration);
+    Refusal refusal;
+    return events_trace(&law, moment, duration, trace, &budget, after, &refusal) && is_finite(after);
 }
 
 double sliding_friction(const PeriodMap *map, double lead) {

@@ -12,6 +12,7 @@
 #include <stdbool.h>
 
 #include "law.h"
+#include "trace.h"
 
 /* Largest tolerance of a map under LuGre friction. */
 #define MAP_TOLERANCE 1e-10
@@ -46,6 +47,10 @@ void orbit_enter(const PeriodMap *map, double lead, double theta, Moment *moment
  * takes too many legs or numbers leave the range of floating point. */
 bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment *moment,
                    double duration, Moment *after);
+
+/* The same with a `trace` that looks at the motion on its way. */
+bool orbit_trace(const PeriodMap *map, double lead, double load, const Moment *moment,
+                 double duration, Trace *trace, Moment *after);
 
 /* Mean friction [N] over a period in which the slider slides forward throughout. */
 double sliding_friction(const PeriodMap *map, double lead);

@@ -39,6 +39,14 @@ static double balance_between(AccelerationFunction acceleration, const void *mot
     return root;
 }
 
+bool is_settled(AccelerationFunction acceleration, const void *motion, double fast, double noise,
+                const Reached *now) {
+    double v = now->velocity, beside = NEAR * fast;
+    return fabs(acceleration(motion, now->t, v)) <= noise &&
+           acceleration(motion, now->t, v - beside) > 0.0 &&
+           acceleration(motion, now->t, v + beside) < 0.0;
+}
+
 bool settle(AccelerationFunction acceleration, const void *motion, double fast, double end,
             Reached *now) {
     double low = now->velocity - NEAR * fast, high = now->velocity + NEAR * fast;

@@ -12,4 +12,9 @@
 bool settle(AccelerationFunction acceleration, const void *motion, double fast, double end,
             Reached *now);
 
+/* Whether forces balance `now` and draw the velocity back to where it is: the acceleration, which must not
+ * depend on time, is `noise` [m/s^2], its rounding error. */
+bool is_settled(AccelerationFunction acceleration, const void *motion, double fast, double noise,
+                const Reached *now);
+
 #endif

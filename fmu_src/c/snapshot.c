@@ -104,6 +104,8 @@ static const Field FIELDS[] = {
     FIELD(moment.orbit.open.elapsed, FINITE, 0, 0),
     FIELD(moment.orbit.open.velocity, FINITE, 0, 0),
     FIELD(moment.orbit.open.angle, FINITE, 0, 0),
+    FIELD(moment.orbit.open.displacement, FINITE, 0, 0),
+    FIELD(moment.orbit.open.rate, FINITE, 0, 0),
     FIELD(moment.orbit.tunings, INTEGER, 0, MAX_TUNINGS),
 };
 

@@ -24,7 +24,8 @@ FIELDS = (
     *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
     *(f"paid_{name}" for name in PaidTables._fields),
     *("varied", "loading", "ahead", "doubt", "unrest", "acceleration"),
-    *("open_kind", "open_elapsed", "open_velocity", "open_angle", "tunings"),
+    *("open_kind", "open_elapsed", "open_velocity", "open_angle"),
+    *("open_displacement", "open_rate", "tunings"),
 )
 HEAD = 8 + 40
 LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")

@@ -11,6 +11,7 @@ from .contact import LIFTED, time_to_switch
 from .friction_law import FrictionLaw
 from .held import LONGEST_ARC, Held
 from .moment import Moment
+from .trace import Trace
 
 MAX_LEGS = 20_000
 """Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
@@ -18,9 +19,14 @@ presliding on the hardest bristles takes."""
 
 
 def advance(
-    friction: FrictionLaw, held: Held, moment: Moment, duration: float, budget: Budget
+    friction: FrictionLaw,
+    held: Held,
+    moment: Moment,
+    duration: float,
+    budget: Budget,
+    trace: Trace | None = None,
 ) -> Moment:
-    """The moment `duration` > 0 [s] later, inputs held.
+    """The moment `duration` > 0 [s] later, inputs held; a `trace` looks at the motion on its way.
 
     Raises Refusal for a motion of more legs than the budget has, or of too many in a turn.
     """
@@ -51,9 +57,13 @@ def advance(
             switching = time_to_switch(window, chi, plant.normal_frequency, lifted)
             longest = min(longest, switching)
         leg = friction.follow(held, now, longest, switching, departs)
+        if trace is not None:
+            trace.look(leg, now, clock.elapsed)
         leg.finish(held, now)
         friction.succeed(held, leg, now, leg.zero_of is None and leg.t == switching)
         departs = now.state.velocity == 0.0 and now.mode != -leg.mode
         remaining = clock.advance(leg.t) if leg.t != remaining else 0.0
     budget.spend(all_legs, max_legs)
+    if trace is not None:
+        trace.look_at_end(now)
     return now

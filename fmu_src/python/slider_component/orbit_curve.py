@@ -12,12 +12,13 @@ from math import inf, isfinite, tau
 
 from .contact import BACKWARD, FORWARD
 from .held_orbit import HeldOrbit, NoOrbitError, OrbitStatus, held_orbit_at
-from .moment import Moment
+from .motion import State
 from .orbit_nodes import CurveRange, PanelOrbits
 from .orbit_panel import OrbitPanel
 from .orbit_point import OrbitPoint, Quantities, advanced, point_of
 from .orbit_shifts import ShiftPoint, shift_point
 from .period_map import PeriodMap
+from .trace import Trace
 
 BEYOND = 4.0
 """Velocity beyond grazing at which the orbit there is found, in fast velocities."""
@@ -25,7 +26,7 @@ BEYOND = 4.0
 PEAK_PARTS = 16
 """Parts of a turn in which the peak of a vibration is looked for."""
 
-PEAK_REFINEMENTS = 4
+PEAK_REFINEMENTS = 3
 """Parabolas that refine it."""
 
 MAX_PEAK_WAVES = 8.0
@@ -96,20 +97,23 @@ def _grazing_peak(period_map: PeriodMap, orbit: HeldOrbit) -> float:
     w = period_map.held.plant.drive_frequency
     waves = min(abs(period_map.held.inputs.frequency_ratio), MAX_PEAK_WAVES)
     parts = PEAK_PARTS * period_map.turns * (1 + int(waves))
-    part, best = tau * period_map.turns / parts, -inf
-    now = base = orbit.section
+    part, time = tau * period_map.turns / parts, period_map.period / parts
+    best, largest = -inf, 0
 
-    def against(moment: Moment) -> float:
-        return orbit.direction * (orbit.velocity - moment.state.velocity)
+    def against(state: State) -> float:
+        return orbit.direction * (orbit.velocity - state.velocity)
 
-    for _ in range(parts):
-        following = advanced(period_map, orbit, now, part / w)
-        if against(following) > best:
-            best, base = against(following), now
-        now = following
+    def keep_largest(index: int, state: State, _position: float) -> None:
+        nonlocal best, largest
+        if against(state) > best:
+            best, largest = against(state), index
+
+    trace = Trace(time, time, parts, keep_largest)
+    advanced(period_map, orbit, orbit.section, period_map.period, trace)
+    base = advanced(period_map, orbit, orbit.section, part * largest / w)
 
     def at(angle: float) -> float:
-        return against(advanced(period_map, orbit, base, angle / w))
+        return against(advanced(period_map, orbit, base, angle / w).state)
 
     place = part
     for _ in range(PEAK_REFINEMENTS):

@@ -18,9 +18,11 @@ from typing import NamedTuple
 
 from .held_orbit import HeldOrbit
 from .linear_system import Vector, solve_linear
+from .motion import State
 from .orbit_equations import OrbitEquations
 from .orbit_linearisation import OrbitLinearisation, linearised
 from .period_map import PeriodMap
+from .trace import Trace
 
 LAG_PHASES = 8
 """Drive phases in a period, from 0 on, at which the motion is looked at."""
@@ -99,26 +101,26 @@ def orbit_passage(
     load, length = period_map.force * moved[-1], period_map.period * period_map.speed
     share, speed = period_map.held.plant.mass_fraction, orbit.velocity / period_map.speed
     start = _driven_way(period_map, orbit.section.theta)
-    momentum, way, section, reached = [0.0] * LAG_PHASES, [0.0] * LAG_PHASES, 0.0, 0.0
-    now = equations.section(moved)
-    since = _parts_since(period_map, orbit)
-    order = sorted(range(LAG_PHASES), key=lambda phase: since[phase])
-    for phase in [*order, None]:
-        then = 1.0 if phase is None else since[phase]
-        duration = (then - reached) * period_map.period
-        if duration > 0.0:
-            following = period_map.advance(orbit.lead, load, now, duration)
-            if following is None:
-                return None
-            now = following
-        reached = then
-        if phase is not None:
-            momentum[phase] = period_map.momentum_velocity(now.state, now.theta) / period_map.speed
-            way[phase] = now.position / length - speed * then
-            centre = share * now.state.displacement + _driven_way(period_map, now.theta) - start
-            section -= (way[phase] + centre / length) / LAG_PHASES
-    values = equations.unknowns(now.state, now.bristle, load)[:-1]
-    return OrbitPassage(momentum, way, section, [*values, now.position / length])
+    momentum, way, section = [0.0] * LAG_PHASES, [0.0] * LAG_PHASES, 0.0
+    since, every = _parts_since(period_map, orbit), period_map.period / LAG_PHASES
+    first = min(range(LAG_PHASES), key=lambda phase: since[phase])
+
+    def see(index: int, state: State, position: float) -> None:
+        nonlocal section
+        phase = (first + index) % LAG_PHASES
+        theta = tau * period_map.turns * phase / LAG_PHASES
+        momentum[phase] = period_map.momentum_velocity(state, theta) / period_map.speed
+        way[phase] = position / length - speed * since[phase]
+        centre = share * state.displacement + _driven_way(period_map, theta) - start
+        section -= (way[phase] + centre / length) / LAG_PHASES
+
+    trace = Trace(since[first] * period_map.period, every, LAG_PHASES, see)
+    begin = equations.section(moved)
+    after = period_map.advance(orbit.lead, load, begin, period_map.period, trace)
+    if after is None:
+        return None
+    values = equations.unknowns(after.state, after.bristle, load)[:-1]
+    return OrbitPassage(momentum, way, section, [*values, after.position / length])
 
 
 def orbit_probe(period_map: PeriodMap, orbit: HeldOrbit) -> OrbitProbe | None:

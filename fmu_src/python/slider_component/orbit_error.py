@@ -106,9 +106,15 @@ class ErrorRide:
         over all turns of the orbit.
         """
         orbit = orbit._replace(
-            unrest=self._error_of_swing(velocity, theta, now),
             acceleration=self._acceleration_on(point),
-            open=OpenError(OpenKind.TAKEN_OVER, 0.0, velocity, theta),
+            open=OpenError(
+                OpenKind.TAKEN_OVER,
+                0.0,
+                velocity,
+                theta,
+                now.state.displacement,
+                now.state.rate,
+            ),
         )
         return orbit if self._has_shifts else self._settled_on(point, theta, orbit)
 
@@ -186,19 +192,20 @@ class ErrorRide:
         orbit = orbit._replace(open=OpenError())
         start = self._place(motion.velocity, motion.angle)
         if motion.kind == OpenKind.TAKEN_OVER:
-            orbit = self._begun_at(start, orbit)
+            orbit = self._begun_at(start, motion, orbit)
         if motion.elapsed > 0.0:
             end = self._place(orbit.velocity, theta)
             orbit = self._carried(start, end, point, motion.elapsed, orbit)
         return orbit
 
-    def _begun_at(self, place: ErrorPlace, orbit: OrbitState) -> OrbitState:
+    def _begun_at(self, place: ErrorPlace, motion: OpenError, orbit: OrbitState) -> OrbitState:
         """The state with the end of resolved motion."""
+        unrest = self._error_of_swing(motion)
         doubt = orbit.doubt + place.unsure * abs(place.acceleration)
         if not place.measured:
             added_mass = self.ride.point(0.0, place.velocity).of.factor - 1.0
             doubt = max(doubt, self._by_rule(added_mass, inf))
-        return self._bounded(orbit, orbit.ahead, doubt, orbit.unrest, orbit.acceleration)
+        return self._bounded(orbit, orbit.ahead, doubt, unrest, orbit.acceleration)
 
     def _carried(
         self,
@@ -242,16 +249,16 @@ class ErrorRide:
             acceleration=acceleration,
         )
 
-    def _error_of_swing(self, velocity: float, theta: float, now: Moment) -> float:
+    def _error_of_swing(self, motion: OpenError) -> float:
         """What the swing that resolved motion leaves adds to mean velocity [m/s]."""
-        scales = self.ride.map
+        scales, lead = self.ride.map, self.ride.lead
         try:
-            orbit = held_orbit_linearised(scales, held_orbit_at(scales, self.ride.lead, velocity))
-            there = held_orbit_moment(scales, orbit, self.ride.load, theta)
+            orbit = held_orbit_linearised(scales, held_orbit_at(scales, lead, motion.velocity))
+            there = held_orbit_moment(scales, orbit, self.ride.load, motion.angle)
         except NoOrbitError:
             return 0.0
-        displacement = now.state.displacement - there.state.displacement
-        rate = (now.state.rate - there.state.rate) / self.device.drive_frequency
+        displacement = motion.displacement - there.state.displacement
+        rate = (motion.rate - there.state.rate) / self.device.drive_frequency
         return velocity_of_swing(self.device, hypot(displacement, rate))
 
     def _unmeasured_after(

@@ -25,9 +25,9 @@ NEGLIGIBLE_TERMS = 1e-13
 class OrbitPanel:
     """Chebyshev coefficients over the panel `index` of 2^depth in which each base panel is halved.
 
-    Of each quantity only those that are not rounding. `coefficients` is None where an orbit is
-    missing; `holds` is false where the panel has to be halved. `maps` is how often a period was
-    mapped for it.
+    Of each quantity only those that are not rounding, an even number. `coefficients` is None where
+    an orbit is missing; `holds` is false where the panel has to be halved. `maps` is how often a
+    period was mapped for it.
     """
 
     depth: int
@@ -42,14 +42,21 @@ class OrbitPanel:
         return direction_of_panel(self.depth, self.index)
 
     def at(self, quantity: int, place: float) -> float:
-        """The quantity at `place` = chi / pi BASE_PANELS; only for a panel with coefficients."""
+        """The quantity at `place` = chi / pi BASE_PANELS; only for a panel with coefficients.
+
+        By Clenshaw's recurrences for the even and the odd polynomials, T_2j(x) = T_j(y) and
+        T_2j+1(x) = x (U_j(y) - U_j-1(y)) with y = T_2(x).
+        """
         assert self.coefficients is not None
         c = self.coefficients[quantity]
         x = 2.0 * (place * (1 << self.depth) - self.index) - 1.0
-        ahead = behind = 0.0
-        for k in range(len(c) - 1, 0, -1):
-            ahead, behind = 2.0 * x * ahead - behind + c[k], ahead
-        return x * ahead - behind + c[0]
+        y = 2.0 * x * x - 1.0
+        even = even_behind = odd = odd_behind = 0.0
+        for k in range(len(c) - 2, 0, -2):
+            even, even_behind = 2.0 * y * even + (c[k] - even_behind), even
+            odd, odd_behind = 2.0 * y * odd + (c[k + 1] - odd_behind), odd
+        last_odd = 2.0 * y * odd + (c[1] - odd_behind)
+        return y * even + (c[0] - even_behind) + x * (last_odd - odd)
 
     def point(self, place: float) -> OrbitPoint:
         """All quantities there."""
@@ -74,9 +81,10 @@ def index_at(place: float, depth: int) -> int:
 
 
 def trimmed(coefficients: list[float]) -> tuple[float, ...]:
-    """The first coefficients, without those that are rounding."""
+    """The first coefficients, an even number, without those that are rounding."""
     largest, rest, terms = max(map(abs, coefficients)), 0.0, len(coefficients)
     while terms > 1 and rest <= NEGLIGIBLE_TERMS * largest:
         terms -= 1
         rest += abs(coefficients[terms])
-    return tuple(coefficients[: terms + (rest > NEGLIGIBLE_TERMS * largest)])
+    terms += rest > NEGLIGIBLE_TERMS * largest
+    return (*coefficients[:terms], *[0.0] * (terms % 2))

@@ -7,8 +7,10 @@ from typing import NamedTuple
 
 from .held_orbit import HeldOrbit, NoOrbitError, OrbitStatus
 from .moment import Moment
+from .motion import State
 from .orbit_drift import held_orbit_offset
 from .period_map import PeriodMap
+from .trace import Trace
 
 WAY_PARTS = 8
 """Parts of a turn over which the mean of the way is taken."""
@@ -69,27 +71,38 @@ def orbit_way(period_map: PeriodMap, orbit: HeldOrbit) -> float:
 
     Raises NoOrbitError where a map fails.
     """
-    parts = WAY_PARTS * period_map.turns
-    part, first, total = period_map.period / parts, _centre(period_map, orbit.section), 0.0
-    now = orbit.section
-    for i in range(1, parts):
-        now = advanced(period_map, orbit, now, part)
-        total += _centre(period_map, now) - first - orbit.velocity * i * part
+    parts, section = WAY_PARTS * period_map.turns, orbit.section
+    part, w, total = period_map.period / parts, period_map.held.plant.drive_frequency, 0.0
+    first = _centre(period_map, section.state, section.position, section.theta)
+
+    def add(index: int, state: State, position: float) -> None:
+        nonlocal total
+        since = (index + 1) * part
+        centre = _centre(period_map, state, position, section.theta + w * since)
+        total += centre - first - orbit.velocity * since
+
+    advanced(period_map, orbit, section, (parts - 1) * part, Trace(part, part, parts - 1, add))
     return -total / parts
 
 
-def _centre(period_map: PeriodMap, moment: Moment) -> float:
-    """Place [m] of the pair's centre, without what the drive moves it."""
+def _centre(period_map: PeriodMap, state: State, position: float, theta: float) -> float:
+    """Place [m] of the pair's centre at a position, without what the drive moves it."""
     plant = period_map.held.plant
-    driven = period_map.fast.pair_velocity / plant.drive_frequency * sin(moment.theta)
-    return moment.position + plant.mass_fraction * moment.state.displacement + driven
+    driven = period_map.fast.pair_velocity / plant.drive_frequency * sin(theta)
+    return position + plant.mass_fraction * state.displacement + driven
 
 
-def advanced(period_map: PeriodMap, orbit: HeldOrbit, moment: Moment, duration: float) -> Moment:
+def advanced(
+    period_map: PeriodMap,
+    orbit: HeldOrbit,
+    moment: Moment,
+    duration: float,
+    trace: Trace | None = None,
+) -> Moment:
     """The moment `duration` [s] later. Raises NoOrbitError where the map fails."""
     if not duration > 0.0:
         return moment
-    after = period_map.advance(orbit.lead, -orbit.friction, moment, duration)
+    after = period_map.advance(orbit.lead, -orbit.friction, moment, duration, trace)
     if after is None:
         raise NoOrbitError(OrbitStatus.NOT_CONVERGED)
     return after

@@ -139,13 +139,16 @@ class OpenKind(IntEnum):
 class OpenError(NamedTuple):
     """That motion: `elapsed` [s] under held inputs.
 
-    From a slow `velocity` [m/s] and a drive phase `angle` [rad] over all turns on.
+    From a slow `velocity` [m/s] and a drive phase `angle` [rad] over all turns on. Where resolved
+    motion ended, the resonator had the `displacement` [m] and the `rate` [m/s].
     """
 
     kind: int = OpenKind.NOTHING_OPEN
     elapsed: float = 0.0
     velocity: float = 0.0
     angle: float = 0.0
+    displacement: float = 0.0
+    rate: float = 0.0
 
 
 class OrbitState(NamedTuple):

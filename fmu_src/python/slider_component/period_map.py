@@ -25,6 +25,7 @@ from .moment import Counts, Moment
 from .motion import State
 from .period import PeriodMeans
 from .refusal import Refusal
+from .trace import Trace
 from .vibrating_load import VibratingLoad
 
 MAP_TOLERANCE = 1e-10
@@ -72,15 +73,22 @@ class PeriodMap:
         begin.counts = Counts(sliding=STICK if begin.mode == LIFTED else begin.mode)
         return begin
 
-    def advance(self, lead: float, load: float, moment: Moment, duration: float) -> Moment | None:
+    def advance(
+        self,
+        lead: float,
+        load: float,
+        moment: Moment,
+        duration: float,
+        trace: Trace | None = None,
+    ) -> Moment | None:
         """The moment `duration` [s] after one that `enter` gave, under `load` [N].
 
-        None where the motion takes too many legs or numbers leave the range of floating point.
+        A `trace` looks at the motion on its way. None where the motion takes too many legs or
+        numbers leave the range of floating point.
         """
         try:
-            after = events.advance(
-                self.friction, self.held.under(lead, load), moment, duration, Budget(duration)
-            )
+            held, budget = self.held.under(lead, load), Budget(duration)
+            after = events.advance(self.friction, held, moment, duration, budget, trace)
         except (Refusal, ArithmeticError, ValueError):
             return None
         return after if isfinite(after.position + sum(after.state) + after.bristle) else None

@@ -37,6 +37,19 @@ def settled(acceleration: Acceleration, fast: float, end: float, now: Reached) -
     return now._replace(t=end, velocity=balance, moved=moved)
 
 
+def is_settled(acceleration: Acceleration, fast: float, noise: float, now: Reached) -> bool:
+    """Whether forces balance now and draw the velocity back to where it is.
+
+    `acceleration(t, v)` [m/s^2] must not depend on time: it is `noise`, its rounding error.
+    """
+    beside = NEAR * fast
+    return (
+        abs(acceleration(now.t, now.velocity)) <= noise
+        and acceleration(now.t, now.velocity - beside) > 0.0
+        and acceleration(now.t, now.velocity + beside) < 0.0
+    )
+
+
 def _balance_between(
     acceleration: Acceleration, low: float, at_low: float, high: float, at_high: float
 ) -> float:

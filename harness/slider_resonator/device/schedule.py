@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,6 +73,12 @@ def nearest(points: Array, targets: Array) -> NDArray[np.intp]:
     return np.where(nearer, before, after)
 
 
+def _read_only(values: Array) -> Array:
+    """Return the same array, which nobody can write to any more."""
+    values.flags.writeable = False
+    return values
+
+
 @dataclass(frozen=True)
 class Schedule:
     """The three inputs and the communication points (s), shape (n,), starting at 0.
@@ -82,6 +89,8 @@ class Schedule:
 
     With `interpolates` inputs are straight lines between the communication points, and the FMU gets
     their derivatives; tuning is held all the same.
+
+    The values at the communication points are computed once, and their arrays are read-only.
     """
 
     times: Array
@@ -103,19 +112,27 @@ class Schedule:
 
     def sampled(self) -> Array:
         """Return phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
-        return np.column_stack([signal.over(self.times) for signal in self._signals])
+        return self._sampled
+
+    @cached_property
+    def _sampled(self) -> Array:
+        return _read_only(np.column_stack([signal.over(self.times) for signal in self._signals]))
 
     def rates(self) -> Array:
         """Return the derivatives of the inputs from each communication point on, (n, 3); per s.
 
         Those of inputs that are held, and at the last point, are 0.
         """
-        sampled, rates = self.sampled(), np.zeros((len(self.times), 3))
+        return self._rates
+
+    @cached_property
+    def _rates(self) -> Array:
+        rates = np.zeros((len(self.times), 3))
         if self.interpolates:
             ramped = [not signal.hold and len(signal.times) > 1 for signal in self._signals]
-            slopes = np.diff(sampled, axis=0) / np.diff(self.times)[:, None]
+            slopes = np.diff(self._sampled, axis=0) / np.diff(self.times)[:, None]
             rates[:-1] = np.where(ramped, slopes, 0.0)
-        return rates
+        return _read_only(rates)
 
     @property
     def ramps(self) -> bool:
@@ -124,16 +141,26 @@ class Schedule:
 
     def tuned(self) -> Array:
         """Return the parameters of `tuning` at each communication point, (n, k)."""
+        return self._tuned
+
+    @cached_property
+    def _tuned(self) -> Array:
         columns = [signal.over(self.times) for signal in self.tuning.values()]
-        return np.array(columns, dtype=np.float64).reshape(-1, len(self.times)).T
+        return _read_only(np.array(columns, dtype=np.float64).reshape(-1, len(self.times)).T)
 
     def changes(self) -> NDArray[np.intp]:
         """Return the indices of the points after the first at which a value changes, (m,).
 
         Nothing is set at the last point.
         """
+        return self._changes
+
+    @cached_property
+    def _changes(self) -> NDArray[np.intp]:
         values = np.column_stack([self.sampled(), self.rates(), self.tuned()])[:-1]
-        return np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
+        changes = np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
+        changes.flags.writeable = False
+        return changes
 
     def readings(self) -> Array:
         """Return the times (s) at which outputs are read, (r,): the communication points.

@@ -55,10 +55,12 @@ class Signal:
 
     def over(self, times: Array) -> Array:
         """Return the values at ascending times (s), shape (n,), each as `at` gives it."""
+        if len(self.times) == 1:
+            return np.full(len(times), self.values[0], dtype=np.float64)
         points, values = np.asarray(self.times), np.asarray(self.values)
         index = np.searchsorted(points, times, side="right") - 1
         before = values[np.maximum(index, 0)]
-        if self.hold or len(points) == 1:
+        if self.hold:
             return before
         left = np.clip(index, 0, len(points) - 2)
         inside = np.clip(times, points[0], points[-1])

@@ -30,8 +30,8 @@ def run(
     Raises FmuError and Refusal as `Instance.start` and `Instance.check_steps` do, NotApplicable as
     `Running` does.
     """
-    began, began_cpu = time.perf_counter(), time.process_time()
     running = Running(instance, schedule, outputs)
+    began, began_cpu = time.perf_counter(), time.process_time()
     instance.start(
         {**parameters, **running.first}, running.stop_time, start_time=schedule.start_time
     )

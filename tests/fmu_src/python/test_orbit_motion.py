@@ -20,6 +20,7 @@ from fmu_src.python.slider_component.motion import State
 from fmu_src.python.slider_component.orbit_price import CURVE_TURNS, SEARCH_TURNS
 from fmu_src.python.slider_component.orbit_state import MAX_LEADS, Stage
 from fmu_src.python.slider_component.period_map import PeriodMap
+from fmu_src.python.slider_component.trace import Trace
 from tests.fmu_src.orbit_devices import SOFT_BRISTLE
 
 FAST_VELOCITY = 0.2366097
@@ -207,9 +208,16 @@ class CountedMaps:
         self._maps = 0
         advance = PeriodMap.advance
 
-        def counted(period_map: PeriodMap, *arguments: Any) -> Moment | None:
-            self._maps += arguments[-1] > 0.9 * period_map.period
-            return advance(period_map, *arguments)
+        def counted(
+            period_map: PeriodMap,
+            lead: float,
+            load: float,
+            moment: Moment,
+            duration: float,
+            trace: Trace | None = None,
+        ) -> Moment | None:
+            self._maps += duration > 0.9 * period_map.period
+            return advance(period_map, lead, load, moment, duration, trace)
 
         monkeypatch.setattr(PeriodMap, "advance", counted)
 
@@ -226,6 +234,15 @@ def test_preparation_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     assert 30 < maps.taken() < 170
     run(TABLE_1, Inputs(), 5000, 50)
     assert maps.taken() < 60, "what was tabulated serves the next instance"
+
+
+def test_an_estimate_that_nobody_reads_costs_no_maps(monkeypatch: pytest.MonkeyPatch) -> None:
+    forget_tables()
+    maps = CountedMaps(monkeypatch)
+    moment = run(TABLE_1, Inputs(), 5000, 5)
+    assert maps.taken() < 85, "a linearised orbit for the estimate takes 15"
+    assert law_of(TABLE_1, Inputs()).slow_motion_error(moment) > 0.0
+    assert maps.taken() > 50
 
 
 def run_through(device: Device, changes: Sequence[Inputs], periods: float) -> Moment:

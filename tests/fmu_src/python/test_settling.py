@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 
 from fmu_src.python.slider_component.dormand_prince import Reached
-from fmu_src.python.slider_component.settling import NEAR, settled
+from fmu_src.python.slider_component.settling import NEAR, is_settled, settled
 
 RATE = 50.0
 
@@ -51,3 +51,19 @@ def test_a_balance_beside_a_steep_slope() -> None:
     end = settled(steep, 1.0, 10.0, Reached(0.0, 1.0 - 0.9 * NEAR, 0.0, 1e-3))
     assert end is not None
     assert end.velocity == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("acceleration", "velocity", "expected"),
+    [
+        pytest.param(towards_one, 1.0, True, id="in balance"),
+        pytest.param(towards_one, 1.0 + 1e-12, False, id="not yet"),
+        pytest.param(lambda t, v: -towards_one(t, v), 1.0, False, id="it repels"),
+        pytest.param(lambda t, v: 0.0, 1.0, False, id="nothing draws"),
+    ],
+)
+def test_a_velocity_stays_where_forces_draw_it_back(
+    acceleration: Callable[[float, float], float], velocity: float, expected: bool
+) -> None:
+    now = Reached(0.0, velocity, 0.0, 1e-3)
+    assert is_settled(acceleration, 1.0, 1e-14, now) is expected

@@ -1,18 +1,22 @@
-"""What second-order averages cost against resolved motion of the same accuracy, over run length.
+"""What second-order averages cost against resolved motion of the same accuracy and first order.
 
-`python -m tests.harness.studies.trade.slow_motion_cost dist/SliderResonator.fmu` prints a table for
-each device: CPU times of whole runs, start and preparation included. Each model has the loosest
-tolerance with which its mean velocity errs by no more than a millionth of the peak all along the
-run. Times of both are taken in turn; their ratio is the median of these pairs.
+`python -m tests.harness.studies.trade.slow_motion_cost dist/SliderResonator.fmu` prints two tables
+for each device. Over run length: CPU times of whole runs, start and preparation included. Each
+model has the loosest tolerance with which its mean velocity errs by no more than a millionth of the
+peak all along the run. Times of both are taken in turn; their ratio is the median of these pairs.
+And over the steps of one run, 1000 drive periods each: what a step costs with averages of either
+order. The first one is the preparation.
 """
 
 from __future__ import annotations
 
+import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
+from time import perf_counter
 
 import numpy as np
 
@@ -35,7 +39,16 @@ MAX_ERROR = 1e-6
 PAIRS = 5
 DEFAULT_TOLERANCE = 1e-8
 TOLERANCES = tuple(10.0**-digits for digits in range(12, 3, -1))
+PERIODS = 1000.0
+"""Drive periods in a step whose cost is compared with that of first order."""
+STEPS = 60
+SHOWN_STEPS = (1, 2, 5, 10, 15, 20, 30, 60)
+INSTANCES = 25
+"""Instances of which the fastest step counts."""
+DRIVE_FREQUENCY = 3500.0
+"""That of table 1 (rad/s)."""
 AVERAGED: Mapping[str, float] = {"fidelity": 0, "averaging_order": 2}
+FIRST_ORDER: Mapping[str, float] = {"fidelity": 0, "averaging_order": 1}
 RESOLVED: Mapping[str, float] = {"fidelity": 2}
 FINEST: Mapping[str, float] = {"fidelity": 2, "tolerance": 1e-13}
 DEVICES: Mapping[str, Mapping[str, float]] = {
@@ -141,8 +154,43 @@ def cost(fmu: Fmu, device: Mapping[str, float], length: float) -> Cost:
     )
 
 
+def elapsed(action: Callable[[], object]) -> float:
+    """Return how long (s) an action takes."""
+    began = perf_counter()
+    action()
+    return perf_counter() - began
+
+
+def step_times(fmu: Fmu, values: Mapping[str, float]) -> Array:
+    """Return what steps of PERIODS drive periods take (s), shape (STEPS,).
+
+    The time of a call that does nothing is taken off.
+    """
+    size = PERIODS * math.tau / values.get("drive_frequency", DRIVE_FREQUENCY)
+    times = np.full(STEPS, np.inf)
+    for _ in range(INSTANCES):
+        with instantiate(fmu) as instance:
+            instance.start(values)
+            nothing = instance.block([])
+            taken = [elapsed(lambda: instance.step_by(size)) for _ in range(STEPS)]
+            idle = min(elapsed(nothing.read) for _ in range(STEPS))
+        times = np.minimum(times, np.array(taken) - idle)
+    return times
+
+
+def print_steps(fmu: Fmu, device: Mapping[str, float]) -> None:
+    """Print what steps cost with averages of either order, and the largest ratio."""
+    first, second = (step_times(fmu, {**device, **order}) for order in (FIRST_ORDER, AVERAGED))
+    ratios = second / first
+    print(f"  step of {PERIODS:.0f} periods   order 1    order 2  ratio")
+    for step in SHOWN_STEPS:
+        times = f"{1e6 * first[step - 1]:7.1f} us {1e6 * second[step - 1]:7.1f} us"
+        print(f"  {step:20d} {times} {ratios[step - 1]:6.2f}")
+    print(f"  largest ratio after the first step {ratios[1:].max():.2f}", flush=True)
+
+
 def main(path: Path) -> None:
-    """Print a table for each device."""
+    """Print two tables for each device."""
     heading = "  length   averaged      again   resolved  ratio  again  errors           tolerances"
     with open_fmu(path) as fmu:
         for name, device in DEVICES.items():
@@ -156,6 +204,7 @@ def main(path: Path) -> None:
                 tolerances = " ".join(f"{setting.tolerance:.0e}" for setting in by)
                 ratios = f"{found.ratio:6.1f} {found.ratio_again:6.1f}"
                 print(f"{found.length:6.1f} s {shown} {ratios}  {errors}  {tolerances}", flush=True)
+            print_steps(fmu, device)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,14 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.fmu.opening import open_fmu
-from tests.harness.studies.trade.slow_motion_cost import DEVICES, MAX_ERROR, cost
+from tests.harness.studies.trade.slow_motion_cost import (
+    AVERAGED,
+    DEVICES,
+    FIRST_ORDER,
+    MAX_ERROR,
+    cost,
+    step_times,
+)
 
 
 def test_a_fast_drive_gains_most(native_fmu: Path) -> None:
@@ -25,3 +32,11 @@ def test_lugre_friction_gains_ten_times(native_fmu: Path, stiffness: str) -> Non
     assert found.averaged_by.error <= MAX_ERROR
     assert found.resolved_by.error <= MAX_ERROR
     assert found.ratio >= 10.0
+
+
+def test_steps_of_1000_periods_cost_little_more_than_with_first_order(native_fmu: Path) -> None:
+    with open_fmu(native_fmu) as fmu:
+        first, second = (step_times(fmu, order) for order in (FIRST_ORDER, AVERAGED))
+    assert (second[1:] < 4.0 * first[1:]).all(), "3 on a quiet machine"
+    assert second[0] < 3e-3, "preparation: 0.2 ms"
+    assert second[-1] < 0.7 * second[15], "motion that has settled goes on as it is"
