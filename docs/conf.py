@@ -20,6 +20,8 @@ html_theme = "furo"
 html_theme_options = {
     "announcement": '<a href="slider-resonator.html">Run the component in your browser</a>',
 }
+html_static_path = ["_static"]
+html_css_files = ["phone.css"]
 html_title = f"slider-resonator {release}"
 myst_heading_anchors = 3
 autodoc_member_order = "bysource"

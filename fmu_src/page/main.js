@@ -105,6 +105,9 @@ async function showAddress() {
   try {
     const settings = settingsOf(location.hash);
     showSettings(settings);
+    if (settings.refused) {
+      throw settings.refused;
+    }
     const results = await computeResults(component, settings, () => mine === runs,
       (share) => showMessage(`computing, ${Math.round(100 * share)} %`, true));
     if (results === null) {
@@ -128,16 +131,11 @@ async function showAddress() {
   }
 }
 
-/** Change one setting: the address holds them all. */
+/** Change one setting: the address holds them all, less what it had that is refused. */
 function changeSetting(name, text) {
   try {
-    const value = numberOf(name, text);
     const settings = settingsOf(location.hash);
-    if (name === "t") {
-      settings.time = value;
-    } else {
-      settings.values.set(name, value);
-    }
+    setOne(settings, name, text);
     history.replaceState(null, "", hashOf(settings));
     requestShow();
   } catch (error) {

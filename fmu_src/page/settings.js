@@ -27,17 +27,28 @@ function numberOf(name, text) {
   return value;
 }
 
-/** Return `{time, values}` of an address like "#phase=0.4&t=20". */
+/** Set one of `{time, values}`, throw Refused for another name or what is no number. */
+function setOne(settings, name, text) {
+  if (name === "t") {
+    settings.time = numberOf(name, text);
+  } else if (BY_NAME.has(name) && BY_NAME.get(name).causality !== "output") {
+    settings.values.set(name, numberOf(name, text));
+  } else {
+    throw new Refused(`${name} refused: must be t, an input or a parameter`);
+  }
+}
+
+/** Return `{time, values, refused}` of an address like "#phase=0.4&t=20"; what is refused, first, stays at its start. */
 function settingsOf(hash) {
-  const settings = { time: START_TIME, values: new Map() };
+  const settings = { time: START_TIME, values: new Map(), refused: null };
   for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
-    const value = numberOf(name, text);
-    if (name === "t") {
-      settings.time = value;
-    } else if (BY_NAME.has(name) && BY_NAME.get(name).causality !== "output") {
-      settings.values.set(name, value);
-    } else {
-      throw new Refused(`${name} refused: must be t, an input or a parameter`);
+    try {
+      setOne(settings, name, text);
+    } catch (error) {
+      if (!(error instanceof Refused)) {
+        throw error;
+      }
+      settings.refused ??= error;
     }
   }
   return settings;

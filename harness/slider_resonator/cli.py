@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 import click
 
 from slider_resonator import __version__
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.limits import DEFAULTS, MEMORY, UNPACKED
 from slider_resonator.output.console import exit_with, open_closed_streams
 from slider_resonator.output.fitting_help import FittingHelp
@@ -73,6 +73,14 @@ class HarnessGroup(click.Group):
         command: click.Command = getattr(module, f"{name}_command")
         command.short_help = COMMANDS[cmd_name]
         return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return a command with its name and arguments; name the nearest to one that is unknown."""
+        if args[0] not in COMMANDS and not args[0].startswith("-"):
+            ctx.fail(unknown_name("command", args[0], COMMANDS))
+        return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write names and summaries without loading the commands."""

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import (
-    FMU3Slave,
     fmi3Error,
     fmi3InstanceEnvironment,
     fmi3LogMessageCallback,
@@ -98,30 +97,32 @@ def test_other_interface_types_are_refused(instance: Instance3, kind: str) -> No
 
 
 @pytest.mark.parametrize(
-    ("changes", "text"),
+    ("name", "token", "intermediate", "text"),
     [
-        ({"guid": "another"}, "instantiationToken = 'another' refused"),
-        ({"instanceName": ""}, "instanceName refused: it is empty"),
-        ({"intermediate": [TIME]}, "nRequiredIntermediateVariables = 1 refused"),
+        (b"slider", b"another", 0, b"instantiationToken = 'another' refused"),
+        (b"", None, 0, b"instanceName refused: it is empty"),
+        (b"slider", None, 1, b"nRequiredIntermediateVariables = 1 refused"),
     ],
 )
-def test_instantiation_is_refused(unpacked_3: Unpacked, changes: dict[str, Any], text: str) -> None:
-    about = {
-        "guid": unpacked_3.description.guid,
-        "modelIdentifier": "SliderResonator3",
-        "unzipDirectory": str(unpacked_3.folder),
-        "instanceName": "slider",
-    }
-    required = changes.get("intermediate")
-    slave = FMU3Slave(**about | {k: v for k, v in changes.items() if k in about})
-    log: list[str] = []
-    with pytest.raises(Exception, match="Failed to instantiate"):
-        slave.instantiate(
-            logMessage=lambda _, status, category, said: log.append(said.decode()),
-            requiredIntermediateVariables=required,
-        )
-    assert len(log) == 1
-    assert text in log[0]
+def test_instantiation_is_refused(
+    unpacked_3: Unpacked,
+    instance: Instance3,
+    name: bytes,
+    token: bytes | None,
+    intermediate: int,
+    text: bytes,
+) -> None:
+    """Called by ctypes: the slave of older versions of fmpy asks for no intermediate variables."""
+    said: list[bytes] = []
+    logger = fmi3LogMessageCallback(lambda _, status, category, message: said.append(message))
+    instantiate = instance.slave.dll["fmi3InstantiateCoSimulation"]
+    instantiate.restype = ctypes.c_void_p
+    required = (ctypes.c_uint32 * 1)(TIME)
+    arguments = [name, token or unpacked_3.description.guid.encode(), None, *[False] * 4]
+    arguments += [required, ctypes.c_size_t(intermediate), fmi3InstanceEnvironment(), logger]
+    assert instantiate(*arguments, ctypes.c_void_p()) is None
+    (message,) = said
+    assert text in message
 
 
 def test_time_is_read_and_not_set(instance: Instance3) -> None:

@@ -52,7 +52,11 @@ def test_every_command_is_listed() -> None:
         (["blocking", "no.fmu"], "no such file"),
         (["bench", "no.fmu"], "no such file"),
         (["baseline", "record", "--dir", "x"], "Missing argument 'FMU'"),
-        (["stedy"], "No such command"),
+        (["stedy"], "unknown command 'stedy'; did you mean 'steady'?"),
+        (["steady", "--phase", "0.4"], "--phase: no such option; a parameter or input is set by"),
+        (["run", "--initial-velocity=1"], "is set by --set initial_velocity=VALUE"),
+        (["scenes", "--check", "mine.tml"], "mine.tml: no such scene file"),
+        (["run", "folder/mine"], "folder/mine: no such scene file"),
         (["scenes", "--jsn"], "No such option"),
     ],
 )

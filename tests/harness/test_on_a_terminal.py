@@ -109,3 +109,26 @@ def test_progress_has_a_number_and_stays_on_its_line(native_fmu: Path) -> None:
     assert re.search(r"8 of 8: .* 0:\d\d:\d\d", shown), "N of M, and the time"
     frames = [frame.strip() for frame in re.split(r"[\r\n]", shown) if " of 8: " in frame]
     assert max(map(len, frames)) <= WIDTH, shown
+
+
+@pytest.mark.parametrize(
+    ("arguments", "counted"),
+    [
+        (("choose", "feed_forward"), r"\d of 4: \S"),
+        # 1009 is prime: all evaluations run over a thousand drive periods.
+        (
+            ("steady", "--set", f"frequency_ratio={1 + 500 / 1009!r}", "friction_law=1"),
+            r"drive period \d+ of some \d+",
+        ),
+        (("blocking", "--set", f"frequency_ratio={1 + 500 / 1009!r}"), r"drive period \d+ of some"),
+    ],
+)
+def test_a_search_counts_what_it_does(
+    native_fmu: Path, arguments: tuple[str, ...], counted: str
+) -> None:
+    command, *others = arguments
+    named = ("--fmu", native_fmu) if command == "choose" else (native_fmu,)
+    denominator = () if command == "choose" else ("--max-denominator", 1009)
+    code, shown = on_terminal(command, *named, *others, *denominator)
+    assert code in (0, 1), shown
+    assert re.search(counted, shown), shown

@@ -62,7 +62,23 @@ def opened(browser: Chrome, page: Path) -> int:
     assert browser.get_log("browser") == []
     assert browser.execute_script("return performance.getEntriesByType('resource').length") == 0
     assert browser.find_elements("id", "provenance")
+    assert scrolled_on_a_phone(browser) == []
     return len(plots)
+
+
+def scrolled_on_a_phone(browser: Chrome) -> list[str]:
+    """The tables of the page, and the page itself, that are wider than a phone."""
+    phone = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", phone)
+    try:
+        found = browser.execute_script(
+            "return [document.documentElement, ...document.querySelectorAll('.wide')]"
+            ".filter((one) => one.scrollWidth > one.clientWidth + 1)"
+            ".map((one) => one.innerText.slice(0, 200))"
+        )
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    return list(found)
 
 
 def told(browser: Chrome) -> list[str]:

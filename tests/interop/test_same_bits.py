@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from slider_resonator.device.interface import OUTPUTS
-from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, hosts
+from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENTS, hosts
 from slider_resonator.trials.hosts.runs import CASES, run_jobs, table_1_jobs
 
 pytestmark = pytest.mark.interop
 
-HOSTS = {host.module: host for host in hosts(Path(__file__).parents[2] / OWN_ENVIRONMENT)}
+HOSTS = {host.module: host for host in hosts(Path(__file__).parents[2] / OWN_ENVIRONMENTS)}
 
 
 def test_windows_gives_the_bits_of_linux(native_fmu_for_wine: Path) -> None:

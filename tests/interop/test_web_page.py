@@ -110,9 +110,25 @@ def test_a_refused_value_is_named_and_no_number_is_shown(browser: Chrome, page: 
     assert message(browser) == "position refused: must be t, an input or a parameter"
 
 
+def test_a_refused_address_shows_what_it_would_run_and_can_be_mended(
+    browser: Chrome, page: str
+) -> None:
+    assert show(browser, page, "phase=abc&load=0.03&colour=red") == {}
+    assert message(browser) == "phase = abc refused: must be a finite number"
+    shown = [field(browser, name).get_attribute("value") for name in ("phase", "load", "t")]
+    assert shown == ["0", "0.03", "4"], "the numbers of the address, and starts"
+    text = field(browser, "phase")
+    text.clear()
+    text.send_keys("0.4", Keys.ENTER)
+    mended = results(browser)["mean_velocity"]
+    assert mended == show(browser, page, "phase=0.4&load=0.03")["mean_velocity"]
+    show(browser, page, "nonsense")
+    assert message(browser) == "nonsense refused: must be t, an input or a parameter"
+
+
 def test_an_address_is_text_only(browser: Chrome, page: str) -> None:
     show(browser, page, "%3Cimg%20src=x%20onerror=document.title=1%3E")
-    assert message(browser).startswith("<img src = ")
+    assert message(browser).startswith("<img src refused: ")
     assert browser.find_elements(By.CSS_SELECTOR, "main img") == []
 
 

@@ -16,7 +16,7 @@ from slider_resonator.commands.reports import (
 from slider_resonator.commands.results import print_text
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene_files import files_of_scenes
 from slider_resonator.trials.baseline.judge import TOLERANCE

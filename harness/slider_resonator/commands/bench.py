@@ -19,7 +19,7 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt
-from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio

@@ -11,7 +11,7 @@ from slider_resonator.commands.options import SettingsCommand
 from slider_resonator.commands.searching import print_search_result, search_arguments
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.steady.blocking_force import find_blocking
 
 
@@ -45,7 +45,7 @@ def blocking_command(
     search = partial(find_blocking, values=settings, max_denominator=max_denominator)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         progress("searching the blocking force", 0.0)
-        blocking = isolated.run(search)
+        blocking = isolated.run(search, progress)
     found = blocking.blocking_force
     code = print_search_result(blocking, "blocking force", found, "N", as_json, provenance)
     context.exit(code)

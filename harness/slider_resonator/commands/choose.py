@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from math import isfinite
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
@@ -78,7 +77,7 @@ def choose_command(
     path = default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
-        choice = choose(read, path, time_limit, partial(progress, f"choosing for {read.name}"))
+        choice = choose(read, path, time_limit, progress)
     if as_json:
         print_json(choice, provenance)
     else:

@@ -18,7 +18,8 @@ from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt
-from slider_resonator.output.progress import counted, part_of, progress_bar
+from slider_resonator.output.progress import counted, part_of
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
@@ -143,7 +144,7 @@ def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> N
     differences: list[Row] = [
         (
             *(entry.host, f"{entry.start:g}", f"{1e3 * entry.load:g}"),
-            *(f"{1e6 * entry.difference:.1f}", f"{entry.time:.2f}", _predicted(entry)),
+            *(f"{1e6 * entry.difference:.2g}", f"{entry.time:.2f}", _predicted(entry)),
             verdict(entry.passed),
         )
         for entry in agreements
@@ -154,4 +155,4 @@ def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> N
 def _predicted(agreement: Agreement) -> str:
     if agreement.predicted is None:
         return "fidelity 0 rejected"
-    return f"{1e6 * agreement.predicted:.1f}"
+    return f"{1e6 * agreement.predicted:.2g}"

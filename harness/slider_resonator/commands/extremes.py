@@ -21,7 +21,8 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
-from slider_resonator.output.progress import part_of, progress_bar
+from slider_resonator.output.progress import part_of
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line

@@ -10,40 +10,38 @@ import click
 from slider_resonator.commands.options import (
     Target,
     json_option,
-    other_fmu_argument,
+    native_fmu_argument,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt
-from slider_resonator.output.progress import counted, progress_bar
+from slider_resonator.output.progress import counted
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, texts, verdict
-from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENT, Host, hosts
+from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
 from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
 from slider_resonator.trials.hosts.table import host_table, write_table
 
-NATIVE, PYTHON = Path("dist/SliderResonator.fmu"), Path("dist/SliderResonatorPy.fmu")
-NATIVE_3 = Path("dist/SliderResonator3.fmu")
 NAMES = [host.name for host in hosts()]
 
 
 @click.command("hosts")
-@other_fmu_argument(str(NATIVE))
+@native_fmu_argument
 @click.option(
     "--python-fmu",
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
-    default=PYTHON,
-    show_default=True,
-    help="FMU that needs Python in the process, for the hosts that provide it.",
+    help="FMU that needs Python in the process, for the hosts that provide it.  [default: "
+    "SliderResonatorPy.fmu in dist]",
 )
 @click.option(
     "--fmi3-fmu",
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
-    default=NATIVE_3,
-    show_default=True,
-    help="FMU of FMI 3.0, for the hosts that load it; it is compared with FMU.",
+    help="FMU of FMI 3.0, for the hosts that load it; it is compared with FMU.  [default: "
+    "SliderResonator3.fmu in dist]",
 )
 @click.option(
     "--host",
@@ -54,11 +52,12 @@ NAMES = [host.name for host in hosts()]
     help=f"Run only this host. Repeatable. One of {', '.join(NAMES)}.",
 )
 @click.option(
-    "--own-environment",
+    "--own-environments",
     type=click.Path(path_type=Path, file_okay=False),
-    default=OWN_ENVIRONMENT,
+    default=OWN_ENVIRONMENTS,
     show_default=True,
-    help="Virtual environment of cofmupy, as `make hosts` creates it.",
+    help="Folder with the environments of cofmupy and of the newest fmpy, as `make hosts` "
+    "creates them.",
 )
 @click.option(
     "--out",
@@ -71,11 +70,11 @@ NAMES = [host.name for host in hosts()]
 @click.pass_context
 def hosts_command(
     context: click.Context,
-    fmu: Path | None,
-    python_fmu: Path,
-    fmi3_fmu: Path,
+    fmu: Path,
+    python_fmu: Path | None,
+    fmi3_fmu: Path | None,
     chosen: Sequence[str],
-    own_environment: Path,
+    own_environments: Path,
     out: Path | None,
     time_limit: float,
     as_json: bool,
@@ -94,21 +93,22 @@ def hosts_command(
       slider-resonator hosts my.fmu --host "C driver" --json
       slider-resonator hosts --out docs/hosts.md
     """
-    native = fmu or NATIVE
-    everyone = hosts(own_environment)
+    python = python_fmu or finished_path(FMUS["python"], COMMANDS_LOOK_IN)
+    native_3 = fmi3_fmu or finished_path(FMUS["fmi3"], COMMANDS_LOOK_IN)
+    everyone = hosts(own_environments)
     selected = [host for host in everyone if host.name in (chosen or NAMES)]
     missing = _missing([everyone[0], *selected])
     if everyone[0] in missing or (missing and (chosen or out)):
         raise HarnessError("; ".join(dict.fromkeys(missing.values())))
-    for fmu in (native, python_fmu):
-        check_unpacked_size(fmu)
+    for one in (fmu, python):
+        check_unpacked_size(one)
     selected = [host for host in selected if host not in missing]
-    provenance = provenance_of(native, python_fmu)
+    provenance = provenance_of(fmu, python)
     results: list[HostResult] = []
     with noting_on_interrupt(nothing_kept), progress_bar() as progress:
         for index, host in enumerate(selected):
             progress(counted(host.name, index, len(selected)), index / len(selected))
-            results += run_host(host, everyone[0], native, python_fmu, fmi3_fmu, time_limit)
+            results += run_host(host, everyone[0], fmu, python, native_3, time_limit)
     for host, reason in missing.items():
         print_text(f"not run: {host.name}: {reason}", err=True)
     if out is not None:

@@ -19,7 +19,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt, output
-from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene_files import files_of_scenes
 from slider_resonator.studies.sweep.local import available_cores

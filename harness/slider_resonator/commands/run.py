@@ -33,7 +33,8 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.record_csv import write_csv
 from slider_resonator.fmu.run import run
-from slider_resonator.output.progress import Progress, progress_bar
+from slider_resonator.output.progress import Progress, labelled
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
@@ -201,8 +202,7 @@ def _choose(isolated: IsolatedFmu, scene: Scene, progress: Progress) -> Choice:
     from slider_resonator.studies.choose.choosing import choose_with
 
     scene.schedule()
-    report = partial(progress, f"choosing for {scene.name}")
-    choice: Choice = isolated.run(partial(choose_with, scene=scene), report)
+    choice: Choice = isolated.run(partial(choose_with, scene=scene), progress)
     return choice
 
 
@@ -213,7 +213,7 @@ def _run(
     progress: Progress,
 ) -> Record:
     task = partial(run, parameters=scene.parameters, schedule=schedule)
-    record: Record = isolated.run(task, partial(progress, scene.name))
+    record: Record = isolated.run(task, labelled(progress, scene.name))
     return record
 
 

@@ -15,7 +15,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import Provenance
-from slider_resonator.output.readable import readable
+from slider_resonator.output.readable import number_of, readable
 from slider_resonator.output.terminal import one_line
 from slider_resonator.steady.search_result import SearchResult
 
@@ -53,7 +53,8 @@ def _sentences(outcome: SearchResult, what: str, value: float | None, unit: str)
     ]
     if outcome.common_period is not None:
         lines.append(
-            f"cost             {outcome.periods} drive periods in {outcome.iterations} iterations, "
+            f"cost             {number_of(outcome.periods, 'drive period')} in "
+            f"{number_of(outcome.iterations, 'iteration')}, "
             f"a common period is {outcome.common_period} of them"
         )
     if outcome.multipliers:

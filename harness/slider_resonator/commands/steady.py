@@ -11,7 +11,7 @@ from slider_resonator.commands.options import SettingsCommand
 from slider_resonator.commands.searching import print_search_result, search_arguments
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.steady.steady_velocity import find_steady
 
 
@@ -48,7 +48,7 @@ def steady_command(
     search = partial(find_steady, values=settings, max_denominator=max_denominator)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         progress("searching the steady velocity", 0.0)
-        motion = isolated.run(search)
+        motion = isolated.run(search, progress)
     found = motion.steady_velocity
     code = print_search_result(motion, "steady velocity", found, "m/s", as_json, provenance)
     context.exit(code)

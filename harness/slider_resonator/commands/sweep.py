@@ -16,7 +16,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_result, print_text
 from slider_resonator.fmu.provenance import Provenance, provenance_of
-from slider_resonator.output.progress import progress_bar
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line

@@ -20,7 +20,8 @@ from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
-from slider_resonator.output.progress import part_of, progress_bar
+from slider_resonator.output.progress import part_of
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
 from slider_resonator.output.terminal import one_line

@@ -13,6 +13,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.blocks import Block
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
+from slider_resonator.output.progress import Progress, no_progress
 
 
 def run(
@@ -21,14 +22,14 @@ def run(
     schedule: Schedule,
     *,
     outputs: Sequence[str] | None = None,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress = no_progress,
 ) -> Record:
     """Run the schedule from the given parameters and return the outputs at all its readings.
 
     Without `outputs` all that the FMU has are read. Parameters that the schedule tunes start as it
-    says. `progress` is called about a hundred times with the share of the points that is done.
-    Raises FmuError and Refusal as `Instance.start` and `Instance.check_steps` do, NotApplicable as
-    `Running` does.
+    says. `progress` is called about a hundred times, without a label, with the share of the points
+    that is done. Raises FmuError and Refusal as `Instance.start` and `Instance.check_steps` do,
+    NotApplicable as `Running` does.
     """
     running = Running(instance, schedule, outputs)
     began, began_cpu = time.perf_counter(), time.process_time()
@@ -44,7 +45,7 @@ def run(
         for step in range(running.steps):
             running.advance(step)
             if (step + 1) % report_every == 0:
-                progress((step + 1) / running.steps)
+                progress("", (step + 1) / running.steps)
     step_cpu = time.process_time() - stepping_cpu
     wall_time = time.perf_counter() - began
     readings, values = schedule.readings(), np.array(running.rows)

@@ -29,9 +29,21 @@ th, td { text-align: left; vertical-align: top; overflow-wrap: normal; padding: 
   linear-gradient(to left, var(--paper) 50%, transparent) local 100%/2rem 100% no-repeat,
   linear-gradient(to right, var(--shade), transparent) 0/.6rem 100% no-repeat,
   linear-gradient(to left, var(--shade), transparent) 100%/.6rem 100% no-repeat }
-@media (max-width: 50rem) {
-  td:not(.n) { min-width: 7rem } td:last-child:not(.n) { min-width: 14rem }
-  td:has(> .pass:only-child, > .fail:only-child) { min-width: 0 } }
+@media screen and (max-width: 50rem) {
+  th, td { padding: .2rem .35rem } th.n { white-space: normal }
+  .wide:not(.stacks) td:first-child:not(.n) { overflow-wrap: anywhere }
+  .wide:not(.stacks) :is(th, td):first-child { position: sticky; left: 0;
+    background: var(--paper) }
+  .stacks thead { display: none } .stacks :is(table, tbody) { display: block }
+  .stacks tr { display: grid; grid-template-columns: repeat(auto-fill, minmax(6.6rem, 1fr));
+    border-bottom: 1px solid var(--line); padding: .4rem 0 }
+  .stacks td { display: block; border: 0; padding: .1rem .6rem .1rem 0; text-align: left;
+    overflow-wrap: anywhere; white-space: normal }
+  .stacks :is(td:first-child, .long) { grid-column: 1 / -1 }
+  .stacks td::before { content: attr(data-heading); display: block; color: var(--quiet);
+    font-size: 11px }
+  .stacks td:empty { display: none }
+  .stacks td:is(:first-child, [data-heading=""])::before { display: none } }
 img { max-width: 100% } summary { cursor: pointer; margin: 1rem 0 }
 summary > h3 { display: inline }
 pre { background: var(--code); padding: .6rem; overflow-x: auto; font-size: 12px }
@@ -43,6 +55,11 @@ pre { background: var(--code); padding: .6rem; overflow-x: auto; font-size: 12px
 """In the dark, pictures and plots are turned over: light becomes dark, and each hue stays."""
 
 
+MAX_WIDTH = 44
+"""Characters, with one between columns, of a row that fits on a phone; wider rows become cards."""
+LONG = 18
+"""Characters from which on a cell has a line of its own on such a card."""
+
 _WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|(?<= )[\d.]+e-\d+(?= )")
 """Options and small numbers, which browsers would break after a hyphen."""
 
@@ -53,11 +70,14 @@ def escaped(text: str) -> str:
 
 
 def rendered(table: Table) -> str:
-    """Return the table as HTML, which scrolls by itself where the page is narrower."""
+    """Return the table as HTML: on a phone the rows of a wide one are cards."""
+    has_headings = any(column.heading for column in table.columns)
+    stacks = has_headings and _min_width(table) > MAX_WIDTH
+    body = "\n".join(f"<tr>{_row(row, table.columns, stacks)}</tr>" for row in table.cells)
     head = "".join(_element("th", Cell(column.heading), column) for column in table.columns)
-    body = "\n".join(f"<tr>{_row(row, table.columns)}</tr>" for row in table.cells)
-    headings = f"<thead><tr>{head}</tr></thead>" if any(c.heading for c in table.columns) else ""
-    return f'<div class="wide"><table>{headings}<tbody>\n{body}\n</tbody></table></div>'
+    headings = f"<thead><tr>{head}</tr></thead>" if has_headings else ""
+    kind = "wide stacks" if stacks else "wide"
+    return f'<div class="{kind}"><table>{headings}<tbody>\n{body}\n</tbody></table></div>'
 
 
 def folded(summary: str, html: str) -> str:
@@ -110,15 +130,37 @@ def _allowed(scripts: Sequence[str]) -> str:
     return "; script-src " + " ".join(f"'sha256-{one}'" for one in digests) if digests else ""
 
 
-def _row(row: Sequence[Cell], columns: Sequence[Column]) -> str:
+def _min_width(table: Table) -> int:
+    """Return the characters of the narrowest row, with one for each column; numbers keep a line."""
+    whole = [row for row in table.cells if len(row) == len(table.columns)]
+    return sum(
+        1 + max([_longest_word(column.heading), *(_least(row[index], column) for row in whole)])
+        for index, column in enumerate(table.columns)
+    )
+
+
+def _least(cell: Cell, column: Column) -> int:
+    return len(cell.text) if column.numeric else _longest_word(cell.text)
+
+
+def _longest_word(text: str) -> int:
+    return max(map(len, re.split(r"[\s_]+", text)))
+
+
+def _row(row: Sequence[Cell], columns: Sequence[Column], stacks: bool) -> str:
     if len(row) < len(columns):
         return f'<td colspan="{len(columns)}">{_text(row[0], wrapped=True)}</td>'
-    return "".join(_element("td", cell, column) for cell, column in zip(row, columns, strict=True))
+    pairs = zip(row, columns, strict=True)
+    return "".join(_element("td", cell, column, stacks) for cell, column in pairs)
 
 
-def _element(tag: str, cell: Cell, column: Column) -> str:
-    kind = ' class="n"' if column.numeric else ' class="lines"' if "\n" in cell.text else ""
-    return f"<{tag}{kind}>{_text(cell, wrapped=not column.numeric)}</{tag}>"
+def _element(tag: str, cell: Cell, column: Column, stacks: bool = False) -> str:
+    """Return a cell; one of a table that stacks carries its heading."""
+    kinds = ["n"] if column.numeric else ["lines"] if "\n" in cell.text else []
+    kinds += ["long"] if stacks and len(cell.text) > LONG else []
+    kind = f' class="{" ".join(kinds)}"' if kinds else ""
+    heading = f' data-heading="{escaped(column.heading)}"' if stacks else ""
+    return f"<{tag}{kind}{heading}>{_text(cell, wrapped=not column.numeric)}</{tag}>"
 
 
 def _text(cell: Cell, *, wrapped: bool) -> str:

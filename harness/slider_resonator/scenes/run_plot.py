@@ -15,6 +15,7 @@ from slider_resonator.device.interface import INPUT_STARTS, INPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.record import Record
 from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
+from slider_resonator.scenes.plot_units import plot_unit
 from slider_resonator.scenes.scene import Scene
 
 ZOOM_PERIODS = 6
@@ -45,7 +46,8 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
         figure = Figure(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
         axes = figure.subplots(len(heights), 1, height_ratios=heights)
         figure.suptitle(f"{scene.title}  ({scene.name}){_constant_inputs(record, varying)}")
-        times, unit = _readable(record.times)
+        factor, unit = plot_unit("s", record.times)
+        times = factor * record.times
         _position(axes[0], record, times)
         _velocity(axes[1], record, times, unit)
         if resolved:
@@ -58,24 +60,20 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
         save(figure, path)
 
 
-def _readable(times: Array) -> tuple[Array, str]:
-    """Return times (s) in the unit that suits the length of the run."""
-    return (times, "s") if times[-1] > 2.0 else (1e3 * times, "ms")
-
-
 def _position(axes: Axes, record: Record, times: Array) -> None:
-    small = np.abs(record["position"]).max() < 1e-4
-    factor, length = (1e6, "um") if small else (1e3, "mm")
+    factor, unit = plot_unit("m", record["position"])
     axes.plot(times, factor * record["position"], color=COLOURS["position"])
-    axes.set(ylabel=f"position [{length}]", xlim=(times[0], times[-1]))
+    axes.set(ylabel=f"position [{unit}]", xlim=(times[0], times[-1]))
     axes.tick_params(labelbottom=False)
 
 
-def _velocity(axes: Axes, record: Record, times: Array, unit: str) -> None:
-    axes.plot(times, 1e3 * record["mean_velocity"], color=COLOURS["slow"], label="mean velocity")
-    predicted = 1e3 * record["steady_velocity"]
-    axes.plot(times, predicted, "--", color=COLOURS["theory"], label="steady, for these inputs")
-    axes.set(xlabel=f"time [{unit}]", ylabel="velocity [mm/s]", xlim=(times[0], times[-1]))
+def _velocity(axes: Axes, record: Record, times: Array, time_unit: str) -> None:
+    mean, steady = record["mean_velocity"], record["steady_velocity"]
+    factor, unit = plot_unit("m/s", mean, steady)
+    axes.plot(times, factor * mean, color=COLOURS["slow"], label="mean velocity")
+    label = "steady, for these inputs"
+    axes.plot(times, factor * steady, "--", color=COLOURS["theory"], label=label)
+    axes.set(xlabel=f"time [{time_unit}]", ylabel=f"velocity [{unit}]", xlim=(times[0], times[-1]))
     axes.legend()
 
 
@@ -83,9 +81,11 @@ def _zoom(axes: Axes, record: Record, period: float) -> None:
     """Plot the last drive periods over the directions of slip."""
     window = _last_periods(record, period)
     entries = _over_last_periods(axes, record, period)
-    axes.plot(_periods(record, period), 1e3 * record["velocity"][window], color=COLOURS["velocity"])
+    velocity = record["velocity"][window]
+    factor, unit = plot_unit("m/s", velocity)
+    axes.plot(_periods(record, period), factor * velocity, color=COLOURS["velocity"])
     axes.axhline(0.0, color="0.4", linewidth=0.6)
-    axes.set(ylabel="velocity [mm/s]")
+    axes.set(ylabel=f"velocity [{unit}]")
     axes.tick_params(labelbottom=False)
     axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(entries))
 
@@ -94,8 +94,9 @@ def _resonator(axes: Axes, record: Record, period: float) -> None:
     """Plot the resonator relative to the slider."""
     _over_last_periods(axes, record, period)
     displacement = record["resonator_displacement"][_last_periods(record, period)]
-    axes.plot(_periods(record, period), 1e6 * displacement, color=COLOURS["position"])
-    axes.set(ylabel="resonator [um]")
+    factor, unit = plot_unit("m", displacement)
+    axes.plot(_periods(record, period), factor * displacement, color=COLOURS["position"])
+    axes.set(ylabel=f"resonator [{unit}]")
     axes.tick_params(labelbottom=False)
 
 

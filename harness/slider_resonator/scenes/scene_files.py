@@ -25,8 +25,10 @@ def find_scene(name_or_file: str) -> Path:
         return path
     if path.is_dir():
         raise SceneError(f"{path}: is a directory; must be a scene file or a built-in scene")
-    if path.suffix == ".toml":
-        raise SceneError(f"{path}: no such scene file")
+    if path.suffix or len(path.parts) > 1:
+        raise SceneError(
+            f"{path}: no such scene file; `slider-resonator scenes` lists those built in"
+        )
     raise SceneError(unknown_name("scene", name_or_file, built_in))
 
 

@@ -18,6 +18,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.record import Record
 from slider_resonator.output.plot_style import CONTACT, save, shade_directions, style
+from slider_resonator.scenes.plot_units import plot_unit
 from slider_resonator.scenes.scene import Scene
 
 SIGNALS = (
@@ -85,41 +86,51 @@ def plot_signals(
         figure.suptitle(f"{scene.title}  ({scene.name})")
         panels = figure.subplots(len(signals), 1, sharex=True, squeeze=False)[:, 0]
         short = window[1] - window[0] <= BAND_PERIODS * scene.drive_period
+        time_factor, time_unit = plot_unit("s", np.asarray(window))
         bands: dict[str, Patch] = {}
         for axes, name in zip(panels, signals, strict=True):
-            _panel(axes, runs, name, window)
+            _panel(axes, runs, name, window, time_factor)
             if short and len(runs) == 1 and name != "contact_mode":
-                bands |= _shade(axes, runs[0].record, window)
-        panels[-1].set(xlabel="time [s]", xlim=window)
+                bands |= _shade(axes, runs[0].record, window, time_factor)
+        ends = (time_factor * window[0], time_factor * window[1])
+        panels[-1].set(xlabel=f"time [{time_unit}]", xlim=ends)
+        figure.align_ylabels(panels)
+        panels[-1].ticklabel_format(axis="x", useOffset=False)
         handles = panels[0].get_lines() if len(runs) > 1 else [*bands.values()]
         if handles:
             figure.legend(handles=handles, loc="outside lower center", ncols=min(4, len(handles)))
         save(figure, path)
 
 
-def _panel(axes: Axes, runs: Sequence[Run], name: str, window: tuple[float, float]) -> None:
-    for index, one in enumerate(runs):
-        times, inside = one.record.times, _inside(one.record, window)
-        held = name in INPUTS or name == "contact_mode"
+def _panel(
+    axes: Axes, runs: Sequence[Run], name: str, window: tuple[float, float], time_factor: float
+) -> None:
+    windows = [_inside(one.record, window) for one in runs]
+    curves = [_values(one.record, name)[inside] for one, inside in zip(runs, windows, strict=True)]
+    factor, unit = plot_unit(INPUTS.get(name) or OUTPUTS[name], *curves)
+    held = name in INPUTS or name == "contact_mode"
+    for index, (one, inside, curve) in enumerate(zip(runs, windows, curves, strict=True)):
         axes.plot(
-            times[inside],
-            _values(one.record, name)[inside],
+            time_factor * one.record.times[inside],
+            factor * curve,
             linestyle=DASHES[index % len(DASHES)],
             color=COLOURS[index % len(COLOURS)],
             drawstyle="steps-post" if held else "default",
             label=one.label,
         )
-    unit = INPUTS.get(name) or OUTPUTS[name]
     axes.set(ylabel=f"{name.replace('_', ' ')}\n[{unit}]")
     if name == "contact_mode":
         axes.set_yticks([*CONTACT], [words for words, _ in CONTACT.values()])
         axes.set(ylabel="contact")
 
 
-def _shade(axes: Axes, record: Record, window: tuple[float, float]) -> dict[str, Patch]:
+def _shade(
+    axes: Axes, record: Record, window: tuple[float, float], time_factor: float
+) -> dict[str, Patch]:
     """Show contact behind the curves; return the legend entry of each mode by its label."""
     inside = _inside(record, window)
-    entries = shade_directions(axes, record.times[inside], record["contact_mode"][inside])
+    times = time_factor * record.times[inside]
+    entries = shade_directions(axes, times, record["contact_mode"][inside])
     return {str(entry.get_label()): entry for entry in entries}
 
 

@@ -8,6 +8,7 @@ from math import isfinite
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.steady.periodic import FmuPeriodMap, Obstacle, read_facts, repeating_periods
 from slider_resonator.steady.search import blocked_point
 from slider_resonator.steady.search_result import SearchResult, cost, failure
@@ -31,18 +32,20 @@ def find_blocking(
     values: Mapping[str, float],
     *,
     max_denominator: int = MAX_DENOMINATOR,
+    progress: Progress = no_progress,
 ) -> Blocking:
     """Find the load that stops an FMU with the given parameters and inputs.
 
-    A `load` among the values is where the search begins. Raises FmuError and Refusal as
-    `Instance.start` does.
+    A `load` among the values is where the search begins. `progress` gets the
+    drive periods run, of some that a search takes. Raises FmuError and Refusal as `Instance.start`
+    does.
     """
     facts = read_facts(instance, values)
     predicted = facts.blocking_force
     count = repeating_periods(facts, max_denominator)
     if isinstance(count, Obstacle):
         return Blocking(count.status, count.reason, predicted)
-    period_map = FmuPeriodMap(instance, values, facts, count)
+    period_map = FmuPeriodMap(instance, values, facts, count, progress)
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
     warm = period_map.warm_up(0.0, load)
     if period_map.stick_fraction == 1.0:

@@ -13,6 +13,7 @@ from slider_resonator.device.common_period import common_period
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.steady.bristle_reading import bristle_reading
 from slider_resonator.steady.newton import Vector
 from slider_resonator.steady.search import WARM_UP, WarmedUp
@@ -23,6 +24,9 @@ SAMPLES = 8
 """Points of the last drive period of the warm-up that give the size of each state."""
 SLOW = 0.1
 """Distance of the frequency ratio from an integer, below which the phase runs slowly: a beat."""
+
+USUAL_JACOBIANS = 3
+"""Jacobians of a search of usual length, by which its progress is estimated."""
 
 
 @dataclass(frozen=True)
@@ -126,12 +130,18 @@ class FmuPeriodMap:
     """
 
     def __init__(
-        self, instance: Instance, values: Mapping[str, float], facts: Facts, drive_periods: int
+        self,
+        instance: Instance,
+        values: Mapping[str, float],
+        facts: Facts,
+        drive_periods: int,
+        progress: Progress = no_progress,
     ) -> None:
         self.instance = instance
         self.values = values
         self.facts = facts
         self.drive_periods = drive_periods
+        self.progress = progress
         self.periods = 0
         self.stick_fraction = 0.0
         self.bristle = bristle_reading(facts.values)
@@ -153,7 +163,7 @@ class FmuPeriodMap:
         """Run one common period."""
         before = self._start(state, load)
         readings = self._readings(self._times)
-        self.periods += self.drive_periods
+        self._count(self.drive_periods)
         return self._state(self._times, readings), float(readings[-1, 0]) - before
 
     def warm_up(self, velocity: float, load: float) -> WarmedUp:
@@ -168,7 +178,7 @@ class FmuPeriodMap:
         before_end = self._times_before(count * period)
         times = np.union1d(samples, before_end)
         readings = self._readings(times)
-        self.periods += count
+        self._count(count)
         last = readings[np.searchsorted(times, samples[-SAMPLES - 1 :])]
         floor = self.facts.velocity_floor
         sizes = np.abs(last[1:, 1:4]).max(axis=0)
@@ -177,6 +187,14 @@ class FmuPeriodMap:
             scale = np.append(scale, self.bristle.scale)
         state = self._state(before_end, readings[np.searchsorted(times, before_end)])
         return WarmedUp(state, scale, float(last[-1, 0] - last[0, 0]) / period)
+
+    def _count(self, periods: int) -> None:
+        """Count drive periods, and report them among those of a search of usual length."""
+        self.periods += periods
+        runs = USUAL_JACOBIANS * (2 * len(self.names) + 1)
+        usual = max(WARM_UP + runs * self.drive_periods, self.periods)
+        label = f"drive period {self.periods} of some {usual}"
+        self.progress(label, self.periods / usual)
 
     def _start(self, state: Vector, load: float) -> float:
         initial = dict(zip(self._initial, state.tolist(), strict=True))

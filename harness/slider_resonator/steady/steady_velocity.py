@@ -8,6 +8,7 @@ from math import isfinite
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.steady.periodic import (
     Facts,
     FmuPeriodMap,
@@ -39,11 +40,13 @@ def find_steady(
     values: Mapping[str, float],
     *,
     max_denominator: int = MAX_DENOMINATOR,
+    progress: Progress = no_progress,
 ) -> SteadyMotion:
     """Find the steady motion of an FMU with the given parameters and inputs.
 
     An `initial_velocity` among the values is where the search begins, otherwise that is the FMU's
-    own prediction. Raises FmuError and Refusal as `Instance.start` does.
+    own prediction. `progress` gets the drive periods run, of some that a search takes. Raises
+    FmuError and Refusal as `Instance.start` does.
     """
     facts = read_facts(instance, values)
     predicted = facts.steady_velocity
@@ -53,7 +56,7 @@ def find_steady(
     count = certain or repeating_periods(facts, max_denominator)
     if isinstance(count, Obstacle):
         return SteadyMotion(count.status, count.reason, predicted)
-    period_map = FmuPeriodMap(instance, values, facts, count)
+    period_map = FmuPeriodMap(instance, values, facts, count, progress)
     guess = values.get("initial_velocity", predicted)
     found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
     if isinstance(found, NoFixedPoint):

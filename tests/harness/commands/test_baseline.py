@@ -148,7 +148,7 @@ def test_what_is_not_recorded_is_named(native_fmu: Path, baseline: Path, tmp_pat
     assert "unknown recorded scene 'table_1'" in refused(
         "check", native_fmu, baseline, "--scene", "table_1"
     )
-    assert "nothing is recorded here" in refused(
+    assert "nothing is recorded here; `slider-resonator baseline record FMU --dir " in refused(
         "check", native_fmu, tmp_path / "empty", "--json", tmp_path / "report.json"
     )
     assert "nothing is recorded" in json.loads((tmp_path / "report.json").read_text())["error"]

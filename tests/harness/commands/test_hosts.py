@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.commands import hosts
-from slider_resonator.commands.hosts import NATIVE, NATIVE_3, PYTHON
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.finished import FMUS
 from slider_resonator.trials.hosts.hosts import hosts as all_hosts
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
@@ -79,7 +79,7 @@ def test_hosts_that_are_not_installed_are_no_verdict(
     done = call(
         "hosts",
         *(native_fmu, *others, "--host", "cofmupy"),
-        *("--own-environment", tmp_path / "nowhere", "--out", out, "--json"),
+        *("--own-environments", tmp_path / "nowhere", "--out", out, "--json"),
     )
     assert done.exit_code == 2
     assert "cofmupy: there is no" in json.loads(done.stdout)["error"]
@@ -97,9 +97,9 @@ def test_hosts_that_are_not_installed_are_no_verdict(
 def test_bad_arguments_are_refused(
     arguments: list[str], reported: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    for path in (NATIVE, PYTHON, NATIVE_3):
-        (tmp_path / path).parent.mkdir(exist_ok=True)
-        (tmp_path / path).touch()
+    (tmp_path / "dist").mkdir()
+    for name in FMUS.values():
+        (tmp_path / "dist" / name).touch()
     monkeypatch.chdir(tmp_path)
     done = call("hosts", *arguments)
     assert done.exit_code == 2
@@ -121,3 +121,19 @@ def test_what_is_installed_runs_and_the_rest_is_listed(
     assert done.exit_code == 0, done.output
     assert done.stderr == "not run: matlab: matlab: not installed\n"
     assert "fmpy" in done.stdout
+
+
+def test_the_fmus_of_the_installation_run_where_nothing_is_built(
+    native_fmu: Path,
+    others: tuple[str | Path, ...],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    installed = tmp_path / "finished"
+    installed.mkdir()
+    for fmu, name in zip((native_fmu, others[1], others[3]), FMUS.values(), strict=True):
+        (installed / name).symlink_to(fmu)
+    monkeypatch.setattr(hosts, "COMMANDS_LOOK_IN", (installed,))
+    monkeypatch.chdir(tmp_path)
+    done = call("hosts", native_fmu, *FMPY)
+    assert done.exit_code == 0, done.output

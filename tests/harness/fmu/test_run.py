@@ -55,7 +55,7 @@ def test_a_refusal_in_a_run_is_raised_and_no_short_record_returned(instance: Ins
 
 def test_progress_is_reported(instance: Instance) -> None:
     shares: list[float] = []
-    run(instance, {}, schedule(20 * PERIOD, PERIOD), progress=shares.append)
+    run(instance, {}, schedule(20 * PERIOD, PERIOD), progress=lambda _, share: shares.append(share))
     assert shares[-1] == 1.0
     assert shares == sorted(shares)
 

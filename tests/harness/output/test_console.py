@@ -7,7 +7,8 @@ import pytest
 from rich.cells import cell_len
 
 from slider_resonator.output.console import output
-from slider_resonator.output.progress import counted, part_of, progress_bar, shortened, time_left
+from slider_resonator.output.progress import counted, part_of
+from slider_resonator.output.progress_bar import progress_bar, shortened, time_left
 from slider_resonator.output.readable import readable
 
 

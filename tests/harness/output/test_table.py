@@ -148,3 +148,15 @@ def test_a_page_has_its_title_and_parts_and_needs_nothing_beside_it(tmp_path: Pa
     assert page.rstrip().endswith("</body></html>")
     assert "http" not in page.replace("http-equiv", "")
     assert "script-src" not in page, "no script runs"
+
+
+def test_rows_of_a_table_too_wide_for_a_phone_are_cards_with_headings() -> None:
+    headings = ("a_long_name_of_a_scene", "number", "why it must hold")
+    columns = [*texts(headings[0]), *numbers(headings[1]), *texts(headings[2])]
+    narrow = html_page.rendered(Table(columns, [["table_1", "0.126667", "theory & practice"]]))
+    assert "data-heading" not in narrow
+    wide = html_page.rendered(Table(columns, [["table_1", "1" * 45, "theory & practice"]]))
+    assert wide.startswith('<div class="wide stacks">')
+    assert all(f'data-heading="{heading}"' in wide for heading in headings)
+    long = html_page.rendered(Table(columns[:1], [["words that can be wrapped " * 9]]))
+    assert "stacks" not in long, "words wrap"

@@ -102,7 +102,7 @@ def _read(requests: BinaryIO) -> Iterator[Request]:
 def _run(instance: Instance, request: Request, messages: BinaryIO) -> Message:
     task = request.task
     if request.reports_progress:
-        task = partial(task, progress=lambda share: _send(messages, Progress(share)))
+        task = partial(task, progress=lambda *done: _send(messages, Progress(*done)))
     try:
         return Result(task(instance))
     except HarnessError as error:

@@ -31,8 +31,9 @@ class Opened:
 
 @dataclass(frozen=True)
 class Progress:
-    """The share of the present task that is done, from 0 to 1."""
+    """What the present task does, empty where that has no name, and its share done, 0 to 1."""
 
+    label: str
     share: float
 
 

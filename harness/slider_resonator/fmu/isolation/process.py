@@ -29,6 +29,7 @@ from slider_resonator.fmu.isolation.messages import (
 )
 from slider_resonator.fmu.isolation.request_pipe import RequestPipe
 from slider_resonator.fmu.isolation.supervised import Supervised
+from slider_resonator.output.progress import Progress as ReportProgress
 from slider_resonator.output.temporary import temporary_folder
 
 TIME_LIMIT = 120.0
@@ -45,7 +46,8 @@ MAX_READ = 2**16
 
 Task = Callable[..., Any]
 """A picklable function, called as `task(instance)` in the process of the FMU; one that reports
-progress, as `task(instance, progress=report)`, where `report(share)` sends the share done."""
+progress, as `task(instance, progress=report)`, where `report(label, share)` sends what it does and
+the share done."""
 
 
 class FmuDied(FmuError):
@@ -123,7 +125,7 @@ class IsolatedFmu:
         else:
             self.kill()
 
-    def run(self, task: Task, progress: Callable[[float], None] | None = None) -> Any:
+    def run(self, task: Task, progress: ReportProgress | None = None) -> Any:
         """Return the result of a task, or raise the HarnessError that it raised.
 
         With `progress` the task must take a keyword argument of that name. Raises FmuDied when the
@@ -142,16 +144,16 @@ class IsolatedFmu:
         except OSError as error:
             raise self._died() from error
 
-    def result(self, progress: Callable[[float], None] | None = None) -> Any:
+    def result(self, progress: ReportProgress | None = None) -> Any:
         """Wait for the task that was submitted first, and return or raise as `run` does."""
         deadline = monotonic() + LOADING
         while True:
             match self._receive(deadline):
                 case Started():
                     deadline = monotonic() + self.time_limit + GRACE
-                case Progress(share):
+                case Progress(label, share):
                     if progress is not None:
-                        progress(share)
+                        progress(label, share)
                 case Failure(error):
                     raise error
                 case Result(value):

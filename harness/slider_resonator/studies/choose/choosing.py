@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -11,6 +10,7 @@ from pathlib import Path
 from slider_resonator.errors import FmuError, SceneError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import (
     COULOMB,
@@ -46,23 +46,23 @@ def choose(
     scene: Scene,
     fmu: str | Path,
     time_limit: float = TIME_LIMIT,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress = no_progress,
 ) -> Choice:
     """Return the cheapest model, tolerance and communication step that the scene's needs allow.
 
     `fmu` is where it is tried, in a process of its own that may take `time_limit` (s). `progress`
-    gets the share of the models that are judged. Raises SceneError for a scene without needs and
-    FmuError or Refusal where the FMU cannot run the resolved device.
+    gets the number of the model at work and the share of the models that are judged. Raises
+    SceneError for a scene without needs and FmuError or Refusal where the FMU cannot run the
+    resolved device.
     """
     with IsolatedFmu(Path(fmu), time_limit) as isolated:
         choice: Choice = isolated.run(partial(choose_with, scene=scene), progress)
         return choice
 
 
-def choose_with(
-    instance: Instance, scene: Scene, progress: Callable[[float], None] = lambda share: None
-) -> Choice:
+def choose_with(instance: Instance, scene: Scene, progress: Progress = no_progress) -> Choice:
     """Choose as `choose` does, in an existing instance."""
+    progress("resolved run", 0.0)
     return _Choosing(instance, scene).answer(progress)
 
 
@@ -105,7 +105,7 @@ class _Choosing:
         self._evaluations: dict[Candidate, Evaluation] = {}
         self._steady: dict[tuple[str, Candidate], SteadyValue] = {}
 
-    def answer(self, progress: Callable[[float], None]) -> Choice:
+    def answer(self, progress: Progress) -> Choice:
         """Try the models from the cheapest on."""
         if impossible := self._impossible():
             self._evaluate(Candidate(self.probe.reference_model, START_TOLERANCE, self.ladder[0]))
@@ -116,7 +116,7 @@ class _Choosing:
         best: Evaluation | None = None
         by_cost = sorted(self.models(), key=self._min_cost)
         for index, model in enumerate(by_cost):
-            progress(index / len(by_cost))
+            progress(counted(model.name, index, len(by_cost)), index / len(by_cost))
             why = self._excluded(model)
             if why is None and best is not None and self._min_cost(model) >= best.cost:
                 why = f"costs at least {self._min_cost(model):.3g} s, the chosen {best.cost:.3g} s"

@@ -118,9 +118,14 @@ def _unanswered(axes: Axes, x: Array, y: Array, result: Array) -> None:
         axes.legend()
 
 
+def _unit(name: str) -> str:
+    """Return the unit of a parameter or input, 1 where it has none."""
+    return INPUTS.get(name) or PARAMETERS[name]
+
+
 def variable_label(name: str) -> str:
     """Return the label of an axis over a parameter or input, with its unit."""
-    return f"{_name(name)} [{INPUTS.get(name) or PARAMETERS[name]}]"
+    return f"{_name(name)} [{_unit(name)}]"
 
 
 def measure_label(measure: str) -> str:
@@ -143,7 +148,10 @@ def split_into_lines(
         return None
     (abscissa,) = (name for name in names if name != few)
     return abscissa, [
-        (f"{_name(few)} {value:.4g}", np.flatnonzero(values[few] == value))
+        (
+            f"{_name(few)} {value:.4g} {_unit(few)}".removesuffix(" 1"),
+            np.flatnonzero(values[few] == value),
+        )
         for value in np.unique(values[few])
     ]
 

@@ -184,7 +184,10 @@ def recorded_files(folder: Path) -> list[Path]:
     """Return the scene files of everything recorded; HarnessError where that is nothing."""
     folders = recorded_scenes(folder)
     if not folders:
-        raise HarnessError(f"{folder}: nothing is recorded here; record it first")
+        raise HarnessError(
+            f"{folder}: nothing is recorded here; `slider-resonator baseline record FMU --dir "
+            f"{folder}` does so"
+        )
     return [_scene_file(path) for path in folders]
 
 

@@ -19,7 +19,8 @@ from slider_resonator.output.hover_plot import (
     look,
     plot_html,
 )
-from slider_resonator.output.html_page import escaped, rendered, write_page
+from slider_resonator.output.html_page import escaped, rendered, section, write_page
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.trials.extremes.cell import MODELS
 from slider_resonator.trials.extremes.picture import (
@@ -103,7 +104,10 @@ def _matrix(matrix: Matrix) -> list[str]:
         chosen = [one for one in matrix.verdicts if one.verdict == name]
         if chosen:
             heading = f"{name[0].upper()}{name[1:]}"
-            parts += [f"<h3>{heading}</h3>", rendered(_others(matrix, chosen))]
+            cells = number_of(len(chosen), "cell")
+            found = rendered(_others(matrix, chosen))
+            anchor = f"{name}-{Path(matrix.fmu).name}".replace(" ", "-")
+            parts.append(section(anchor, heading, cells, found, unfolded=name == FAILED))
     parts.append(plot_html(_plot(matrix)))
     parts += [_grid(axis, cells) for axis, cells in matrix.by_axis().items()]
     return parts

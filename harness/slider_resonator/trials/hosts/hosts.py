@@ -12,8 +12,10 @@ from pathlib import Path
 from slider_resonator.errors import HarnessError
 from slider_resonator.trials.hosts.compiler import compiler_version, native_compiler, zig_compiler
 
-OWN_ENVIRONMENT = Path(".venv-hosts")
-"""Where `make hosts` puts CoFmuPy, which pins old versions of fmpy and pythonfmu."""
+OWN_ENVIRONMENTS = Path(".venv-hosts")
+"""Where `make hosts` puts an environment each for CoFmuPy, which pins old versions of fmpy and
+pythonfmu, and for the newest fmpy with pathsim-fmi: the harness itself does without the cmake that
+fmpy installs since 0.3.26."""
 
 INSTALL = "`make hosts` installs it"
 
@@ -59,15 +61,28 @@ def wine_version() -> str:
     return f"{compiler_version(zig_compiler())}, Wine {wine}"
 
 
-def hosts(own_environment: Path = OWN_ENVIRONMENT) -> tuple[Host, ...]:
+def hosts(own_environments: Path = OWN_ENVIRONMENTS) -> tuple[Host, ...]:
     """Return all hosts, the one that others are compared with first."""
-    own = own_environment / ("Scripts" if sys.platform == "win32" else "bin") / "python"
+    scripts = "Scripts" if sys.platform == "win32" else "bin"
+    cofmupy, newest = (own_environments / name / scripts / "python" for name in ("cofmupy", "fmpy"))
     return (
         Host("fmpy", "fmpy_host", lambda: package_version("fmpy"), loads_fmi_3=True),
+        Host(
+            "newest fmpy",
+            "fmpy_host",
+            lambda: package_version("fmpy", newest),
+            newest,
+            loads_fmi_3=True,
+        ),
         Host("ecos", "ecos_host", lambda: package_version("ecospy"), loads_fmi_3=True),
         Host("libcosimpy", "libcosim_host", lambda: package_version("libcosimpy")),
-        Host("pathsim-fmi", "pathsim_host", lambda: package_version("pathsim-fmi")),
-        Host("cofmupy", "cofmupy_host", lambda: package_version("cofmupy", own), own),
+        Host(
+            "pathsim-fmi",
+            "pathsim_host",
+            lambda: package_version("pathsim-fmi", newest),
+            newest,
+        ),
+        Host("cofmupy", "cofmupy_host", lambda: package_version("cofmupy", cofmupy), cofmupy),
         Host(
             "fmuloader",
             "fmuloader_host",

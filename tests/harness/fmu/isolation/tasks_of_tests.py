@@ -13,6 +13,7 @@ from pathlib import Path
 
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.output.progress import Progress
 
 
 def position_after(instance: Instance, time: float) -> float:
@@ -33,9 +34,9 @@ def unpicklable(instance: Instance) -> Callable[[], None]:
     return lambda: None
 
 
-def in_thirds(instance: Instance, progress: Callable[[float], None]) -> str:
+def in_thirds(instance: Instance, progress: Progress) -> str:
     for third in range(3):
-        progress(third / 3)
+        progress(f"third {third}", third / 3)
     return "done"
 
 

@@ -55,7 +55,7 @@ def test_a_line_has_every_point_with_what_it_is(tmp_path: Path) -> None:
 def test_few_values_are_lines_that_differ_and_many_are_cells(tmp_path: Path) -> None:
     (lines,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": [0.0, 0.1]}})
     drawn = [one for one in lines["series"] if one["width"] > 0]
-    assert [one["label"] for one in drawn] == ["load 0", "load 0.1"]
+    assert [one["label"] for one in drawn] == ["load 0 N", "load 0.1 N"]
     assert drawn[0]["colour"] != drawn[1]["colour"]
     assert drawn[0]["marker"] != drawn[1]["marker"]
     (cells,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": AXIS}})

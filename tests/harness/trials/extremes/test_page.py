@@ -54,5 +54,11 @@ def test_cells_that_did_not_pass_are_listed_with_their_command(tmp_path: Path) -
     assert repeating(MATRIX, VERDICTS[1]) == expected
 
 
+def test_failed_cells_are_open_and_those_refused_by_name_are_folded(tmp_path: Path) -> None:
+    text = text_of(tmp_path, MATRIX)
+    assert '<details id="failed-my.fmu" open><summary><h3>Failed</h3> 1 cell' in text
+    assert '<details id="refused-by-name-my.fmu"><summary><h3>Refused by name</h3> 1 cell' in text
+
+
 def test_a_matrix_of_which_nothing_ran_has_a_page(tmp_path: Path) -> None:
     assert "not run" in text_of(tmp_path, Matrix("my.fmu", (), 0.0, 5))

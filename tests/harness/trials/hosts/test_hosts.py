@@ -31,9 +31,10 @@ def test_wine_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path
         wine_version()
 
 
-def test_only_cofmupy_has_an_environment_of_its_own() -> None:
-    others = {host.name for host in hosts() if host.python != Path(sys.executable)}
-    assert others == {"cofmupy"}
+def test_hosts_that_need_another_fmpy_have_environments_of_their_own() -> None:
+    others = {host.name: host.python for host in hosts() if host.python != Path(sys.executable)}
+    assert set(others) == {"cofmupy", "newest fmpy", "pathsim-fmi"}
+    assert others["newest fmpy"] == others["pathsim-fmi"] != others["cofmupy"]
 
 
 def test_fmpy_comes_first_and_names_differ() -> None:
