@@ -40,9 +40,8 @@ def _description(xml: bytes) -> bytes:
     simulation.attrib.update(dict.fromkeys(FLAGS, "false"), modelIdentifier=IDENTIFIER)
     simulation.set("canBeInstantiatedOnlyOncePerProcess", "true")
     simulation.set("maxOutputDerivativeOrder", "0")  # the calls are those of the other references
-    for element in ("LogCategories", "DefaultExperiment"):
-        for found in root.findall(element):
-            root.remove(found)
+    for found in root.findall("LogCategories"):
+        root.remove(found)
     units = root.find("UnitDefinitions")
     assert units is not None
     for unit in units:
@@ -65,10 +64,8 @@ def _turn_round(root: ET.Element) -> dict[str, str]:
     assert variables is not None
     for variable in variables:
         variable.set("valueReference", str(1000 + 7 * int(variable.attrib["valueReference"])))
-        del variable.attrib["description"]
         for kind in variable:
-            for name in ("displayUnit", "nominal"):
-                kind.attrib.pop(name, None)
+            kind.attrib.pop("displayUnit", None)
     variables[:] = reversed(variables)
     count = len(variables)
     return {str(old): str(count + 1 - old) for old in range(1, count + 1)}

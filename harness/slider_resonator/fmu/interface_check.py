@@ -52,9 +52,9 @@ def interface_problems(description: ModelDescription) -> list[str]:
 def description_faults(description: ModelDescription) -> list[str]:
     """Return every deviation from starts, bounds, nominal values, variabilities, dependencies.
 
-    Nominal values and the bounds of an output may be left out, and so may its dependencies: it then
-    depends on all inputs. The default experiment must be one that can be run, and no other tool
-    must be needed.
+    All of these must be there, with a description of each variable, but for the dependencies of an
+    output: without them it depends on all inputs. The default experiment must be there and one that
+    can be run, and no other tool must be needed.
     """
     faults = [*_experiment_faults(description.defaultExperiment)]
     units = {unit.name: {shown.name for shown in unit.displayUnits} for unit in _units(description)}
@@ -87,7 +87,9 @@ def description_faults(description: ModelDescription) -> list[str]:
 
 def _experiment_faults(experiment: DefaultExperiment | None) -> Iterator[str]:
     """Find what a host that takes its settings from the description cannot run."""
-    if experiment is None:
+    if experiment is None or experiment.stopTime is None:
+        missing = "" if experiment is None else "stopTime of "
+        yield f"{missing}the default experiment is missing"
         return
     given = {
         "startTime": experiment.startTime,
@@ -100,9 +102,7 @@ def _experiment_faults(experiment: DefaultExperiment | None) -> Iterator[str]:
         if not isfinite(value) or (name in ("stepSize", "tolerance") and not value > 0.0):
             yield f"{name} of the default experiment is {value!r}"
             return
-    start, stop = values.get("startTime", 0.0), values.get("stopTime")
-    if stop is None:
-        return
+    start, stop = values.get("startTime", 0.0), values["stopTime"]
     if not stop > start:
         yield f"the default experiment ends at {stop!r} s, must be after its start at {start!r} s"
     elif values.get("stepSize", 0.0) > stop - start:
@@ -155,6 +155,8 @@ def _other_values(found: ModelVariable, variable: Variable) -> Iterator[str]:
     name = found.name
     if found.variability != variable.variability:
         yield f"{name} is {found.variability}, must be {variable.variability}"
+    if not found.description:
+        yield f"{name} has no description"
     initial = INITIAL[variable.causality]
     if found.initial not in (None, initial):
         yield f"initial of {name} is {found.initial}, must be {initial}"
@@ -167,9 +169,8 @@ def _other_values(found: ModelVariable, variable: Variable) -> Iterator[str]:
     for attribute, needed in attributes.items():
         text = _attribute(found, attribute)
         given = None if text is None else float(text)
-        may_be_left_out = attribute == "nominal" or variable.causality == "output"
         either = needed is None and attribute == "nominal"
-        if given != needed and not (may_be_left_out and given is None) and not either:
+        if given != needed and not either:
             given_text = "none" if given is None else repr(given)
             needed_text = "none" if needed is None else repr(float(needed))
             yield f"{attribute} of {name} is {given_text}, must be {needed_text}"

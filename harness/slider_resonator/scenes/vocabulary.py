@@ -270,7 +270,8 @@ QUANTITIES: Mapping[str, Quantity] = {
         needs_run=False,
     ),
     "host_faults": _count(
-        "wrong answers about the FMU itself: versions, instances that must not be made, logging",
+        "wrong answers about the FMU itself: versions, instances that must not be made, logging, "
+        "event mode",
         needs_run=False,
     ),
     "state_faults": _count(

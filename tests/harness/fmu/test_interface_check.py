@@ -17,6 +17,23 @@ CHANGES: dict[str, tuple[bytes, bytes, str]] = {
     "no max": (b'min="1" max="2"', b'min="1"', "max of friction_faces is none, must be 2.0"),
     "max": (b'max="0.01"', b'max="0.1"', "max of tolerance is 0.1, must be 0.01"),
     "nominal": (b'nominal="1e-08"', b'nominal="1e-06"', "nominal of tolerance is 1e-06"),
+    "no nominal": (b' nominal="1e-08"', b"", "nominal of tolerance is none, must be 1e-08"),
+    "no max of an output": (
+        b'min="-1.0" max="2.0"',
+        b'min="-1.0"',
+        "max of contact_mode is none, must be 2.0",
+    ),
+    "no description": (
+        b' description="Slider position X"',
+        b"",
+        "position has no description",
+    ),
+    "no default experiment": (
+        b'<DefaultExperiment startTime="0.0" stopTime="0.2" stepSize="0.001" />',
+        b"",
+        "the default experiment is missing",
+    ),
+    "no stop time": (b' stopTime="0.2"', b"", "stopTime of the default experiment is missing"),
     "variability": (
         b'variability="tunable"',
         b'variability="fixed"',

@@ -57,6 +57,8 @@ EXTREMES: tuple[Mapping[str, float], ...] = (
     },
 )
 """Devices at the ends of floating point numbers: refused, or of finite outputs."""
+NEXT_TO = 1e-6
+"""Share by which a good value differs from a bad one: a device may be that near to resonance."""
 LONG_STEP = 0.2
 """A step (s) that takes the last of them beyond."""
 
@@ -146,7 +148,7 @@ def _in_a_run(instance: Instance, one: Meaningless) -> Iterator[str]:
 
 def _harmless(name: str, bad: float) -> float:
     start = VARIABLES[name].start or 0.0
-    return start if start != bad else 1.1 * start
+    return start if start != bad else (1.0 + NEXT_TO) * start
 
 
 def _told(instance: Instance, one: Meaningless, error: FMICallException) -> Iterator[str]:

@@ -5,12 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from ctypes import byref, c_char_p, c_double, c_int
+from ctypes import byref, c_char_p, c_double, c_int, c_uint, c_void_p
 from pathlib import Path
 
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2CoSimulation, fmi2ModelExchange, fmi2OK, fmi2ValueReference
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackLoggerTYPE,
+    fmi2CoSimulation,
+    fmi2ModelExchange,
+    fmi2OK,
+    fmi2ValueReference,
+)
 
+from slider_resonator.checks.conduct.event_mode import event_mode_faults
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable
@@ -25,22 +33,40 @@ ANSWERS = {"fmi2GetVersion": "2.0", "fmi2GetTypesPlatform": "default"}
 OTHER_GUID = "{00000000-0000-0000-0000-000000000000}"
 """The GUID of no description."""
 
+WARNINGS = b"logStatusWarning"
+"""A log category to which no refusal belongs."""
+
+CATEGORY, FORMAT = "logs of ", "%d"
+"""The name of no log category, and what is a format to who does not double its percent sign."""
+
+OTHER_HOST = 7
+"""The environment of a host, which an FMU hands back and does not use."""
+
+MANY = 4096
+"""Number of values asked for in one call, far more than there are variables."""
+
 
 def host_faults(fmu: FmuSide) -> Findings:
     """Ask for the version, try instances that must not be made, and switch logging off and on.
 
+    One of FMI 3.0 is asked about its event mode, where it has one.
     An FMU that runs in Python is not tried with bad instances: pythonfmu checks none of them.
     """
     instance = fmu.instance
     slave = instance.slave
     if isinstance(slave, Fmi3Slave):
-        raise NotApplicable("needs FMI 2.0, whose calls are tried")
+        if not instance.fmu.description.coSimulation.hasEventMode:
+            raise NotApplicable("needs FMI 2.0, whose calls are tried, or hasEventMode = true")
+        return event_mode_faults(instance)
     faults = [*_version_faults(slave)]
     if instance.fmu.runs_without_python:
         faults += _instance_faults(instance, slave)
     with instance.explained():
         instance.start({})
     faults += _logging_faults(instance)
+    if instance.fmu.runs_without_python:
+        faults += _other_host_faults(instance, slave)
+    faults += _many_values_faults(instance)
     faults += _offer_faults(instance, slave)
     with instance.explained():
         instance.terminate()
@@ -87,18 +113,80 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
 
 
 def _logging_faults(instance: Instance) -> Iterator[str]:
-    """Make a call that is refused, with logging off and on."""
-    slave = instance.slave
-    category = (c_char_p * 1)(b"logStatusError")
-    for on, arguments in ((False, (1, category)), (False, (0, None)), (True, (0, None))):
-        call(slave, "fmi2SetDebugLogging", on, *arguments)
-        del instance.messages[:]
-        with suppress(FMICallException):
-            instance.set({"load": math.nan})
-        if on and not instance.messages:
-            yield "a refusal is not logged after logging is switched on"
-        if not on and instance.messages:
-            yield "a refusal is logged after logging is switched off"
+    """Make a call that is refused, with logging off, on, and on for other messages only."""
+    errors = (c_char_p * 1)(b"logStatusError")
+    if _refusal_is_logged(instance, False, 1, errors) or _refusal_is_logged(instance, False):
+        yield "a refusal is logged after logging is switched off"
+    warnings = (c_char_p * 1)(WARNINGS)
+    if _has_category(instance, WARNINGS) and _refusal_is_logged(instance, True, 1, warnings):
+        yield "a refusal is logged though only warnings were asked for"
+    if not _refusal_is_logged(instance, True):
+        yield "a refusal is not logged after logging is switched on"
+    yield from _text_faults(instance)
+
+
+def _refusal_is_logged(instance: Instance, on: bool, *categories: object) -> bool:
+    """Switch logging for some categories, all without any, and make a call that is refused."""
+    call(instance.slave, "fmi2SetDebugLogging", on, *(categories or (0, None)))
+    del instance.messages[:]
+    with suppress(FMICallException):
+        instance.set({"load": math.nan})
+    return bool(instance.messages)
+
+
+def _has_category(instance: Instance, category: bytes) -> bool:
+    description = Path(instance.fmu.folder, "modelDescription.xml").read_bytes()
+    return b'<Category name="%s"' % category in description
+
+
+def _text_faults(instance: Instance) -> Iterator[str]:
+    """Ask for a category whose name looks like a format, which a logger must get as a text."""
+    del instance.messages[:]
+    with suppress(FMICallException):
+        name = (c_char_p * 1)((CATEGORY + FORMAT).encode())
+        call(instance.slave, "fmi2SetDebugLogging", True, 1, name)
+    for message in instance.messages:
+        if CATEGORY in message and CATEGORY + FORMAT not in message:
+            yield f"a message takes {FORMAT} for a format: {message}"
+
+
+def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+    """Make an instance beside this one for another host, which must hear of its refusals."""
+    if instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+        return
+    heard: list[int | None] = []
+
+    def listen(environment: int | None, *_: object) -> None:
+        heard.append(environment)
+
+    messages, callbacks = fmu_log.collect("beside")
+    callbacks.logger = fmi2CallbackLoggerTYPE(listen)
+    callbacks.componentEnvironment = OTHER_HOST
+    folder = Path(instance.fmu.folder, "resources").as_uri()
+    guid = instance.fmu.description.guid
+    made = slave.dll.fmi2Instantiate(
+        b"beside", fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks), False, True
+    )
+    if not made:
+        yield "an instance beside another is not made"
+        return
+    del instance.messages[:]
+    slave.dll.fmi2DoStep(c_void_p(made), c_double(0.0), c_double(-1.0), True)
+    slave.dll.fmi2FreeInstance(made)
+    fmu_log.forget("beside")
+    if messages or instance.messages or set(heard) - {OTHER_HOST}:
+        yield "an instance beside another reports to the host of that one"
+
+
+def _many_values_faults(instance: Instance) -> Iterator[str]:
+    """Read one variable so often in a call that it may be refused, but must not crash."""
+    reference = instance.fmu.variables["normal_force"].valueReference
+    expected, found = instance.value("normal_force"), (c_double * MANY)()
+    with suppress(FMICallException):
+        references = (c_uint * MANY)(*[reference] * MANY)
+        call(instance.slave, "fmi2GetReal", references, MANY, found)
+        if set(found) != {expected}:
+            yield f"normal_force read {MANY} times in a call is not {expected!r} each time"
 
 
 def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:

@@ -32,25 +32,26 @@ _LIFECYCLE: Mapping[str, Callable[[Instance], object]] = {
     "fmi2DoStep": lambda i: call(i.slave, "fmi2DoStep", i.time, STEP, True),
     "fmi2Terminate": lambda i: call(i.slave, "fmi2Terminate"),
     "setting load": lambda i: i.set({"load": 0.1}),
+    "reading position": lambda i: i.value("position"),
 }
 """Calls that belong to some state of an instance."""
 
 OUT_OF_ORDER: Mapping[str, tuple[str, ...]] = {
-    "before a run": ("fmi2ExitInitializationMode", "fmi2DoStep"),
+    "before a run": ("fmi2ExitInitializationMode", "fmi2DoStep", "reading position"),
     "in initialisation mode": ("fmi2SetupExperiment", "fmi2EnterInitializationMode", "fmi2DoStep"),
     "in a run": (
         "fmi2SetupExperiment",
         "fmi2EnterInitializationMode",
         "fmi2ExitInitializationMode",
     ),
-    "after a run": tuple(_LIFECYCLE),
+    "after a run": tuple(name for name in _LIFECYCLE if name != "reading position"),
 }
 """Calls that must be refused, by the state of the instance."""
 
 EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
     **{f"a start time of {bad}": (False, 0.0, bad, False, 0.0) for bad in (math.nan, math.inf)},
     **{f"a stop time of {bad}": (False, 0.0, 5.0, True, bad) for bad in (math.nan, 4.0)},
-    "a tolerance of nan": (True, math.nan, 0.0, False, 0.0),
+    **{f"a tolerance of {bad}": (True, bad, 0.0, False, 0.0) for bad in (math.nan, 0.0, -1e-6)},
 }
 """Arguments of fmi2SetupExperiment that must be refused."""
 

@@ -21,6 +21,7 @@ TIME_LIMIT = 120.0
 """Seconds for a call of the compiler."""
 
 _INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+_VERSION_3 = re.compile(r'fmiVersion="3\.')
 _IDENTIFIER = re.compile(r'modelIdentifier="(\w+)"')
 
 
@@ -92,7 +93,8 @@ class Workshop:
     def binary(self) -> str:
         """The path of the library for this machine in the FMU."""
         name = f"{self._sources.model}{fmpy.sharedLibraryExtension}"
-        return f"binaries/{fmpy.platform}/{name}"
+        version_3 = _VERSION_3.search(self._sources.description.decode("utf-8", "replace"))
+        return f"binaries/{fmpy.platform_tuple if version_3 else fmpy.platform}/{name}"
 
     def library(self, name: str, changed: Mapping[str, str]) -> bytes:
         """Return a library for this machine with some of the sources, by file name, replaced.

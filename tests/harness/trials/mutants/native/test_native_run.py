@@ -21,6 +21,29 @@ REJECTED = ("mean_before_first_period", "first_bristle_sign", "swing_sign")
 SEEN_ELSEWHERE = "split_merges_mirror"
 HARMLESS = ("shorter_arcs", "stops_without_drift")
 
+ONCE_PASSED = {
+    "averaged_lugre_reversed": ("table_mirror_of_negative",),
+    "beside_lift_off": ("boundaries_to_1e_5",),
+    "interface": (
+        *("resonance_band_wide", "tolerance_negative", "read_before_start"),
+        *("instance_first_host", "log_categories_ignored", "log_percent", "references_uncounted"),
+    ),
+    "overdamped": ("oscillator_near_critical",),
+    "phases_beyond_pi": ("large_phase_off",),
+    "prediction_of_several": ("steady_orbit_samples",),
+    "prediction_of_two": ("prediction_monotonic_drag",),
+    "ramps_second_order_bend": ("error_loading",),
+    "second_order_beat_in_flight": ("error_by_flight",),
+    "second_order_drift": ("error_drift",),
+    "second_order_lugre_load_jump": ("orbit_load_lag",),
+    "second_order_outrun_flight": ("orbit_sliding_without_flight",),
+    "second_order_settled_flight": ("orbit_curve_accuracy",),
+    "second_order_strong_flight": ("orbit_curve_added_mass",),
+    "second_order_tuned_amplitude": ("orbit_amplitude_unnoticed",),
+    "second_order_visited_phases": ("state_without_third_lead",),
+}
+"""Scenes made for faults that all others accept."""
+
 
 def named(*names: str) -> list[Change]:
     made = {change.name: change for change in (*hand_written_faults(), *harmless_variants())}
@@ -44,6 +67,16 @@ def test_faults_are_rejected_and_variants_accepted_and_verdicts_kept(
     monkeypatch.delattr(TrialServers, "attempt")  # nothing is left to be tried
     again = run_changes(native_fmu, changes, files, jobs=1, time_limit=30.0, journal=journal)
     assert again.verdicts == run.verdicts
+
+
+@pytest.mark.slow
+def test_faults_that_once_passed_are_rejected_by_the_scenes_made_for_them(
+    native_fmu: Path,
+) -> None:
+    changes = named(*(name for names in ONCE_PASSED.values() for name in names))
+    files = [find_scene(scene) for scene in ONCE_PASSED]
+    run = run_changes(native_fmu, changes, files, jobs=1, time_limit=30.0)
+    assert [verdict.change.name for verdict in run.survivors] == []
 
 
 def test_a_unit_includes_headers_of_headers(native_fmu: Path) -> None:

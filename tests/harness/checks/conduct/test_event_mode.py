@@ -1,0 +1,89 @@
+"""Faults of event mode, which only FMI 3.0 has, are noticed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.trials.mutants.native.changes import Change
+from slider_resonator.trials.mutants.native.native_run import run_changes
+
+STEPS, VALUES, FUNCTIONS = "fmi3_steps.c", "fmi3_values.c", "fmi3_functions.c"
+FOUND = "if (now->event_age == 0.0 && found_at(search, &clock)) {"
+TIME = "values[i] = time ? own->component.now.time : *next++;"
+EXPERIMENT = "stopTimeDefined, stopTime, toleranceDefined"
+
+FAULTS = {
+    "the step is said to reach its end": (
+        STEPS,
+        "*lastSuccessfulTime = component->now.time;",
+        "*lastSuccessfulTime = end;",
+    ),
+    "an event at the end of a step is an early return": (
+        STEPS,
+        "*earlyReturn = event && component->now.time < end;",
+        "*earlyReturn = event;",
+    ),
+    "no event needs handling": (
+        STEPS,
+        "*eventHandlingNeeded = event;",
+        "*eventHandlingNeeded = fmi3False;",
+    ),
+    "an event ends the simulation": (
+        STEPS,
+        "    *terminateSimulation = fmi3False;\n    *earlyReturn",
+        "    *terminateSimulation = event;\n    *earlyReturn",
+    ),
+    "a step returns early though it must not": (
+        STEPS,
+        "if (own->event_mode_used && own->early_return_allowed) {",
+        "if (own->event_mode_used) {",
+    ),
+    "event mode is entered though it is not used": (
+        STEPS,
+        "return instance->event_mode_used\n",
+        "return true\n",
+    ),
+    "an event at 0 s is announced for ever": (
+        STEPS,
+        "        *nextEventTimeDefined = fmi3False;",
+        "        *nextEventTimeDefined = fmi3True;",
+    ),
+    "time stands still between events": (VALUES, TIME, TIME.replace("now.time", "now.stop_time")),
+    "values after time are off by one": (VALUES, TIME, TIME.replace("*next++", "found[i]")),
+    "time can be set": (VALUES, "if (done && count < nValueReferences) {", "if (false) {"),
+    "too many values are accepted": (
+        VALUES,
+        "    if (value_count != count) {",
+        "    if (value_count < count) {",
+    ),
+    "initialization does not end in event mode": (
+        FUNCTIONS,
+        "if (done && own->event_mode_used) {",
+        "if (false) {",
+    ),
+    "the stop time is ignored": (
+        FUNCTIONS,
+        EXPERIMENT,
+        EXPERIMENT.replace("stopTimeDefined", "fmi3False"),
+    ),
+    "a lift-off is no event": ("events.c", FOUND, FOUND.replace("&&", "&& now->mode != LIFTED &&")),
+    "a release is no event": ("events.c", FOUND, FOUND.replace("&&", "&& !leg_released(&leg) &&")),
+    "an event at the end of a step is lost": (
+        "events.c",
+        "            end_at_event(&leg, law, now);\n",
+        "",
+    ),
+}
+"""What is wrong: the C file and what to replace by what."""
+
+
+@pytest.mark.slow
+def test_faults_of_event_mode_are_rejected(native_3_fmu: Path) -> None:
+    changes = [
+        Change(f"fault_{i}", *change, meaning) for i, (meaning, change) in enumerate(FAULTS.items())
+    ]
+    run = run_changes(native_3_fmu, changes, [find_scene("interface")], jobs=1, time_limit=30.0)
+    assert [verdict.change.meaning for verdict in run.survivors] == []
