@@ -5,6 +5,7 @@
 #include "averaged.h"
 #include "constants.h"
 #include "refusal_texts.h"
+#include "resolved_start.h"
 #include "state.h"
 #include "values.h"
 
@@ -63,6 +64,7 @@ static bool prepare_orbits(OrbitTables *orbits, Law *law, Law *resolved, Refusal
     if (law_follows_orbits(law)) {
         Device full = law->device;
         full.fidelity = 2;
+        full.tolerance = fmin(full.tolerance, RESOLVED_TOLERANCE);
         if (!law_prepare(resolved, &full, &law->inputs, NULL, refusal)) {
             return false;
         }

@@ -5,15 +5,10 @@
 #include "contact.h"
 #include "elementary.h"
 #include "orbit_drift.h"
-#include "orbit_newton.h"
-#include "slow_motion_error.h"
 #include "state.h"
 
 /* Sum of the last coefficients up to which they are rounding, over the largest. */
-#define ROUNDING 1e-13
-
-/* Added mass up to which it is left out under Coulomb friction. */
-#define NO_ADDED_MASS 1e-6
+#define NEGLIGIBLE_TERMS 1e-13
 
 /* Velocity beyond grazing at which the orbit there is found, in fast velocities. */
 #define BEYOND 4.0
@@ -47,38 +42,36 @@ static void add_way(void *observer, int index, const State *state, double positi
     way->sum += centre - way->first - way->orbit->velocity * since;
 }
 
-/* The mean over a period of what w1 adds to the way since the section [m]; false where a map fails. */
-static bool mean_way(const PeriodMap *map, const HeldOrbit *orbit, double *mean) {
+bool orbit_way(const PeriodMap *map, const HeldOrbit *orbit, double *way) {
     const Moment *section = &orbit->section;
     int parts = WAY_PARTS * map->turns;
     double first = centre_of(map, &section->state, section->position, section->theta);
-    WaySum way = {map, orbit, map->period / parts, first, 0.0};
-    Trace trace = {way.part, way.part, parts - 1, 0, add_way, &way};
+    WaySum sums = {map, orbit, map->period / parts, first, 0.0};
+    Trace trace = {sums.part, sums.part, parts - 1, 0, add_way, &sums};
     Moment end;
-    if (!orbit_trace(map, orbit->lead, -orbit->friction, section, (parts - 1) * way.part, &trace, &end)) {
+    if (!orbit_trace(map, orbit->lead, -orbit->friction, section, (parts - 1) * sums.part, &trace, &end)) {
         return false;
     }
-    *mean = way.sum / parts;
+    *way = -sums.sum / parts;
     return true;
 }
 
-bool orbit_point_of(const PeriodMap *map, const HeldOrbit *orbit, OrbitPoint *point) {
-    double way;
-    if (!mean_way(map, orbit, &way)) {
-        return false;
-    }
+OrbitPoint orbit_section_point(const PeriodMap *map, const HeldOrbit *orbit) {
     const State *state = &orbit->section.state;
-    point->of[ORBIT_FRICTION] = orbit->friction;
-    point->of[ORBIT_FACTOR] = orbit->factor;
-    point->of[ORBIT_OFFSET] = held_orbit_offset(map, orbit, &orbit->section);
-    point->of[ORBIT_WAY] = -way;
-    point->of[ORBIT_DISPLACEMENT] = state->displacement;
-    point->of[ORBIT_RATE] = state->rate;
-    point->of[ORBIT_BRISTLE] = orbit->section.bristle;
-    point->direction = orbit->direction;
-    point->found = true;
-    point->beyond = orbit->reversals == 0.0 && !orbit->sticks;
-    return true;
+    OrbitPoint point = {.direction = orbit->direction, .found = true};
+    point.of[ORBIT_FRICTION] = orbit->friction;
+    point.of[ORBIT_FACTOR] = orbit->factor;
+    point.of[ORBIT_OFFSET] = held_orbit_offset(map, orbit, &orbit->section);
+    point.of[ORBIT_DISPLACEMENT] = state->displacement;
+    point.of[ORBIT_RATE] = state->rate;
+    point.of[ORBIT_BRISTLE] = orbit->section.bristle;
+    point.beyond = orbit->reversals == 0.0 && !orbit->sticks;
+    return point;
+}
+
+bool orbit_point_of(const PeriodMap *map, const HeldOrbit *orbit, OrbitPoint *point) {
+    *point = orbit_section_point(map, orbit);
+    return orbit_way(map, orbit, &point->of[ORBIT_WAY]);
 }
 
 /* Velocity [m/s] of the slider against `direction` less the mean one. */
@@ -187,79 +180,6 @@ double orbit_panel_at(const OrbitPanel *panel, OrbitQuantity quantity, double pl
     return y * even + (c[0] - even_behind) + x * (last_odd - odd);
 }
 
-/* Scale in which a quantity has to hold. */
-static double scale_of(const PeriodMap *map, const OrbitCurve *curve, OrbitQuantity quantity) {
-    double w = map->law.held.plant.drive_frequency;
-    switch (quantity) {
-    case ORBIT_FRICTION:
-        return fabs(curve->beyond[1].of[ORBIT_FRICTION]) + fabs(curve->beyond[0].of[ORBIT_FRICTION]);
-    case ORBIT_FACTOR:
-        return 10.0;
-    case ORBIT_OFFSET:
-        return map->speed;
-    case ORBIT_WAY:
-        return map->speed / w;
-    case ORBIT_DISPLACEMENT:
-        return 10.0 * map->swing;
-    case ORBIT_RATE:
-        return 10.0 * map->swing * w;
-    case ORBIT_BRISTLE:
-        return 100.0 * map->law.bristle.coefficient;
-    case ORBIT_QUANTITIES:
-        break;
-    }
-    return INFINITY;
-}
-
-/* Whether a search without neighbour finds the same orbit. */
-static bool is_the_only_one(const PeriodMap *map, const HeldOrbit *orbit, int *maps) {
-    HeldOrbit other;
-    if (held_orbit_at(map, orbit->lead, orbit->velocity, NULL, &other) != ORBIT_FOUND) {
-        *maps += MAX_MAPS;
-        return true;
-    }
-    *maps += other.maps;
-    return is_same_orbit(map, orbit, &other);
-}
-
-/* The orbits at the nodes, each from the one before. The first is the one halfway to grazing, where a
- * search without neighbour is at its best. Under Coulomb friction the added mass is left out where it is
- * negligible there. At the last a search without neighbour must find the same orbit. Counts the maps. */
-static bool find_nodes(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap *map,
-                       OrbitPoint points[ORBIT_NODES]) {
-    double width = PI / (BASE_PANELS << panel->depth);
-    bool descending = (panel->index >> panel->depth) % 2 == 1, lags = true;
-    bool coulomb = map->law.device.friction_law == 0;
-    HeldOrbit orbit;
-    for (int i = 0; i < ORBIT_NODES; i++) {
-        int node = descending ? ORBIT_NODES - 1 - i : i;
-        double chi = (panel->index + 0.5 + 0.5 * cos(PI * (node + 0.5) / ORBIT_NODES)) * width;
-        double velocity = curve->middle + curve->reach * cos(chi);
-        OrbitStatus status =
-            held_orbit_at(map, curve->lead, velocity, i > 0 ? &orbit : NULL, &orbit);
-        bool checked = panel->depth == 0 && i == ORBIT_NODES - 1;
-        if (status == ORBIT_FOUND && (lags || checked)) {
-            status = held_orbit_linearise(map, &orbit);
-            lags = (lags && fabs(orbit.factor - 1.0) > NO_ADDED_MASS) || !coulomb;
-            orbit.factor = lags ? orbit.factor : 1.0;
-        }
-        if (status != ORBIT_FOUND) {
-            panel->maps += MAX_MAPS;
-            return false;
-        }
-        panel->maps += orbit.maps + 1;
-        if (orbit.direction != panel->direction ||
-            (checked && !is_the_only_one(map, &orbit, &panel->maps))) {
-            return false;
-        }
-        if (!orbit_point_of(map, &orbit, &points[node])) {
-            panel->maps += MAX_MAPS;
-            return false;
-        }
-    }
-    return true;
-}
-
 void orbit_panel_begin(OrbitPanel *panel, int depth, int index) {
     *panel = (OrbitPanel){.known = true, .depth = depth, .index = index, .parts = 1 << depth};
     panel->direction = index >> depth < BASE_PANELS / 2 ? FORWARD : BACKWARD;
@@ -273,45 +193,10 @@ void orbit_panel_end(OrbitPanel *panel) {
             largest = fmax(largest, fabs(c[k]));
         }
         panel->terms[q] = ORBIT_NODES;
-        while (panel->terms[q] > 1 && rest <= ROUNDING * largest) {
+        while (panel->terms[q] > 1 && rest <= NEGLIGIBLE_TERMS * largest) {
             rest += fabs(c[--panel->terms[q]]);
         }
-        panel->terms[q] += rest > ROUNDING * largest;
+        panel->terms[q] += rest > NEGLIGIBLE_TERMS * largest;
         panel->terms[q] += panel->terms[q] % 2;
     }
-}
-
-/* The coefficients of the polynomials through the points. */
-static void transform(const OrbitPoint points[ORBIT_NODES], OrbitPanel *panel) {
-    for (int k = 0; k < ORBIT_NODES; k++) {
-        double sum[ORBIT_QUANTITIES] = {0.0};
-        for (int j = 0; j < ORBIT_NODES; j++) {
-            double cosine = cos(PI * k * (j + 0.5) / ORBIT_NODES);
-            for (int q = 0; q < ORBIT_QUANTITIES; q++) {
-                sum[q] += points[j].of[q] * cosine;
-            }
-        }
-        for (int q = 0; q < ORBIT_QUANTITIES; q++) {
-            panel->coefficient[q][k] = sum[q] * (k > 0 ? 2.0 : 1.0) / ORBIT_NODES;
-        }
-    }
-}
-
-void orbit_panel_make(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap *map) {
-    OrbitPoint points[ORBIT_NODES];
-    panel->found = find_nodes(panel, curve, map, points);
-    panel->holds = panel->found || panel->depth >= MAX_DEPTH_MISSING;
-    double accuracy = table_accuracy(&curve->device);
-    if (!panel->found) {
-        return;
-    }
-    transform(points, panel);
-    for (int q = 0; q < ORBIT_QUANTITIES; q++) {
-        double rest = fmax(fabs(panel->coefficient[q][ORBIT_NODES - 1]),
-                           fabs(panel->coefficient[q][ORBIT_NODES - 2]));
-        if (rest > accuracy * scale_of(map, curve, (OrbitQuantity)q) && panel->depth < MAX_DEPTH) {
-            panel->holds = false;
-        }
-    }
-    orbit_panel_end(panel);
 }

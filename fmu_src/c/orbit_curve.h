@@ -1,7 +1,7 @@
 /* Held orbits over the slow velocity, under one lead of the normal load: tabulated, lazily.
  *
  * Between the grazing velocities, beyond which the slider never turns back, all is smooth in the angle chi
- * of V = middle + reach cos(chi): Chebyshev polynomials on panels in chi, halved until they hold. Beyond,
+ * of V = middle + reach cos(chi): polynomials on panels in chi, with more nodes until they hold, or halved. Beyond,
  * friction and its answer stay as they are. A panel is made when it is first asked for, always from the
  * same start: what it says does not depend on what was asked before. */
 #ifndef SLIDER_ORBIT_CURVE_H
@@ -11,10 +11,11 @@
 
 #include "held_orbit.h"
 #include "orbit_shifts.h"
+#include "panel_series.h"
 #include "period_map.h"
 
-/* Nodes of a panel, and panels that a curve keeps. */
-enum { ORBIT_NODES = 12, CURVE_PANELS = 32 };
+/* Panels that a curve keeps. */
+enum { CURVE_PANELS = 32 };
 
 /* Base panels of a curve, most halvings of one, and of one in which an orbit is missing; and bytes with a bit
  * for each panel. */
@@ -72,6 +73,12 @@ typedef struct {
     ShiftPoint shifts[SHIFT_POINTS];
 } OrbitCurve;
 
+/* What w1 adds to the way at the section, its mean over a period being 0 [m]; false where a map fails. */
+bool orbit_way(const PeriodMap *map, const HeldOrbit *orbit, double *way);
+
+/* An orbit as tables have it, but for its way. */
+OrbitPoint orbit_section_point(const PeriodMap *map, const HeldOrbit *orbit);
+
 /* An orbit as tables have it; false where a map fails. */
 bool orbit_point_of(const PeriodMap *map, const HeldOrbit *orbit, OrbitPoint *point);
 
@@ -83,9 +90,6 @@ void orbit_panel_begin(OrbitPanel *panel, int depth, int index);
 
 /* Count the terms of a panel. */
 void orbit_panel_end(OrbitPanel *panel);
-
-/* Make a panel that was begun from orbits. */
-void orbit_panel_make(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap *map);
 
 /* The quantity on a panel, at `place` = chi / pi BASE_PANELS. */
 double orbit_panel_at(const OrbitPanel *panel, OrbitQuantity quantity, double place);

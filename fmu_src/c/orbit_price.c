@@ -8,8 +8,8 @@
 #define CURVE_TURNS 400.0
 #define SERIES_TURNS 4300.0
 #define SEARCH_TURNS 160.0
-#define BRISTLE_CURVE_TURNS 1800.0
-#define BRISTLE_SERIES_TURNS 19000.0
+#define BRISTLE_CURVE_TURNS 450.0
+#define BRISTLE_SERIES_TURNS 4600.0
 #define BRISTLE_SEARCH_TURNS 600.0
 
 /* What rounding takes from a price that has been waited for. */

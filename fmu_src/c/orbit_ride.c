@@ -66,7 +66,7 @@ OrbitSource orbit_source_of(const OrbitState *orbit, const Device *device, bool 
 }
 
 void ride_begin(OrbitRide *ride, const Law *law, const Moment *moment, double lead) {
-    const Device *device = &law->resolved->device;
+    const Device *device = &law->device;
     const OrbitState *orbit = &moment->orbit;
     ride->law = law;
     ride->slow = orbit_phase_of(law);

@@ -5,6 +5,7 @@
 
 #include "contact.h"
 #include "elementary.h"
+#include "orbit_nodes.h"
 #include "state.h"
 
 static bool same_device(const Device *a, const Device *b) {

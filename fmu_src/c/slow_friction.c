@@ -58,20 +58,18 @@ SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
         slow.slow.drift = slow.slow.chirp = slow.slow.fastest = 0.0;
         slow.beat = INFINITY;
     }
-    if (slow.form != UNDER_ANY_LOAD && slow.friction->is_expensive) {
-        double tabulated = slow.form == UNDER_SINE ? n : 1.0;
-        slow.table =
-            friction_table_of(law->table, slow.friction, &law->bristle, &slow.fast, tabulated);
-    }
+    slow.tabulated = slow.form != UNDER_ANY_LOAD && slow.friction->is_expensive;
     return slow;
 }
 
 static FrictionMeans means_at(const SlowFriction *slow, double turning) {
-    if (slow->table) {
-        return tabulated_means_at(slow->table, turning);
-    }
+    const Bristle *bristle = &slow->law->bristle;
     double n = slow->form == UNDER_SINE ? slow->waves : 1.0;
-    return slow->friction->means(&slow->law->bristle, &slow->fast, n, turning);
+    if (slow->tabulated) {
+        FrictionTable *tables = slow->law->table;
+        return tabulated_means_at(friction_table_of(tables, slow->friction, bristle, &slow->fast, n), turning);
+    }
+    return slow->friction->means(bristle, &slow->fast, n, turning);
 }
 
 /* Mean friction [N] of one face under a sine. */

@@ -12,8 +12,9 @@
  * as the mean under a load of any shape. */
 typedef enum { UNDER_SINE, UNDER_MEAN_LOAD, UNDER_ANY_LOAD } SlowForm;
 
-/* `waves` of the normal load over a turn of the drive, its present `phase` [rad] and drift (`slow`); `table`
- * of the means where they are expensive. `sine` and `cosine` are those of the present phase, under a sine;
+/* `waves` of the normal load over a turn of the drive, its present `phase` [rad] and drift (`slow`). Means are
+ * `tabulated` where they are expensive, in a table that is made when it is first asked for: motion along
+ * orbits seldom does. `sine` and `cosine` are those of the present phase, under a sine;
  * `load` is the present load otherwise. The phase repeats after `beat` [s]. `stands`: the load itself is
  * slow, at a frequency ratio near 0. */
 typedef struct {
@@ -23,8 +24,7 @@ typedef struct {
     FastMotion fast;
     double waves, phase, beat;
     SlowPhase slow;
-    bool stands;
-    const TabulatedMeans *table;
+    bool stands, tabulated;
     double sine, cosine;
     VibratingLoad load;
 } SlowFriction;

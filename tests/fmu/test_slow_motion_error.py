@@ -254,3 +254,16 @@ def test_an_estimate_read_late_is_the_one_read_all_along(
             assert read.get("slow_motion_error")[0] > 0.0
     names = ("slow_motion_error", "mean_velocity", "position")
     assert read.get(*names) == unread.get(*names)
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
+def test_a_loose_tolerance_is_in_the_estimate(instantiate: Instantiate, tolerance: float) -> None:
+    """Also what the motion resolved from rest errs by, which stays in the slow velocity."""
+    device = {"friction_law": 1, "bristle_stiffness": 1e4}
+    slow = instantiate().initialize(**device, fidelity=0, tolerance=tolerance)
+    full = instantiate().initialize(**device, fidelity=2, tolerance=1e-12)
+    for _ in range(30):
+        slow.step(0.1)
+        full.step(0.1)
+        mean, estimate = slow.get("mean_velocity", "slow_motion_error")
+        assert abs(mean - full.get("mean_velocity")[0]) <= 3.0 * estimate

@@ -17,6 +17,7 @@ from .moment import Counts, Moment
 from .motion import State
 from .orbit_motion import OrbitLaw, has_slow_motion
 from .period import PeriodMeans
+from .resolved_start import RESOLVED_TOLERANCE
 from .slow_motion import slow_law
 
 
@@ -117,5 +118,6 @@ def law_of(device: Device, inputs: Inputs) -> Law:
         if device.averaging_order == 1 or not has_slow_motion(device, inputs, law.fast):
             return law
         full = hold(replace(device, fidelity=2), inputs)
-        return OrbitLaw(held, full, friction, law.fast)
+        finer = replace(full.device, tolerance=min(device.tolerance, RESOLVED_TOLERANCE))
+        return OrbitLaw(held, full, replace(full, device=finer), friction, law.fast)
     return ResolvedLaw(held, friction)

@@ -15,8 +15,9 @@ from .device import Device
 from .fast_vibration import FastVibration
 from .held_orbit import NoOrbitError, held_orbit_at, held_orbit_linearised
 from .moment import Moment
-from .orbit_curve import OrbitPoint, place_between
 from .orbit_drift import held_orbit_moment
+from .orbit_panel import place_between
+from .orbit_point import OrbitPoint
 from .orbit_ride import OrbitRide
 from .orbit_state import OpenError, OpenKind, OrbitState
 from .resolved_start import swing_by_inertia, velocity_of_swing

@@ -13,8 +13,8 @@ from .fast_vibration import FastVibration
 from .held import Held
 from .moment import Moment
 from .motion import EPSILON
-from .orbit_curve import OrbitPoint
 from .orbit_error import ErrorRide
+from .orbit_point import OrbitPoint
 from .orbit_price import is_due, with_paid
 from .orbit_ride import OrbitRide
 from .orbit_swing import swing_after, with_swing

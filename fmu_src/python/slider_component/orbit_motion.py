@@ -70,11 +70,13 @@ def has_slow_motion(device: Device, inputs: Inputs, fast: FastVibration) -> bool
 class OrbitLaw:
     """The device along orbits under held inputs (see `law.Law`).
 
-    `held` is that of averaged motion, `full` that of the full device.
+    `held` is that of averaged motion, `full` that of the full device, `resolved` the same at the
+    tolerance of resolved motion.
     """
 
     held: Held
     full: Held
+    resolved: Held
     friction: FrictionLaw
     fast: FastVibration
 
@@ -271,7 +273,7 @@ class OrbitLaw:
     def _advanced(self, now: Moment, time: float, budget: Budget) -> Moment:
         """The moment after a time [s] of resolved motion."""
         turned = self.full.plant.drive_frequency * time
-        now = events.advance(self.friction, self.full, now, time, budget)
+        now = events.advance(self.friction, self.resolved, now, time, budget)
         to_go, waited = max(0.0, now.orbit.to_go - turned), now.orbit.waited + turned
         orbit = now.orbit._replace(to_go=to_go, waited=waited)
         now.orbit = calmed(self.full.device, turned, orbit)

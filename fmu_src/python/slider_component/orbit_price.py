@@ -24,10 +24,10 @@ SERIES_TURNS = 4300.0
 SEARCH_TURNS = 160.0
 """The same of the searches after a change."""
 
-BRISTLE_CURVE_TURNS = 1800.0
+BRISTLE_CURVE_TURNS = 450.0
 """The same of a curve under LuGre friction."""
 
-BRISTLE_SERIES_TURNS = 19000.0
+BRISTLE_SERIES_TURNS = 4600.0
 """The same of the series."""
 
 BRISTLE_SEARCH_TURNS = 600.0

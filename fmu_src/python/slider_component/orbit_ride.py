@@ -12,7 +12,7 @@ from .device import Device
 from .fast_vibration import steady_swing
 from .moment import Moment
 from .motion import State
-from .orbit_curve import OrbitPoint, Quantities
+from .orbit_point import OrbitPoint, Quantities
 from .orbit_search import OrbitSearch
 from .orbit_state import MAX_LEADS, MAX_TUNINGS, OrbitState
 from .orbit_tables import OrbitTable, combined_table, curve_table, orbit_map, series_table

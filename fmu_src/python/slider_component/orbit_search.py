@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from .held_orbit import HeldOrbit, NoOrbitError, held_orbit_at, held_orbit_linearised
-from .orbit_curve import OrbitPoint, point_of
 from .orbit_newton import MAX_MAPS
+from .orbit_point import OrbitPoint, point_of
 from .period_map import PeriodMap
 from .shift_tables import ShiftCurve
 

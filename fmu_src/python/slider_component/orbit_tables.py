@@ -9,16 +9,9 @@ from typing import Protocol
 
 from .device import Device
 from .held_orbit import NoOrbitError
-from .orbit_curve import (
-    MAX_DEPTH,
-    OrbitCurve,
-    OrbitPanel,
-    OrbitPoint,
-    Quantities,
-    index_at,
-    place_between,
-    trimmed,
-)
+from .orbit_curve import OrbitCurve
+from .orbit_panel import MAX_DEPTH, OrbitPanel, index_at, place_between, trimmed
+from .orbit_point import OrbitPoint, Quantities
 from .orbit_search import OrbitSearch
 from .orbit_shifts import NO_SHIFT, ShiftPoint
 from .period_map import PeriodMap, period_map

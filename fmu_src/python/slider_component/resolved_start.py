@@ -9,6 +9,12 @@ from .fast_vibration import FastVibration, steady_swing
 from .motion import State
 from .slow_motion_error import bristle_decay, decay_in_turn
 
+RESOLVED_TOLERANCE = 1e-8
+"""Largest tolerance of LuGre friction with which motion is resolved before it goes over to orbits.
+
+What it errs by stays in the slow velocity, and no estimate has it. Turns are few, so that costs
+little."""
+
 SWING_LEFT = 1e-7
 """Relative size to which the transients of resonator and bristle must have decayed."""
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import floor, pi
 from typing import NamedTuple, Protocol
 
-from .orbit_curve import BASE_PANELS, place_between
 from .orbit_defect import LAG_PHASES
+from .orbit_panel import BASE_PANELS, place_between
 from .orbit_shifts import NO_SHIFT, SHIFT_POINTS, ShiftPoint
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache, partial
 from math import acos, cos, inf, pi, sin, tau
 from typing import NamedTuple
 
@@ -124,7 +124,9 @@ class _MeanFriction:
         """The means at Theta [rad], tabulated where they are expensive."""
         bristle = self.held.bristle
         if self.friction.is_expensive:
-            return _table(self.friction, bristle, self.fast, n).at
+            # Made when it is first asked for: motion along orbits seldom does.
+            table = cache(partial(_table, self.friction, bristle, self.fast, n))
+            return lambda turning: table().at(turning)
         means, fast = self.friction.means, self.fast
         return lambda turning: means(bristle, fast, n, turning)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from fmu_src.python.slider_component import orbit_price, orbit_tables
+from fmu_src.python.slider_component import orbit_price, orbit_tables, slow_friction
 from fmu_src.python.slider_component.component import Component
 from fmu_src.python.slider_component.constants import MAX_STEP_MAPS
 from fmu_src.python.slider_component.device import Device, Inputs
@@ -387,3 +387,13 @@ def test_motion_without_a_slow_part_is_resolved() -> None:
     soft = replace(SOFT_BRISTLE, fidelity=0, initial_velocity=0.004)
     assert worst_error(soft, inputs, 60, 12) < 1e-6 * 2.8e-3
     assert run(soft, inputs, 60, 1).orbit.stage == Stage.RESOLVED
+
+
+def test_motion_along_orbits_makes_no_table_of_first_order(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Under LuGre friction that took more time than the orbits."""
+    made: list[object] = []
+    monkeypatch.setattr(slow_friction, "_table", lambda *of: made.append(of))
+    hard = replace(TABLE_1, friction_law=1, bristle_stiffness=1e7, tolerance=1e-6)
+    moment = run(hard, Inputs(), 60, 1)
+    assert moment.orbit.stage == Stage.ON_ORBIT
+    assert not made

@@ -106,8 +106,8 @@ ORBITS = {
         searched_beat=0.25e-3,
     ),
     LUGRE: OrbitPrices(
-        curve=1e-3,
-        panel=2.9e-3,
+        curve=0.3e-3,
+        panel=1.2e-3,
         lifting=1.0,
         edge=3e-3,
         step=2.5e-6,

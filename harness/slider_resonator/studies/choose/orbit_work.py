@@ -32,7 +32,7 @@ class Paid:
     search: float
 
 
-PAID = {COULOMB: Paid(400.0, 4300.0, 160.0), LUGRE: Paid(1800.0, 19_000.0, 600.0)}
+PAID = {COULOMB: Paid(400.0, 4300.0, 160.0), LUGRE: Paid(450.0, 4600.0, 600.0)}
 """By friction law, as in the component."""
 
 
