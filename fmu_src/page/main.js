@@ -26,9 +26,11 @@ function addControl(parent, { name, unit, description, start }, range, choices) 
     box.append(text, element("span", { class: "unit" }, unit && unit !== "1" ? unit : ""));
     const field = { text, start };
     if (range) {
-      const [min, max] = range;
-      field.slider = element("input", { type: "range", min, max, step: (max - min) / 400, "aria-label": name });
-      field.slider.addEventListener("input", () => changeSetting(name, field.slider.value));
+      field.range = range;
+      field.slider = element("input", { type: "range", min: 0, max: SLIDER_STEPS, "aria-label": name });
+      field.slider.addEventListener("input", () => {
+        changeSetting(name, String(valueAt(range, field.slider.valueAsNumber)));
+      });
       box.append(field.slider);
     }
     fields.set(name, field);
@@ -73,13 +75,14 @@ function showMessage(text, isBusy = false) {
 }
 
 function showSettings(settings) {
-  for (const [name, { text, slider, start }] of fields) {
+  for (const [name, { text, slider, range, start }] of fields) {
     const value = name === "t" ? settings.time : settings.values.get(name) ?? start;
     if (document.activeElement !== text || Number(text.value) !== value) {
       text.value = String(value);
     }
     if (slider) {
-      slider.value = String(value);
+      slider.value = String(stepAt(range, value));
+      slider.setAttribute("aria-valuetext", String(value));
     }
   }
 }

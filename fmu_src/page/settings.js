@@ -1,6 +1,7 @@
 /** Settings of a run: the end time `t` in s, and values by variable name where they are not starts. */
 const MAX_TIME = 3600;
 const START_TIME = 4;
+const SLIDER_STEPS = 400;
 
 /** Controls shown first, with the range of their sliders; text fields take any value. */
 const RANGES = new Map([
@@ -27,6 +28,17 @@ function numberOf(name, text) {
   return value;
 }
 
+/** Return the value of one of the `SLIDER_STEPS` equal steps of a slider; its ends are exact. */
+function valueAt([min, max], step) {
+  const value = min + ((max - min) * step) / SLIDER_STEPS;
+  return value === min || value === max ? value : Number(value.toPrecision(12));
+}
+
+/** Return the step of a slider that is nearest to a value. */
+function stepAt([min, max], value) {
+  return Math.round(((value - min) / (max - min)) * SLIDER_STEPS);
+}
+
 /** Set one of `{time, values}`, throw Refused for another name or what is no number. */
 function setOne(settings, name, text) {
   if (name === "t") {
@@ -38,11 +50,17 @@ function setOne(settings, name, text) {
   }
 }
 
-/** Return `{time, values, refused}` of an address like "#phase=0.4&t=20"; what is refused, first, stays at its start. */
+/** Return `{time, values, refused}` of an address like "#phase=0.4&t=20"; the first
+ * refusal counts, and what is refused, or given again, sets nothing. */
 function settingsOf(hash) {
   const settings = { time: START_TIME, values: new Map(), refused: null };
+  const seen = new Set();
   for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
     try {
+      if (seen.has(name)) {
+        throw new Refused(`${name} = ${text} refused: must be given once`);
+      }
+      seen.add(name);
       setOne(settings, name, text);
     } catch (error) {
       if (!(error instanceof Refused)) {

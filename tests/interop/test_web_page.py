@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -122,6 +123,8 @@ def test_a_refused_address_shows_what_it_would_run_and_can_be_mended(
     text.send_keys("0.4", Keys.ENTER)
     mended = results(browser)["mean_velocity"]
     assert mended == show(browser, page, "phase=0.4&load=0.03")["mean_velocity"]
+    assert show(browser, page, "phase=0.4&phase=0.5") == {}
+    assert message(browser) == "phase = 0.5 refused: must be given once"
     show(browser, page, "nonsense")
     assert message(browser) == "nonsense refused: must be t, an input or a parameter"
 
@@ -141,6 +144,16 @@ def test_keys_move_a_slider_and_everything_follows(browser: Chrome, page: str) -
     assert after["blocking_force"] != before["blocking_force"]
     browser.find_element(By.CSS_SELECTOR, "button[type=reset]").send_keys(Keys.ENTER)
     assert results(browser)["mean_velocity"] == before["mean_velocity"]
+
+
+def test_a_slider_reaches_both_ends_of_its_range(browser: Chrome, page: str) -> None:
+    show(browser, page, "phase=1")
+    slider = browser.find_element(By.CSS_SELECTOR, 'input[type=range][aria-label="phase"]')
+    for key, end in ((Keys.END, math.pi), (Keys.HOME, -math.pi)):
+        slider.send_keys(key)
+        results(browser)
+        assert field(browser, "phase").get_attribute("value") == str(end)
+        assert slider.get_attribute("aria-valuetext") == str(end)
 
 
 def test_a_field_takes_what_its_slider_does_not_reach(browser: Chrome, page: str) -> None:

@@ -74,3 +74,8 @@ def numbers(*headings: str) -> list[Column]:
 def verdict(passed: bool) -> Cell:
     """Return the cell of a verdict."""
     return Cell("pass", Style.PASS) if passed else Cell("FAIL", Style.FAIL)
+
+
+def verdict_so_far(failed: bool, not_run: int) -> Cell:
+    """Return the cell of a verdict on a run of which a number may be missing."""
+    return Cell("incomplete", Style.NOTE) if not_run and not failed else verdict(not failed)

@@ -55,9 +55,14 @@ class Campaign:
     @property
     def passed(self) -> bool:
         """Whether all cases ran, none failed and next to none was refused."""
+        return not (self.failed or self.not_run)
+
+    @property
+    def failed(self) -> bool:
+        """Whether a case failed, or too many were refused."""
         refused = self.counts.get(REFUSED, 0)
         too_many = refused > max(1.0, MAX_REFUSED * len(self.verdicts))
-        return not (self.counts.get(FAILED, 0) or too_many or self.not_run)
+        return bool(self.counts.get(FAILED, 0) or too_many)
 
 
 def run_campaign(

@@ -19,7 +19,7 @@ from slider_resonator.output.hover_plot import (
     plot_html,
 )
 from slider_resonator.output.html_page import escaped, rendered, write_page
-from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
+from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
 from slider_resonator.trials.campaign.campaign_run import Campaign
 from slider_resonator.trials.campaign.verdict import (
     FAILED,
@@ -61,7 +61,7 @@ def _overview(campaigns: Sequence[Campaign]) -> str:
     rows: list[Row] = [
         (
             Path(one.fmu).name,
-            verdict(one.passed),
+            verdict_so_far(one.failed, one.not_run),
             str(one.seed),
             str(len(one.verdicts)),
             str(one.not_run),

@@ -48,6 +48,7 @@ def as_plain(matrices: Sequence[Matrix]) -> dict[str, object]:
                 "fmu": matrix.fmu,
                 "passed": matrix.passed,
                 "cells": len(matrix.verdicts),
+                "not_run": matrix.not_run,
                 "counts": matrix.counts,
                 "wall_time": matrix.wall_time,
                 "worst_step_over_period_cost": matrix.most_expensive

@@ -21,7 +21,7 @@ from slider_resonator.output.hover_plot import (
 )
 from slider_resonator.output.html_page import escaped, rendered, section, write_page
 from slider_resonator.output.readable import number_of
-from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
+from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
 from slider_resonator.trials.extremes.cell import MODELS
 from slider_resonator.trials.extremes.picture import (
     FAILED_COLOUR,
@@ -71,7 +71,7 @@ def _overview(matrices: Sequence[Matrix]) -> str:
     rows: list[Row] = [
         (
             Path(one.fmu).name,
-            verdict(one.passed),
+            verdict_so_far(one.failed, one.not_run),
             *(str(one.counts[name]) for name in (PASSED, REFUSED, FAILED)),
             str(one.not_run),
             f"{one.wall_time:.0f}",

@@ -61,7 +61,12 @@ class Matrix:
     @property
     def passed(self) -> bool:
         """Whether all cells ran and none failed."""
-        return self.count(FAILED) == 0 and not self.not_run
+        return not (self.failed or self.not_run)
+
+    @property
+    def failed(self) -> bool:
+        """Whether a cell failed."""
+        return self.count(FAILED) > 0
 
     @property
     def most_expensive(self) -> CellVerdict | None:
@@ -76,7 +81,7 @@ class Matrix:
         lines = [
             f"{number_of(len(self.verdicts), 'cell')}: {self.count(PASSED)} passed, "
             f"{self.count(REFUSED)} refused by name, {self.count(FAILED)} failed, "
-            f"{self.not_run or 'none'} {'not run' if self.not_run else 'skipped'}; "
+            f"{f'{self.not_run} not run: incomplete' if self.not_run else 'none skipped'}; "
             f"{self.wall_time:.0f} s",
             f"{number_of(compared, 'cell')} compared with a reference, "
             f"which gave up in {sum(one.has(NO_REFERENCE) for one in self.verdicts)} others",

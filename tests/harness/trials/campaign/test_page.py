@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -46,6 +47,15 @@ def test_cases_that_did_not_pass_are_listed_with_their_command(tmp_path: Path) -
         assert command in without_spans(text), f"case {one.number} is not listed"
     assert "position off by &lt;b&gt;4&lt;/b&gt;" in text
     assert "<b>4" not in text
+
+
+def test_an_interrupted_campaign_without_failures_is_incomplete(tmp_path: Path) -> None:
+    so_far = Campaign("my.fmu", 3, VERDICTS[:1], 7.0, not_run=2)
+    text = without_spans(text_of(tmp_path, so_far))
+    assert "incomplete</td>" in text
+    assert "FAIL" not in text
+    failed = replace(so_far, verdicts=VERDICTS[:2])
+    assert "FAIL</td>" in without_spans(text_of(tmp_path, failed))
 
 
 def test_the_command_names_the_fmu_as_a_shell_reads_it() -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from slider_resonator.trials.extremes.cell import Model
@@ -41,6 +42,18 @@ def test_each_cell_is_in_the_grid_with_its_checks(tmp_path: Path) -> None:
     assert '">r</td>' in text
     assert text.count("<td></td>") == 1, "the cell that the axis does not have"
     assert "q &amp; r" in text
+
+
+def test_an_interrupted_run_without_failures_is_incomplete_and_has_not_failed(
+    tmp_path: Path,
+) -> None:
+    so_far = replace(MATRIX, verdicts=VERDICTS[::2], not_run=1)
+    text = without_spans(text_of(tmp_path, so_far))
+    assert "incomplete</td>" in text
+    assert "FAIL" not in text
+    assert "1 not run: incomplete" in text
+    failed = without_spans(text_of(tmp_path, replace(MATRIX, not_run=1)))
+    assert "FAIL</td>" in failed, "a failure stands, whatever the rest would have been"
 
 
 def test_cells_that_did_not_pass_are_listed_with_their_command(tmp_path: Path) -> None:
