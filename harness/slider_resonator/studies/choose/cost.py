@@ -71,8 +71,10 @@ class OrbitPrices:
     back, and `curve` for each curve. `step` is for a communication step, `mark` for an end of a
     period in it, of which the last two count; `drifting` is added to a step in which the lead
     drifts, `searched` is for step and marks where orbits are searched, `change` for going over to
-    another lead, `beat` and `swing` for a turn of the slow phase as with averages of first order,
-    and `searched_beat` for one that searches.
+    another lead, `combined` for making a curve at one from the series. `beat` and `swing` are for
+    a turn of the slow phase as with averages of first order,
+    and `searched_beat` for one that searches; searches among soft bristles cost `soft_search` times
+    as much.
     """
 
     curve: float
@@ -84,41 +86,46 @@ class OrbitPrices:
     drifting: float
     searched: float
     change: float
+    combined: float
     beat: float
     swing: float
     searched_beat: float
     soft: float = 1.0
+    soft_search: float = 1.0
 
 
 ORBITS = {
     COULOMB: OrbitPrices(
         curve=0.0,
-        panel=0.15e-3,
-        lifting=3.0,
-        edge=1.1e-3,
-        step=1.65e-6,
-        mark=1.65e-6,
+        panel=0.2e-3,
+        lifting=1.8,
+        edge=1.7e-3,
+        step=1.25e-6,
+        mark=0.4e-6,
         drifting=9e-6,
-        searched=18e-6,
+        searched=16e-6,
         change=6e-6,
-        beat=60e-6,
-        swing=170e-6,
-        searched_beat=0.25e-3,
+        combined=0.55e-3,
+        beat=64e-6,
+        swing=0.37e-3,
+        searched_beat=0.2e-3,
     ),
     LUGRE: OrbitPrices(
         curve=0.3e-3,
-        panel=1.2e-3,
-        lifting=1.0,
-        edge=3e-3,
-        step=2.5e-6,
-        mark=5e-6,
-        drifting=18e-6,
-        searched=60e-6,
+        panel=0.5e-3,
+        lifting=3.2,
+        edge=1.4e-3,
+        step=1.5e-6,
+        mark=2e-6,
+        drifting=10e-6,
+        searched=0.11e-3,
         change=60e-6,
-        beat=100e-6,
-        swing=80e-6,
-        searched_beat=2.2e-3,
-        soft=0.5,
+        combined=0.32e-3,
+        beat=90e-6,
+        swing=70e-6,
+        searched_beat=4e-3,
+        soft=4.0,
+        soft_search=0.03,
     ),
 }
 """By friction law."""
@@ -136,11 +143,17 @@ ROUGH = 2.0
 """Root of the share of friction in the drive by which orbits cost more, up to twice as much."""
 AVERAGING_ORDERS = (1, 2)
 """Orders of averaged motion to choose from."""
-OUTPUT = {COULOMB: 13e-6, LUGRE: 60e-6}
-"""Seconds to start the FMU and read the steady velocity or the blocking force of the theory."""
+OUTPUT = {
+    (COULOMB, 1): 18e-6,
+    (LUGRE, 1): 70e-6,
+    (COULOMB, 2): 43e-6,
+    (LUGRE, 2): 0.21e-3,
+}
+"""By friction law and averaging order, seconds to start the FMU and read the steady velocity or the
+blocking force of the theory."""
 SEARCH = 60e-6
 """Seconds of a search by shooting besides its drive periods."""
-SEARCH_PERIOD = {COULOMB: 16e-6, LUGRE: 34e-6}
+SEARCH_PERIOD = {COULOMB: 22e-6, LUGRE: 47e-6}
 """Seconds to start, read and evaluate a drive period of a search; a bristle takes more readings."""
 
 
@@ -189,15 +202,21 @@ def _orbit_cost(
     periods = plan.duration / scales.period
     cost = resolved_cost(full, candidate.tolerance, scales, plan, work.resolved)
     rough = 1.0 + min(1.0, ROUGH * sqrt(scales.slowness or 0.0))
-    cost += work.curves * _curve_cost(prices, scales, slow) + prices.change * work.changes
+    cost += work.curves * _curve_cost(prices, scales, slow)
+    cost += prices.change * work.changes + prices.combined * work.combined
     length = plan.duration / plan.steps / scales.period
     steps, marks = rough * plan.steps / periods, min(2.0, length)
     cost += steps * work.tabulated * (prices.step + marks * prices.mark)
     cost += steps * work.drifting * prices.drifting
-    cost += steps * work.searched * (1.0 + marks) * prices.searched
+    search = prices.soft_search if _is_soft(scales) else 1.0
+    cost += search * steps * work.searched * (1.0 + marks) * prices.searched
     each = prices.beat + prices.swing * _swing(scales, plan)
     cost += each * work.tabulated_beats
-    return cost + prices.searched_beat * work.searched_beats
+    return cost + search * prices.searched_beat * work.searched_beats
+
+
+def _is_soft(scales: Scales) -> bool:
+    return (scales.kappa or inf) < SOFT_BRISTLE
 
 
 def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) -> float:
@@ -209,7 +228,7 @@ def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) 
     cost = prices.panel * max(1, sum(visited))
     if scales.lifts:
         cost *= prices.lifting
-    if (scales.kappa or inf) < SOFT_BRISTLE:
+    if _is_soft(scales):
         cost *= prices.soft
     edges = (low < -EDGE and high > -1.0) + (high > EDGE and low < 1.0)
     return prices.curve + cost + prices.edge * edges
@@ -221,6 +240,6 @@ def search_cost(model: Model, tolerance: float, periods: int, scales: Scales) ->
     At fidelity 0 it is one initialisation: the outputs are the averaged theory.
     """
     if model.fidelity == 0:
-        return OUTPUT[model.friction_law]
+        return OUTPUT[model.friction_law, model.averaging_order or 1]
     each = SEARCH_PERIOD[model.friction_law] + period_cost(model, tolerance, scales)
     return SEARCH + periods * each

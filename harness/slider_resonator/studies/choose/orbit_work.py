@@ -2,7 +2,7 @@
 
 The rules are those of the component (fmu_src/README.md, averages of second order): the first orbits
 follow a resolved start, and each further table of orbits is paid for beforehand by resolved motion
-that costs as much.
+that costs as much. That of a lead that drifts from the start is paid for by searches.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ class OrbitWork:
 
     Those that `drifting` counts are among the tabulated ones; the beats are the turns of the slow
     phase in either. `curves` are tabulated, those of a series
-    counted, too; `changes` are those of the lead that orbits follow.
+    counted, too; `changes` are those of the lead that orbits follow, `combined` those among them to
+    a lead whose curve is made from the series.
     """
 
     resolved: float = 0.0
@@ -53,6 +54,7 @@ class OrbitWork:
     searched_beats: float = 0.0
     curves: int = 0
     changes: int = 0
+    combined: int = 0
 
 
 def orbit_work(plan: Plan, scales: Scales, law: int) -> OrbitWork:
@@ -119,6 +121,8 @@ class _Following:
             self._buy(self._source(stay))
         else:
             self.done.changes += stay.count
+            if self._source(stay) == "series" and not stay.drifts:
+                self.done.combined += stay.count
         if stay.driven:
             self.to_go = max(self.to_go, self.start)
 
@@ -131,13 +135,15 @@ class _Following:
             left -= resolved
             if left <= 0.0:
                 return
-            self.resolves = False
+            self.resolves, self.waited = False, 0.0
         self.leads.add(stay.lead)
-        source = self._source(stay)
-        beats = stay.beats * left / stay.periods
-        if source == "search":
-            self.done.searched += left
-            self.done.searched_beats += beats
+        source, beats = self._source(stay), stay.beats / stay.periods
+        searched = left if source == "search" else min(left, self._searched_first(stay))
+        self.waited += searched
+        self.done.searched += searched
+        self.done.searched_beats += beats * searched
+        left -= searched
+        if left <= 0.0:
             return
         if source not in self.tables:
             self.done.curves += SERIES_CURVES if source == "series" else 1
@@ -145,4 +151,9 @@ class _Following:
         self._buy(source)
         self.done.tabulated += left
         self.done.drifting += left if stay.drifts else 0.0
-        self.done.tabulated_beats += beats
+        self.done.tabulated_beats += beats * left
+
+    def _searched_first(self, stay: Stay) -> float:
+        """Return the periods for which a lead that drifts is searched until its series is due."""
+        due = not stay.drifts or self._source(stay) in self.bought
+        return 0.0 if due else max(0.0, self.paid.series - self.waited)

@@ -75,3 +75,34 @@ def test_orbits_at_the_edge_of_turning_back_cost_more() -> None:
     scales, second = scales_of(scene_of("")), Candidate(Model(0, 0, 2), 1e-8, 100.0)
     costs = [run_cost(second, scales, plan(10.0, 1), slow) for slow in ((0.1, 0.6), (0.1, 0.99))]
     assert costs[1] > 3.0 * costs[0]
+
+
+def test_a_lead_that_drifts_is_searched_at_first_which_costs_more_than_tables() -> None:
+    scales, second = scales_of(scene_of("")), Candidate(Model(0, 0, 2), 1e-8, 100.0)
+
+    def cost(drifts: bool) -> float:
+        stays = (Stay(4000.0, (0.0, 1.0), drifts=drifts),)
+        return run_cost(second, scales, Plan(4000.0 * scales.period, 400, stays=stays))
+
+    assert cost(drifts=True) > 3.0 * cost(drifts=False)
+
+
+def test_leads_of_a_series_cost_a_curve_each_where_those_of_a_few_curves_are_kept() -> None:
+    scales, second = scales_of(scene_of("")), Candidate(Model(0, 0, 2), 1e-8, 100.0)
+
+    def cost(leads: int) -> float:
+        stays = tuple(Stay(2e4, (0.1 * (i % leads), 1.0), drifts=False) for i in range(40))
+        return run_cost(second, scales, Plan(8e5 * scales.period, 40, stays=stays))
+
+    assert cost(6) > 2.0 * cost(4)
+
+
+def test_searches_among_soft_bristles_cost_less() -> None:
+    second = Candidate(Model(0, 1, 2), 1e-8, 100.0)
+    costs = []
+    for stiffness in (1e3, 1e5):
+        device = f"[device]\nfriction_law = 1\nbristle_stiffness = {stiffness}\n"
+        scales = scales_of(scene_of(device))
+        stays = (Stay(4000.0, (0.0, 1.0), drifts=True),)
+        costs.append(run_cost(second, scales, Plan(4000.0 * scales.period, 400, stays=stays)))
+    assert costs[0] < 0.5 * costs[1]

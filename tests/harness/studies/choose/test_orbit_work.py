@@ -66,13 +66,23 @@ def test_many_leads_share_a_series() -> None:
     paid = (CURVES - 1) * PAID[0].curve + PAID[0].series
     assert found.resolved == pytest.approx(START + paid)
     assert found.curves == CURVES + SERIES_CURVES
+    assert (found.changes, found.combined) == (CURVES - 1, CURVES - 1)
 
 
-def test_a_lead_that_drifts_follows_a_series_and_searches_under_flight() -> None:
-    assert work(stay(3000.0, drifts=True)).curves == SERIES_CURVES
-    found = work(stay(3000.0, drifts=True), scales=FLIGHT)
+def test_a_lead_that_drifts_from_the_start_searches_until_a_series_is_due() -> None:
+    soon = work(stay(3000.0, drifts=True))
+    assert soon.curves == 0
+    assert soon.searched == pytest.approx(3000.0 - START)
+    long = work(stay(10_000.0, drifts=True))
+    assert long.curves == SERIES_CURVES
+    assert long.searched == pytest.approx(PAID[0].series)
+    assert long.searched + long.tabulated + long.resolved == pytest.approx(10_000.0)
+
+
+def test_a_lead_that_drifts_under_flight_searches_throughout() -> None:
+    found = work(stay(30_000.0, drifts=True), scales=FLIGHT)
     assert found.curves == 0
-    assert found.searched == pytest.approx(3000.0 - START)
+    assert found.searched == pytest.approx(30_000.0 - START)
 
 
 def test_a_tuned_parameter_needs_new_curves_and_a_drive_a_new_start() -> None:
