@@ -26,7 +26,8 @@ from slider_resonator.output.hover_plot import (
     hover_style,
     plot_html,
 )
-from slider_resonator.output.html_page import write_page
+from slider_resonator.output.html_page import rendered, write_page
+from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.studies.sweep.grid import grid_from
 from slider_resonator.studies.sweep.page import write_sweep_page
@@ -79,6 +80,25 @@ def scrolled_on_a_phone(browser: Chrome) -> list[str]:
     finally:
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     return list(found)
+
+
+def test_a_first_column_keeps_its_words_whole_on_a_phone(browser: Chrome, tmp_path: Path) -> None:
+    rows = [("equivalent", "1", "no result changes by more than the allowed deviation")]
+    table = rendered(Table([*texts(""), *numbers("mutants"), *texts("")], rows))
+    page = tmp_path / "page.html"
+    write_page(page, "Words", [table])
+    browser.get(page.as_uri())
+    phone = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", phone)
+    try:
+        boxes = browser.execute_script(
+            "const range = document.createRange();"
+            "range.selectNodeContents(document.querySelector('td'));"
+            "return range.getClientRects().length"
+        )
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    assert boxes == 1, "one line"
 
 
 def told(browser: Chrome) -> list[str]:

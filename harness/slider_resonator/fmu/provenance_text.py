@@ -38,10 +38,10 @@ def _tables(provenance: Provenance) -> list[Table]:
         for facts in [(one.guid, one.version, one.generation_tool, one.sha256)]
     ]
     tools = (
-        *(provenance.harness, provenance.fmpy, provenance.python),
-        *(provenance.platform, provenance.cpu, provenance.date),
+        *(provenance.date, provenance.harness, provenance.fmpy, provenance.python),
+        *(provenance.platform, provenance.cpu),
     )
-    tables = [Table(texts("harness", "fmpy", "Python", "platform", "CPU", "date"), [tools])]
+    tables = [Table(texts("date", "harness", "fmpy", "Python", "platform", "CPU"), [tools])]
     if fmus:
         tables.insert(0, Table(texts("FMU", "GUID", "version", "generation tool", "SHA-256"), fmus))
     return tables

@@ -32,6 +32,7 @@ th, td { text-align: left; vertical-align: top; overflow-wrap: normal; padding: 
 @media screen and (max-width: 50rem) {
   th, td { padding: .2rem .35rem } th.n { white-space: normal }
   .wide:not(.stacks) td:first-child:not(.n) { overflow-wrap: anywhere }
+  .wide:not(.stacks) td:first-child:nth-last-child(-n+3):not(.n) { min-width: 4.8rem }
   .wide:not(.stacks) :is(th, td):first-child { position: sticky; left: 0;
     background: var(--paper) }
   .stacks thead { display: none } .stacks :is(table, tbody) { display: block }

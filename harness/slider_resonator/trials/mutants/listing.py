@@ -24,15 +24,19 @@ def print_run(console: Console, run: MutationRun) -> None:
     """Print counts by kind and file, the most frequent rejections, the survivors and the rate."""
     console.print(rendered(_kinds(run)))
     console.print(rendered(tally("file", run)))
-    console.print(rendered(rejections(run, MAX_REJECTIONS)))
+    if run.rejections():
+        console.print(rendered(rejections(run, MAX_REJECTIONS)))
     for verdict in run.having(SURVIVED):
         heading = Text.assemble(("SURVIVED ", STYLES[Style.FAIL]), verdict.mutant.name)
         reason = Text(escaped(f"     {verdict.reason}"))
         console.print(heading, reason, Text(escaped(verdict.mutant.diff)), sep="\n")
     for status, meaning in STATUSES.items():
-        console.print(f"{status:12} {run.counts[status]:5}  {meaning}")
-    words = fitting(escaped(summary(run)), terminal_width())
-    console.print(words, markup=False, soft_wrap=True)
+        _print_fitting(console, f"{status:12} {run.counts[status]:5}  {meaning}")
+    _print_fitting(console, escaped(summary(run)))
+
+
+def _print_fitting(console: Console, text: str) -> None:
+    console.print(fitting(text, terminal_width()), markup=False, soft_wrap=True)
 
 
 def summary(run: MutationRun) -> str:
@@ -42,7 +46,7 @@ def summary(run: MutationRun) -> str:
     rate = "none changes a result" if run.rate is None else f"{run.rate:.2%}"
     return (
         f"{run.fmu}: rejected {counts['rejected']} of the {changing} mutants that change a result: "
-        f"{rate} ({len(run.verdicts)} tried of {run.made}, {run.probes} probes, "
+        f"{rate} ({len(run.verdicts)} tried of {run.made}, {number_of(run.probes, 'probe')}, "
         f"{run.wall_time:.0f} s)"
     )
 

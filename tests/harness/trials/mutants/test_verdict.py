@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+from io import StringIO
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 from slider_resonator.output.json_output import to_json
+from slider_resonator.trials.mutants import listing
 from slider_resonator.trials.mutants.enumerate_source import source_mutants
 from slider_resonator.trials.mutants.listing import run_as_plain, summary
 from slider_resonator.trials.mutants.page import write_mutants
@@ -50,6 +53,26 @@ def test_plain_data_can_be_written_as_json(run: MutationRun) -> None:
     assert plain["counts"] == run.counts
     assert plain["mutants"][0]["diff"].startswith("--- a.py")
     assert to_json(plain)
+
+
+def test_lines_of_the_terminal_fit_and_an_empty_table_is_left_out(
+    run: MutationRun, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(listing, "terminal_width", lambda: 60)
+
+    def printed(one: MutationRun) -> str:
+        text = StringIO()
+        listing.print_run(Console(file=text, width=60), one)
+        return text.getvalue()
+
+    lines = printed(run).splitlines()
+    assert max(map(len, lines)) <= 60
+    (at,) = (i for i, line in enumerate(lines) if line.startswith("equivalent "))
+    assert lines[at + 1].startswith(" " * lines[at].index("1")), "under the text, not its label"
+    assert "rejected first by" in printed(run)
+    none = printed(MutationRun("my.fmu", 5, 1, tuple(run.having(SURVIVED)), 1.0))
+    assert "rejected first by" not in none
+    assert "1 probe," in none
 
 
 def test_the_page_shows_each_survivor_with_diff_and_reason(
