@@ -143,7 +143,8 @@ def _bending(
     start = _periodic_friction(
         bristle, forward.path(forward.length), backward.path(backward.length)
     )
-    stiffness, drag, rule = bristle.stiffness, bristle.damping * fast.velocity, gauss_legendre(NODES)
+    stiffness, drag = bristle.stiffness, bristle.damping * fast.velocity
+    rule = gauss_legendre(NODES)
     nodes = []
     for arc in (forward, backward):
         unbent = start[arc.direction] - arc.direction * mu
