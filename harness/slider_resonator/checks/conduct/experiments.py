@@ -16,7 +16,7 @@ LONG_STEPS: Sequence[tuple[float, Mapping[str, float]]] = (
     (4.0, {"fidelity": 1.0}),
     (2e4, {"fidelity": 0.0, "averaging_order": 1.0}),
 )
-"""Long steps (s), of some 2000 drive periods and of 11 million that are not resolved, and devices."""
+"""Long steps (s), of 2000 drive periods and of 11 million that are not resolved, and devices."""
 TOLERANCES = (1e-3, 1e-6, 1e-10)
 """Tolerances that hosts define for an experiment."""
 
