@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import pairwise
 from math import cos, exp, expm1, hypot, pi, sin, tau
-from typing import NamedTuple
 
 from .averaged_friction import AveragedFriction, FastMotion, FrictionMeans
 from .bristle import Bristle
@@ -42,11 +41,8 @@ SERIES = 1.0
 _DIVISORS = tuple(2 * k * (2 * k + 1) for k in range(8, 1, -1))
 
 
-class Bending(NamedTuple):
-    """Friction per unit load beyond Coulomb's, times a weight of the quadrature, at `angle`."""
-
-    angle: float
-    friction: float
+Bending = tuple[float, float]
+"""An angle [rad], and friction per unit load beyond Coulomb's, times a weight of the quadrature."""
 
 
 def mean_friction(bristle: Bristle, fast: FastMotion, load: VibratingLoad, turning: float) -> float:
@@ -147,6 +143,8 @@ def _bending(
     start = _periodic_friction(
         bristle, forward.path(forward.length), backward.path(backward.length)
     )
+    stiffness, drag = bristle.stiffness, bristle.damping * fast.velocity
+    rule = gauss_legendre(NODES)
     nodes = []
     for arc in (forward, backward):
         unbent = start[arc.direction] - arc.direction * mu
@@ -155,15 +153,15 @@ def _bending(
         last = _bent_at(bristle, arc)
         edges = [last * share for share in PANELS]
         inner = [kink - arc.begin for kink in kinks(arc.begin, arc.begin + last)]
+        begin, way = arc.begin, arc.way
         for low, high in _panels(edges, inner, wave_number):
             half = 0.5 * (high - low)
-            for node, weight in gauss_legendre(NODES):
+            for node, weight in rule:
                 ahead = low + half * (1.0 + node)
-                speed, path = arc.way(ahead)
-                fade = exp(-bristle.stiffness * path / mu)
-                drag = bristle.damping * fast.velocity * speed
-                friction = unbent * fade * (1.0 - drag / mu)
-                nodes.append(Bending(arc.begin + ahead, weight * half * friction))
+                speed, path = way(ahead)
+                fade = exp(-stiffness * path / mu)
+                friction = unbent * fade * (1.0 - drag * speed / mu)
+                nodes.append((begin + ahead, weight * half * friction))
     return nodes
 
 

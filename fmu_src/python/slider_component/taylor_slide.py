@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from cmath import rect
 from math import inf
-from operator import mul
+from operator import mul, truediv
 
 from .bristle import Bristle
 from .first_zero import Watch
@@ -23,6 +23,12 @@ from .plant import Plant
 
 ORDER = 22
 """Order of the series: close to the cheapest one at any tolerance."""
+
+_COUNT = range(1, ORDER + 2)
+"""1 + the index of each coefficient."""
+
+_STEPS = tuple(1.0 / count for count in range(1, ORDER + 1))
+"""By which integration multiplies each coefficient."""
 
 SMALL = 1e-3
 """Share of a motion that the last terms of its series may have."""
@@ -60,33 +66,42 @@ class TaylorSlide:
         drag, rate_factor = bristle.damping / mu, -sign * bristle.stiffness / mu
         mass, spring, damper = plant.slider_mass, plant.spring, plant.damper
         stiffness, damping = plant.stick.stiffness, 2.0 * plant.stick.decay
-        drive = -1j * rect(1.0, theta)
-        normal = -1j * plant.friction_amplitude * rect(1.0, chi)
+        held_real, held_imag = plant.holding_drive.real, plant.holding_drive.imag
+        base = plant.base_acceleration
+        drive, normal = -1j * rect(1.0, theta), -1j * plant.friction_amplitude * rect(1.0, chi)
+        # As real numbers, which Python multiplies faster than complex ones.
+        drive_real, drive_imag = drive.real, drive.imag
+        normal_real, normal_imag = normal.real, normal.imag
         v, y, u = [state.velocity], [state.displacement], [state.rate]
-        limit, decay, bent = [plant.friction_preload], [1.0], []
-        load = plant.load
+        limit, decay, bent = [plant.friction_preload + normal_real], [1.0], []
+        bending, lost, load = bend / mu, 0.0, plant.load
         resonates = plant.resolves_resonator
-        for k in range(ORDER):
-            step = 1.0 / (k + 1)
-            limit[k] += normal.real
+        for k, step in enumerate(_STEPS):
+            rate, displacement = u[k], y[k]
             product = sum(map(mul, v, reversed(decay)))
-            lost = (1.0 if k == 0 else 0.0) - decay[k]
             bent.append(drag * product + sign * lost)
-            force = share * limit[k] + bend / mu * sum(map(mul, limit, reversed(bent)))
-            held = (plant.holding_drive * drive).real + damper * u[k] + spring * y[k] - load
-            acceleration = (held - force) / mass
+            force = share * limit[k] + bending * sum(map(mul, limit, reversed(bent)))
+            pull = held_real * drive_real - held_imag * drive_imag
+            acceleration = (pull + damper * rate + spring * displacement - load - force) / mass
             v.append(acceleration * step)
-            swing = plant.base_acceleration * drive.real - damping * u[k] - stiffness * y[k]
-            u.append((swing - acceleration) * step if resonates else 0.0)
-            y.append(u[k] * step if resonates else 0.0)
-            decay.append(rate_factor * product * step)
-            limit.append(0.0)
-            load = 0.0
-            drive *= complex(0.0, w * step)
-            normal *= complex(0.0, q * step)
+            if resonates:
+                swing = base * drive_real - damping * rate - stiffness * displacement
+                u.append((swing - acceleration) * step)
+                y.append(rate * step)
+            else:
+                u.append(0.0)
+                y.append(0.0)
+            faded = rate_factor * product * step
+            decay.append(faded)
+            lost, load = -faded, 0.0
+            turned = w * step
+            drive_real, drive_imag = -drive_imag * turned, drive_real * turned
+            turned = q * step
+            normal_real, normal_imag = -normal_imag * turned, normal_real * turned
+            limit.append(normal_real)
         self._sign = sign
         self._velocity, self._displacement, self._rate = v, y, u
-        self._position = [0.0] + [c / (k + 1) for k, c in enumerate(v)]
+        self._position = [0.0, *map(truediv, v, _COUNT)]
         self.reach = _reach(v, tolerance)
         if resonates:
             weight = plant.mass_fraction or 1.0
@@ -114,10 +129,10 @@ class TaylorSlide:
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """The velocity in the direction of sliding, up to `horizon` [s]."""
         velocity = [self._sign * c for c in self._velocity]
-        slope = [k * c for k, c in enumerate(velocity)][1:]
-        curvature = [k * abs(c) for k, c in enumerate(slope)][1:]
+        slope = list(map(mul, velocity[1:], _COUNT))
+        curvature = list(map(mul, map(abs, slope[1:]), _COUNT))
         bound = _value(curvature, horizon)
-        scale = _value([abs(c) for c in velocity], horizon)
+        scale = _value(list(map(abs, velocity)), horizon)
 
         def signal(t: float) -> tuple[float, float, float]:
             return _value(velocity, t), _value(slope, t), bound

@@ -92,6 +92,8 @@ class VibratingLoad:
         """Normal load [N] at drive angle `angle` [rad]."""
         if self._constant is not None:
             return self._constant
+        if self._turns == 1:
+            return self._load(self._ratio * angle + self._delta)
         loads = (self._load(self._ratio * angle + shift) for shift in self._shifts())
         return sum(loads) / self._turns
 
@@ -108,7 +110,8 @@ class VibratingLoad:
         return [self._delta + self._ratio * tau * turn for turn in range(self._turns)]
 
     def _load(self, chi: float) -> float:
-        return max(0.0, self._preload + self._amplitude * sin(chi))
+        load = self._preload + self._amplitude * sin(chi)
+        return load if load > 0.0 else 0.0
 
     def _up_to(self, chi: float) -> float:
         """Integral of N over its own phase, from the touchdown at -dip up to `chi`."""

@@ -89,6 +89,18 @@ class Fmi3Slave:
         """See FMI 2.0."""
         return self._call("fmi3Terminate")
 
+    def fmi2GetFMUstate(self, _: Any, state: Any) -> int:
+        """See FMI 2.0."""
+        return self._call("fmi3GetFMUState", state)
+
+    def fmi2SetFMUstate(self, _: Any, state: Any) -> int:
+        """See FMI 2.0."""
+        return self._call("fmi3SetFMUState", state)
+
+    def fmi2FreeFMUstate(self, _: Any, state: Any) -> int:
+        """See FMI 2.0."""
+        return self._call("fmi3FreeFMUState", state)
+
     def getReal(self, references: Sequence[int]) -> list[float]:
         """See fmpy."""
         return list(self._slave.getFloat64(references))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
@@ -12,8 +12,11 @@ from slider_resonator.fmu.instance import Instance
 
 STEP, STEPS = 0.01, 6
 """Steps (s) that add up to more than their product, by rounding."""
-LONG_STEP = 4.0
-"""A long step (s), of some 2000 drive periods."""
+LONG_STEPS: Sequence[tuple[float, Mapping[str, float]]] = (
+    (4.0, {"fidelity": 1.0}),
+    (2e4, {"fidelity": 0.0, "averaging_order": 1.0}),
+)
+"""Long steps (s), of 2000 drive periods and of 11 million that are not resolved, and devices."""
 TOLERANCES = (1e-3, 1e-6, 1e-10)
 """Tolerances that hosts define for an experiment."""
 
@@ -31,12 +34,13 @@ def experiment_faults(fmu: FmuSide) -> Findings:
                 faults += _run_faults(instance, what, experiment)
         except Refusal as error:
             faults.append(f"an experiment {what} is refused: {error}")
-    try:
-        with instance.explained():
-            instance.start({"fidelity": 1.0})
-            instance.step_by(LONG_STEP)
-    except Refusal as error:
-        faults.append(f"a step of {LONG_STEP:g} s is refused: {error}")
+    for size, device in LONG_STEPS:
+        try:
+            with instance.explained():
+                instance.start({n: v for n, v in device.items() if n in instance.fmu.variables})
+                instance.step_by(size)
+        except Refusal as error:
+            faults.append(f"a step of {size:g} s is refused: {error}")
     return Findings.of(faults)
 
 

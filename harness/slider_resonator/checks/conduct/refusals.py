@@ -15,7 +15,7 @@ from slider_resonator.checks.conduct.findings import Findings, differences
 from slider_resonator.checks.conduct.other_values import other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
-from slider_resonator.errors import NotApplicable, Refusal
+from slider_resonator.errors import Refusal
 from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Running
@@ -47,13 +47,15 @@ OUT_OF_ORDER: Mapping[str, tuple[str, ...]] = {
     "after a run": tuple(name for name in _LIFECYCLE if name != "reading position"),
 }
 """Calls that must be refused, by the state of the instance."""
+ONLY_FMI_2 = ("fmi2SetupExperiment",)
+"""Calls that FMI 3.0 does not have: its experiments begin with initialisation mode."""
 
 EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
     **{f"a start time of {bad}": (False, 0.0, bad, False, 0.0) for bad in (math.nan, math.inf)},
     **{f"a stop time of {bad}": (False, 0.0, 5.0, True, bad) for bad in (math.nan, 4.0)},
     **{f"a tolerance of {bad}": (True, bad, 0.0, False, 0.0) for bad in (math.nan, 0.0, -1e-6)},
 }
-"""Arguments of fmi2SetupExperiment that must be refused."""
+"""Experiments, as arguments of fmi2SetupExperiment, that must be refused."""
 
 STEP_SIZES = (0.0, -0.0, -1e-3, math.nan, math.inf, -math.inf)
 DERIVATIVE_ORDERS = (0, 2, -1)
@@ -109,8 +111,11 @@ class Trial:
 
     def refuses_calls(self, when: str) -> None:
         """Make the calls that are out of order."""
+        version = self.instance.fmu.version
         for name in OUT_OF_ORDER[when]:
-            self.refuses(f"{name} {when}", partial(_LIFECYCLE[name], self.instance))
+            if version == "2.0" or name not in ONLY_FMI_2:
+                what = f"{name.replace('fmi2', f'fmi{version[0]}')} {when}"
+                self.refuses(what, partial(_LIFECYCLE[name], self.instance))
 
     def refuses_derivatives(self, variables: Sequence[Variable]) -> None:
         """Set derivatives that are not finite, of another order or of what is no input."""
@@ -166,8 +171,6 @@ def bad_values(variable: Variable) -> list[float]:
 def refusal_faults(fmu: FmuSide) -> Findings:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
     instance, schedule = fmu.instance, fmu.scene.schedule()
-    if instance.fmu.version != "2.0":
-        raise NotApplicable("needs FMI 2.0, whose calls are tried")
     quiet, running = Running(instance, schedule), Running(instance, schedule)
     start = {**fmu.scene.parameters, **quiet.first}
     with instance.explained():
@@ -221,10 +224,17 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
         instance.set_up()
         call(instance.slave, "fmi2Reset")
     for what, arguments in EXPERIMENTS.items():
-        trial.refuses(what, partial(call, instance.slave, "fmi2SetupExperiment", *arguments))
+        trial.refuses(what, partial(_set_up_experiment, instance, arguments))
     trial.refuses_values("before a run", iter(settable))
     trial.refuses_calls("before a run")
     trial.accepts_bounds(iter(settable))
+
+
+def _set_up_experiment(instance: Instance, arguments: tuple[object, ...]) -> None:
+    """Set up an experiment; FMI 3.0 takes it with initialisation mode."""
+    call(instance.slave, "fmi2SetupExperiment", *arguments)
+    if instance.fmu.version != "2.0":
+        call(instance.slave, "fmi2EnterInitializationMode")
 
 
 def _in_the_run(trial: Trial, present: list[Variable]) -> None:

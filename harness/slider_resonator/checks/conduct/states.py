@@ -11,7 +11,6 @@ from fmpy.fmi2 import FMU2Slave
 
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
@@ -27,8 +26,6 @@ def state_faults(fmu: FmuSide) -> Findings:
     instance = fmu.instance
     slave = instance.slave
     instance.fmu.require("canGetAndSetFMUstate")
-    if isinstance(slave, Fmi3Slave):
-        raise NotApplicable("needs FMI 2.0, whose calls are tried")
     with instance.explained():
         instance.start(fmu.scene.parameters)
         instance.step_by(STEP)
@@ -40,7 +37,7 @@ def state_faults(fmu: FmuSide) -> Findings:
     return Findings.of(faults)
 
 
-def _overwriting_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+def _overwriting_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator[str]:
     """Get the state twice into one place, the second time after a step."""
     state = c_void_p()
     call(slave, "fmi2GetFMUstate", byref(state))
@@ -55,7 +52,7 @@ def _overwriting_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     call(slave, "fmi2FreeFMUstate", byref(state))
 
 
-def _damage_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+def _damage_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator[str]:
     """Read back states with a bit turned or the end cut off, which must be refused.
 
     Turned bits may also be of no account: the state is then the one that was written.
@@ -87,7 +84,7 @@ def _damage_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     slave.freeFMUstate(state)
 
 
-def _freeing_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
+def _freeing_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator[str]:
     """Free a state, whose pointer must then be null, and a null pointer, which is no error.
 
     pythonfmu leaves the pointer as it is.

@@ -21,8 +21,13 @@ def slow_trajectory(
     ``acceleration`` is a function of time and velocity; where it depends on time, steps of at most
     ``max_step`` resolve it. Raises RuntimeError when it cannot be integrated.
     """
+
+    def rates(time: float, state: Array) -> tuple[float, float]:
+        slow = float(state[1])  # scalars of numpy take several times as long
+        return slow, acceleration(float(time), slow)
+
     solution = solve_ivp(
-        lambda time, state: (state[1], acceleration(time, state[1])),
+        rates,
         (times[0], times[-1]),
         (0.0, velocity),
         method="DOP853" if np.isfinite(max_step) else "LSODA",

@@ -70,14 +70,14 @@ def mean_friction(
     forward = 2.0 * rate * (q * math.sin(turn) + velocity * (math.pi - turn))
     turned_backward = _share_at_end_of_forward(backward, forward)
     turned_forward = turned_backward + (1.0 + turned_backward) * math.expm1(-backward)
+    later = [replace(case, phase=case.phase + 2.0 * math.pi * k * ratio) for k in range(1, turns)]
     total = 0.0
     for start, end, sign, share in (
         (-turn, turn, -1.0, turned_backward),
         (turn, 2.0 * math.pi - turn, 1.0, turned_forward),
     ):
-        for turn in range(turns):
-            later = replace(case, phase=case.phase + 2.0 * math.pi * turn * ratio)
-            total += _arc(velocity, later, rate, (start, end), sign, share, ratio)
+        for in_turn in (case, *later):
+            total += _arc(velocity, in_turn, rate, (start, end), sign, share, ratio)
     return mu * total / (2.0 * math.pi * turns)
 
 
@@ -182,7 +182,7 @@ def _arc(
     bristle = sign + (share - sign) * np.exp(-rate * sign * slid)
     friction = bristle + case.damping / mu * (speed - np.abs(speed) * bristle)
     normal = 1.0 + case.amplitude_ratio * np.sin(ratio * (start + past) + case.phase)
-    return float(np.sum(weights * normal * friction))
+    return float((weights * normal) @ friction)
 
 
 def _nodes(

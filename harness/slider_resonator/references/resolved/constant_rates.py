@@ -37,29 +37,23 @@ class _Modes:
 
     Its states are w x, X', w Y, Y', sine and cosine of the drive angle, sine and cosine of the
     angle of the normal load times the slip direction, the constant forces in N and their rate.
-    ``rates`` is A h, shape (10, 10), ``powers`` exp(k A h) of the step h, shape (steps + 1, 10,
-    10), and ``needed`` gives the force that the slider needs to stick.
+    ``rates`` is A h, shape (10, 10), ``series`` the terms of exp(A h), shape (_ORDER + 1, 10, 10),
+    ``powers`` exp(k A h) of the step h, shape (steps + 1, 10, 10), and ``needed`` gives the force
+    that the slider needs to stick.
     """
 
     step: float
     rates: Array
+    series: Array
     powers: Array
     needed: Array
 
     def between(self, states: Array, shares: Array) -> Array:
         """Return the states a share of a step, (k, 1), after ``states``, (k, 10)."""
-        later = states
-        for order in range(_ORDER, 0, -1):
-            later = states + shares / order * (later @ self.rates.T)
+        terms = np.tensordot(states, self.series, axes=(1, 2))
+        weights = shares ** np.arange(_ORDER + 1)
+        later: Array = (weights[:, np.newaxis] @ terms)[:, 0]
         return later
-
-    def polynomial(self, states: Array, row: Array) -> list[float]:
-        """Return the coefficients, highest first, of ``row`` times the state over a step."""
-        terms = [float(row @ states)]
-        for order in range(1, _ORDER + 1):
-            states = self.rates @ states / order
-            terms.append(float(row @ states))
-        return terms[::-1]
 
 
 def follow_constant_rates(segment: Segment) -> SegmentResult:
@@ -146,12 +140,13 @@ def _margins(modes: _Modes, equations: Equations, mode: int) -> list[tuple[int, 
 def _crossing(modes: _Modes, states: Array, row: Array, offset: float) -> float | None:
     """Return after how many steps a margin turns negative, None if it does not."""
     values, slopes = states @ row + offset, states @ (row @ modes.rates)
+    series = (row @ modes.series)[::-1]
     pieces: dict[int, Callable[[float], tuple[float, float]]] = {}
 
     def margin(time: float) -> tuple[float, float]:
         index = min(int(time), len(states) - 2)
         if index not in pieces:
-            pieces[index] = _piece(modes.polynomial(states[index], row), offset)
+            pieces[index] = _piece((series @ states[index]).tolist(), offset)
         return pieces[index](time - index)
 
     floor = _NOISE * float(np.abs(values).max())
@@ -209,11 +204,11 @@ def _modes(equations: Equations, ratio: float, sticks: bool) -> _Modes:
         rates[_RATE] -= rates[_V]
     turned = 2.0 * math.pi * frequency / equations.fastest_rate(ratio)
     step = turned / STEPS_PER_FASTEST_PERIOD
-    term = once = np.eye(10)
+    terms = [np.eye(10)]
     for order in range(1, _ORDER + 1):
-        term = term @ rates * (step / order)
-        once = once + term
-    powers = np.stack([np.eye(10), once])
+        terms.append(terms[-1] @ rates * (step / order))
+    series = np.stack(terms)
+    powers = np.stack([np.eye(10), series.sum(axis=0)])
     while len(powers) <= STEPS_PER_FASTEST_PERIOD:
         powers = np.concatenate([powers, powers[1:] @ powers[-1]])
-    return _Modes(step, step * rates, powers, needed)
+    return _Modes(step, step * rates, series, powers, needed)

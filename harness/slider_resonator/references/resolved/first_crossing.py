@@ -34,7 +34,7 @@ def first_crossing(
     for index in np.flatnonzero(falls | dips).tolist():
         left, right = float(grid[index]), float(grid[index + 1])
         if not falls[index]:
-            right = _root(lambda time: function(time)[1], left, right)
+            right = _lowest(lambda time: function(time)[1], left, right)
             if not function(right)[0] < -floor:
                 continue
         return _crossing_between(left, right, lambda time: function(time)[0])
@@ -51,6 +51,13 @@ def _crossing_between(left: float, right: float, value: Callable[[float], float]
         if value(left + width) > 0.0:
             return _root(value, left + width, left + 2.0 * width)
     return left
+
+
+def _lowest(slope: Callable[[float], float], left: float, right: float) -> float:
+    """Return where a slope turns positive: at an end where its sign there is one of rounding."""
+    if slope(left) >= 0.0:
+        return left
+    return right if slope(right) <= 0.0 else _root(slope, left, right)
 
 
 def _root(value: Callable[[float], float], left: float, right: float) -> float:

@@ -140,23 +140,29 @@ class _Run:
         faces, coefficient = self._device.friction_faces, self._device.friction_coefficient
         stiffness, damping = self._device.bristle_stiffness, self._device.bristle_damping
 
+        load, load_rate = inputs.load, inputs.load_rate
+        force_sine, force_cosine = equations.force_sine, equations.force_cosine
+        coupling, spring = equations.coupling_damping, equations.coupling_stiffness
+        inertia, base = equations.inertia, equations.base_acceleration
+        damping_rate, stiffness_rate = equations.damping_rate, equations.stiffness_rate
+
         def slopes(time: float, state: Array) -> list[float]:
             _, velocity, displacement, resonator_velocity, deflection = state.tolist()
             deflection_rate = velocity - stiffness * abs(velocity) * deflection / coefficient
             normal = max(0.0, preload + amplitude * sin(angle + (angle_rate + half * time) * time))
             sine = sin(theta + rate * time)
             acceleration = (
-                equations.coupling_damping * resonator_velocity
-                + equations.coupling_stiffness * displacement
-                + equations.force_sine * sine
-                + equations.force_cosine * cos(theta + rate * time)
-                - (inputs.load + inputs.load_rate * time)
+                coupling * resonator_velocity
+                + spring * displacement
+                + force_sine * sine
+                + force_cosine * cos(theta + rate * time)
+                - (load + load_rate * time)
                 - faces * normal * (stiffness * deflection + damping * deflection_rate)
-            ) / equations.inertia
+            ) / inertia
             resonator = (
-                equations.base_acceleration * sine
-                - equations.damping_rate * resonator_velocity
-                - equations.stiffness_rate * displacement
+                base * sine
+                - damping_rate * resonator_velocity
+                - stiffness_rate * displacement
                 - acceleration
             )
             return [velocity, acceleration, resonator_velocity, resonator, deflection_rate]
@@ -192,7 +198,8 @@ class _Events:
 
     def follow(self, solver: Any) -> None:
         """Search a step of a solver for events."""
-        direction = int(np.sign(solver.y[1]))
+        reached = solver.y.item(1)
+        direction = (reached > 0.0) - (reached < 0.0)
         if direction * self._contact.direction < 0:
             dense = solver.dense_output()
 

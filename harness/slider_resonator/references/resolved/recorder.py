@@ -23,7 +23,10 @@ class Recorder:
 
     def pending(self, stop: float = np.inf) -> Array:
         """Return the times up to ``stop`` (s) that have no sample yet, shape (k,)."""
-        return self.times[self._next : np.searchsorted(self.times, stop, side="right")]
+        waiting = self.times[self._next :]
+        if not len(waiting) or waiting[0] > stop:
+            return waiting[:0]
+        return waiting[: np.searchsorted(waiting, stop, side="right")]
 
     def keep(
         self,

@@ -38,3 +38,17 @@ def test_start_on_a_root_is_no_event() -> None:
 
 def test_start_on_a_root_is_an_event_if_the_function_falls() -> None:
     assert crossing(Polynomial([0.0, -1.0])) == 0.0
+
+
+@pytest.mark.parametrize("end", [0, 1])
+def test_slope_whose_sign_at_an_end_is_one_of_rounding_gives_no_event(end: int) -> None:
+    lowest = GRID[3 + end]
+    dip = Polynomial([0.5 + lowest**2, -2.0 * lowest, 1.0])
+    slope, rounding = dip.deriv(), -1e-18 if end == 0 else 1e-18
+    slopes = slope(GRID)
+    slopes[3 + end] = rounding
+    function: Callable[[float], tuple[float, float]] = lambda time: (  # noqa: E731
+        dip(time),
+        slope(time) - rounding,
+    )
+    assert first_crossing(GRID, dip(GRID), slopes, function, 1e-15) is None
