@@ -35,13 +35,13 @@ static bool work_count(Work *work, double time, const Budget *budget, Refusal *r
            || budget_refuse(budget, time, MAX_STEP_LEGS, "legs of motion", refusal);
 }
 
-/* Refuses a motion that takes too many legs even if each is as long as may be. A search for an event may
- * end it before. */
+/* Refuses a motion that takes too many legs even if each has the maximum length `longest` [s]. A search for an
+ * event may end it earlier: it is not refused. */
 static bool work_fits(const Work *work, double duration, double longest, const EventSearch *search,
                       const Budget *budget, Refusal *refusal) {
-    double most = work->max_all * longest;
-    return search != NULL || duration <= most
-           || budget_refuse(budget, most, MAX_STEP_LEGS, "legs of motion", refusal);
+    double reach = work->max_all * longest;
+    return search != NULL || duration <= reach
+           || budget_refuse(budget, reach, MAX_STEP_LEGS, "legs of motion", refusal);
 }
 
 /* Ends a search with the event at the time of the clock, unless the search ignores that time. */

@@ -8,8 +8,8 @@
 #include "slow_motion_error.h"
 #include "state.h"
 
-/* Nodes in a row whose values a polynomial must have for it to hold, and fewest nodes of a panel. */
-enum { HOLDING = 2, FEWEST_NODES = 6 };
+/* Nodes in a row whose values a polynomial must have for it to hold, and minimum number of nodes of a panel. */
+enum { HOLDING = 2, MIN_NODES = 6 };
 
 /* Smallest factor by which a node reduces the miss: with less, the last node does not hold, and the panel is halved. */
 #define GAIN_OF_NODE 4.0
@@ -170,7 +170,7 @@ static bool add_node(OrbitPanel *panel, const OrbitCurve *curve, const PeriodMap
 }
 
 static bool all_hold(const PanelOrbits *found) {
-    bool all = found->count >= FEWEST_NODES;
+    bool all = found->count >= MIN_NODES;
     for (int q = 0; q < ORBIT_QUANTITIES; q++) {
         all = all && holds(&found->of[q]);
     }
@@ -184,7 +184,7 @@ static bool is_hopeless(const PanelOrbits *found) {
     for (int q = 0; q < ORBIT_QUANTITIES; q++) {
         const NodeValues *values = &found->of[q];
         bool misses = !holds(values) && values->missed > left * values->accuracy;
-        hopeless = hopeless || (misses && found->count >= FEWEST_NODES);
+        hopeless = hopeless || (misses && found->count >= MIN_NODES);
     }
     return hopeless;
 }

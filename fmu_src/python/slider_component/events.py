@@ -32,10 +32,10 @@ def advance(
     """
     plant, arc, window = held.plant, held.arc, held.window
     max_legs = MAX_STEP_LEGS // PYTHON_SLOWDOWN
-    most_legs = budget.left(max_legs)
+    legs_left = budget.left(max_legs)
     turn = tau / LONGEST_ARC * arc
-    if duration > most_legs * arc:
-        raise budget.refusal(most_legs * arc, max_legs, "legs of motion")
+    if duration > legs_left * arc:
+        raise budget.refusal(legs_left * arc, max_legs, "legs of motion")
     clock, remaining = Clock(duration), duration
     legs, all_legs, turn_began = 0, 0, 0.0
     departs = moment.state.velocity == 0.0
@@ -49,7 +49,7 @@ def advance(
             what = "legs in a turn of the fastest oscillation"
             raise budget.refusal(clock.elapsed, MAX_LEGS, what)
         all_legs += 1
-        if all_legs > most_legs:
+        if all_legs > legs_left:
             raise budget.refusal(clock.elapsed, max_legs, "legs of motion")
         switching, longest = inf, remaining if remaining < arc else arc
         if window is not None:

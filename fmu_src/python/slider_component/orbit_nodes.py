@@ -34,8 +34,8 @@ from .period_map import PeriodMap
 HOLDING = 2
 """Nodes in a row whose values a polynomial must have for it to hold."""
 
-FEWEST_NODES = 6
-"""Fewest nodes of a panel."""
+MIN_NODES = 6
+"""Minimum number of nodes of a panel."""
 
 GAIN_OF_NODE = 4.0
 """Smallest factor by which a node reduces the miss.
@@ -192,7 +192,7 @@ class PanelOrbits:
             raise undetermined
 
     def _all_hold(self) -> bool:
-        enough = len(self._orbits) >= FEWEST_NODES
+        enough = len(self._orbits) >= MIN_NODES
         return enough and all(values.holds for values in self._of.values())
 
     def _is_hopeless(self) -> bool:
@@ -203,7 +203,7 @@ class PanelOrbits:
             not values.holds and values.missed > left * values.accuracy
             for values in self._of.values()
         )
-        return count == ORBIT_NODES or (count >= FEWEST_NODES and misses)
+        return count == ORBIT_NODES or (count >= MIN_NODES and misses)
 
 
 def _without_noise(coefficients: list[float], noise: float) -> list[float]:

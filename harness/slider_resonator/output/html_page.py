@@ -135,12 +135,15 @@ def _min_width(table: Table) -> int:
     """Return the characters of the narrowest row, with one for each column; numbers keep a line."""
     whole = [row for row in table.cells if len(row) == len(table.columns)]
     return sum(
-        1 + max([_longest_word(column.heading), *(_least(row[index], column) for row in whole)])
+        1
+        + max(
+            [_longest_word(column.heading), *(_min_cell_width(row[index], column) for row in whole)]
+        )
         for index, column in enumerate(table.columns)
     )
 
 
-def _least(cell: Cell, column: Column) -> int:
+def _min_cell_width(cell: Cell, column: Column) -> int:
     return len(cell.text) if column.numeric else _longest_word(cell.text)
 
 

@@ -48,5 +48,5 @@ def test_looks_are_the_ends_of_shorter_motions(case: Case, tolerance: float) -> 
         assert end is not None
         w = case.device.drive_frequency
         units = scales.speed, scales.swing, scales.swing * w, scales.speed / w
-        wanted = np.array([*end.state, end.position]) / units
-        assert np.array([*state, position]) / units == pytest.approx(wanted, abs=tolerance)
+        expected = np.array([*end.state, end.position]) / units
+        assert np.array([*state, position]) / units == pytest.approx(expected, abs=tolerance)

@@ -37,13 +37,13 @@ WARNINGS = b"logStatusWarning"
 """A log category to which no refusal belongs."""
 
 CATEGORY, FORMAT = "logs of ", "%d"
-"""The name of no log category, and what is a format to who does not double its percent sign."""
+"""An unknown log category; its end acts as a format where percent signs are not doubled."""
 
 OTHER_HOST = 7
-"""The environment of a host, which an FMU hands back and does not use."""
+"""The componentEnvironment of another host; an FMU must only hand it back."""
 
 MANY = 4096
-"""Number of values asked for in one call, far more than there are variables."""
+"""Number of values read in one call, far more than there are variables."""
 
 
 def host_faults(fmu: FmuSide) -> Findings:
@@ -151,13 +151,13 @@ def _text_faults(instance: Instance) -> Iterator[str]:
 
 
 def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
-    """Make an instance beside this one for another host, which must hear of its refusals."""
+    """Create an instance for another host, to which alone its refusals must be reported."""
     if instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
         return
-    heard: list[int | None] = []
+    environments: list[int | None] = []
 
     def listen(environment: int | None, *_: object) -> None:
-        heard.append(environment)
+        environments.append(environment)
 
     messages, callbacks = fmu_log.collect("beside")
     callbacks.logger = fmi2CallbackLoggerTYPE(listen)
@@ -174,7 +174,7 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     slave.dll.fmi2DoStep(c_void_p(made), c_double(0.0), c_double(-1.0), True)
     slave.dll.fmi2FreeInstance(made)
     fmu_log.forget("beside")
-    if messages or instance.messages or set(heard) - {OTHER_HOST}:
+    if messages or instance.messages or set(environments) - {OTHER_HOST}:
         yield "an instance beside another reports to the host of that one"
 
 

@@ -56,9 +56,9 @@ def test_a_programming_error_has_the_traceback_of_the_process(
 
 
 def test_progress_arrives_before_the_result(isolated: IsolatedFmu) -> None:
-    told: list[tuple[str, float]] = []
-    assert isolated.run(tasks.in_thirds, lambda *done: told.append(done)) == "done"
-    assert told == [("third 0", 0.0), ("third 1", 1 / 3), ("third 2", 2 / 3)]
+    reported: list[tuple[str, float]] = []
+    assert isolated.run(tasks.in_thirds, lambda *done: reported.append(done)) == "done"
+    assert reported == [("third 0", 0.0), ("third 1", 1 / 3), ("third 2", 2 / 3)]
 
 
 def test_the_fmu_shares_no_stream_with_the_harness(isolated: IsolatedFmu) -> None:
