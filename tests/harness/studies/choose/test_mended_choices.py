@@ -24,9 +24,15 @@ SCENES = {
         "[run]\nstop_time = 12.0\nstep_size = 0.05\n[need]\nposition = { rel = 1e-4 }\n",
         (0, 2, 0),
     ),
-    "stiff bristles that are resolved at little cost": (
+    "stiff bristles whose orbits cost little": (
         "[device]\nfriction_law = 1\nbristle_stiffness = 1e6\n[inputs]\nphase = 0.2\n"
         "[run]\nstop_time = 2.0\nstep_size = 0.05\n"
+        '[need]\nmean_velocity = { rel = 1e-4 }\nfriction_law = "free"\n',
+        (0, 2, 1),
+    ),
+    "a short run on stiff bristles": (
+        "[device]\nfriction_law = 1\nbristle_stiffness = 1e6\n[inputs]\nphase = 0.2\n"
+        "[run]\nstop_time = 0.5\nstep_size = 0.05\n"
         '[need]\nmean_velocity = { rel = 1e-4 }\nfriction_law = "free"\n',
         (2, None, 1),
     ),
