@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -44,6 +45,7 @@ from tests.harness.verdicts import PASSED
 pytestmark = pytest.mark.interop
 
 SECONDS = 30.0
+LOOKS = 50
 TIPS = "[...document.querySelectorAll('.tip')].filter((tip) => !tip.hidden)"
 
 
@@ -72,11 +74,15 @@ def scrolled_on_a_phone(browser: Chrome) -> list[str]:
     phone = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", phone)
     try:
-        found = browser.execute_script(
-            "return [document.documentElement, ...document.querySelectorAll('.wide')]"
-            ".filter((one) => one.scrollWidth > one.clientWidth + 1)"
-            ".map((one) => one.innerText.slice(0, 200))"
-        )
+        for _ in range(LOOKS):  # plots follow the width of the page a moment later
+            found = browser.execute_script(
+                "return [document.documentElement, ...document.querySelectorAll('.wide')]"
+                ".filter((one) => one.scrollWidth > one.clientWidth + 1)"
+                ".map((one) => one.innerText.slice(0, 200))"
+            )
+            if not found:
+                break
+            time.sleep(0.1)
     finally:
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     return list(found)
