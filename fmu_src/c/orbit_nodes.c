@@ -49,7 +49,7 @@ static double scale_of(const PeriodMap *map, const OrbitCurve *curve, OrbitQuant
     case ORBIT_OFFSET:
         return map->speed;
     case ORBIT_WAY:
-        return 10.0 * map->speed / w;
+        return map->speed / w;
     case ORBIT_DISPLACEMENT:
         return 10.0 * map->swing;
     case ORBIT_RATE:

@@ -5,7 +5,7 @@
 #ifndef SLIDER_PANEL_SERIES_H
 #define SLIDER_PANEL_SERIES_H
 
-/* Most nodes of a panel, and those that pass it. */
+/* Maximum number of nodes of a panel, and those that pass it. */
 enum { ORBIT_NODES = 20, PASSING_NODES = 5 };
 
 /* The `count` terms for the values at the first nodes. */

@@ -82,7 +82,7 @@ class OrbitCurve:
             friction=abs(forward.of.friction) + abs(backward.of.friction),
             factor=10.0,
             offset=scales.speed,
-            way=10.0 * scales.speed / w,
+            way=scales.speed / w,
             displacement=10.0 * scales.swing,
             rate=10.0 * scales.swing * w,
             bristle=100.0 * scales.held.bristle.coefficient,

@@ -214,10 +214,10 @@ class CountedMaps:
             load: float,
             moment: Moment,
             duration: float,
-            trace: Trace | None = None,
+            *trace: Trace | None,
         ) -> Moment | None:
             self._maps += duration > 0.9 * period_map.period
-            return advance(period_map, lead, load, moment, duration, trace)
+            return advance(period_map, lead, load, moment, duration, *trace)
 
         monkeypatch.setattr(PeriodMap, "advance", counted)
 
