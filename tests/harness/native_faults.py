@@ -163,6 +163,12 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         "        if (chirp > 0.0) {\n",
         "chirp_falling",
     ),
+    "switching logs is refused": (
+        "instance.c",
+        "    return known;\n}\n\nStatus",
+        "    return false;\n}\n\nStatus",
+        "interface",
+    ),
 }
 """What is wrong: the C file, what to replace by what, and the scene that must notice."""
 

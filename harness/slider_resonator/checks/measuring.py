@@ -53,9 +53,13 @@ class Measurement:
 
 
 def measure(quantity: str, fmu: FmuSide) -> Measurement:
-    """Measure a quantity in the FMU; SceneError when the scene does not allow it."""
+    """Measure a quantity in the FMU.
+
+    Raises SceneError when the scene does not allow it, Refusal when the FMU refuses a call for it.
+    """
     try:
-        value = MEASURES[quantity](fmu)
+        with fmu.instance.explained():
+            value = MEASURES[quantity](fmu)
     except NotApplicable as error:
         return Measurement(None, str(error), applicable=False)
     except (NoOscillation, np.linalg.LinAlgError, ArithmeticError) as error:

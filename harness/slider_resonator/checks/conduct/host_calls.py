@@ -113,6 +113,14 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
 
 
 def _logging_faults(instance: Instance) -> Iterator[str]:
+    """Switch logging off and on, which no FMU may refuse."""
+    try:
+        yield from _switching_faults(instance)
+    except FMICallException as error:
+        yield str(error)
+
+
+def _switching_faults(instance: Instance) -> Iterator[str]:
     """Make a call that is refused, with logging off, on, and on for other messages only."""
     errors = (c_char_p * 1)(b"logStatusError")
     if _refusal_is_logged(instance, False, 1, errors) or _refusal_is_logged(instance, False):
