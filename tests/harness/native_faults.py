@@ -169,6 +169,12 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         "    return false;\n}\n\nStatus",
         "interface",
     ),
+    "a mean velocity that is held has a derivative": (
+        "output_derivatives.c",
+        "is_averaged(law) ? slow_acceleration(law, moment) : 0.0",
+        "slow_acceleration(law, moment)",
+        "late_start",
+    ),
 }
 """What is wrong: the C file, what to replace by what, and the scene that must notice."""
 

@@ -17,6 +17,8 @@ SLOW = "mean_velocity"
 """An output that is smooth, and slow, where motion is averaged to first order."""
 COUNTS = ("contact_mode", "reversals", "last_event_time")
 """Outputs that change at an event."""
+HELD = (SLOW, "stick_fraction", *COUNTS)
+"""Outputs that are held for a time, in which their derivative is 0."""
 SHORT = 1e-6
 """A step, in drive periods; quotients are of second order, over two."""
 ALLOWED = 1e-3
@@ -45,17 +47,25 @@ def derivative_faults(
         return []
     step = SHORT * 6.283185307179586 / frequency
     outputs = (*OUTPUTS, SLOW) if _is_averaged(instance) else OUTPUTS
-    references = {name: instance.fmu.variables[name].valueReference for name in outputs}
-    reported = {name: _derivative(slave, reference) for name, reference in references.items()}
-    rows = [instance.read((*outputs, *COUNTS))]
+    held = [name for name in HELD if name not in outputs]
+    variables = instance.fmu.variables
+    reported = {
+        name: _derivative(slave, variables[name].valueReference) for name in (*outputs, *held)
+    }
+    rows = [instance.read((*outputs, *HELD))]
     for _ in range(2):
         instance.step_by(step)
-        rows.append(instance.read((*outputs, *COUNTS)))
+        rows.append(instance.read((*outputs, *HELD)))
     state.restore()
     if any(row[name] != rows[0][name] for row in rows for name in COUNTS):
         return []
-    faults = []
-    for name, derivative in reported.items():
+    faults = [
+        f"the derivative of {name} is {reported[name]!r} while it is held"
+        for name in held
+        if reported[name] and all(row[name] == rows[0][name] for row in rows)
+    ]
+    for name in outputs:
+        derivative = reported[name]
         first, middle, last = (row[name] for row in rows)
         quotient = (4.0 * (middle - first) - (last - first)) / (2.0 * step)
         natural = ROUNDED / step if name == SLOW else SMALL * frequency
