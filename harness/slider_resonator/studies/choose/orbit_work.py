@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from slider_resonator.studies.choose.candidate import COULOMB, LUGRE
 from slider_resonator.studies.choose.plan import Plan, Stay
-from slider_resonator.studies.choose.scales import Scales
+from slider_resonator.studies.choose.scales import Scales, longest_memory
 
 CURVES = 4
 """Leads, and changes of a parameter, up to which each has a curve of orbits."""
@@ -64,8 +64,7 @@ def orbit_work(plan: Plan, scales: Scales, law: int) -> OrbitWork:
 
 def resolved_start(scales: Scales, law: int) -> float:
     """Return the drive periods of the resolved start under a friction law."""
-    bristle = 0.25 / scales.kappa if law == LUGRE and scales.kappa else 0.0
-    return max(SMALLEST_START, MEMORIES * max(scales.memory, bristle))
+    return max(SMALLEST_START, MEMORIES * longest_memory(scales, law))
 
 
 class _Following:
