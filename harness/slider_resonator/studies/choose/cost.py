@@ -50,13 +50,13 @@ class AveragedPrices:
 AVERAGED = {
     (COULOMB, False): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
     (COULOMB, True): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
-    (LUGRE, False): AveragedPrices(10e-6, 0.4e-3, 1.7e-6, 3e-6, 10e-6, 14e-6),
+    (LUGRE, False): AveragedPrices(10e-6, 0.4e-3, 1.7e-6, 3e-6, 10e-6, 9e-6),
     (LUGRE, True): AveragedPrices(10e-6, 2e-3, 60e-6, 0.5e-3, 2.2e-3, 0.0),
 }
 """Of first order, by friction law and whether the contact lifts: then the mean friction of a
 bristle is integrated."""
-MAX_SWING = 2.0
-"""Largest number of relaxation times in a turn of the slow phase that counts."""
+FOLLOWED = 8.0
+"""Relaxation times in a turn of the slow phase that count fully; further ones by the power 2/3."""
 MOVING = {COULOMB: 4.0, LUGRE: 0.5}
 BENDING, MAX_BENDING = 0.45e-3, 2.2
 """Seconds of a table for each decade of kappa from a third on, for so many."""
@@ -72,9 +72,9 @@ class OrbitPrices:
     period in it, of which the last two count; `drifting` is added to a step in which the lead
     drifts, `searched` is for step and marks where orbits are searched, `change` for going over to
     another lead, `combined` for making a curve at one from the series. `beat` and `swing` are for
-    a turn of the slow phase as with averages of first order,
-    and `searched_beat` for one that searches; searches among soft bristles cost `soft_search` times
-    as much.
+    a turn of the slow phase as with averages of first order, `swing` times the root of the share of
+    friction in the drive; `searched_beat` and `searched_swing` are for one that searches. Searches
+    among soft bristles cost `soft_search` times as much. `start` is once.
     """
 
     curve: float
@@ -90,6 +90,8 @@ class OrbitPrices:
     beat: float
     swing: float
     searched_beat: float
+    searched_swing: float
+    start: float = 20e-6
     soft: float = 1.0
     soft_search: float = 1.0
 
@@ -106,9 +108,10 @@ ORBITS = {
         searched=16e-6,
         change=6e-6,
         combined=0.55e-3,
-        beat=64e-6,
-        swing=0.37e-3,
+        beat=50e-6,
+        swing=1.5e-3,
         searched_beat=0.2e-3,
+        searched_swing=0.5e-3,
     ),
     LUGRE: OrbitPrices(
         curve=0.3e-3,
@@ -122,8 +125,9 @@ ORBITS = {
         change=60e-6,
         combined=0.32e-3,
         beat=90e-6,
-        swing=70e-6,
-        searched_beat=4e-3,
+        swing=5e-3,
+        searched_beat=2.5e-3,
+        searched_swing=3e-3,
         soft=4.0,
         soft_search=0.03,
     ),
@@ -188,9 +192,11 @@ def _averaged_cost(model: Model, scales: Scales, plan: Plan) -> float:
 
 
 def _swing(scales: Scales, plan: Plan) -> float:
-    """Return how far the slow velocity follows the slow phase in its turns."""
-    relaxations = plan.duration / scales.relaxation
-    return min(MAX_SWING, relaxations / plan.beats) if plan.beats else 0.0
+    """Return the work of following the slow velocity in a turn of the slow phase."""
+    if plan.beats == 0.0:
+        return 0.0
+    relaxations = plan.duration / scales.relaxation / plan.beats
+    return min(relaxations, FOLLOWED) * max(1.0, relaxations / FOLLOWED) ** (2.0 / 3.0)
 
 
 def _orbit_cost(
@@ -202,7 +208,7 @@ def _orbit_cost(
     periods = plan.duration / scales.period
     cost = resolved_cost(full, candidate.tolerance, scales, plan, work.resolved)
     rough = 1.0 + min(1.0, ROUGH * sqrt(scales.slowness or 0.0))
-    cost += work.curves * _curve_cost(prices, scales, slow)
+    cost += prices.start + work.curves * _curve_cost(prices, scales, slow)
     cost += prices.change * work.changes + prices.combined * work.combined
     length = plan.duration / plan.steps / scales.period
     steps, marks = rough * plan.steps / periods, min(2.0, length)
@@ -210,9 +216,11 @@ def _orbit_cost(
     cost += steps * work.drifting * prices.drifting
     search = prices.soft_search if _is_soft(scales) else 1.0
     cost += search * steps * work.searched * (1.0 + marks) * prices.searched
-    each = prices.beat + prices.swing * _swing(scales, plan)
+    swing = _swing(scales, plan)
+    each = prices.beat + prices.swing * sqrt(scales.slowness or 0.0) * swing
     cost += each * work.tabulated_beats
-    return cost + search * prices.searched_beat * work.searched_beats
+    each = prices.searched_beat + prices.searched_swing * swing
+    return cost + search * each * work.searched_beats
 
 
 def _is_soft(scales: Scales) -> bool:
