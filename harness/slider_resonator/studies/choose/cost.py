@@ -66,15 +66,15 @@ BENDING, MAX_BENDING = 0.45e-3, 2.2
 class OrbitPrices:
     """Seconds of averages of second order.
 
-    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts,
-    `soft` times where bristles are soft; `edge` is added for one in which the slider hardly turns
-    back, and `curve` for each curve. `step` is for a communication step, `mark` for an end of a
-    period in it, of which the last two count; `drifting` is added to a step in which the lead
-    drifts, `searched` is for step and marks where orbits are searched, `change` for going over to
-    another lead, `combined` for making a curve at one from the series. `beat` and `swing` are for
-    a turn of the slow phase as with averages of first order, `swing` times the root of the share of
-    friction in the drive; `searched_beat` and `searched_swing` are for one that searches. Searches
-    among soft bristles cost `soft_search` times as much. `start` is once.
+    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts;
+    `edge` is added for one in which the slider hardly turns back, and `curve` for each curve.
+    `step` is for a communication step, `mark` for an end of a period in it, of which the last two
+    count; `drifting` is added to a step in which the lead drifts, `searched` is for step and marks
+    where orbits are searched, `change` for going over to another lead, `combined` for making a
+    curve at one from the series. `beat` and `swing` are for a turn of the slow phase as with
+    averages of first order, `swing` times the root of the share of friction in the drive;
+    `searched_beat` and `searched_swing` are for one that searches. Searches among soft bristles
+    cost `soft_search` times as much. `start` is once.
     """
 
     curve: float
@@ -92,7 +92,6 @@ class OrbitPrices:
     searched_beat: float
     searched_swing: float
     start: float = 20e-6
-    soft: float = 1.0
     soft_search: float = 1.0
 
 
@@ -116,7 +115,7 @@ ORBITS = {
     LUGRE: OrbitPrices(
         curve=0.3e-3,
         panel=0.5e-3,
-        lifting=3.2,
+        lifting=2.2,
         edge=1.4e-3,
         step=1.5e-6,
         mark=2e-6,
@@ -128,13 +127,15 @@ ORBITS = {
         swing=5e-3,
         searched_beat=2.5e-3,
         searched_swing=3e-3,
-        soft=4.0,
         soft_search=0.03,
     ),
 }
 """By friction law."""
 SOFT_BRISTLE = 3.0
 """Path of the vibration over that of the bristle below which it counts as soft."""
+SLOW_BRISTLE = 0.2
+"""Share of friction in the drive, over kappa, beyond which a bristle is as slow as the slow motion:
+no orbits are found, and all motion is resolved."""
 EDGE = 0.9
 """Slow over fast velocity beyond which the slider hardly turns back."""
 PANELS = (-inf, -0.7, 0.0, 0.7, inf)
@@ -196,7 +197,8 @@ def _swing(scales: Scales, plan: Plan) -> float:
     if plan.beats == 0.0:
         return 0.0
     relaxations = plan.duration / scales.relaxation / plan.beats
-    return min(relaxations, FOLLOWED) * max(1.0, relaxations / FOLLOWED) ** (2.0 / 3.0)
+    further = max(1.0, relaxations / FOLLOWED)
+    return min(relaxations, FOLLOWED) * float(further ** (2.0 / 3.0))
 
 
 def _orbit_cost(
@@ -204,8 +206,10 @@ def _orbit_cost(
 ) -> float:
     law = candidate.model.friction_law
     prices, full = ORBITS[law], Model(2, law)
-    work = orbit_work(plan, scales, law)
     periods = plan.duration / scales.period
+    if law == LUGRE and (scales.slowness or 0.0) > SLOW_BRISTLE * (scales.kappa or inf):
+        return resolved_cost(full, candidate.tolerance, scales, plan, periods)
+    work = orbit_work(plan, scales, law)
     cost = resolved_cost(full, candidate.tolerance, scales, plan, work.resolved)
     rough = 1.0 + min(1.0, ROUGH * sqrt(scales.slowness or 0.0))
     cost += prices.start + work.curves * _curve_cost(prices, scales, slow)
@@ -236,8 +240,6 @@ def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) 
     cost = prices.panel * max(1, sum(visited))
     if scales.lifts:
         cost *= prices.lifting
-    if _is_soft(scales):
-        cost *= prices.soft
     edges = (low < -EDGE and high > -1.0) + (high > EDGE and low < 1.0)
     return prices.curve + cost + prices.edge * edges
 
