@@ -146,6 +146,8 @@ USUAL = (0.1, 0.6)
 """Slow over fast velocity, where it is not known."""
 ROUGH = 2.0
 """Root of the share of friction in the drive by which orbits cost more, up to twice as much."""
+ORBIT_DIGIT, ORBIT_DIGITS = 0.06, 8.0
+"""Share of a curve that each digit less of the tolerance saves, below so many."""
 AVERAGING_ORDERS = (1, 2)
 """Orders of averaged motion to choose from."""
 OUTPUT = {
@@ -212,7 +214,8 @@ def _orbit_cost(
     work = orbit_work(plan, scales, law)
     cost = resolved_cost(full, candidate.tolerance, scales, plan, work.resolved)
     rough = 1.0 + min(1.0, ROUGH * sqrt(scales.slowness or 0.0))
-    cost += prices.start + work.curves * _curve_cost(prices, scales, slow)
+    coarse = ORBIT_DIGIT * max(0.0, ORBIT_DIGITS + log10(candidate.tolerance))
+    cost += prices.start + work.curves * (1.0 - coarse) * _curve_cost(prices, scales, slow)
     cost += prices.change * work.changes + prices.combined * work.combined
     length = plan.duration / plan.steps / scales.period
     steps, marks = rough * plan.steps / periods, min(2.0, length)
