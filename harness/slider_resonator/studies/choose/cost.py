@@ -73,8 +73,9 @@ class OrbitPrices:
     where orbits are searched, `change` for going over to another lead, `combined` for making a
     curve at one from the series. `beat` and `swing` are for a turn of the slow phase as with
     averages of first order, `swing` times the root of the share of friction in the drive;
-    `searched_beat` and `searched_swing` are for one that searches. Searches among soft bristles
-    cost `soft_search` times as much. `start` is once.
+    `searched_beat` and `searched_swing` are for one that searches, `searched_transient` for a
+    relaxation time that does. Steps that search among soft bristles cost `soft_search` times as
+    much. `start` is once.
     """
 
     curve: float
@@ -91,6 +92,7 @@ class OrbitPrices:
     swing: float
     searched_beat: float
     searched_swing: float
+    searched_transient: float
     start: float = 20e-6
     soft_search: float = 1.0
 
@@ -111,6 +113,7 @@ ORBITS = {
         swing=1.5e-3,
         searched_beat=0.2e-3,
         searched_swing=0.5e-3,
+        searched_transient=0.25e-3,
     ),
     LUGRE: OrbitPrices(
         curve=0.3e-3,
@@ -127,6 +130,7 @@ ORBITS = {
         swing=5e-3,
         searched_beat=2.5e-3,
         searched_swing=3e-3,
+        searched_transient=1.5e-3,
         soft_search=0.03,
     ),
 }
@@ -227,7 +231,11 @@ def _orbit_cost(
     each = prices.beat + prices.swing * sqrt(scales.slowness or 0.0) * swing
     cost += each * work.tabulated_beats
     each = prices.searched_beat + prices.searched_swing * swing
-    return cost + search * each * work.searched_beats
+    cost += each * work.searched_beats
+    if work.searched_beats == 0.0:
+        relaxations = work.searched * scales.period / scales.relaxation
+        cost += prices.searched_transient * min(relaxations, FORGETS * (1 + plan.kicks))
+    return cost
 
 
 def _is_soft(scales: Scales) -> bool:
