@@ -75,7 +75,7 @@ class OrbitPrices:
     averages of first order, `swing` times the root of the share of friction in the drive;
     `searched_beat` and `searched_swing` are for one that searches, `searched_transient` for a
     relaxation time that does. Steps that search among soft bristles cost `soft_search` times as
-    much. `start` is once.
+    much. `start` is once, `load` for each change of the load.
     """
 
     curve: float
@@ -94,6 +94,7 @@ class OrbitPrices:
     searched_swing: float
     searched_transient: float
     start: float = 20e-6
+    load: float = 0.0
     soft_search: float = 1.0
 
 
@@ -131,6 +132,7 @@ ORBITS = {
         searched_beat=2.5e-3,
         searched_swing=3e-3,
         searched_transient=1.5e-3,
+        load=50e-6,
         soft_search=0.03,
     ),
 }
@@ -150,6 +152,8 @@ USUAL = (0.1, 0.6)
 """Slow over fast velocity, where it is not known."""
 ROUGH = 2.0
 """Root of the share of friction in the drive by which orbits cost more, up to twice as much."""
+LOAD_PERIODS = 5.0
+"""Drive periods in which a change of the load is worked off."""
 ORBIT_DIGIT, ORBIT_DIGITS = 0.06, 8.0
 """Share of a curve that each digit less of the tolerance saves, below so many."""
 AVERAGING_ORDERS = (1, 2)
@@ -225,6 +229,8 @@ def _orbit_cost(
     steps, marks = rough * plan.steps / periods, min(2.0, length)
     cost += steps * work.tabulated * (prices.step + marks * prices.mark)
     cost += steps * work.drifting * prices.drifting
+    loads = max(0, plan.kicks - sum(stay.count for stay in plan.stays[1:]))
+    cost += prices.load * loads * min(1.0, length / LOAD_PERIODS)
     search = prices.soft_search if _is_soft(scales) else 1.0
     cost += search * steps * work.searched * (1.0 + marks) * prices.searched
     swing = _swing(scales, plan)
