@@ -91,12 +91,22 @@ def _fit(window: Window, apart: Array, chosen: NDArray[np.bool_]) -> tuple[float
     since = (window.stretch.checkpoints - window.stretch.start)[chosen]
     if since.size < 3:
         return None
-    kept = np.maximum(window.kept[chosen], FORGOTTEN)
-    rate = -log(kept[-1] / kept[0]) / float(since[-1] - since[0])
+    rate = _decay_rate(window, chosen)
     left = np.exp(-rate * since)
     gathered = -np.expm1(-rate * since) / rate if rate else since
     found = np.linalg.lstsq(np.column_stack([left, gathered]), apart[chosen], rcond=None)[0]
     return float(found[0]), Push(float(found[1]), rate)
+
+
+def _decay_rate(window: Window, chosen: NDArray[np.bool_]) -> float:
+    """Return the rate (1/s) at which a difference decays there, or before it is forgotten."""
+    lasting = window.kept > FORGOTTEN
+    at = np.flatnonzero(lasting & chosen)
+    at = at if at.size > 1 else np.flatnonzero(lasting)
+    if at.size < 2:
+        return 0.0
+    (begin, end), kept = window.stretch.checkpoints[at[[0, -1]]], window.kept[at[[0, -1]]]
+    return -log(kept[1] / kept[0]) / float(end - begin)
 
 
 def carried(

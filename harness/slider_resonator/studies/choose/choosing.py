@@ -34,10 +34,10 @@ HOPELESS = 1000.0
 """Ratio of predicted to allowed averaging error above which no probe is needed."""
 FIRST_TOLERANCE = 1e-6
 """Tolerance at which communication steps are judged and the search for a tolerance starts."""
-DOUBTFUL = (0.3, 3.0)
+DOUBTFUL = (0.1, 10.0)
 """Errors over allowed ones, from windows, that the whole scene must confirm."""
-MIN_PERIODS = 40
-"""Minimum drive periods of a search by shooting."""
+MIN_PERIODS = 30
+"""Drive periods of a search by shooting that few searches fall below."""
 TIME_LIMIT = 600.0
 """Default time limit of a choice, s."""
 
@@ -221,7 +221,9 @@ class _Choosing:
         index = coarsest(lambda i: excess(tolerances[i], step), len(tolerances), 10.0, first)
         if index is None:
             return None, self._why_not(model, refused)
-        return self._evaluate(Candidate(model, tolerances[index], step)), ""
+        rest = tolerances[index:] if self.probe.steady_needs else tolerances[index : index + 1]
+        found = [Candidate(model, fine, step) for fine in rest if excess(fine, step) <= 1.0]
+        return min(map(self._evaluate, found), key=lambda one: one.cost), ""
 
     def _why_not(self, model: Model, refused: str) -> str:
         if all(candidate.model != model for candidate in self._evaluations):
@@ -244,7 +246,7 @@ class _Choosing:
                 finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
                 estimates[name] = steady_error(found, self._find(name, finest), self.law)
                 periods += found.periods
-            cost = self.cost(candidate, max(periods, MIN_PERIODS))
+            cost = self.cost(candidate, periods)
             covers = self.probe.covers if self.probe.run_needs else "steady motion"
             evaluation = self._evaluated(candidate, estimates, cost, covers)
             if self.probe.can_be_confirmed and DOUBTFUL[0] < evaluation.excess < DOUBTFUL[1]:

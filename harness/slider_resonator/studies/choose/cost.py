@@ -50,13 +50,13 @@ class AveragedPrices:
 AVERAGED = {
     (COULOMB, False): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
     (COULOMB, True): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
-    (LUGRE, False): AveragedPrices(10e-6, 0.4e-3, 1.7e-6, 3e-6, 10e-6, 14e-6),
+    (LUGRE, False): AveragedPrices(10e-6, 0.4e-3, 1.7e-6, 3e-6, 10e-6, 9e-6),
     (LUGRE, True): AveragedPrices(10e-6, 2e-3, 60e-6, 0.5e-3, 2.2e-3, 0.0),
 }
 """Of first order, by friction law and whether the contact lifts: then the mean friction of a
 bristle is integrated."""
-MAX_SWING = 2.0
-"""Largest number of relaxation times in a turn of the slow phase that counts."""
+FOLLOWED = 8.0
+"""Relaxation times in a turn of the slow phase that count fully; further ones by the power 2/3."""
 MOVING = {COULOMB: 4.0, LUGRE: 0.5}
 BENDING, MAX_BENDING = 0.45e-3, 2.2
 """Seconds of a table for each decade of kappa from a third on, for so many."""
@@ -66,15 +66,16 @@ BENDING, MAX_BENDING = 0.45e-3, 2.2
 class OrbitPrices:
     """Seconds of averages of second order.
 
-    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts,
-    `soft` times where bristles are soft; `edge` is added for one in which the slider hardly turns
-    back, and `curve` for each curve. `step` is for a communication step, `mark` for an end of a
-    period in it, of which the last two count; `drifting` is added to a step in which the lead
-    drifts, `searched` is for step and marks where orbits are searched, `change` for going over to
-    another lead, `combined` for making a curve at one from the series. `beat` and `swing` are for
-    a turn of the slow phase as with averages of first order,
-    and `searched_beat` for one that searches; searches among soft bristles cost `soft_search` times
-    as much.
+    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts;
+    `edge` is added for one in which the slider hardly turns back, and `curve` for each curve.
+    `step` is for a communication step, `mark` for an end of a period in it, of which the last two
+    count; `drifting` is added to a step in which the lead drifts, `searched` is for step and marks
+    where orbits are searched, `change` for going over to another lead, `combined` for making a
+    curve at one from the series. `beat` and `swing` are for a turn of the slow phase as with
+    averages of first order, `swing` times the root of the share of friction in the drive;
+    `searched_beat` and `searched_swing` are for one that searches, `searched_transient` for a
+    relaxation time that does. Steps that search among soft bristles cost `soft_search` times as
+    much. `start` is once, `load` for each change of the load.
     """
 
     curve: float
@@ -90,7 +91,10 @@ class OrbitPrices:
     beat: float
     swing: float
     searched_beat: float
-    soft: float = 1.0
+    searched_swing: float
+    searched_transient: float
+    start: float = 20e-6
+    load: float = 0.0
     soft_search: float = 1.0
 
 
@@ -106,14 +110,16 @@ ORBITS = {
         searched=16e-6,
         change=6e-6,
         combined=0.55e-3,
-        beat=64e-6,
-        swing=0.37e-3,
+        beat=50e-6,
+        swing=1.5e-3,
         searched_beat=0.2e-3,
+        searched_swing=0.5e-3,
+        searched_transient=0.25e-3,
     ),
     LUGRE: OrbitPrices(
         curve=0.3e-3,
         panel=0.5e-3,
-        lifting=3.2,
+        lifting=2.2,
         edge=1.4e-3,
         step=1.5e-6,
         mark=2e-6,
@@ -122,15 +128,20 @@ ORBITS = {
         change=60e-6,
         combined=0.32e-3,
         beat=90e-6,
-        swing=70e-6,
-        searched_beat=4e-3,
-        soft=4.0,
+        swing=5e-3,
+        searched_beat=2.5e-3,
+        searched_swing=3e-3,
+        searched_transient=1.5e-3,
+        load=50e-6,
         soft_search=0.03,
     ),
 }
 """By friction law."""
 SOFT_BRISTLE = 3.0
 """Path of the vibration over that of the bristle below which it counts as soft."""
+SLOW_BRISTLE = 0.2
+"""Share of friction in the drive, over kappa, beyond which a bristle is as slow as the slow motion:
+no orbits are found, and all motion is resolved."""
 EDGE = 0.9
 """Slow over fast velocity beyond which the slider hardly turns back."""
 PANELS = (-inf, -0.7, 0.0, 0.7, inf)
@@ -141,6 +152,10 @@ USUAL = (0.1, 0.6)
 """Slow over fast velocity, where it is not known."""
 ROUGH = 2.0
 """Root of the share of friction in the drive by which orbits cost more, up to twice as much."""
+LOAD_PERIODS = 5.0
+"""Drive periods in which a change of the load is worked off."""
+ORBIT_DIGIT, ORBIT_DIGITS = 0.06, 8.0
+"""Share of a curve that each digit less of the tolerance saves, below so many."""
 AVERAGING_ORDERS = (1, 2)
 """Orders of averaged motion to choose from."""
 OUTPUT = {
@@ -188,9 +203,12 @@ def _averaged_cost(model: Model, scales: Scales, plan: Plan) -> float:
 
 
 def _swing(scales: Scales, plan: Plan) -> float:
-    """Return how far the slow velocity follows the slow phase in its turns."""
-    relaxations = plan.duration / scales.relaxation
-    return min(MAX_SWING, relaxations / plan.beats) if plan.beats else 0.0
+    """Return the work of following the slow velocity in a turn of the slow phase."""
+    if plan.beats == 0.0:
+        return 0.0
+    relaxations = plan.duration / scales.relaxation / plan.beats
+    further = max(1.0, relaxations / FOLLOWED)
+    return min(relaxations, FOLLOWED) * float(further ** (2.0 / 3.0))
 
 
 def _orbit_cost(
@@ -198,21 +216,32 @@ def _orbit_cost(
 ) -> float:
     law = candidate.model.friction_law
     prices, full = ORBITS[law], Model(2, law)
-    work = orbit_work(plan, scales, law)
     periods = plan.duration / scales.period
+    if law == LUGRE and (scales.slowness or 0.0) > SLOW_BRISTLE * (scales.kappa or inf):
+        return resolved_cost(full, candidate.tolerance, scales, plan, periods)
+    work = orbit_work(plan, scales, law)
     cost = resolved_cost(full, candidate.tolerance, scales, plan, work.resolved)
     rough = 1.0 + min(1.0, ROUGH * sqrt(scales.slowness or 0.0))
-    cost += work.curves * _curve_cost(prices, scales, slow)
+    coarse = ORBIT_DIGIT * max(0.0, ORBIT_DIGITS + log10(candidate.tolerance))
+    cost += prices.start + work.curves * (1.0 - coarse) * _curve_cost(prices, scales, slow)
     cost += prices.change * work.changes + prices.combined * work.combined
     length = plan.duration / plan.steps / scales.period
     steps, marks = rough * plan.steps / periods, min(2.0, length)
     cost += steps * work.tabulated * (prices.step + marks * prices.mark)
     cost += steps * work.drifting * prices.drifting
+    loads = max(0, plan.kicks - sum(stay.count for stay in plan.stays[1:]))
+    cost += prices.load * loads * min(1.0, length / LOAD_PERIODS)
     search = prices.soft_search if _is_soft(scales) else 1.0
     cost += search * steps * work.searched * (1.0 + marks) * prices.searched
-    each = prices.beat + prices.swing * _swing(scales, plan)
+    swing = _swing(scales, plan)
+    each = prices.beat + prices.swing * sqrt(scales.slowness or 0.0) * swing
     cost += each * work.tabulated_beats
-    return cost + search * prices.searched_beat * work.searched_beats
+    each = prices.searched_beat + prices.searched_swing * swing
+    cost += each * work.searched_beats
+    if work.searched_beats == 0.0:
+        relaxations = work.searched * scales.period / scales.relaxation
+        cost += prices.searched_transient * min(relaxations, FORGETS * (1 + plan.kicks))
+    return cost
 
 
 def _is_soft(scales: Scales) -> bool:
@@ -228,8 +257,6 @@ def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) 
     cost = prices.panel * max(1, sum(visited))
     if scales.lifts:
         cost *= prices.lifting
-    if _is_soft(scales):
-        cost *= prices.soft
     edges = (low < -EDGE and high > -1.0) + (high > EDGE and low < 1.0)
     return prices.curve + cost + prices.edge * edges
 

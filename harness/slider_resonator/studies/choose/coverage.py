@@ -36,7 +36,7 @@ NEARLY_WHOLE = 4.0
 MAX_SLOWNESS = 0.05
 """Largest friction over vibration at which averaged motion is used between windows."""
 MAX_SETTLING = 0.5
-"""Largest share of a window in which the resonator may forget its own start."""
+"""Largest share of a window in which resonator and bristle may forget its start."""
 MAX_CORNERS = 40
 """Largest number of corners of the inputs for which windows are laid."""
 MAX_COVERED = 0.5
@@ -65,6 +65,7 @@ class Coverage:
         self.varying = vary(scene, self.duration)
         self.corners = corner_periods(scene, self.duration)
         self._period_cost = period_cost(reference, FINEST_TOLERANCE, scales)
+        self._settling = settling(scales, reference.friction_law)
 
     @cached_property
     def part(self) -> str:
@@ -105,12 +106,12 @@ class Coverage:
     @cached_property
     def _head(self) -> int:
         """Whole drive periods that are resolved before the first window."""
-        return head_end(self._beginning, self.corners, settling(self.scales))
+        return head_end(self._beginning, self.corners, self._settling)
 
     def _shows_in_windows(self) -> bool:
         """Whether windows represent the whole scene."""
         beats = self.scales.beat * self.duration / WINDOWS
-        settled = settling(self.scales) <= MAX_SETTLING * WINDOW_PERIODS
+        settled = self._settling <= MAX_SETTLING * WINDOW_PERIODS
         one_ratio = len(set(self.scene.signals["frequency_ratio"].values)) == 1
         events = self.varying and "event_times" in self.run_needs
         slow = self.scales.slowness is not None and self.scales.slowness <= MAX_SLOWNESS
@@ -123,5 +124,5 @@ class Coverage:
         if self._head >= self.periods - WINDOW_PERIODS:
             return 1.0
         spread = even_starts(self._head, self.periods)
-        spans = places(self._head, self.periods, self.corners, settling(self.scales), spread)
+        spans = places(self._head, self.periods, self.corners, self._settling, spread)
         return (self._head + sum(stop - start for start, stop in spans)) / self.periods

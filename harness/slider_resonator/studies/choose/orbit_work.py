@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from slider_resonator.studies.choose.candidate import COULOMB, LUGRE
 from slider_resonator.studies.choose.plan import Plan, Stay
-from slider_resonator.studies.choose.scales import Scales
+from slider_resonator.studies.choose.scales import Scales, longest_memory
 
 CURVES = 4
 """Leads, and changes of a parameter, up to which each has a curve of orbits."""
@@ -19,6 +19,8 @@ SERIES_CURVES = 9
 """Curves in the series over leads, from which those of more leads are combined."""
 SMALLEST_START = 8.0
 """Drive periods that are resolved at the start at least."""
+FAST_DRIFT = 3e-3
+"""Beats in a drive period beyond which the series over leads is too coarse for bristles."""
 MEMORIES = 16.0
 """Memories of resonator and bristle in the resolved start."""
 
@@ -64,15 +66,14 @@ def orbit_work(plan: Plan, scales: Scales, law: int) -> OrbitWork:
 
 def resolved_start(scales: Scales, law: int) -> float:
     """Return the drive periods of the resolved start under a friction law."""
-    bristle = 0.25 / scales.kappa if law == LUGRE and scales.kappa else 0.0
-    return max(SMALLEST_START, MEMORIES * max(scales.memory, bristle))
+    return max(SMALLEST_START, MEMORIES * longest_memory(scales, law))
 
 
 class _Following:
     """The stages through which the component goes."""
 
     def __init__(self, scales: Scales, law: int) -> None:
-        self.lifts = scales.lifts
+        self.law, self.lifts = law, scales.lifts
         self.start = resolved_start(scales, law)
         self.paid = PAID[law]
         self.done = OrbitWork()
@@ -92,6 +93,8 @@ class _Following:
     def _source(self, stay: Stay) -> object:
         """Return the table of a stay: its lead, "series", or "search" without any."""
         many = len(self.leads | {stay.lead}) > CURVES
+        if self.law == LUGRE and stay.beats > FAST_DRIFT * stay.periods:
+            return "search"
         if self.tunings >= CURVES or ((stay.drifts or many) and self.lifts):
             return "search"
         return "series" if stay.drifts or many else stay.lead

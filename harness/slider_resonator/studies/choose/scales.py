@@ -11,6 +11,7 @@ from slider_resonator.device.signal import Signal
 from slider_resonator.errors import SceneError
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene
+from slider_resonator.studies.choose.candidate import LUGRE
 
 LONG_MEMORY = 100.0
 """Drive periods beyond which memory does not indicate the distance from resonance."""
@@ -86,6 +87,12 @@ class Scales:
             return None
         disturbed = 1.0 + self.mass_ratio * pi * min(self.memory, LONG_MEMORY)
         return self.slowness * self.fast_velocity * disturbed
+
+
+def longest_memory(scales: Scales, law: int) -> float:
+    """Return the drive periods that the resonator remembers, or a bristle of LuGre friction."""
+    bristle = 0.25 / scales.kappa if law == LUGRE and scales.kappa else 0.0
+    return max(scales.memory, bristle)
 
 
 MAX_MAGNITUDE = 1e50

@@ -54,11 +54,11 @@ class Samples:
 
 
 def checkpoints_between(points: Array, start: float, stop: float) -> Array:
-    """Return some of the points (s) in (start, stop], and stop, at irregular distances.
+    """Return some of the points (s) in [start, stop), and stop, at irregular distances.
 
     Equal distances could sample a single phase of the vibration.
     """
-    inside = points[(points > start) & (points < stop)]
+    inside = points[(points >= start) & (points < stop)]
     if inside.size > MAX_CHECKPOINTS:
         index = np.arange(MAX_CHECKPOINTS)
         places = (index + (GOLDEN * index) % 1.0) * (inside.size / MAX_CHECKPOINTS)

@@ -22,7 +22,7 @@ from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.candidate import Model
 from slider_resonator.studies.choose.input_grid import inputs_as_they_vary
-from slider_resonator.studies.choose.scales import Scales
+from slider_resonator.studies.choose.scales import Scales, longest_memory
 from slider_resonator.studies.choose.stretch import GOLDEN, Stretch, follow
 
 WINDOWS = 6
@@ -38,7 +38,7 @@ FIT_PERIODS = 60
 SPACING = 10
 """Drive periods between the points at which the slow velocities are compared."""
 MEMORIES = 6.0
-"""Memories of the resonator after which its own start is forgotten."""
+"""Memories of resonator and bristle after which the start of a window is forgotten."""
 SLOW_STEPS = 1000
 """Steps in which averaged motion is followed through the scene."""
 NUDGE = 1e-3
@@ -74,9 +74,9 @@ class Windows:
     final_velocity: float
 
 
-def settling(scales: Scales) -> float:
+def settling(scales: Scales, law: int) -> float:
     """Return the drive periods after which only the slow motion is left in a window."""
-    return max(2.0, MEMORIES * scales.memory)
+    return max(2.0, MEMORIES * longest_memory(scales, law))
 
 
 def corner_periods(scene: Scene, duration: float) -> list[float]:
@@ -154,7 +154,8 @@ def lay_windows(
 
     grid = np.linspace(0.0, duration, SIZE_POINTS)
     record = record_at(grid)
-    corners, settle = corner_periods(scene, duration), settling(scales)
+    corners = corner_periods(scene, duration)
+    settle = settling(scales, averaged.friction_law)
     later = record.times >= head
     spread = even_starts(head / period, duration / period)
     if scales.fast_velocity:

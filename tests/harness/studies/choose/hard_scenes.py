@@ -148,6 +148,17 @@ def _soft_bristle(case: Case) -> None:
     case.need_some(tightest=1e-5)
 
 
+def _bristle_with_a_long_memory(case: Case) -> None:
+    """Soft bristles that remember for longer than windows last, some in flight."""
+    strong(case)
+    lugre(case, case.draw.log(3e-4, 1e-2))
+    if case.draw.chance(0.5):
+        preload = case.device["normal_preload"]
+        case.device["normal_amplitude"] = preload * case.draw.uniform(1.1, 2.0)
+    case.run(3e3, 2e5)
+    case.need_some()
+
+
 def _steady(case: Case) -> None:
     constant(case)
     name = "steady_velocity" if case.draw.chance(0.5) else "blocking_force"
@@ -284,6 +295,7 @@ KINDS: Mapping[str, Callable[[Case], None]] = {
     "load_that_overcomes_friction": _load_that_overcomes_friction,
     "lines_passed_on": _lines_passed_on,
     "tuned": _tuned,
+    "bristle_with_a_long_memory": _bristle_with_a_long_memory,
 }
 
 

@@ -11,7 +11,7 @@ from math import inf
 
 import numpy as np
 
-from slider_resonator.checks.measures.frequency import dominant_frequency
+from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.device.schedule import Schedule, communication_points, in_order
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
@@ -77,7 +77,7 @@ class Judge:
         """Return errors over allowed errors of a candidate by need."""
         try:
             return {name: self._excess(name, candidate) for name in self.needs}
-        except FmuError:
+        except (FmuError, NoOscillation):
             return {name: inf for name in self.needs}
 
     def _excess(self, name: str, candidate: Candidate) -> float:

@@ -19,6 +19,12 @@ def test_an_fmu_without_orders_is_not_asked_for_one() -> None:
     assert ordered.model.name == "fidelity 0, order 2, LuGre friction"
 
 
+def test_orbits_of_bristles_have_a_tolerance_and_other_averages_none() -> None:
+    found = {(m.friction_law, m.averaging_order): len(m.tolerances) for m in models((0, 1), (1, 2))}
+    assert found[LUGRE, 2] == found[LUGRE, None] > 1
+    assert found[COULOMB, 1] == found[COULOMB, 2] == found[LUGRE, 1] == 1
+
+
 def test_every_model_has_a_price() -> None:
     for model in models((COULOMB, LUGRE), AVERAGING_ORDERS):
         if model.fidelity:

@@ -62,3 +62,8 @@ def test_looks_show_all_phases() -> None:
     assert np.isin(checkpoints, points).all()
     counts = np.bincount((16.0 * checkpoints).astype(int) % 16, minlength=16)
     assert np.min(counts) > 0.5 * np.mean(counts)
+
+
+def test_signals_are_compared_at_the_start_too() -> None:
+    points = np.arange(10.0)
+    assert np.array_equal(checkpoints_between(points, 0.0, 9.0), points)

@@ -25,6 +25,16 @@ KNOWN_MISSES = (
     ("polyline", 8),
     ("steady_coarse", 1),
     ("slow_ratio_ramp", 60),
+    ("polyline", 31),
+    ("jump_between_windows", 38),
+    ("tuned", 39),
+    ("many_jumps", 43),
+    ("flight_at_the_start", 50),
+    ("slow_ratio_ramp", 200),
+    ("soft_bristle", 204),
+    ("jump_near_the_end", 205),
+    ("bristle_with_a_long_memory", 2),
+    ("bristle_with_a_long_memory", 6),
 )
 """Scenes for which the choice once did not meet the needs, or was more expensive than needed."""
 

@@ -54,6 +54,19 @@ SCENES = {
         "[tuning]\nnormal_preload = { ramp = [[0, 1.0], [4, 1.5]] }\n",
         (0, 1, 0),
     ),
+    "a beat that lasts three thousand relaxation times": (
+        "[device]\ndrive_frequency = 757.0\nresonator_frequency = 757.0\n"
+        "friction_coefficient = 0.5\nbase_amplitude = 3e-4\n[inputs]\nfrequency_ratio = 1.00001\n"
+        "[run]\ndrive_periods = 1e5\nsteps_per_period = 0.0016\n"
+        "[need]\nmean_velocity = { rel = 3e-6 }\n",
+        (2, None, 0),
+    ),
+    "soft bristles in flight": (
+        "[device]\nfriction_law = 1\nbristle_stiffness = 300.0\nnormal_amplitude = 1.5\n"
+        "[inputs]\nphase = 0.3\n[run]\ndrive_periods = 3000\nsteps_per_period = 0.1\n"
+        "[need]\nmean_velocity = { rel = 1e-6 }\n",
+        (0, 2, 1),
+    ),
 }
 """Fidelity, averaging order and friction law that are the cheapest by measurement."""
 
