@@ -140,6 +140,22 @@ def test_a_host_without_memory_is_told(instance: Instance) -> None:
     assert b"no memory for an instance" in host.log[0][-1]
 
 
+def test_a_host_that_runs_out_of_memory_gets_no_state(instance: Instance) -> None:
+    host = Host()
+    component = instantiate_as(instance, host)
+    host.memory = False
+    state = ctypes.c_void_p()
+    function = instance.slave.dll.fmi2GetFMUstate
+    assert function(ctypes.c_void_p(component), ctypes.byref(state)) == ERROR
+    assert state.value is None
+    assert host.log[-1][-1] == b"fmi2GetFMUstate: no memory for a state"
+    host.memory = True
+    assert function(ctypes.c_void_p(component), ctypes.byref(state)) == OK, "it can go on"
+    instance.slave.dll.fmi2FreeFMUstate(ctypes.c_void_p(component), ctypes.byref(state))
+    give_back(instance, component)
+    assert sorted(host.taken) == sorted(host.given_back)
+
+
 def test_no_callbacks_no_instance(instance: Instance) -> None:
     function = instance.slave.dll.fmi2Instantiate
     function.restype = ctypes.c_void_p

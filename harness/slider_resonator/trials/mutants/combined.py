@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from functools import cache
 
 from slider_resonator.trials.mutants.mutant import Mutant
 from slider_resonator.trials.mutants.reach import noting_source
+
+_PARSING = threading.Lock()
+"""Threads of Python 3.11 that parse at once may end in SystemError (python/cpython#106905)."""
 
 
 def groups_of(mutants: Sequence[Mutant], size: int) -> list[list[Mutant]]:
@@ -34,7 +38,8 @@ def combined_sources(mutants: Sequence[Mutant]) -> dict[str, bytes]:
         text = here[0].old
         for begin, end, new in sorted(map(_edit, here), reverse=True):
             text = f"{text[:begin]}{new}{text[end:]}"
-        sources[path] = noting_source(text).encode()
+        with _PARSING:
+            sources[path] = noting_source(text).encode()
     return sources
 
 

@@ -64,8 +64,9 @@ def run_mutants(
         kept = verdicts_on(kept_in, mutants)
         reach = reaches(fmu, every, time_limit, jobs)
         bench = Bench(path.resolve(), every, [one.cost for one in reach], time_limit)
-        servers = resources.enter_context(trial_servers(bench, jobs, folder))
         pool = resources.enter_context(ThreadPoolExecutor(jobs))
+        servers = resources.enter_context(trial_servers(bench, jobs, folder))
+        resources.callback(pool.shutdown, wait=False, cancel_futures=True)
         trials = StagedTrials(fmu, bench, [one.places for one in reach], len(points), servers, pool)
 
         def keep(verdict: MutantVerdict) -> None:

@@ -49,7 +49,8 @@ class TrialServers:
 def trial_servers(bench: Bench, jobs: int, folder: Path) -> Iterator[TrialServers]:
     """Start `jobs` processes that fork trials, with files in `folder`, for the block.
 
-    Raises HarnessError on a system without fork.
+    An attempt that is at work at its end raises HarnessError. Raises HarnessError on a system
+    without fork.
     """
     if not hasattr(os, "fork"):
         raise HarnessError(f"{sys.platform} cannot fork processes; must be Linux or macOS")
@@ -70,8 +71,9 @@ def trial_servers(bench: Bench, jobs: int, folder: Path) -> Iterator[TrialServer
         yield TrialServers(servers)
     finally:
         for server in servers:
+            server.terminate()
+        for server in servers:
+            server.wait()
             for stream in (server.stdin, server.stdout):
                 if stream is not None:
                     stream.close()
-        for server in servers:
-            server.wait()

@@ -3,7 +3,8 @@
 `python -m slider_resonator.trials.mutants.trial_server FILE` loads the `Bench` pickled in FILE, and
 all that a trial needs, once. Then it forks a process for each pickled `Attempt` that it reads from
 its standard input and writes the `Attempted`, or an exception, to its standard output. Python, its
-modules and the references take longer to load than most scenes take to run.
+modules and the references take longer to load than most scenes take to run. SIGTERM ends it, and
+the attempt at work.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ _POLL = 0.5
 
 def main() -> None:
     """Serve attempts until there are no more."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     nothing = os.open(os.devnull, os.O_RDWR)
     for stream in (0, 1, 2):
@@ -62,14 +64,17 @@ def forked(bench: Bench, attempt: Attempt, fmu: Fmu) -> Attempted | Exception:
     answer, writable = os.pipe()
     child = os.fork()
     if child == 0:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
         os.close(answer)
         run_in_child(bench, attempt, fmu, writable, at_work.set)
     os.close(writable)
-    content = _received(answer, at_work, PATIENCE * bench.time_limit)
-    with suppress(ProcessLookupError):  # the group, with all that the FMU has started
-        os.killpg(child, signal.SIGKILL)
-    with suppress(ProcessLookupError):
-        os.kill(child, signal.SIGKILL)
+    try:
+        content = _received(answer, at_work, PATIENCE * bench.time_limit)
+    finally:
+        with suppress(ProcessLookupError):  # the group, with all that the FMU has started
+            os.killpg(child, signal.SIGKILL)
+        with suppress(ProcessLookupError):
+            os.kill(child, signal.SIGKILL)
     _, status, usage = os.wait4(child, 0)
     cpu_time = usage.ru_utime + usage.ru_stime
     if content:

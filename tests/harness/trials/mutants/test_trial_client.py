@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
+from slider_resonator.errors import HarnessError
 from slider_resonator.output.progress import no_progress
 from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
 from slider_resonator.trials.mutants.attempt import Attempt, Attempted, Bench
@@ -12,6 +15,7 @@ from slider_resonator.trials.mutants.points import scene_points
 from slider_resonator.trials.mutants.reach import noting_source
 from slider_resonator.trials.mutants.trial_client import TrialServers, trial_servers
 from tests.harness import faulty_fmus
+from tests.processes import has_ended
 
 AT_A_LEG = "    turn = tau / LONGEST_ARC * arc\n"
 
@@ -90,3 +94,21 @@ def test_noting_modules_tell_what_each_point_executes(
     for places in found.executed.values():
         assert ("events.py", line) in places
         assert {file for file, _ in places} == {"events.py"}
+
+
+def test_an_attempt_at_work_ends_with_its_server(
+    python_fmu: Path, fmu: PythonFmu, tmp_path: Path
+) -> None:
+    points = scene_points([faulty_fmus.scene(tmp_path)], no_progress)
+    bench = Bench(python_fmu.resolve(), points * 2, [0.0, 0.0], 60.0)
+    noted = tmp_path / "process"
+    note = f"import os, pathlib; pathlib.Path({str(noted)!r}).write_text(str(os.getpid()))"
+    hang = f"{AT_A_LEG}    {note}; import time; time.sleep(600)\n"
+    with ThreadPoolExecutor(1) as pool, trial_servers(bench, 1, tmp_path) as started:
+        hanging = pool.submit(tried, started, fmu, "events.py", AT_A_LEG, hang)
+        while not (noted.exists() and noted.read_text()):
+            assert not hanging.done(), hanging.result()
+            time.sleep(0.05)
+    with pytest.raises(HarnessError, match="has ended"):
+        hanging.result()
+    assert has_ended(int(noted.read_text()))
