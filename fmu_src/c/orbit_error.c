@@ -76,7 +76,7 @@ static double error_of_swing(const OrbitRide *ride, const OpenError *open) {
     }
     double displacement = open->displacement - there.state.displacement;
     double rate = (open->rate - there.state.rate) / law->device.drive_frequency;
-    return velocity_of_swing(law, hypot(displacement, rate));
+    return velocity_of_free_swing(law, hypot(displacement, rate));
 }
 
 /* No velocity errs by more than the vibration. */
@@ -147,9 +147,14 @@ static double unmeasured_error(const OrbitRide *ride, const OrbitPoint *point, d
                         : first_order_error(ride->law);
 }
 
+bool error_is_none(const OrbitState *orbit) {
+    return orbit->open.kind == TAKEN_OVER && orbit->open.elapsed == 0.0;
+}
+
 void error_leave(const Law *law, OrbitState *orbit) {
     double swing = swing_by_inertia(law) * (1.0 + 1.0 / decay_in_turn(law));
     orbit->unrest += velocity_of_swing(law, swing * fabs(orbit->acceleration));
+    orbit->doubt = fmax(orbit->doubt, resolution_error(law));
     bound(law, orbit);
 }
 
@@ -163,8 +168,10 @@ static void begin_at(OrbitRide *ride, const ErrorPlace *place, const OpenError *
     orbit->unrest = error_of_swing(ride, open);
     orbit->doubt += place->unsure * fabs(place->acceleration);
     if (!place->measured) {
-        double added_mass = ride_point(ride, 0.0, open->velocity).of[ORBIT_FACTOR] - 1.0;
-        orbit->doubt = fmax(orbit->doubt, error_by_rule(ride, added_mass, INFINITY));
+        OrbitPoint point = ride_point(ride, 0.0, open->velocity);
+        /* An orbit that cannot be probed may differ by all that friction does. */
+        double load = has_shifts(ride) ? INFINITY : ride->law->inputs.load;
+        orbit->doubt = fmax(orbit->doubt, unmeasured_error(ride, &point, load));
     }
     bound(ride->law, orbit);
 }
@@ -238,9 +245,6 @@ void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, doub
     orbit->acceleration = acceleration_on(ride->law, point, ride->law->inputs.load);
     orbit->open =
         (OpenError){TAKEN_OVER, 0.0, velocity, theta, now->state.displacement, now->state.rate};
-    if (!has_shifts(ride)) {
-        settle_on(ride, point, theta, orbit);
-    }
 }
 
 void error_open(double theta, OrbitState *orbit) {

@@ -15,8 +15,11 @@
 void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, double theta,
                  const Moment *now, OrbitState *orbit);
 
-/* Leave orbits for resolved motion, which begins without the lag of the resonator. */
+/* Leave orbits for resolved motion, which begins with the error of the tables and without the lag of the resonator. */
 void error_leave(const Law *law, OrbitState *orbit);
+
+/* Whether no orbit has been followed since resolved motion ended, so that it goes on without an error of orbits. */
+bool error_is_none(const OrbitState *orbit);
 
 /* Let the resonator's swing decay for a drive angle [rad]. */
 void error_calm(const Law *law, double angle, OrbitState *orbit);

@@ -11,39 +11,42 @@
  * its logarithm makes much of rounding, and describes motion no better than none. */
 #define MAX_DECAY 0.5
 
-/* Iterations of the slow multiplier, each of which leaves the share of the coupling that is left,
- * and squarings of a matrix that leave its spectral radius to 1e-7. */
-enum { MULTIPLIER_ITERATIONS = 6, SQUARINGS = 24 };
+/* Iterations of the slow multiplier, each of which leaves the share of the coupling that is left: those that show
+ * whether it is separate, and the most; and squarings of a matrix that leave its spectral radius to 1e-7. */
+enum { SEPARATING_ITERATIONS = 6, MULTIPLIER_ITERATIONS = 100, SQUARINGS = 24 };
 
-/* Change of its decay in the last of them, as a share, from which on there is no slow multiplier: it is
- * one of a pair with that of the vibration. */
+/* Change of its decay, as a share, in the last of those that show it, from which on there is no slow multiplier: it
+ * is one of a pair with that of the vibration. And that from which on it is found. */
 #define SEPARATED 0.01
+#define CONVERGED 1e-12
 
 /* The left eigenvector of the slow multiplier, its first entry 1, and 1 - rho in `decay`, with the
- * `change` of that in the last iteration. */
+ * `change` of that in the iteration that shows whether it is separate. */
 static bool slow_eigenvector(double jacobian[UNKNOWNS][UNKNOWNS], int states,
                              double left[UNKNOWNS], double *decay, double *change) {
+    bool converged = false;
     left[0] = 1.0;
     *decay = 0.0;
-    for (int iteration = 0; iteration < MULTIPLIER_ITERATIONS; iteration++) {
+    for (int i = 1; i <= MULTIPLIER_ITERATIONS && (!converged || i <= SEPARATING_ITERATIONS); i++) {
+        double before = *decay;
         double fast[UNKNOWNS][UNKNOWNS] = {{0.0}};
         double right[UNKNOWNS] = {0.0};
-        for (int i = 1; i < states; i++) {
-            for (int j = 1; j < states; j++) {
-                fast[i - 1][j - 1] = jacobian[j][i] + (i == j ? *decay : 0.0);
+        for (int j = 1; j < states; j++) {
+            for (int k = 1; k < states; k++) {
+                fast[j - 1][k - 1] = jacobian[k][j] + (j == k ? *decay : 0.0);
             }
-            right[i - 1] = -jacobian[0][i];
+            right[j - 1] = -jacobian[0][j];
         }
         if (!solve_linear(fast, right, states - 1)) {
             return false;
         }
-        *change = -*decay;
         *decay = -jacobian[0][0];
-        for (int i = 1; i < states; i++) {
-            left[i] = right[i - 1];
-            *decay -= left[i] * jacobian[i][0];
+        for (int j = 1; j < states; j++) {
+            left[j] = right[j - 1];
+            *decay -= left[j] * jacobian[j][0];
         }
-        *change += *decay;
+        converged = fabs(*decay - before) <= CONVERGED * fabs(*decay);
+        *change = i == SEPARATING_ITERATIONS ? *decay - before : *change;
     }
     return isfinite(*decay);
 }

@@ -7,6 +7,7 @@
 #include "constants.h"
 #include "contact.h"
 #include "events.h"
+#include "orbit_bend.h"
 #include "orbit_changes.h"
 #include "orbit_error.h"
 #include "orbit_follow.h"
@@ -69,8 +70,12 @@ void orbit_motion_settle(const Law *law, Moment *moment) {
 static void resolve_for(const Law *law, Moment *now, double angle) {
     OrbitState *orbit = &now->orbit;
     if (orbit->stage != RESOLVED) {
-        orbit_motion_settle(law, now);
-        error_leave(law, orbit);
+        if (error_is_none(orbit)) {
+            orbit->open = (OpenError){.kind = NOTHING_OPEN};
+        } else {
+            orbit_motion_settle(law, now);
+            error_leave(law, orbit);
+        }
         orbit->stage = RESOLVED;
         orbit->to_go = orbit->waited = 0.0;
     }
@@ -175,30 +180,6 @@ static bool adapt(const Law *law, Moment *now) {
     return true;
 }
 
-/* Resolve the motion for as long as it has to be and up to `duration` [s]; gives the time that took. */
-static bool resolve(const Law *law, double duration, EventSearch *search, Budget *budget,
-                    Moment *now, double *time, Refusal *refusal) {
-    double w = law->device.drive_frequency;
-    bool ends = now->orbit.to_go <= w * duration + NOTHING;
-    OrbitPoint point;
-    *time = ends ? fmin(now->orbit.to_go / w, duration) : duration;
-    if (*time * w > NOTHING || !ends) {
-        Moment after;
-        if (!events_advance(law->resolved, now, *time, search, budget, &after, refusal)) {
-            return false;
-        }
-        *now = after;
-        if (search != NULL && search->found) {
-            resolved_for(law, &now->orbit, w * search->elapsed);
-            return true;
-        }
-        resolved_for(law, &now->orbit, w * *time);
-    } else {
-        *time = 0.0;
-    }
-    return !ends || take_over(law, now, &point) || refuse_infinite_motion(refusal, duration);
-}
-
 /* Resolve the `left` [s] of a step `passed` [s] after its beginning, where orbits are unknown. */
 static bool resolve_rest(const Law *law, double passed, double left, EventSearch *search,
                          Budget *budget, Moment *now, Refusal *refusal) {
@@ -220,6 +201,62 @@ static bool resolve_rest(const Law *law, double passed, double left, EventSearch
         search->elapsed += early ? passed : 0.0;
     }
     return true;
+}
+
+/* Resolve the motion on for as long as the bend of the bristle asks for, `time` [s] after the beginning of a step of
+ * `duration` [s] and up to its end, then go over to orbits. */
+static bool end_resolved(const Law *law, double duration, EventSearch *search, Budget *budget,
+                         Moment *now, double *time, Refusal *refusal) {
+    OrbitState *orbit = &now->orbit;
+    double w = law->device.drive_frequency, decay;
+    OrbitPoint point;
+    while (true) {
+        decay = orbit_bend_decay(law, lead_of(law, now), now);
+        double to_go = bend_angle(decay) - orbit->waited, left = fmin(to_go / w, duration - *time);
+        if (!(to_go > NOTHING)) {
+            break;
+        }
+        orbit->to_go = to_go;
+        if (!(left * w > NOTHING)) {
+            return true;
+        }
+        if (!resolve_rest(law, *time, left, search, budget, now, refusal)) {
+            return false;
+        }
+        *time += left;
+        if (search != NULL && search->found) {
+            return true;
+        }
+    }
+    double bend = velocity_of_bend(law, decay, orbit->waited);
+    if (!take_over(law, now, &point)) {
+        return refuse_infinite_motion(refusal, duration);
+    }
+    orbit->doubt += orbit->stage == ON_ORBIT ? bend : 0.0;
+    return true;
+}
+
+/* Resolve the motion for as long as it has to be and up to `duration` [s]; gives the time that took. */
+static bool resolve(const Law *law, double duration, EventSearch *search, Budget *budget,
+                    Moment *now, double *time, Refusal *refusal) {
+    double w = law->device.drive_frequency;
+    bool ends = now->orbit.to_go <= w * duration + NOTHING;
+    *time = ends ? fmin(now->orbit.to_go / w, duration) : duration;
+    if (*time * w > NOTHING || !ends) {
+        Moment after;
+        if (!events_advance(law->resolved, now, *time, search, budget, &after, refusal)) {
+            return false;
+        }
+        *now = after;
+        if (search != NULL && search->found) {
+            resolved_for(law, &now->orbit, w * search->elapsed);
+            return true;
+        }
+        resolved_for(law, &now->orbit, w * *time);
+    } else {
+        *time = 0.0;
+    }
+    return !ends || end_resolved(law, duration, search, budget, now, time, refusal);
 }
 
 bool orbit_motion_advance(const Law *law, const Moment *moment, double duration,
@@ -260,7 +297,8 @@ static double standing_error(const Law *law, const Moment *moment) {
         return first_order_error(law);
     }
     if (orbit->stage != ON_ORBIT) {
-        return fabs(orbit->ahead) + orbit->doubt + orbit->unrest + resolution_error(law);
+        return fabs(orbit->ahead) + orbit->doubt + orbit->unrest +
+               resolved_error(law, orbit->waited);
     }
     OrbitRide ride;
     ride_begin(&ride, law, moment, orbit->lead);

@@ -20,6 +20,10 @@
 /* Limit of the transient, relative to the steady vibration. */
 #define MAX_SWING 1e6
 
+/* Change of slow velocity by friction, over that of the slider's vibration by a swing: that of mean friction in a turn
+ * at 0.7 of the fast velocity, as long as it lasts. */
+#define BY_FRICTION 4.0
+
 /* Drive angle [rad], whole turns, in which `size` decays to `left`; `decay` is that of a turn. */
 static double angle_until(double size, double left, double decay) {
     return size > left ? TAU * ceil(log(size / left) / decay) : 0.0;
@@ -28,6 +32,18 @@ static double angle_until(double size, double left, double decay) {
 bool resolved_is_bounded(const Law *law) {
     double decay = fmin(decay_in_turn(law), bristle_decay(law));
     return decay * MAX_TURNS_RESOLVED > log(MAX_SWING / SWING_LEFT);
+}
+
+double bend_angle(double decay) {
+    return angle_until(1.0, SWING_LEFT, decay);
+}
+
+double least_bend_decay(const Law *law) {
+    return 0.5 * bristle_decay(law);
+}
+
+bool bend_is_slow(const Law *law) {
+    return bend_angle(least_bend_decay(law)) > TAU * MIN_TURNS_RESOLVED;
 }
 
 double resolved_angle(const Law *law, const Moment *moment) {
@@ -39,7 +55,7 @@ double resolved_angle(const Law *law, const Moment *moment) {
                       (moment->state.rate - steady.rate) / w) / size;
     }
     double swing = angle_until(fmin(apart, MAX_SWING), SWING_LEFT, decay_in_turn(law));
-    double bend = angle_until(1.0, SWING_LEFT, bristle_decay(law));
+    double bend = bend_angle(bristle_decay(law));
     return fmax(TAU * MIN_TURNS_RESOLVED, fmax(swing, bend));
 }
 
@@ -50,6 +66,16 @@ double swing_by_inertia(const Law *law) {
 
 double velocity_of_swing(const Law *law, double swing) {
     return device_mass_fraction(&law->device) * swing * law->device.drive_frequency / PI;
+}
+
+double velocity_of_free_swing(const Law *law, double swing) {
+    const Oscillator *slip = &law->resolved->held.plant.slip;
+    double w = law->device.drive_frequency;
+    Response free = free_response(slip, TAU / w);
+    double by_place = free.displacement + slip->decay * free.rate - 1.0, by_rate = w * free.rate;
+    double apart = hypot(by_place, by_rate), velocity = device_mass_fraction(&law->device) * swing * w;
+    double share = apart / TAU + BY_FRICTION * friction_share(law) / apart;
+    return velocity > 0.0 ? velocity * share : 0.0;
 }
 
 double lag_angle(const Law *law, double added_mass) {

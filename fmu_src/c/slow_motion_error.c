@@ -3,6 +3,7 @@
 #include "elementary.h"
 
 #include "state.h"
+#include "velocity_scale.h"
 
 /* Error of first order in friction shares and v_q: that of the average, and that of what the average leaves
  * out, the resonator's first swing and the first bend of bristles. */
@@ -33,11 +34,17 @@
  * than 1 for the swing with which that begins. */
 #define LOADING 1.2
 
-/* Error of the integration and of the tables, in v_q; the share of the tolerance of LuGre friction that tables err
- * by where that is more; and the least that the rule of thumb gives. */
+/* Error of the tables, in v_q; the share of the tolerance of LuGre friction that they err by where that is more; and
+ * the least that the rule of thumb gives. */
 #define RESOLUTION 1e-9
 #define SHARE_OF_TOLERANCE 0.01
 #define LEAST_BY_RULE 1e-8
+
+/* Error of resolved motion in its scale of velocities: by rounding; and in tolerances of LuGre friction, that of a
+ * moment, and that of a turn, which adds up until the slow motion has decayed. */
+#define ROUNDING 1e-14
+#define RESOLVED_AT_ONCE 0.03
+#define RESOLVED_IN_TURN 1e-3
 
 /* Damping of bristles over Coulomb friction; 0 without bristles. A bristle bends over a path of 2 mu/s0 after
  * each of two reversals in a turn, and damps by the impulse of 2 mu s1/s0 per normal load; but by no more than
@@ -119,6 +126,17 @@ double table_accuracy(const Device *device) {
 
 double resolution_error(const Law *law) {
     return table_accuracy(&law->device) * law->fast.velocity;
+}
+
+double resolved_error(const Law *law, double angle) {
+    const Law *resolved = law->resolved;
+    double turns = fmin(angle / TAU, 1.0 / slow_decay_in_turn(law)), share = ROUNDING;
+    if (resolved->device.friction_law != 0) {
+        share += (RESOLVED_AT_ONCE + RESOLVED_IN_TURN * turns) * resolved->device.tolerance;
+    }
+    double swing = complex_abs(law->fast.resonator) * law->device.drive_frequency;
+    State vibrating = {.velocity = law->fast.velocity, .rate = swing};
+    return share * velocity_scale(&resolved->held.plant, &vibrating);
 }
 
 /* The change of the slider's vibration by a change of friction, which the resonator delays: its delay in

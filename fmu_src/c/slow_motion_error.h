@@ -30,8 +30,11 @@ double second_order_error(const Law *law, double added_mass, double force);
 /* Error of tables in the scale of each quantity: that up to which the last coefficients of a panel are left. */
 double table_accuracy(const Device *device);
 
-/* Error [m/s] of the integration and of the tables. */
+/* Error [m/s] of the tables. */
 double resolution_error(const Law *law);
+
+/* Error [m/s] of resolved motion after a drive angle [rad]. */
+double resolved_error(const Law *law, double angle);
 
 /* What those err by besides [m/s], by rule of thumb, while the lead drifts by `drift` >= 0 [rad/s] over all turns
  * of an orbit. */

@@ -267,3 +267,115 @@ def test_a_loose_tolerance_is_in_the_estimate(instantiate: Instantiate, toleranc
         full.step(0.1)
         mean, estimate = slow.get("mean_velocity", "slow_motion_error")
         assert abs(mean - full.get("mean_velocity")[0]) <= 3.0 * estimate
+
+
+SLOW_BEND = {
+    "resonator_mass": 0.49567,
+    "damping_ratio": 0.094142,
+    "friction_faces": 1,
+    "friction_coefficient": 4.7721,
+    "friction_law": 1,
+    "bristle_stiffness": 1339.3,
+    "phase": 1.5688,
+    "load": -0.35412,
+}
+"""A bristle that straightens hardly faster than the slow motion decays."""
+
+LONG_START = {
+    "resonator_mass": 0.030033,
+    "damping_ratio": 0.0059402,
+    "friction_coefficient": 0.046491,
+    "friction_law": 1,
+    "bristle_stiffness": 194260.0,
+    "phase": 2.8894,
+}
+"""LuGre friction that is resolved for 430 turns, in which errors add up."""
+
+NEAR_THE_DRIVE = {
+    "resonator_mass": 0.12288,
+    "damping_ratio": 0.019112,
+    "normal_amplitude": 0.5,
+    "friction_coefficient": 0.089285,
+    "phase": 0.23994,
+    "load": 0.027699,
+}
+"""A resonator whose swing is nearly the same a turn of the drive later."""
+
+SWING_ON_FRICTION = {
+    "resonator_mass": 0.083087,
+    "damping_ratio": 0.0057913,
+    "normal_amplitude": 1.8,
+    "friction_faces": 1,
+    "friction_coefficient": 9.4757,
+    "phase": -2.2776,
+}
+"""The same under strong friction, which the swing changes."""
+
+DRIFTING = {
+    "resonator_mass": 0.21697,
+    "damping_ratio": 0.61266,
+    "friction_faces": 1,
+    "friction_coefficient": 26.0,
+    "phase": 2.57,
+    "frequency_ratio": 1.0005,
+}
+"""A drifting phase, under which what friction and load leave of the start is small."""
+
+WITHOUT_ORBITS = {
+    "resonator_mass": 0.050953,
+    "damping_ratio": 0.93247,
+    "normal_amplitude": 1.8,
+    "friction_faces": 1,
+    "friction_coefficient": 2.6505,
+    "friction_law": 1,
+    "bristle_stiffness": 35623000.0,
+    "phase": -1.673,
+    "load": -0.25989,
+    "frequency_ratio": 0.9999,
+}
+"""A drifting phase under which orbits are looked for, and motion is resolved on all the same."""
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        pytest.param(SLOW_BEND, id="slow bend"),
+        pytest.param(LONG_START, id="long start"),
+        pytest.param(NEAR_THE_DRIVE, id="near the drive"),
+        pytest.param(SWING_ON_FRICTION, id="swing on friction"),
+        pytest.param(DRIFTING, id="drifting"),
+    ],
+)
+def test_the_largest_estimate_is_that_of_the_largest_error(
+    instantiate: Instantiate, values: dict[str, float]
+) -> None:
+    slow = instantiate().initialize(**values, fidelity=0)
+    full = instantiate().initialize(**values, fidelity=2, tolerance=1e-12)
+    largest, reported = 0.0, 0.0
+    for _ in range(40):
+        for instance in (slow, full):
+            instance.step(20.0 * math.tau / 3500.0)
+        mean, estimate = slow.get("mean_velocity", "slow_motion_error")
+        largest = max(largest, abs(mean - full.get("mean_velocity")[0]))
+        reported = max(reported, estimate)
+    assert largest <= 3.0 * reported <= 30.0 * largest
+
+
+def test_motion_that_is_resolved_on_keeps_no_error_of_orbits(instantiate: Instantiate) -> None:
+    """Orbits that were found and not followed have changed nothing."""
+    slow = instantiate().initialize(**WITHOUT_ORBITS, fidelity=0)
+    for _ in range(40):
+        slow.step(20.5 * math.tau / 3500.0)
+        assert slow.get("slow_motion_error")[0] <= 1e-10
+
+
+def test_an_end_of_the_start_within_a_step_changes_nothing(instantiate: Instantiate) -> None:
+    """Where the bend of a bristle takes longer than it would by itself."""
+    ends = []
+    for steps in (1, 5, 300):
+        slow = instantiate().initialize(**SLOW_BEND, fidelity=0)
+        for _ in range(steps):
+            slow.step(300.0 * math.tau / 3500.0 / steps)
+        ends.append(slow.get("mean_velocity", "slow_motion_error"))
+    for end in ends[1:]:
+        assert end == pytest.approx(ends[0], rel=1e-6)

@@ -8,7 +8,7 @@ bristles.
 
 from __future__ import annotations
 
-from math import hypot, inf
+from math import inf
 
 from . import refusal_texts
 from .averaged_lugre import AVERAGED_LUGRE
@@ -18,13 +18,12 @@ from .friction_law import FrictionLaw
 from .held import Held
 from .leg import Leg, followed
 from .moment import Moment
-from .motion import State
-from .plant import Plant
 from .refusal import Refusal
 from .regular_slide import RegularSlide
 from .slide import slide
 from .split_slide import SplitSlide
 from .taylor_slide import TaylorSlide
+from .velocity_scale import velocity_scale
 
 TOLERANCE_SHARE = 0.01
 """Share of the tolerance for the error of one series, and for the bend that a bristle still lacks
@@ -76,18 +75,6 @@ def succeed(held: Held, leg: Leg, now: Moment, switches: bool) -> None:
     now.mode = LIFTED if lifted else direction_of(now.state.velocity)
     if switches:
         now.event_age = 0.0
-
-
-def velocity_scale(plant: Plant, state: State) -> float:
-    """The scale of velocities [m/s] to which tolerances refer.
-
-    The sum of the velocity amplitude of the drive, the velocity that friction and load change in a
-    radian of the drive, and the velocities of slider and resonator.
-    """
-    w = plant.drive_frequency
-    forces = plant.friction_preload + plant.friction_amplitude + abs(plant.load)
-    swing = plant.mass_fraction * hypot(state.rate, plant.stick.frequency * state.displacement)
-    return abs(plant.drive) / w + forces / (plant.total_mass * w) + abs(state.velocity) + swing
 
 
 def _motion(held: Held, now: Moment, direction: int) -> SplitSlide | RegularSlide | TaylorSlide:

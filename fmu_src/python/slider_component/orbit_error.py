@@ -20,7 +20,7 @@ from .orbit_panel import place_between
 from .orbit_point import OrbitPoint
 from .orbit_ride import OrbitRide
 from .orbit_state import OpenError, OpenKind, OrbitState
-from .resolved_start import swing_by_inertia, velocity_of_swing
+from .resolved_start import swing_by_inertia, velocity_of_free_swing, velocity_of_swing
 from .shift_tables import gain_between, shifts_at
 from .slow_motion_error import (
     decay_in_turn,
@@ -51,11 +51,20 @@ ROOT_SUM = 0.1
 0.21 at the worst phase, 0.07 at most of them."""
 
 
+def is_without_error(orbit: OrbitState) -> bool:
+    """Whether no orbit has been followed since resolved motion ended, so that it just goes on."""
+    return orbit.open.kind == OpenKind.TAKEN_OVER and orbit.open.elapsed == 0.0
+
+
 def left_orbits(device: Device, fast: FastVibration, orbit: OrbitState) -> OrbitState:
-    """The state where resolved motion begins, without the lag of the resonator."""
+    """The state where resolved motion begins.
+
+    With the error of the tables, and without the lag of the resonator.
+    """
     swing = swing_by_inertia(device) * (1.0 + 1.0 / decay_in_turn(device))
     unrest = orbit.unrest + velocity_of_swing(device, swing * abs(orbit.acceleration))
-    return orbit._replace(unrest=min(unrest, fast.velocity))
+    doubt = max(orbit.doubt, resolution_error(device, fast))
+    return orbit._replace(doubt=min(doubt, fast.velocity), unrest=min(unrest, fast.velocity))
 
 
 def calmed(device: Device, angle: float, orbit: OrbitState) -> OrbitState:
@@ -105,7 +114,7 @@ class ErrorRide:
         Its W belongs to a velocity [m/s] and the orbit `point`; its drive phase is `theta` [rad]
         over all turns of the orbit.
         """
-        orbit = orbit._replace(
+        return orbit._replace(
             acceleration=self._acceleration_on(point),
             open=OpenError(
                 OpenKind.TAKEN_OVER,
@@ -116,7 +125,6 @@ class ErrorRide:
                 now.state.rate,
             ),
         )
-        return orbit if self._has_shifts else self._settled_on(point, theta, orbit)
 
     def opened(self, theta: float, orbit: OrbitState) -> OrbitState:
         """The state from which an orbit is followed, at a drive phase [rad] over all turns."""
@@ -147,9 +155,10 @@ class ErrorRide:
         place = self._place(orbit.velocity, theta)
         if not place.measured:
             point = self.ride.point(0.0, place.velocity)
-            return max(orbit.doubt, self._unmeasured(point))
+            return max(orbit.doubt, self._unmeasured(point, self.ride.load))
         a = place.acceleration
-        jumped = velocity_of_swing(self.device, place.swing * abs(a - orbit.acceleration))
+        jump = abs(a - orbit.acceleration)
+        jumped = velocity_of_swing(self.device, place.swing * jump)
         shifted = abs(orbit.ahead + place.lag * a) + (place.of_turn + place.unsure) * abs(a)
         error = shifted + orbit.doubt + orbit.unrest + jumped
         error += resolution_error(self.device, self.fast)
@@ -203,8 +212,9 @@ class ErrorRide:
         unrest = self._error_of_swing(motion)
         doubt = orbit.doubt + place.unsure * abs(place.acceleration)
         if not place.measured:
-            added_mass = self.ride.point(0.0, place.velocity).of.factor - 1.0
-            doubt = max(doubt, self._by_rule(added_mass, inf))
+            # An orbit that cannot be probed may differ by all that friction does.
+            load = inf if self._has_shifts else self.ride.load
+            doubt = max(doubt, self._unmeasured(self.ride.point(0.0, place.velocity), load))
         return self._bounded(orbit, orbit.ahead, doubt, unrest, orbit.acceleration)
 
     def _carried(
@@ -259,7 +269,7 @@ class ErrorRide:
             return 0.0
         displacement = motion.displacement - there.state.displacement
         rate = (motion.rate - there.state.rate) / self.device.drive_frequency
-        return velocity_of_swing(self.device, hypot(displacement, rate))
+        return velocity_of_free_swing(self.device, self.fast, hypot(displacement, rate))
 
     def _unmeasured_after(
         self,
@@ -278,7 +288,9 @@ class ErrorRide:
             left = abs(a / orbit.acceleration) if abs(a) < abs(orbit.acceleration) else 1.0
         else:
             left = self._left_by_slope(end.velocity, duration)
-        doubt = max(left * (orbit.doubt + abs(orbit.ahead)), self._unmeasured(point))
+        doubt = max(
+            left * (orbit.doubt + abs(orbit.ahead)), self._unmeasured(point, self.ride.load)
+        )
         return self._bounded(orbit, 0.0, doubt, unrest, a)
 
     def _left_by_slope(self, velocity: float, duration: float) -> float:
@@ -326,11 +338,11 @@ class ErrorRide:
         force = point.of.friction + self.ride.load
         return -point.of.factor * force / self.ride.map.held.plant.total_mass
 
-    def _unmeasured(self, point: OrbitPoint) -> float:
-        """The error [m/s] where nothing is measured."""
+    def _unmeasured(self, point: OrbitPoint, load: float) -> float:
+        """The error [m/s] under a load [N] where nothing is measured."""
         if not point.found:
             return first_order_error(self.device, self.fast)
-        return self._by_rule(point.of.factor - 1.0, point.of.friction + self.ride.load)
+        return self._by_rule(point.of.factor - 1.0, point.of.friction + load)
 
     def _by_rule(self, added_mass: float, force: float) -> float:
         """The same where friction adds a mass, and friction and load leave a force [N]."""

@@ -23,12 +23,18 @@ from math import exp, isfinite, log, log1p
 
 from .linear_system import Matrix, Vector, solve_linear
 
-MULTIPLIER_ITERATIONS = 6
-"""Iterations of the slow multiplier: each leaves the share of the coupling that is left."""
+MULTIPLIER_ITERATIONS = 100
+"""Most iterations of the slow multiplier: each leaves the share of the coupling that is left."""
+
+SEPARATING_ITERATIONS = 6
+"""Those of them that show whether it is separate."""
 
 SEPARATED = 0.01
-"""Change of its decay in the last of them, as a share, from which on there is no slow multiplier:
+"""Change of its decay in the last of these, as a share, from which on there is no slow multiplier:
 it is one of a pair with that of the vibration."""
+
+CONVERGED = 1e-12
+"""Change of its decay, as a share, from which on it is found."""
 
 SMALL_DECAY = 1e-3
 """Decay in a period below which its series serves."""
@@ -98,18 +104,22 @@ def linearised(jacobian: Matrix) -> OrbitLinearisation | None:
 def _slow_eigenvector(jacobian: Matrix) -> tuple[Vector, float, float] | None:
     """The left eigenvector of the slow multiplier, its first entry 1, and 1 - rho.
 
-    With the change of 1 - rho in the last iteration.
+    With the change of 1 - rho in the iteration that shows whether it is separate.
     """
     fast = range(1, len(jacobian) - 1)
-    left, decay, before = [1.0], 0.0, 0.0
-    for _ in range(MULTIPLIER_ITERATIONS):
+    left, decay, change = [1.0], 0.0, 0.0
+    for iteration in range(1, MULTIPLIER_ITERATIONS + 1):
         matrix = [[jacobian[j][i] + (decay if i == j else 0.0) for j in fast] for i in fast]
         found = solve_linear(matrix, [-jacobian[0][i] for i in fast])
         if found is None:
             return None
         left, before = [1.0, *found], decay
         decay = -jacobian[0][0] - sum(left[i] * jacobian[i][0] for i in fast)
-    return (left, decay, decay - before) if isfinite(decay) else None
+        change = decay - before if iteration == SEPARATING_ITERATIONS else change
+        converged = abs(decay - before) <= CONVERGED * abs(decay)
+        if converged and iteration >= SEPARATING_ITERATIONS:
+            break
+    return (left, decay, change) if isfinite(decay) else None
 
 
 def _lag(jacobian: Matrix, decay: float, tangent: Vector) -> Vector | None:

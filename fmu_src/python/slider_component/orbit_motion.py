@@ -23,19 +23,20 @@ from .friction_law import FrictionLaw
 from .held import Held
 from .moment import Counts, Moment
 from .motion import State
+from .orbit_bend import orbit_bend_decay, velocity_of_bend
 from .orbit_changes import noted, orbit_values
-from .orbit_error import ErrorRide, calmed, left_orbits
+from .orbit_error import ErrorRide, calmed, is_without_error, left_orbits
 from .orbit_follow import LostOrbitError, followed
 from .orbit_price import is_due, orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
-from .orbit_state import OpenKind, OrbitState, Stage, Swing
+from .orbit_state import OpenError, OpenKind, OrbitState, Stage, Swing
 from .period import PeriodMeans
-from .resolved_start import lag_angle, resolved_angle, resolved_is_bounded
+from .resolved_start import bend_angle, lag_angle, resolved_angle, resolved_is_bounded
 from .slow_friction import SlowFriction, slow_friction
 from .slow_motion_error import (
     decay_in_turn,
     first_order_error,
-    resolution_error,
+    resolved_error,
     slow_decay_in_turn,
 )
 from .slow_phase import rounded_lead
@@ -139,7 +140,8 @@ class OrbitLaw:
             return first_order_error(device, self.fast)
         if orbit.stage != Stage.ON_ORBIT:
             error = abs(orbit.ahead) + orbit.doubt + orbit.unrest
-            error += resolution_error(device, self.fast)
+            resolved = self.resolved
+            error += resolved_error(resolved.device, resolved.plant, self.fast, orbit.waited)
             return min(error, self.fast.velocity)
         ride = self._ride(moment, orbit.lead)
         theta = ride.theta(0.0, moment.theta, self.full.inputs.phase + moment.psi)
@@ -207,7 +209,9 @@ class OrbitLaw:
 
     def _resolved_for(self, now: Moment, orbit: OrbitState, angle: float) -> OrbitState:
         """The state when motion is to be resolved from a moment on for a drive angle [rad]."""
-        if orbit.stage != Stage.RESOLVED:
+        if orbit.stage != Stage.RESOLVED and is_without_error(orbit):
+            orbit = orbit._replace(open=OpenError())
+        elif orbit.stage != Stage.RESOLVED:
             orbit = left_orbits(self.full.device, self.fast, self._settled(now, orbit))
         return orbit.resolved_for(angle)
 
@@ -268,7 +272,32 @@ class OrbitLaw:
             now = self._advanced(now, time, budget)
         else:
             time = 0.0
-        return (self._taken_over(now)[0] if ends else now), time
+        return self._end_resolved(now, time, duration, budget) if ends else (now, time)
+
+    def _end_resolved(
+        self, now: Moment, time: float, duration: float, budget: Budget
+    ) -> tuple[Moment, float]:
+        """Go over to orbits, as soon as the bend of the bristle has decayed.
+
+        Until then motion is resolved on, `time` [s] after the beginning of a step of `duration`
+        [s] and up to its end. Gives the time that took in all.
+        """
+        w, period_map = self.full.plant.drive_frequency, self._ride(now, now.orbit.lead).map
+        while True:
+            orbit, decay = now.orbit, orbit_bend_decay(period_map, self.fast, self._lead(now), now)
+            to_go = bend_angle(decay) - orbit.waited
+            if not to_go > NOTHING:
+                bend = velocity_of_bend(self.full.device, self.fast, decay, orbit.waited)
+                now, _ = self._taken_over(now)
+                if now.orbit.stage == Stage.ON_ORBIT:
+                    now.orbit = now.orbit._replace(doubt=now.orbit.doubt + bend)
+                return now, time
+            left = min(to_go / w, duration - time)
+            now.orbit = orbit._replace(to_go=to_go)
+            if not left * w > NOTHING:
+                return now, time
+            now = self._advanced(now, left, budget)
+            time += left
 
     def _advanced(self, now: Moment, time: float, budget: Budget) -> Moment:
         """The moment after a time [s] of resolved motion."""

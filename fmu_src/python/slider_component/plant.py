@@ -70,7 +70,7 @@ def steady_resonator(device: Device) -> complex:
     Friction and load are left out, a direct drive is kept. Raises Refusal where it is unbounded.
     """
     w = device.drive_frequency
-    oscillator = _slip_oscillator(device)
+    oscillator = slip_oscillator(device)
     detuning = abs(oscillator.stiffness - w * w)
     if device.damping_ratio == 0.0 and detuning <= AT_RESONANCE * w * w:
         raise Refusal(refusal_texts.unbounded_resonance(device.damping_ratio, w))
@@ -130,7 +130,7 @@ def plant(device: Device, inputs: Inputs) -> Plant:
         friction_preload=faces_mu * device.normal_preload,
         friction_amplitude=faces_mu * device.normal_amplitude,
         preload_share=_preload_share(device),
-        slip=_slip_oscillator(device),
+        slip=slip_oscillator(device),
         stick=Oscillator(device.damping_ratio * wn, wn * wn),
         drive=force / total,
         relative_drive=base_acceleration - device.tangential_force / device.slider_mass,
@@ -148,7 +148,7 @@ def _preload_share(device: Device) -> float:
     return inf if device.normal_preload > 0.0 else -1.0
 
 
-def _slip_oscillator(device: Device) -> Oscillator:
+def slip_oscillator(device: Device) -> Oscillator:
     """The resonator against a free slider (eq. 31 divided by 1 - r_m)."""
     free_share = device.slider_mass / device.total_mass
     wn = device.resonator_frequency

@@ -7,9 +7,11 @@ from math import ceil, hypot, log, pi, tau
 from .device import Device
 from .fast_vibration import FastVibration, steady_swing
 from .motion import State
-from .slow_motion_error import bristle_decay, decay_in_turn
+from .oscillator import free_response
+from .plant import slip_oscillator
+from .slow_motion_error import bristle_decay, decay_in_turn, friction_share
 
-RESOLVED_TOLERANCE = 1e-8
+RESOLVED_TOLERANCE = 1e-9
 """Largest tolerance of LuGre friction with which motion is resolved before it goes over to orbits.
 
 What it errs by stays in the slow velocity, and no estimate has it. Turns are few, so that costs
@@ -31,6 +33,10 @@ grazing, and its mean friction is not smooth until it has left that velocity."""
 MAX_SWING = 1e6
 """Limit of the transient, relative to the steady vibration."""
 
+BY_FRICTION = 4.0
+"""Change of slow velocity by friction, over that of the slider's vibration by a swing: that of mean
+friction in a turn at 0.7 of the fast velocity, as long as it lasts."""
+
 
 def resolved_is_bounded(device: Device, fast: FastVibration) -> bool:
     """Whether transients decay within the largest number of turns that are resolved."""
@@ -49,8 +55,26 @@ def resolved_angle(device: Device, fast: FastVibration, state: State, theta: flo
         size = max(abs(fast.resonator), fast.velocity / w)
         apart = hypot(state.displacement - displacement, (state.rate - rate) / w) / size
     swing = _angle_until(min(apart, MAX_SWING), SWING_LEFT, decay_in_turn(device))
-    bend = _angle_until(1.0, SWING_LEFT, bristle_decay(device, fast))
+    bend = bend_angle(bristle_decay(device, fast))
     return max(tau * MIN_TURNS_RESOLVED, swing, bend)
+
+
+def least_bend_decay(device: Device, fast: FastVibration) -> float:
+    """Smallest decay of the bend of a bristle in a turn.
+
+    Two multipliers that are separate share their decay, and the slow motion has less than half.
+    """
+    return 0.5 * bristle_decay(device, fast)
+
+
+def bend_is_slow(device: Device, fast: FastVibration) -> bool:
+    """Whether the bend may take longer to decay than the smallest angle that is resolved."""
+    return bend_angle(least_bend_decay(device, fast)) > tau * MIN_TURNS_RESOLVED
+
+
+def bend_angle(decay: float) -> float:
+    """Drive angle [rad] until the bend has decayed whose `decay` in a turn is known."""
+    return _angle_until(1.0, SWING_LEFT, decay)
 
 
 def swing_by_inertia(device: Device) -> float:
@@ -62,6 +86,20 @@ def velocity_of_swing(device: Device, swing: float) -> float:
     """What a swing [m] of the resonator adds at most to the slider's mean velocity [m/s]."""
     share = device.resonator_mass / device.total_mass
     return share * swing * device.drive_frequency / pi
+
+
+def velocity_of_free_swing(device: Device, fast: FastVibration, swing: float) -> float:
+    """The same of a free swing.
+
+    By what differs of it a turn later, and by the friction that it changes until then.
+    """
+    w, slip = device.drive_frequency, slip_oscillator(device)
+    cosine, sine = free_response(slip, tau / w)
+    apart = hypot(cosine + slip.decay * sine - 1.0, w * sine)
+    velocity = device.resonator_mass / device.total_mass * swing * w
+    if not velocity > 0.0:
+        return 0.0
+    return velocity * (apart / tau + BY_FRICTION * friction_share(device, fast) / apart)
 
 
 def lag_angle(device: Device, fast: FastVibration, added_mass: float) -> float:

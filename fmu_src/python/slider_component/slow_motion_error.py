@@ -7,6 +7,9 @@ from math import hypot, inf, pi, sqrt, tau
 from .bristle import bristle_of
 from .device import Device
 from .fast_vibration import FastVibration
+from .motion import State
+from .plant import Plant
+from .velocity_scale import velocity_scale
 
 FIRST_ORDER = 2.0
 """Error of first order in friction shares and v_q: of the average, and of what the average leaves
@@ -49,7 +52,16 @@ SHARE_OF_TOLERANCE = 0.01
 `RESOLUTION`."""
 
 RESOLUTION = 1e-9
-"""Error of the integration and of the tables, in v_q."""
+"""Error of the tables, in v_q."""
+
+ROUNDING = 1e-14
+"""Error of resolved motion by rounding, in its scale of velocities."""
+
+RESOLVED_AT_ONCE = 0.03
+"""Its error in tolerances of LuGre friction and that scale: that of a moment."""
+
+RESOLVED_IN_TURN = 1e-3
+"""The same of a turn, which adds up until the slow motion has decayed."""
 
 LEAST_BY_RULE = 1e-8
 """The least error that the rule of thumb gives, in v_q."""
@@ -185,5 +197,15 @@ def table_accuracy(device: Device) -> float:
 
 
 def resolution_error(device: Device, fast: FastVibration) -> float:
-    """Error [m/s] of the integration and of the tables."""
+    """Error [m/s] of the tables."""
     return table_accuracy(device) * fast.velocity
+
+
+def resolved_error(resolved: Device, plant: Plant, fast: FastVibration, angle: float) -> float:
+    """Error [m/s] of resolved motion after a drive angle [rad]."""
+    turns = min(angle / tau, 1.0 / slow_decay_in_turn(resolved, fast))
+    share = ROUNDING
+    if resolved.friction_law != 0:
+        share += (RESOLVED_AT_ONCE + RESOLVED_IN_TURN * turns) * resolved.tolerance
+    swing = abs(fast.resonator) * resolved.drive_frequency
+    return share * velocity_scale(plant, State(fast.velocity, 0.0, swing))
