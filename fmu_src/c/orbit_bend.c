@@ -22,7 +22,7 @@ double orbit_bend_decay(const Law *law, double lead, const Moment *moment) {
         return INFINITY;
     }
     /* The multiplier may be that of the resonator. */
-    return fmax(-log(orbit.fast_multiplier) / map->turns, least_bend_decay(law));
+    return fmax(-log(orbit.fast_multiplier) / map->turns, min_bend_decay(law));
 }
 
 double velocity_of_bend(const Law *law, double decay, double angle) {

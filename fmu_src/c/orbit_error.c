@@ -147,7 +147,7 @@ static double unmeasured_error(const OrbitRide *ride, const OrbitPoint *point, d
                         : first_order_error(ride->law);
 }
 
-bool error_is_none(const OrbitState *orbit) {
+bool is_without_error(const OrbitState *orbit) {
     return orbit->open.kind == TAKEN_OVER && orbit->open.elapsed == 0.0;
 }
 

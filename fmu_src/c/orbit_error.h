@@ -19,7 +19,7 @@ void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, doub
 void error_leave(const Law *law, OrbitState *orbit);
 
 /* Whether no orbit has been followed since resolved motion ended, so that it goes on without an error of orbits. */
-bool error_is_none(const OrbitState *orbit);
+bool is_without_error(const OrbitState *orbit);
 
 /* Let the resonator's swing decay for a drive angle [rad]. */
 void error_calm(const Law *law, double angle, OrbitState *orbit);

@@ -70,7 +70,7 @@ void orbit_motion_settle(const Law *law, Moment *moment) {
 static void resolve_for(const Law *law, Moment *now, double angle) {
     OrbitState *orbit = &now->orbit;
     if (orbit->stage != RESOLVED) {
-        if (error_is_none(orbit)) {
+        if (is_without_error(orbit)) {
             orbit->open = (OpenError){.kind = NOTHING_OPEN};
         } else {
             orbit_motion_settle(law, now);

@@ -38,12 +38,12 @@ double bend_angle(double decay) {
     return angle_until(1.0, SWING_LEFT, decay);
 }
 
-double least_bend_decay(const Law *law) {
+double min_bend_decay(const Law *law) {
     return 0.5 * bristle_decay(law);
 }
 
 bool bend_is_slow(const Law *law) {
-    return bend_angle(least_bend_decay(law)) > TAU * MIN_TURNS_RESOLVED;
+    return bend_angle(min_bend_decay(law)) > TAU * MIN_TURNS_RESOLVED;
 }
 
 double resolved_angle(const Law *law, const Moment *moment) {

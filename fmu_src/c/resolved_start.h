@@ -19,7 +19,7 @@ double resolved_angle(const Law *law, const Moment *moment);
 
 /* Smallest decay of the bend of a bristle in a turn: two multipliers that are separate share their decay, and the
  * slow motion has less than half of it. */
-double least_bend_decay(const Law *law);
+double min_bend_decay(const Law *law);
 
 /* Whether the bend may take longer to decay than the smallest angle that is resolved. */
 bool bend_is_slow(const Law *law);

@@ -14,7 +14,7 @@ from .fast_vibration import FastVibration
 from .held_orbit import NoOrbitError, held_orbit_at, held_orbit_linearised
 from .moment import Moment
 from .period_map import PeriodMap
-from .resolved_start import bend_is_slow, least_bend_decay
+from .resolved_start import bend_is_slow, min_bend_decay
 from .slow_motion_error import friction_share
 
 
@@ -34,7 +34,7 @@ def orbit_bend_decay(
         return inf
     # The multiplier may be that of the resonator.
     decay = -log(orbit.fast_multiplier) / period_map.turns
-    return max(decay, least_bend_decay(period_map.held.device, fast))
+    return max(decay, min_bend_decay(period_map.held.device, fast))
 
 
 def velocity_of_bend(device: Device, fast: FastVibration, decay: float, angle: float) -> float:

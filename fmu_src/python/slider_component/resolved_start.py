@@ -59,7 +59,7 @@ def resolved_angle(device: Device, fast: FastVibration, state: State, theta: flo
     return max(tau * MIN_TURNS_RESOLVED, swing, bend)
 
 
-def least_bend_decay(device: Device, fast: FastVibration) -> float:
+def min_bend_decay(device: Device, fast: FastVibration) -> float:
     """Smallest decay of the bend of a bristle in a turn.
 
     Two multipliers that are separate share their decay, and the slow motion has less than half.
@@ -69,7 +69,7 @@ def least_bend_decay(device: Device, fast: FastVibration) -> float:
 
 def bend_is_slow(device: Device, fast: FastVibration) -> bool:
     """Whether the bend may take longer to decay than the smallest angle that is resolved."""
-    return bend_angle(least_bend_decay(device, fast)) > tau * MIN_TURNS_RESOLVED
+    return bend_angle(min_bend_decay(device, fast)) > tau * MIN_TURNS_RESOLVED
 
 
 def bend_angle(decay: float) -> float:
