@@ -36,6 +36,8 @@ FIRST_TOLERANCE = 1e-6
 """Tolerance at which communication steps are judged and the search for a tolerance starts."""
 DOUBTFUL = (0.1, 10.0)
 """Errors over allowed ones, from windows, that the whole scene must confirm."""
+ROUNDING = 1e-9
+"""Share of a step that is rounding."""
 MIN_PERIODS = 30
 """Drive periods of a search by shooting that few searches fall below."""
 TIME_LIMIT = 600.0
@@ -212,7 +214,8 @@ class _Choosing:
                 return inf
 
         tight = tolerances[-1]
-        at = coarsest(lambda i: excess(tight, self.ladder[i]), len(self.ladder), 2.0)
+        fine = self._own_step() if self.probe.varying else 0
+        at = coarsest(lambda i: excess(tight, self.ladder[i]), len(self.ladder), 2.0, fine=fine)
         if at is None:
             return None, self._why_not(model, refused)
         if self.probe.covers == "whole":  # errors that change sign may vanish at a coarser step
@@ -224,6 +227,11 @@ class _Choosing:
         rest = tolerances[index:] if self.probe.steady_needs else tolerances[index : index + 1]
         found = [Candidate(model, fine, step) for fine in rest if excess(fine, step) <= 1.0]
         return min(map(self._evaluate, found), key=lambda one: one.cost), ""
+
+    def _own_step(self) -> int:
+        """Return the index of the scene's own step, 0 without one."""
+        own = (self.scene.step_size or 0.0) * (1.0 + ROUNDING)
+        return next((i for i, step in enumerate(self.ladder) if step and step <= own), 0)
 
     def _why_not(self, model: Model, refused: str) -> str:
         if all(candidate.model != model for candidate in self._evaluations):

@@ -111,6 +111,8 @@ class _Following:
             self.bought.add(source)
 
     def _change(self, stay: Stay) -> None:
+        if stay.goes_on:
+            return
         if stay.tuned:
             self.tunings += 1
             self.bought.clear()
@@ -139,7 +141,8 @@ class _Following:
             if left <= 0.0:
                 return
             self.resolves, self.waited = False, 0.0
-        self.leads.add(stay.lead)
+        if not stay.goes_on:
+            self.leads.add(stay.lead)
         source, beats = self._source(stay), stay.beats / stay.periods
         searched = left if source == "search" else min(left, self._searched_first(stay))
         self.waited += searched

@@ -27,8 +27,9 @@ class Stay:
     """Motion under one lead, or one that drifts: `periods` of the drive that begin with a change.
 
     `lead` is the same where the orbits are, up to rounding. `tuned` says whether the change is that
-    of a parameter, `driven` whether it shakes the resonator. `beats` are the turns of the slow
-    phase by the frequency ratio, and `count` is how many changes it is.
+    of a parameter, `driven` whether it shakes the resonator, `bends` whether it is that of a slope
+    alone. `beats` are the turns of the slow phase by the frequency ratio, and `count` is how many
+    changes it is.
     """
 
     periods: float
@@ -36,8 +37,14 @@ class Stay:
     drifts: bool
     tuned: bool = False
     driven: bool = False
+    bends: bool = False
     beats: float = 0.0
     count: int = 1
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether the lead goes on drifting, along a line of another slope."""
+        return self.bends and self.drifts
 
 
 @dataclass(frozen=True)
@@ -77,7 +84,7 @@ def plan_of(schedule: Schedule, period: float) -> Plan:
     """Return what a schedule asks; `period` (s) is the drive's."""
     times, sampled, rates = schedule.times, schedule.sampled(), schedule.rates()
     tuned = np.diff(schedule.tuned(), axis=0)[:-1] != 0.0
-    jumps = _jumps(times, sampled, rates)
+    jumped, bent = _changes(times, sampled, rates)
     lengths = np.diff(times) / period
     chirps = rates[:-1, 2] != 0.0
     detuning = _detuning(sampled[:-1, 2] + 0.5 * rates[:-1, 2] * np.diff(times))
@@ -85,8 +92,8 @@ def plan_of(schedule: Schedule, period: float) -> Plan:
         duration=float(times[-1]),
         steps=len(times) - 1,
         settings=len(schedule.changes()) * (2 if schedule.ramps else 1),
-        kicks=int(np.count_nonzero(np.any(jumps, axis=1) | np.any(tuned, axis=1))),
-        stays=_stays(schedule, jumps, tuned, lengths, detuning),
+        kicks=int(np.count_nonzero(np.any(jumped | bent, axis=1) | np.any(tuned, axis=1))),
+        stays=_stays(schedule, jumped, bent, tuned, lengths, detuning),
         chirped=float(lengths[chirps].sum()),
     )
 
@@ -97,28 +104,32 @@ def _detuning(ratios: Array) -> Array:
     return np.asarray(np.min(ways, axis=0))
 
 
-def _jumps(times: Array, sampled: Array, rates: Array) -> NDArray[np.bool_]:
-    """Return whether each input jumps or changes its slope at the points inside, (n - 2, 3)."""
+def _changes(
+    times: Array, sampled: Array, rates: Array
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return where each input jumps, and where its slope does: at points inside, (n - 2, 3)."""
     lengths = np.diff(times)[:, None]
     expected = sampled[:-1] + rates[:-1] * lengths
     sizes = SAME * np.abs(sampled).max(axis=0)
     jumped = np.abs(sampled[1:] - expected)[:-1] > sizes
     bent = np.abs(np.diff(rates, axis=0))[:-1] > SAME * np.abs(rates).max(axis=0)
-    return np.asarray(jumped | bent)
+    return np.asarray(jumped), np.asarray(bent)
 
 
 def _stays(
     schedule: Schedule,
-    jumps: NDArray[np.bool_],
+    jumped: NDArray[np.bool_],
+    bent: NDArray[np.bool_],
     tuned: NDArray[np.bool_],
     lengths: Array,
     detuning: Array,
 ) -> tuple[Stay, ...]:
-    """Return the stays from the jumps (n - 2, 3) and changes of parameters (n - 2, k)."""
+    """Return the stays from the changes of inputs (n - 2, 3) and of parameters (n - 2, k)."""
     beats = np.where(detuning < NEAR_AN_INTEGER, detuning, 0.0) * lengths
     driving = np.array([name in DRIVING for name in schedule.tuning], dtype=bool)
     by_tuning, driven = np.any(tuned, axis=1), np.any(tuned[:, driving], axis=1)
-    begins = np.append(0, 1 + np.flatnonzero(jumps[:, 0] | jumps[:, 2] | by_tuning))
+    jumps, bends = jumped[:, 0] | jumped[:, 2], bent[:, 0] | bent[:, 2]
+    begins = np.append(0, 1 + np.flatnonzero(jumps | bends | by_tuning))
     count = ceil(len(begins) / MAX_STAYS)
     begins = begins[::count]
     totals = np.add.reduceat(np.column_stack([lengths, beats]), begins)
@@ -130,6 +141,7 @@ def _stays(
             drifts=bool(detuning[at] > SAME or rates[at, 0] or rates[at, 2]),
             tuned=at > 0 and bool(by_tuning[at - 1]),
             driven=at > 0 and bool(driven[at - 1]),
+            bends=at > 0 and not (jumps[at - 1] or by_tuning[at - 1]),
             beats=turns,
             count=count,
         )

@@ -12,12 +12,14 @@ PATIENCE = 2
 """Refinements that must stall: the coarsest can be outside the range of convergence."""
 
 
-def coarsest(excess: Callable[[int], float], count: int, gain: float, first: int = 0) -> int | None:
+def coarsest(
+    excess: Callable[[int], float], count: int, gain: float, first: int = 0, fine: int = 0
+) -> int | None:
     """Return the smallest index below `count` with `excess(index)` <= 1, None where none has.
 
     `excess` is error over allowed error, expected to fall by `gain` from each index to the next:
     that predicts the next index, and the value there decides. Starts at `first`; gives up where
-    the error does not fall.
+    the error does not fall, but not above index `fine`: coarser ones may miss what happens.
     """
     known: dict[int, float] = {}
     index = first
@@ -28,7 +30,10 @@ def coarsest(excess: Callable[[int], float], count: int, gain: float, first: int
         if good == bad + 1:
             return good if good < count else None
         if good == count and _stalled(known):
-            return None
+            if max(known) >= fine:
+                return None
+            index = fine
+            continue
         shift = _shift(known[index], gain, count)
         index = min(max(index + shift, bad + 1), good - 1)
 

@@ -23,6 +23,7 @@ KNOWN_MISSES = (
     ("many_jumps", 4),
     ("free_stiff_bristle", 1),
     ("polyline", 8),
+    ("polyline", 70),
     ("steady_coarse", 1),
     ("slow_ratio_ramp", 60),
     ("polyline", 31),

@@ -79,6 +79,15 @@ def test_a_lead_that_drifts_from_the_start_searches_until_a_series_is_due() -> N
     assert long.searched + long.tabulated + long.resolved == pytest.approx(10_000.0)
 
 
+def test_a_line_that_only_bends_is_followed_by_searches_and_one_that_ends_is_resolved() -> None:
+    bends = [stay(100.0, 0.1 * i, drifts=True, bends=True) for i in range(20)]
+    found = work(*bends)
+    assert found.resolved == pytest.approx(START)
+    assert found.searched == pytest.approx(2000.0 - START)
+    flat = work(*bends, stay(1000.0, bends=True))
+    assert flat.resolved == pytest.approx(START + PAID[0].curve)
+
+
 def test_a_lead_that_drifts_under_flight_searches_throughout() -> None:
     found = work(stay(30_000.0, drifts=True), scales=FLIGHT)
     assert found.curves == 0

@@ -34,6 +34,8 @@ def test_a_line_that_is_held_kicks_at_every_point_and_one_passed_on_at_its_corne
     assert passed.settings == 2 * 10, "values and derivatives"
     assert (passed.kicks, len(passed.stays)) == (1, 2)
     assert all(stay.drifts for stay in passed.stays)
+    assert [stay.bends for stay in passed.stays] == [False, True], "no value jumps at the corner"
+    assert not any(stay.bends for stay in held.stays)
 
 
 def test_a_parameter_that_jumps_begins_a_stay_and_a_drive_shakes_the_resonator() -> None:

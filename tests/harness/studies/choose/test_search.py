@@ -45,5 +45,11 @@ def test_an_error_that_does_not_fall_is_given_up_at_once() -> None:
     assert len(evaluation) == 3
 
 
+def test_an_index_that_is_fine_enough_is_tried_before_the_search_gives_up() -> None:
+    """Steps longer than an input takes to go up and down see none of it."""
+    assert coarsest(lambda index: 3.0 if index < 7 else 0.5, 10, 2.0, fine=8) == 7
+    assert coarsest(lambda _: 3.0, 10, 2.0, fine=8) is None
+
+
 def test_a_candidate_that_cannot_run_is_refined() -> None:
     assert coarsest(lambda index: inf if index < 4 else 0.5, 10, 2.0) == 4
