@@ -41,10 +41,11 @@
 #define LEAST_BY_RULE 1e-8
 
 /* Error of resolved motion in its scale of velocities: by rounding; and in tolerances of LuGre friction, that of a
- * moment, and that of a turn, which adds up until the slow motion has decayed. */
+ * moment, and that of a turn, which adds up for some decays of the slow motion: far from balance it decays later. */
 #define ROUNDING 1e-14
 #define RESOLVED_AT_ONCE 0.03
-#define RESOLVED_IN_TURN 1e-3
+#define RESOLVED_IN_TURN 2.5e-3
+#define DECAYS 3.0
 
 /* Damping of bristles over Coulomb friction; 0 without bristles. A bristle bends over a path of 2 mu/s0 after
  * each of two reversals in a turn, and damps by the impulse of 2 mu s1/s0 per normal load; but by no more than
@@ -130,7 +131,7 @@ double resolution_error(const Law *law) {
 
 double resolved_error(const Law *law, double angle) {
     const Law *resolved = law->resolved;
-    double turns = fmin(angle / TAU, 1.0 / slow_decay_in_turn(law)), share = ROUNDING;
+    double turns = fmin(angle / TAU, DECAYS / slow_decay_in_turn(law)), share = ROUNDING;
     if (resolved->device.friction_law != 0) {
         share += (RESOLVED_AT_ONCE + RESOLVED_IN_TURN * turns) * resolved->device.tolerance;
     }

@@ -291,6 +291,18 @@ LONG_START = {
 }
 """LuGre friction that is resolved for 430 turns, in which errors add up."""
 
+RESOLVED_FOR_LONG = {
+    "resonator_mass": 0.069286,
+    "damping_ratio": 0.0058377,
+    "normal_amplitude": 0.5,
+    "friction_coefficient": 0.10116,
+    "friction_law": 1,
+    "bristle_stiffness": 1541,
+    "phase": -2.943,
+    "load": 0,
+}
+"""The same for 420 turns, under friction that slows down little of what went wrong."""
+
 NEAR_THE_DRIVE = {
     "resonator_mass": 0.12288,
     "damping_ratio": 0.019112,
@@ -359,6 +371,20 @@ def test_the_largest_estimate_is_that_of_the_largest_error(
         largest = max(largest, abs(mean - full.get("mean_velocity")[0]))
         reported = max(reported, estimate)
     assert largest <= 3.0 * reported <= 30.0 * largest
+
+
+def test_the_estimate_covers_the_error_of_bristles_while_they_are_resolved(
+    instantiate: Instantiate,
+) -> None:
+    """In each of the turns before orbits take over; the errors of steps add up."""
+    slow = instantiate().initialize(**RESOLVED_FOR_LONG, fidelity=0)
+    full = instantiate().initialize(**RESOLVED_FOR_LONG, fidelity=2, tolerance=1e-12)
+    for _ in range(20):
+        for instance in (slow, full):
+            instance.step(20.0 * math.tau / 3500.0)
+        mean, estimate = slow.get("mean_velocity", "slow_motion_error")
+        error = abs(mean - full.get("mean_velocity")[0])
+        assert error <= 3.0 * estimate <= 30.0 * error
 
 
 def test_motion_that_is_resolved_on_keeps_no_error_of_orbits(instantiate: Instantiate) -> None:

@@ -60,8 +60,11 @@ ROUNDING = 1e-14
 RESOLVED_AT_ONCE = 0.03
 """Its error in tolerances of LuGre friction and that scale: that of a moment."""
 
-RESOLVED_IN_TURN = 1e-3
-"""The same of a turn, which adds up until the slow motion has decayed."""
+RESOLVED_IN_TURN = 2.5e-3
+"""The same of a turn, which adds up for some decays of the slow motion."""
+
+DECAYS = 3.0
+"""How many: far from balance the slow motion decays later."""
 
 LEAST_BY_RULE = 1e-8
 """The least error that the rule of thumb gives, in v_q."""
@@ -203,7 +206,7 @@ def resolution_error(device: Device, fast: FastVibration) -> float:
 
 def resolved_error(resolved: Device, plant: Plant, fast: FastVibration, angle: float) -> float:
     """Error [m/s] of resolved motion after a drive angle [rad]."""
-    turns = min(angle / tau, 1.0 / slow_decay_in_turn(resolved, fast))
+    turns = min(angle / tau, DECAYS / slow_decay_in_turn(resolved, fast))
     share = ROUNDING
     if resolved.friction_law != 0:
         share += (RESOLVED_AT_ONCE + RESOLVED_IN_TURN * turns) * resolved.tolerance
