@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import nullcontext
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -31,7 +32,8 @@ WAVE = np.sin(np.linspace(0.0, 50.0, 1000))
 
 def fmu(**parts: Any) -> FmuSide:
     scene = SimpleNamespace(name="scene", source="scene.toml", start_time=0.0)
-    return cast(FmuSide, SimpleNamespace(scene=scene, **parts))
+    instance = SimpleNamespace(explained=nullcontext)
+    return cast(FmuSide, SimpleNamespace(scene=scene, instance=instance, **parts))
 
 
 def steady(velocity: float | None, status: str = "steady") -> FmuSide:

@@ -43,7 +43,7 @@ ONCE_PASSED = {
     "second_order_outrun_flight": ("orbit_sliding_without_flight",),
     "second_order_overdamped": ("overdamped_decay",),
     "second_order_settled_flight": ("orbit_curve_accuracy",),
-    "second_order_soft_bristles": ("start_bend",),
+    "second_order_slow_bend": ("bend_by_itself",),
     "second_order_strong_flight": ("orbit_curve_added_mass",),
     "second_order_tuned_amplitude": ("orbit_amplitude_unnoticed",),
     "second_order_visited_phases": ("state_without_third_lead",),
