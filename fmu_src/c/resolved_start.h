@@ -7,7 +7,7 @@
 #include "law.h"
 
 /* Largest tolerance of LuGre friction with which motion is resolved before it goes over to orbits: what it errs
- * by stays in the slow velocity, and no estimate has it. Turns are few, so that costs little. */
+ * by stays in the slow velocity. Turns are few, so that costs little. */
 #define RESOLVED_TOLERANCE 1e-9
 
 /* Whether transients decay within the largest number of turns that are resolved. */
