@@ -13,6 +13,9 @@
 #include "refusal.h"
 
 typedef struct FrictionLaw {
+    /* Whether a slider at rest sticks: friction then balances the other forces. */
+    bool sticks;
+
     /* Refuses a device for which the law is not defined. */
     bool (*check)(const Device *device, Refusal *refusal);
 

@@ -84,6 +84,7 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 }
 
 const FrictionLaw LUGRE = {
+    .sticks = false,
     .check = check,
     .first_bristle = first_bristle,
     .mode = mode,

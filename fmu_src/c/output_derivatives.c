@@ -4,6 +4,7 @@
 
 #include "elementary.h"
 #include "fast_vibration.h"
+#include "friction_law.h"
 #include "variables.h"
 
 /* Accelerations of the slider, and of the resonator relative to it [m/s^2]; displacement and rate of the
@@ -34,7 +35,7 @@ static Motion resolved_motion(const Law *law, const Moment *moment) {
     double w = plant->drive_frequency, sine = sin(moment->theta), cosine = cos(moment->theta);
     Motion motion = {.swing = {moment->state.displacement, moment->state.rate}};
     int mode = law_mode(law, moment);
-    if (mode != STICK) {
+    if (mode != STICK || !law->friction->sticks) {
         double force = plant->holding_drive.re * sine + plant->holding_drive.im * cosine -
                        plant->load - law_friction_force(law, moment, mode);
         force += plant->spring * motion.swing.displacement + plant->damper * motion.swing.rate;

@@ -74,6 +74,13 @@ def test_a_slider_at_rest_does_not_accelerate(instantiate: Instantiate) -> None:
     assert slopes == pytest.approx(quotients(instance)[3:4], rel=1e-6)
 
 
+def test_a_slider_at_rest_on_bristles_accelerates_at_once(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(friction_law=1, load=0.05)
+    (acceleration,) = instance.derivatives("velocity")
+    assert acceleration == pytest.approx(-0.05, rel=1e-12)
+    assert quotients(instance)[1] == pytest.approx(-0.05, rel=1e-2)
+
+
 def test_what_changes_at_events_only_stands_still(instance: Instance) -> None:
     instance.step(1e-3)
     assert set(instance.derivatives(*JUMPING, "mean_velocity")) == {0.0}

@@ -57,7 +57,7 @@ EXTREMES: tuple[Mapping[str, float], ...] = (
     },
 )
 """Devices at the ends of floating point numbers: refused, or of finite outputs."""
-NEXT_TO = 1e-6
+NEXT_TO = 1e-8
 """Share by which a good value differs from a bad one: a device may be that near to resonance."""
 LONG_STEP = 0.2
 """A step (s) that takes the last of them beyond."""

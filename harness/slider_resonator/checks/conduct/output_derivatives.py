@@ -15,9 +15,10 @@ OUTPUTS = ("position", "velocity", "resonator_displacement", "resonator_velocity
 """Outputs that are smooth between events."""
 SLOW = "mean_velocity"
 """An output that is smooth, and slow, where motion is averaged to first order."""
-COUNTS = ("contact_mode", "reversals", "last_event_time")
-"""Outputs that change at an event."""
-HELD = (SLOW, "stick_fraction", *COUNTS)
+COUNTS = ("reversals", "last_event_time")
+"""Outputs that change at each event. The contact mode also changes without one, where a slider at
+rest on bristles sets out."""
+HELD = (SLOW, "stick_fraction", "contact_mode", *COUNTS)
 """Outputs that are held for a time, in which their derivative is 0."""
 SHORT = 1e-6
 """A step, in drive periods; quotients are of second order, over two."""
