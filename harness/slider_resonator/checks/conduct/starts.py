@@ -13,7 +13,10 @@ from slider_resonator.fmu.instance import Instance
 
 
 def start_faults(fmu: FmuSide) -> Findings:
-    """Read every parameter and input new, when set, in a run and after a reset."""
+    """Read every parameter and input new, when set, in a run and after a reset.
+
+    Outputs that are read before initialization ends are those at its end.
+    """
     instance = fmu.instance
     if not instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
         instance.recreate()
@@ -34,8 +37,10 @@ def start_faults(fmu: FmuSide) -> Findings:
         faults += _unequal(instance, others, "after it was set")
         faults += _in_one_call(instance, others)
         call(instance.slave, "fmi2EnterInitializationMode")
+        first = instance.read(instance.fmu.outputs)
         instance.begin()
         faults += _unequal(instance, others, "in a run")
+        faults += _unequal(instance, first, "after initialization, as it was read in it")
         instance.step_by(1e-3)
         faults += _unequal(instance, others, "after a step")
         instance.set_up()
