@@ -33,8 +33,8 @@ ANSWERS = {"fmi2GetVersion": "2.0", "fmi2GetTypesPlatform": "default"}
 OTHER_GUID = "{00000000-0000-0000-0000-000000000000}"
 """The GUID of no description."""
 
-WARNINGS = b"logStatusWarning"
-"""A log category to which no refusal belongs."""
+WARNINGS, EVERYTHING = b"logStatusWarning", b"logAll"
+"""Log categories: one to which no refusal belongs, and that of all messages."""
 
 CATEGORY, FORMAT = "logs of ", "%d"
 """An unknown log category; its end acts as a format where percent signs are not doubled."""
@@ -67,6 +67,10 @@ def host_faults(fmu: FmuSide) -> Findings:
     if instance.fmu.runs_without_python:
         faults += _other_host_faults(instance, slave)
     faults += _many_values_faults(instance)
+    try:
+        call(slave, "fmi2GetReal", None, 0, None)
+    except FMICallException:
+        faults.append("a call for no values at all is refused")
     faults += _offer_faults(instance, slave)
     with instance.explained():
         instance.terminate()
@@ -128,6 +132,11 @@ def _switching_faults(instance: Instance) -> Iterator[str]:
     warnings = (c_char_p * 1)(WARNINGS)
     if _has_category(instance, WARNINGS) and _refusal_is_logged(instance, True, 1, warnings):
         yield "a refusal is logged though only warnings were asked for"
+    everything = (c_char_p * 1)(EVERYTHING)
+    if _has_category(instance, EVERYTHING) and instance.fmu.runs_without_python:
+        # pythonfmu logs a refusal without a category.
+        if not _refusal_is_logged(instance, True, 1, everything):
+            yield "a refusal is not logged though all messages were asked for"
     if not _refusal_is_logged(instance, True):
         yield "a refusal is not logged after logging is switched on"
     yield from _text_faults(instance)

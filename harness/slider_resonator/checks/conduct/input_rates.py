@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from slider_resonator.checks.conduct.findings import NOTHING, Findings, differen
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.blocks import Derivatives
+from slider_resonator.fmu.blocks import Derivatives, call
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import Running, run
@@ -18,6 +18,9 @@ from slider_resonator.fmu.saved_state import SavedState
 
 AWAY = 1e-4
 """A step (s) that is taken back."""
+
+RATES = (1.0, 2.0, 3.0)
+"""Derivatives of the inputs, per s."""
 
 ROUNDING = 1e-9
 """Share of the peak by which positions may differ where inputs are added up differently."""
@@ -45,7 +48,7 @@ def rate_differences(fmu: FmuSide) -> Findings:
                 running.read()
         outputs, times = instance.fmu.outputs, schedule.readings()
         found += differences(what, outputs, times, running.rows, expected)
-    return found + _kept(fmu, plain)
+    return found + _kept(fmu, plain) + _begun(fmu)
 
 
 def _kept(fmu: FmuSide, plain: Record) -> Findings:
@@ -71,6 +74,35 @@ def _kept(fmu: FmuSide, plain: Record) -> Findings:
     return Findings.of([f"position is off by {off:.2g} of its peak where derivatives are kept"])
 
 
+def _begun(fmu: FmuSide) -> Findings:
+    """Set derivatives before a reset, where they must end, and before initialization ends."""
+    instance, parameters = fmu.instance, fmu.scene.parameters
+
+    def after_a_step() -> Mapping[str, float]:
+        instance.step_by(AWAY)
+        return instance.read(instance.fmu.outputs)
+
+    faults: list[str] = []
+    with instance.explained():
+        instance.start(parameters)
+        held = after_a_step()
+        instance.start(parameters)
+        instance.set_input_rates(RATES)
+        growing = after_a_step()
+        instance.set_input_rates(RATES)
+        instance.start(parameters)
+        if after_a_step() != held:
+            faults.append("derivatives of inputs outlive a reset")
+        instance.set_up()
+        instance.set(parameters)
+        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.set_input_rates(RATES)
+        instance.begin()
+        if after_a_step() != growing:
+            faults.append("derivatives set before initialization ends are forgotten")
+    return Findings.of(faults)
+
+
 def _before_values(instance: Instance, schedule: Schedule, step: int) -> None:
     instance.set_input_rates(schedule.rates()[step].tolist())
     _through_a_state(instance)
@@ -85,7 +117,7 @@ def _through_a_state(instance: Instance) -> None:
     state = SavedState.of(instance)
     instance.step_by(AWAY)
     instance.set_inputs([0.1, 0.2, 1.3])
-    instance.set_input_rates([1.0, 2.0, 3.0])
+    instance.set_input_rates(RATES)
     state.transfer(instance)
     state.free()
 

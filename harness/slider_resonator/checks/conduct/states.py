@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from ctypes import byref, c_void_p
 
@@ -10,13 +10,18 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
 from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.conduct.other_values import other_value
 from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.saved_state import SavedState
 
 STEP = 1.3e-3
 """Size of a step, s."""
+CHANGED = ("friction_coefficient", "base_amplitude")
+"""Parameters that are set after a state is saved."""
 DAMAGED = 24
 """Places in a serialised state at which a bit is turned."""
 
@@ -33,6 +38,7 @@ def state_faults(fmu: FmuSide) -> Findings:
         if instance.fmu.description.coSimulation.canSerializeFMUstate:
             faults += _damage_faults(instance, slave)
         faults += _freeing_faults(instance, slave)
+        faults += _early_faults(instance, fmu.scene.parameters)
         instance.terminate()
     return Findings.of(faults)
 
@@ -99,3 +105,24 @@ def _freeing_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterato
         call(slave, "fmi2FreeFMUstate", byref(state))
     except FMICallException:
         yield "freeing a null pointer is refused"
+
+
+def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterator[str]:
+    """Save the state before initialization, initialize with other values, and go back."""
+    outputs = instance.fmu.outputs
+    instance.start(parameters)
+    instance.step_by(STEP)
+    expected = instance.read(outputs)
+    instance.set_up()
+    instance.set(parameters)
+    state = SavedState.of(instance)
+    instance.set({name: other_value(name, VARIABLES[name].start or 0.0) for name in CHANGED})
+    call(instance.slave, "fmi2EnterInitializationMode")
+    instance.read(outputs)
+    state.restore()
+    state.free()
+    call(instance.slave, "fmi2EnterInitializationMode")
+    instance.begin()
+    instance.step_by(STEP)
+    if instance.read(outputs) != expected:
+        yield "a state saved before initialization keeps the values set after it"
