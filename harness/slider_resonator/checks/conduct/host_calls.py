@@ -133,10 +133,10 @@ def _switching_faults(instance: Instance) -> Iterator[str]:
     if _has_category(instance, WARNINGS) and _refusal_is_logged(instance, True, 1, warnings):
         yield "a refusal is logged though only warnings were asked for"
     everything = (c_char_p * 1)(EVERYTHING)
-    if _has_category(instance, EVERYTHING) and instance.fmu.runs_without_python:
-        # pythonfmu logs a refusal without a category.
-        if not _refusal_is_logged(instance, True, 1, everything):
-            yield "a refusal is not logged though all messages were asked for"
+    # pythonfmu logs a refusal without a category.
+    categorised = _has_category(instance, EVERYTHING) and instance.fmu.runs_without_python
+    if categorised and not _refusal_is_logged(instance, True, 1, everything):
+        yield "a refusal is not logged though all messages were asked for"
     if not _refusal_is_logged(instance, True):
         yield "a refusal is not logged after logging is switched on"
     yield from _text_faults(instance)
