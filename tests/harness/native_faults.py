@@ -175,6 +175,39 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         "slow_acceleration(law, moment)",
         "late_start",
     ),
+    "derivatives of inputs outlive a reset": (
+        "component.c",
+        "    memset(&component->now, 0, sizeof component->now);\n",
+        "    InputDerivative kept[INPUT_COUNT];\n"
+        "    memcpy(kept, component->now.derivatives, sizeof kept);\n"
+        "    memset(&component->now, 0, sizeof component->now);\n"
+        "    memcpy(component->now.derivatives, kept, sizeof kept);\n",
+        "ramps_conduct",
+    ),
+    "outputs read in initialization mode are 0": (
+        "component.c",
+        "    if (!component->now.moving) {\n        *first",
+        "    if (component->now.lifecycle == INSTANTIATED) {\n        *first",
+        "interface",
+    ),
+    "a state saved early keeps the law of later values": (
+        "component.c",
+        "component->prepared = snapshot->moving;",
+        "component->prepared = true;",
+        "interface",
+    ),
+    "a call for no values is refused": (
+        "fmi2_values.c",
+        "if (count > 0 && (references == NULL || values == NULL)) {",
+        "if (references == NULL || values == NULL) {",
+        "interface",
+    ),
+    "bristles hold a slider at rest": (
+        "output_derivatives.c",
+        "mode != STICK || !law->friction->sticks",
+        "mode != STICK",
+        "tuned_lugre",
+    ),
 }
 """What is wrong: the C file, what to replace by what, and the scene that must notice."""
 
