@@ -58,6 +58,8 @@ def test_every_command_is_listed() -> None:
         (["scenes", "--check", "mine.tml"], "mine.tml: no such scene file"),
         (["run", "folder/mine"], "folder/mine: no such scene file"),
         (["scenes", "--jsn"], "No such option"),
+        ([], "Commands:\n  baseline  "),
+        (["baseline"], "Commands:\n  accept  "),
     ],
 )
 def test_what_cannot_run_exits_with_2_and_a_reason(arguments: list[str], reported: str) -> None:
