@@ -39,10 +39,10 @@ $(LINT)/.ready: requirements-lint.lock
 	$(LINT)/bin/python $(PIP_INSTALL) -r requirements-lint.lock
 	@touch $@
 
-build: $(READY) ## build both FMUs into dist
+build: $(READY) ## build the FMUs, the closed loop and the page into dist
 	$(PY) build_fmu.py
 
-validate: build ## build both FMUs, run every built-in scene and compare them with the references
+validate: build ## build, run every built-in scene with both FMUs of FMI 2.0 and compare them with the references
 	$(PY) -m harness validate
 
 # Three share two cores where tests are slow: some of those wait for a time limit.

@@ -128,3 +128,12 @@ def test_what_the_project_runs_is_there() -> None:
     scripts = [word for step in steps(CI) for word in str(step.get("run", "")).split()]
     assert ".ci/run" in scripts
     assert (ROOT / ".ci" / "run").stat().st_mode & 0o100, "it must be executable"
+
+
+def test_the_tools_that_the_verdict_needs_are_installed_from_its_own_list() -> None:
+    """`.ci/run` may not install as the user of a runner, and ends where a tool is missing."""
+    script = ".ci/install-tools.sh"
+    assert script in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    runs = [str(step.get("run", "")) for step in read(CI)["jobs"]["verdict"]["steps"]]
+    assert f"sudo {script}" in runs[: runs.index(".ci/run")]
+    assert not any("apt-get" in run for run in runs), "one list of packages"

@@ -125,16 +125,17 @@ def read_scene(scene: SceneLike, **values: float) -> Scene:
 
 def validate(
     *fmus: str | Path,
-    scenes: Sequence[str | Path] = (),
+    scenes: str | Path | Sequence[str | Path] = (),
     time_limit: float = TIME_LIMIT,
     jobs: int | None = None,
 ) -> tuple[Validation, ...]:
-    """Compare FMUs with the references; scenes are names, files or folders, by default all.
+    """Compare FMUs with the references.
 
-    `jobs` processes compute the references and as many at most run an FMU, by default one for each
-    core.
+    `scenes` is a name, a file or a folder, or several of these, by default all. `jobs` processes
+    compute the references and as many at most run an FMU, by default one for each core.
     """
-    files = files_of_scenes([str(scene) for scene in scenes])
+    named = [scenes] if isinstance(scenes, str | Path) else scenes
+    files = files_of_scenes([str(scene) for scene in named])
     paths = [Path(fmu) for fmu in fmus] or [fmu_path("native")]
     return validate_scenes(paths, files, time_limit=time_limit, jobs=jobs or available_cores())
 
@@ -151,16 +152,22 @@ def sweep(
     *,
     workers: int | None = None,
     restart: bool = False,
+    overwrite: bool = False,
 ) -> SweepResult:
     """Compute measures over a grid and write the table `out` (CSV or Parquet).
 
     `grid` is a file or data of the same form, `workers` the number of processes, by default one for
     each core. `columns` of the result are the table. Finished points are kept beside `out` until it
-    is written; `restart` discards them.
+    is written; `restart` discards them. A table of another grid is replaced only with `overwrite`.
     """
     read: Sweep = grid_from(grid, "grid") if isinstance(grid, Mapping) else read_grid(Path(grid))
     return run_sweep(
-        read, _fmu(fmu), Path(out), workers=workers or available_cores(), restart=restart
+        read,
+        _fmu(fmu),
+        Path(out),
+        workers=workers or available_cores(),
+        restart=restart,
+        overwrite=overwrite,
     )
 
 

@@ -10,6 +10,7 @@ import traceback
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from io import StringIO
+from itertools import pairwise
 from typing import Any, NoReturn
 
 import click
@@ -120,7 +121,7 @@ def _prints_json(arguments: Sequence[str]) -> bool:
     """Whether --json asks for JSON on standard output, not in a file."""
     return any(
         argument == "--json" and not after.endswith(".json")
-        for argument, after in zip(arguments, [*arguments[1:], ""], strict=True)
+        for argument, after in pairwise([*arguments, ""])
     )
 
 

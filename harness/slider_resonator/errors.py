@@ -11,7 +11,7 @@ class HarnessError(Exception):
 
 
 class SceneError(HarnessError):
-    """A scene file that cannot be read or asks for something that does not exist."""
+    """A scene or grid file that cannot be read, or a scene that asks for what does not exist."""
 
 
 class FmuError(HarnessError):

@@ -57,8 +57,10 @@ def test_scenes_are_names_files_and_data(native_fmu: Path, tmp_path: Path) -> No
         sr.read_scene("table_1", phse=1.0)
     with pytest.raises(sr.HarnessError, match="load = nan: must be a finite number"):
         sr.read_scene("table_1", load=float("nan"))
-    (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
-    assert validation.passed
+    for scenes in ("blocking_force_table_1", ["blocking_force_table_1"]):
+        (validation,) = sr.validate(native_fmu, scenes=scenes)
+        assert validation.passed
+        assert {check.scene for check in validation.checks} == {"blocking_force_table_1"}
     assert sr.choose("feed_forward", native_fmu).meets
     table = tmp_path / "table.csv"
     result = sr.sweep(
@@ -69,6 +71,30 @@ def test_scenes_are_names_files_and_data(native_fmu: Path, tmp_path: Path) -> No
     )
     assert (result.points, result.failed) == (2, 0)
     assert table.read_text().count("\n") == 3
+
+
+def test_a_table_of_other_points_is_replaced_only_where_that_is_asked_for(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    table = tmp_path / "table.csv"
+    table.write_text("point,phase\n0,1.0\n")
+    grid = {"measures": ["steady_velocity"], "list": {"phase": [0.4]}}
+    with pytest.raises(sr.HarnessError, match="not a table of this grid's points"):
+        sr.sweep(grid, table, native_fmu, workers=1)
+    assert sr.sweep(grid, table, native_fmu, workers=1, overwrite=True).points == 1
+    assert "0.4" in table.read_text()
+    with pytest.raises(sr.HarnessError, match=r"the suffix is '\.xls'; must be one of \.parquet"):
+        sr.sweep(grid, tmp_path / "table.xls", native_fmu, workers=1)
+
+
+def test_what_a_script_gets_wrong_is_named(native_fmu: Path) -> None:
+    with sr.open_fmu(native_fmu) as fmu:
+        record = fmu.run({"run": {"stop_time": 0.01, "step_size": 0.01}})
+        with pytest.raises(sr.HarnessError, match=r"phase = '0\.4': must be a number"):
+            fmu.steady(phase="0.4")  # type: ignore[arg-type]
+    for read in (record.__getitem__, record.final):
+        with pytest.raises(sr.HarnessError, match="unknown output 'positon'; did you mean 'pos"):
+            read("positon")
 
 
 def test_a_refusal_of_the_fmu_is_an_error_with_its_text(native_fmu: Path) -> None:
@@ -87,5 +113,5 @@ def test_finished_fmus_are_found_or_the_remedy_is_named(
     for build, name in finished.FMUS.items():
         (tmp_path / name).touch()
         assert sr.fmu_path(build) == tmp_path / name
-    with pytest.raises(ValueError, match="'fmi2': must be one of 'native', 'python', 'fmi3'"):
+    with pytest.raises(sr.HarnessError, match="'fmi2': must be one of 'native', 'python', 'fmi3'"):
         sr.fmu_path("fmi2")  # type: ignore[arg-type]

@@ -45,6 +45,8 @@ def test_every_command_is_listed() -> None:
         (["validate", "no.fmu"], "no.fmu: no such file"),
         (["validate", "no.fmu", "--scene", "tabel_1"], "did you mean 'table_1'"),
         (["run", "no.fmu", "table_1"], "no.fmu: no such file"),
+        (["choose", "nope"], "unknown scene 'nope' (must be one of"),
+        (["choose", "nope"], "; `slider-resonator scenes` lists all"),
         (["run", "no.fmu", "no.toml"], "no such scene file"),
         (["steady", "no.fmu", "--set", "phse=1"], "did you mean 'phase'"),
         (["steady", "/"], "is a directory; must be an FMU"),
@@ -58,6 +60,8 @@ def test_every_command_is_listed() -> None:
         (["scenes", "--check", "mine.tml"], "mine.tml: no such scene file"),
         (["run", "folder/mine"], "folder/mine: no such scene file"),
         (["scenes", "--jsn"], "No such option"),
+        ([], "Commands:\n  baseline  "),
+        (["baseline"], "Commands:\n  accept  "),
     ],
 )
 def test_what_cannot_run_exits_with_2_and_a_reason(arguments: list[str], reported: str) -> None:

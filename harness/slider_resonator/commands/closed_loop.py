@@ -74,9 +74,9 @@ def closed_loop_command(
 
     PACKAGE is an SSP package; the default is ClosedLoop.ssp in dist or of the installation. A
     controller FMU moves the phase; the load steps four times. From 0.6 s after each step on, the
-    velocity must stay within 2 %. At all times both fidelities must agree within the error that
-    `choose` predicts for averaged motion with the controller's inputs. Exit code: 0 when both hold,
-    1 when one does not, 2 when the package could not run.
+    velocity must stay within 2 %. From the first step on both fidelities must agree within 1 um/s,
+    or the error that `choose` predicts for averaged motion with the controller's inputs. Exit code:
+    0 when both hold, 1 when one does not, 2 when the package could not run.
 
     \b
     Examples:

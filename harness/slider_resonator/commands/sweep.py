@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -109,7 +110,8 @@ def sweep_command(
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
     facts["unanswered"] = result.unanswered
     document = {"out": str(out), **facts, "first_error": result.first_error}
-    print_result(document, _sentences(result, out), as_json=as_json, provenance=provenance)
+    sentences = _sentences(result, [out, *filter(None, (plot, html))])
+    print_result(document, sentences, as_json=as_json, provenance=provenance)
     context.exit(1 if result.failed else 0)
 
 
@@ -143,14 +145,14 @@ def _draw(
         write_sweep_page(html, sweep, result.columns, provenance)
 
 
-def _sentences(result: SweepResult, out: Path) -> str:
-    lines = [f"written  {one_line(str(out))}: {number_of(result.points, 'point')}"]
+def _sentences(result: SweepResult, written: Sequence[Path]) -> str:
+    lines = [f"points     {result.points}"]
     if result.found:
-        lines.append(f"found    {result.found} of them finished before")
+        lines.append(f"found      {result.found} of them finished before")
     if result.unanswered:
-        lines.append(f"none     no answer to a measure at {number_of(result.unanswered, 'point')}")
+        lines.append(f"no answer  to a measure at {number_of(result.unanswered, 'point')}")
     if result.failed:
-        lines.append(
-            f"failed   {number_of(result.failed, 'point')}; the first error: {result.first_error}"
-        )
+        points = number_of(result.failed, "point")
+        lines.append(f"failed     {points}; the first error: {result.first_error}")
+    lines.append(f"written    {one_line(', '.join(map(str, written)))}")
     return "\n".join(lines)

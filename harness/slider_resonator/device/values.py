@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf, isfinite
+from numbers import Real
 
 from slider_resonator.device.interface import VARIABLES
 
@@ -12,6 +13,8 @@ LARGEST_INTEGER = 2**31 - 1
 
 def check_value(name: str, value: float) -> None:
     """Raise ValueError, with name, value and requirement, unless the interface has such a value."""
+    if not isinstance(value, Real):
+        raise ValueError(f"{name} = {value!r}: must be a number")
     variable = VARIABLES[name]
     low = -inf if variable.minimum is None else variable.minimum
     high = inf if variable.maximum is None else variable.maximum

@@ -28,11 +28,11 @@ COMMANDS_LOOK_IN = (Path("dist"), *FOLDERS)
 def fmu_path(build: Build = "native") -> Path:
     """Return the path of a finished FMU: the native one, the Python one, or that for FMI 3.0.
 
-    Raises ValueError for another name, FmuError where there is no such file.
+    Raises FmuError for another name, and where there is no such file.
     """
     if build not in FMUS:
         names = ", ".join(map(repr, FMUS))
-        raise ValueError(f"build = {build!r}: must be one of {names}")
+        raise FmuError(f"build = {build!r}: must be one of {names}")
     return finished_path(FMUS[build])
 
 

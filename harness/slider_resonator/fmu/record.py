@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from slider_resonator.arrays import Array
+from slider_resonator.errors import HarnessError, unknown_name
 
 
 @dataclass(frozen=True)
@@ -25,9 +26,11 @@ class Record:
     step_cpu: float
 
     def __getitem__(self, name: str) -> Array:
-        """Return one output over the run, shape (n,)."""
+        """Return one output over the run, shape (n,); HarnessError names the nearest."""
+        if name not in self.outputs:
+            raise HarnessError(unknown_name("output", name, self.outputs))
         return self.outputs[name]
 
     def final(self, name: str) -> float:
-        """Return the last value of an output."""
-        return float(self.outputs[name][-1])
+        """Return the last value of an output; HarnessError names the nearest."""
+        return float(self[name][-1])

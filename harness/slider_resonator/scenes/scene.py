@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import pi
@@ -23,7 +22,7 @@ from slider_resonator.scenes.explanations import explanations
 from slider_resonator.scenes.input_tables import InputsTable, InputTable
 from slider_resonator.scenes.need_table import NeedTable
 from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
-from slider_resonator.scenes.toml_mistakes import toml_mistake
+from slider_resonator.scenes.toml_file import read_toml
 
 
 @dataclass(frozen=True)
@@ -202,17 +201,7 @@ def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
 
     Raises SceneError with file, key, value and what is allowed.
     """
-    source = str(path)
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-        content = tomllib.loads(text)
-    except OSError as error:
-        raise SceneError(f"{source}: cannot be read: {error.strerror}") from error
-    except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{source}: {toml_mistake(text, str(error))}") from error
-    except UnicodeDecodeError as error:
-        raise SceneError(f"{source}: not TOML: {error}; must be UTF-8 text") from error
-    scene = scene_from(content, source, path.parent)
+    scene = scene_from(read_toml(path), str(path), path.parent)
     return replace(scene, files=(path, *scene.files)).with_values(values or {})
 
 

@@ -29,7 +29,8 @@ def find_scene(name_or_file: str) -> Path:
         raise SceneError(
             f"{path}: no such scene file; `slider-resonator scenes` lists those built in"
         )
-    raise SceneError(unknown_name("scene", name_or_file, built_in))
+    unknown = unknown_name("scene", name_or_file, built_in)
+    raise SceneError(f"{unknown}; `slider-resonator scenes` lists all")
 
 
 def scene_files(scene: str) -> list[Path]:

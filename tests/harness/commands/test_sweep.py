@@ -30,12 +30,27 @@ def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> 
     assert plot.is_file()
 
 
+def test_all_written_files_and_points_without_answer_are_reported(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    grid = _grid(tmp_path, "[list]\nload = [0.0, 0.5]")
+    out, plot, html = (tmp_path / name for name in ("a.csv", "a.png", "a.html"))
+    named = ["--out", out, "--plot", plot, "--html", html, "--fmu", native_fmu]
+    result = call("sweep", grid, *named, "--jobs", "1")
+    assert result.exit_code == 0, result.output
+    assert result.stdout.splitlines() == [
+        "points     2",
+        "no answer  to a measure at 1 point",
+        f"written    {out}, {plot}, {html}",
+    ]
+
+
 def test_a_failed_point_is_reported_and_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     grid = _grid(tmp_path, "[fixed]\nfriction_law = 1\n[list]\nfriction_coefficient = [0.1, 0]")
     arguments = ["--out", tmp_path / "a.csv", "--fmu", native_fmu, "--workers", "1"]
     result = call("sweep", grid, *arguments)
     assert result.exit_code == 1
-    assert "failed   1 point; the first error:" in result.output
+    assert "failed     1 point; the first error:" in result.output
     assert "friction_coefficient = 0.0 refused" in result.output
 
 

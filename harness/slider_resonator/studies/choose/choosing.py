@@ -214,8 +214,8 @@ class _Choosing:
                 return inf
 
         tight = tolerances[-1]
-        fine = self._own_step() if self.probe.varying else 0
-        at = coarsest(lambda i: excess(tight, self.ladder[i]), len(self.ladder), 2.0, fine=fine)
+        own = self._own_step() if self.probe.varying else 0
+        at = coarsest(lambda i: excess(tight, self.ladder[i]), len(self.ladder), 2.0, fine=own)
         if at is None:
             return None, self._why_not(model, refused)
         if self.probe.covers == "whole":  # errors that change sign may vanish at a coarser step
@@ -225,7 +225,7 @@ class _Choosing:
         if index is None:
             return None, self._why_not(model, refused)
         rest = tolerances[index:] if self.probe.steady_needs else tolerances[index : index + 1]
-        found = [Candidate(model, fine, step) for fine in rest if excess(fine, step) <= 1.0]
+        found = [Candidate(model, one, step) for one in rest if excess(one, step) <= 1.0]
         return min(map(self._evaluate, found), key=lambda one: one.cost), ""
 
     def _own_step(self) -> int:

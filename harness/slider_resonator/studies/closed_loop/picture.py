@@ -78,14 +78,14 @@ def _draw_difference(
     axes: Axes, design: LoopRecord, proof: LoopRecord, duty: Duty, agreements: Sequence[Agreement]
 ) -> None:
     counts = design.times > duty.load_steps[0].start
-    difference = 1e3 * np.abs(design.velocity - proof.velocity)[counts]
+    difference = 1e6 * np.abs(design.velocity - proof.velocity)[counts]
     axes.plot(design.times[counts], difference, color="0.25", label="between the fidelities")
     label = "predicted by choose"
     for interval, agreement in zip(duty.load_steps, agreements, strict=True):
         if agreement.predicted is not None:
-            since, error = (interval.start, interval.end), 1e3 * agreement.predicted
+            since, error = (interval.start, interval.end), 1e6 * agreement.predicted
             axes.plot(since, (error, error), color=DESIGN_COLOUR, linewidth=1.0, label=label)
             label = ""
-    axes.set(ylabel="difference [mm/s]")
+    axes.set(ylabel="difference [um/s]")
     axes.set_ylim(0.0, 1.45 * axes.get_ylim()[1])
     axes.legend(loc="upper right", ncols=2)

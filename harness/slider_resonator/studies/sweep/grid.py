@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import chain, product
@@ -14,6 +13,7 @@ from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.studies.sweep.axes import (
     AxisError,
     check_count,
@@ -48,14 +48,7 @@ class Sweep:
 
 def read_grid(path: Path) -> Sweep:
     """Read a grid file; raises HarnessError with file, key, value and requirement."""
-    try:
-        with path.open("rb") as file:
-            content = tomllib.load(file)
-    except OSError as error:
-        raise HarnessError(f"{path}: cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise HarnessError(f"{path}: not TOML: {error}") from error
-    return grid_from(content, str(path))
+    return grid_from(read_toml(path), str(path))
 
 
 def grid_from(content: Mapping[str, Any], source: str) -> Sweep:

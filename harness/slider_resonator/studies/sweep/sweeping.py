@@ -66,6 +66,8 @@ def run_sweep(
     journal.
     """
     check_writer(out)
+    if dask is not None and find_spec("distributed") is None:
+        raise HarnessError("--dask needs dask.distributed: pip install 'slider-resonator[cluster]'")
     if not overwrite and holds_other_points(out, sweep.task, sweep.points):
         raise HarnessError(
             f"{out}: is not a table of this grid's points; must be a new file, or --overwrite to "
@@ -125,8 +127,6 @@ def _workers(
 ) -> AbstractContextManager[Workers]:
     if dask is None:
         return local_workers(sweep.task, fmu, count, time_limit)
-    if find_spec("distributed") is None:
-        raise HarnessError("--dask needs dask.distributed: pip install 'slider-resonator[cluster]'")
     from slider_resonator.studies.sweep.cluster import dask_workers
 
     return dask_workers(sweep.task, digest, fmu, dask, time_limit)

@@ -10,6 +10,7 @@ from typing import Any
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.atomic import replacing
+from slider_resonator.output.targets import writable
 from slider_resonator.studies.sweep.measures import Task
 from slider_resonator.studies.sweep.worker import Row
 
@@ -20,7 +21,8 @@ Columns = Mapping[str, list[Any]]
 
 
 def check_writer(path: Path) -> None:
-    """Raise HarnessError where the table could not be written for lack of a package."""
+    """Raise HarnessError where the table could not be written: its path, or a package it needs."""
+    writable(str(path), SUFFIXES)
     if path.suffix.lower() == ".parquet" and find_spec("pyarrow") is None:
         raise HarnessError(
             f"{path}: Parquet needs pyarrow: pip install 'slider-resonator[parquet]'; "

@@ -15,6 +15,7 @@ from distributed import LocalCluster, Worker
 from slider_resonator.errors import HarnessError
 from slider_resonator.studies.sweep import cluster, sweeping
 from slider_resonator.studies.sweep.grid import read_grid
+from slider_resonator.studies.sweep.kept_points import journal_path
 from slider_resonator.studies.sweep.sweeping import run_sweep
 
 
@@ -76,3 +77,4 @@ def test_without_distributed_the_extra_is_named(
     monkeypatch.setattr(sweeping, "find_spec", lambda name: None)
     with pytest.raises(HarnessError, match=r"pip install 'slider-resonator\[cluster\]'"):
         run_sweep(read_grid(grid), native_fmu, tmp_path / "a.csv", workers=1, dask="tcp://x:1")
+    assert not journal_path(tmp_path / "a.csv").exists(), "a sweep that cannot begin leaves nothing"

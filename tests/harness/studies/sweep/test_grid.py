@@ -90,7 +90,8 @@ def test_a_seed_gives_the_same_sample_and_another_seed_another(tmp_path: Path) -
             "load = { from = 0, to = 1, count = 100000 }",
             "10000000000 points; must be at most 10000000",
         ),
-        ("[grid", "not TOML"),
+        ("[grid", "line 1: .*close the bracket"),
+        ("[grid]\nphase = 0,4", "line 2: .*write 0.4"),
     ],
 )
 def test_an_invalid_grid_is_refused_with_name_value_and_requirement(
