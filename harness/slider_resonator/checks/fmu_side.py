@@ -24,6 +24,7 @@ PREDICTED = {
     "prediction_valid",
     "slow_motion_error",
     "slow_error_share",
+    "mean_error_share",
 }
 """Quantities that are measured from `PREDICTIONS` in a run."""
 
@@ -46,6 +47,13 @@ class FmuSide:
         """The run of the scene."""
         outputs = [name for name in self.instance.fmu.outputs if name not in self._unread]
         return run(self.instance, self.scene.parameters, self.scene.schedule(), outputs=outputs)
+
+    @cached_property
+    def resolved(self) -> Record:
+        """The velocities of the same run at fidelity 2."""
+        parameters = {**self.scene.parameters, "fidelity": 2}
+        outputs = ("velocity", "resonator_velocity", "mean_velocity")
+        return run(self.instance, parameters, self.scene.schedule(), outputs=outputs)
 
     @cached_property
     def steady(self) -> SteadyMotion:

@@ -28,7 +28,7 @@ NUMBER = '[[expect]]\nquantity = "{}"\nat_most = 1.0\nwhy = "test"\n'
 SIGNAL = '[[expect]]\nquantity = "{}"\nreference = "averaged"\nrelative = 1.0\nwhy = "test"\n'
 
 
-@pytest.mark.parametrize("quantity", sorted(PREDICTED - {"slow_error_share"}))
+@pytest.mark.parametrize("quantity", sorted(PREDICTED - {"slow_error_share", "mean_error_share"}))
 def test_a_scene_that_expects_a_prediction_reads_it(instance: Instance, quantity: str) -> None:
     side = FmuSide(instance, scene_of(SLOW))
     assert not set(PREDICTIONS) & set(side.record.outputs), "what nobody asks for costs nothing"
