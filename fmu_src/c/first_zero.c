@@ -3,9 +3,10 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Evaluations after which the shortest step doubles: bounds the work on signals that stay within
- * rounding of zero. */
-enum { FLOOR_DOUBLING = 1000 };
+/* Short steps after which the shortest one doubles, and how short these are [rad]: bounds the work on signals
+ * that stay within rounding of zero. */
+enum { FLOOR_DOUBLING = 20 };
+#define SHORT_STEP 0.01
 
 /* Evaluations after which a search ends without a zero: reached only by motion at the limits of floating
  * point. */
@@ -87,7 +88,7 @@ double first_zero_near(const Watch *watch, double limit, double start, double ex
     double noise = watch->noise, horizon = watch->horizon;
     double t = start, shortest = 1e-7 / watch->fastest;
     Candidate candidate = zero_near(watch, start, limit, expected);
-    int evaluations = 0;
+    int evaluations = 0, short_steps = 0;
     while (t < limit && evaluations < MAX_SEARCH_EVALUATIONS) {
         Signal at = watch->signal(watch->motion, t);
         double square = at.slope * at.slope, value = at.value;
@@ -109,8 +110,11 @@ double first_zero_near(const Watch *watch, double limit, double start, double ex
         if (is_first(candidate, watch, t, at, step)) {
             return candidate.time;
         }
-        if (evaluations % FLOOR_DOUBLING == 0) {
-            shortest *= 2.0;
+        if (step * watch->fastest < SHORT_STEP) {
+            short_steps++;
+            if (short_steps % FLOOR_DOUBLING == 0) {
+                shortest *= 2.0;
+            }
         }
         step = step < shortest ? shortest : step;
         t += step > horizon ? horizon : step; /* NaN stays NaN, and ends the search */

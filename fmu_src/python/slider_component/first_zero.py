@@ -32,9 +32,12 @@ class Watch(NamedTuple):
     horizon: float
 
 
-FLOOR_DOUBLING = 1000
-"""Evaluations after which the shortest step doubles: bounds the work on signals that stay within
+FLOOR_DOUBLING = 20
+"""Short steps after which the shortest one doubles: bounds the work on signals that stay within
 rounding of zero."""
+
+SHORT_STEP = 0.01
+"""How short these are, rad."""
 
 MAX_SEARCH_EVALUATIONS = 1_000_000
 """Evaluations after which a search ends without a zero: reached only by motion at the limits of
@@ -62,7 +65,7 @@ def first_zero(
     zero, steepness = None, 0.0
     if expected is not None and start < expected < limit:
         zero, steepness = _zero_near(signal, start, limit, expected, 1e-16 / fastest)
-    evaluations = 0
+    evaluations = short_steps = 0
     while t < limit and evaluations < MAX_SEARCH_EVALUATIONS:
         value, slope, bound = signal(t)
         square = slope * slope
@@ -88,8 +91,10 @@ def first_zero(
             and steepness * steepness > 16.0 * noise * bound
         ):
             return zero
-        if evaluations % FLOOR_DOUBLING == 0:
-            shortest *= 2.0
+        if step * fastest < SHORT_STEP:
+            short_steps += 1
+            if short_steps % FLOOR_DOUBLING == 0:
+                shortest *= 2.0
         if step < shortest:
             step = shortest
         t += horizon if step > horizon else step  # not a number stays so, and ends the search

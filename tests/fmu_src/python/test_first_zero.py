@@ -76,6 +76,19 @@ def test_identically_zero_ends() -> None:
     assert first_zero(watch(lambda t: (0.0, 0.0, 1.0)), 1e3) is None
 
 
+@pytest.mark.parametrize("noise", [1e-16, 1e-14, 1e-12, 1e-10])
+def test_a_signal_within_rounding_costs_few_evaluations(noise: float) -> None:
+    """Each step is short, at the shortest one or above it."""
+    calls = []
+
+    def counted(t: float) -> tuple[float, float, float]:
+        calls.append(t)
+        return 0.0, 0.0, 1.0
+
+    assert first_zero(watch(counted, noise=noise), 1.0) is None
+    assert len(calls) <= 500, "a motion of many legs would take minutes"
+
+
 @given(
     st.lists(
         st.tuples(st.floats(0.01, 2.0), st.floats(0.1, 5.0), st.floats(0.0, 2.0 * math.pi)),
