@@ -31,9 +31,14 @@ ROUNDING = 1e-11
 ORBITS = 1e-9
 """Largest difference along held orbits, over the peak: the twins' Newton iterations differ."""
 
-WEAK_BALANCES = {"late_inputs": 1e-10}
+PAST_GRAZING = {"second_order_outrun": 1e-8}
+"""The same in scenes that pass a grazing velocity, where the slope of friction has no bound: one
+turn there makes the difference, a millionth of the error reported."""
+
+WEAK_BALANCES = {"late_inputs": 1e-10, "prediction_flat": 2e-9}
 """Largest difference of predicted velocities, over the peak, in scenes where friction and load
-balance so weakly (a slope of 1e-5) that the last bits of the twins' elementary functions show."""
+balance so weakly (a slope of 1e-5, or that of the end of a flat) that the last bits of the twins'
+elementary functions show."""
 
 MIN_FAST_VELOCITY = 1e-4
 """Smallest fast velocity of the devices below, m/s."""
@@ -107,7 +112,7 @@ def test_scenes(twins: Twins, name: str) -> None:
     device = scene.device
     allowed = device.tolerance if device.friction_law == 1 else ROUNDING
     if device.fidelity == 0 and device.averaging_order == 2:
-        allowed = max(allowed, ORBITS)
+        allowed = max(allowed, PAST_GRAZING.get(name, ORBITS))
     assert_equal(native, python, max(allowed, ROUNDING), WEAK_BALANCES.get(name))
 
 

@@ -31,8 +31,11 @@ EXCESS = 1e-2
 """Excess force of the maps, in the scale of forces: its squares are far above rounding, its cubes
 small."""
 
-NODES = (0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263)
+QUADRATURE_NODES = 4
 """Gauss's nodes of the unit interval."""
+
+NODES = (0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263)
+"""Those nodes."""
 
 WEIGHTS = (0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693)
 """Their weights."""
