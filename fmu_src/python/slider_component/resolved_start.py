@@ -14,8 +14,7 @@ from .slow_motion_error import bristle_decay, decay_in_turn, friction_share
 RESOLVED_TOLERANCE = 1e-9
 """Largest tolerance of LuGre friction with which motion is resolved before it goes over to orbits.
 
-What it errs by stays in the slow velocity. Turns are few, so that costs
-little."""
+What it errs by stays in the slow velocity. Turns are few, so that costs little."""
 
 SWING_LEFT = 1e-7
 """Relative size to which the transients of resonator and bristle must have decayed."""
