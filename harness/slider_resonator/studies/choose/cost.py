@@ -2,10 +2,10 @@
 
 The counts are communication steps, changes of the inputs, drive periods, and for averaged motion
 beats, relaxation times, and the orbits that are prepared and followed. Their weights were fitted to
-some 650 runs of the native FMU in a host in C: the shortest of several CPU times, in units of the
-instructions of a resolved run of table 1, at 0.095 ns each. Steps and changes are those of fmpy
-(`python -m tests.harness.studies.choose.pricing` compares with it). A model of cost decides between
-candidates; the seconds of another machine are another multiple of it.
+some 1600 runs of the native FMU in a host in C: the shortest of several CPU times, each in a new
+instance. Steps and changes are those of fmpy (`python -m tests.harness.studies.choose.pricing`
+compares with it). A model of cost decides between candidates; the seconds of another machine are
+another multiple of it.
 """
 
 from __future__ import annotations
@@ -48,17 +48,17 @@ class AveragedPrices:
 
 
 AVERAGED = {
-    (COULOMB, False): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
-    (COULOMB, True): AveragedPrices(10e-6, 0.0, 0.4e-6, 3e-6, 9e-6, 9e-6),
-    (LUGRE, False): AveragedPrices(10e-6, 0.4e-3, 1.7e-6, 3e-6, 10e-6, 9e-6),
-    (LUGRE, True): AveragedPrices(10e-6, 2e-3, 60e-6, 0.5e-3, 2.2e-3, 0.0),
+    (COULOMB, False): AveragedPrices(10e-6, 0.0, 0.73e-6, 9.5e-6, 9e-6, 10e-6),
+    (COULOMB, True): AveragedPrices(10e-6, 0.0, 0.73e-6, 9.5e-6, 9e-6, 10e-6),
+    (LUGRE, False): AveragedPrices(10e-6, 0.63e-3, 0.56e-6, 4e-6, 10e-6, 20e-6),
+    (LUGRE, True): AveragedPrices(10e-6, 3.3e-3, 60e-6, 0.5e-3, 2.2e-3, 0.0),
 }
 """Of first order, by friction law and whether the contact lifts: then the mean friction of a
 bristle is integrated."""
 FOLLOWED = 8.0
 """Relaxation times in a turn of the slow phase that count fully; further ones by the power 2/3."""
-MOVING = {COULOMB: 4.0, LUGRE: 0.5}
-BENDING, MAX_BENDING = 0.45e-3, 2.2
+MOVING = {COULOMB: 3.4, LUGRE: 7.0}
+BENDING, MAX_BENDING = 0.59e-3, 2.2
 """Seconds of a table for each decade of kappa from a third on, for so many."""
 
 
@@ -66,24 +66,32 @@ BENDING, MAX_BENDING = 0.45e-3, 2.2
 class OrbitPrices:
     """Seconds of averages of second order.
 
-    `panel` is for a part of a curve of orbits, `lifting` times as much where the contact lifts;
-    `edge` is added for one in which the slider hardly turns back, and `curve` for each curve.
-    `step` is for a communication step, `mark` for an end of a period in it, of which the last two
-    count; `drifting` is added to a step in which the lead drifts, `searched` is for step and marks
-    where orbits are searched, `change` for going over to another lead, `combined` for making a
-    curve at one from the series. `beat` and `swing` are for a turn of the slow phase as with
-    averages of first order, `swing` times the root of the share of friction in the drive;
-    `searched_beat` and `searched_swing` are for one that searches, `searched_transient` for a
-    relaxation time that does. Steps that search among soft bristles cost `soft_search` times as
-    much. `start` is once, `load` for each change of the load.
+    `start` is once. `curve` is for each curve of orbits and `panel` for each part of one that is
+    visited, in table 1; it grows with the share of friction in the drive to the power `rough`, and
+    is `lifting` times as much where the contact lifts. `edge` is added where the slider
+    ceases to turn back, `shifts` for a curve on which inputs jump. `step` is for a
+    communication step, `mark` for an end of a period in it, of which the last two count, `moving`
+    is added while the slow velocity settles, `load` for a change of the load, and `drifting` while
+    the lead drifts. `searched` is for step and marks where orbits are searched, `change` for going
+    over to another lead, `combined` for making a curve at one from the series. `beat` and `swing`
+    are for a turn of the slow phase as with averages of first order, `swing` times the root of the
+    share of friction in the drive; `searched_beat` and `searched_swing` are for one that searches,
+    `searched_transient` for a relaxation time that does.
+
+    What maps drive periods costs as many times more as a map of the bristle does.
     """
 
+    start: float
     curve: float
     panel: float
+    rough: float
     lifting: float
     edge: float
+    shifts: float
     step: float
     mark: float
+    moving: float
+    load: float
     drifting: float
     searched: float
     change: float
@@ -93,69 +101,80 @@ class OrbitPrices:
     searched_beat: float
     searched_swing: float
     searched_transient: float
-    start: float = 20e-6
-    load: float = 0.0
-    soft_search: float = 1.0
 
 
 ORBITS = {
     COULOMB: OrbitPrices(
-        curve=0.0,
-        panel=0.2e-3,
-        lifting=1.8,
+        start=10e-6,
+        curve=20e-6,
+        panel=0.1e-3,
+        rough=0.44,
+        lifting=2.7,
         edge=1.7e-3,
-        step=1.25e-6,
-        mark=0.4e-6,
-        drifting=9e-6,
-        searched=16e-6,
+        shifts=0.2e-3,
+        step=0.27e-6,
+        mark=1.05e-6,
+        moving=1.85e-6,
+        load=1.8e-6,
+        drifting=9.7e-6,
+        searched=20e-6,
         change=6e-6,
-        combined=0.55e-3,
-        beat=50e-6,
-        swing=1.5e-3,
-        searched_beat=0.2e-3,
-        searched_swing=0.5e-3,
-        searched_transient=0.25e-3,
+        combined=0.2e-3,
+        beat=60e-6,
+        swing=1.2e-3,
+        searched_beat=0.27e-3,
+        searched_swing=0.76e-3,
+        searched_transient=3e-3,
     ),
     LUGRE: OrbitPrices(
-        curve=0.3e-3,
+        start=5e-6,
+        curve=20e-6,
         panel=0.5e-3,
-        lifting=2.2,
-        edge=1.4e-3,
-        step=1.5e-6,
-        mark=2e-6,
+        rough=0.1,
+        lifting=1.2,
+        edge=1.3e-3,
+        shifts=0.35e-3,
+        step=1.6e-6,
+        mark=1.9e-6,
+        moving=2.2e-6,
+        load=86e-6,
         drifting=10e-6,
-        searched=0.11e-3,
+        searched=0.2e-3,
         change=60e-6,
         combined=0.32e-3,
         beat=90e-6,
-        swing=5e-3,
-        searched_beat=2.5e-3,
-        searched_swing=3e-3,
-        searched_transient=1.5e-3,
-        load=50e-6,
-        soft_search=0.03,
+        swing=1.65e-3,
+        searched_beat=6e-3,
+        searched_swing=5e-3,
+        searched_transient=4e-3,
     ),
 }
 """By friction law."""
-SOFT_BRISTLE = 3.0
-"""Path of the vibration over that of the bristle below which it counts as soft."""
 SLOW_BRISTLE = 0.2
 """Share of friction in the drive, over kappa, beyond which a bristle is as slow as the slow motion:
 no orbits are found, and all motion is resolved."""
-EDGE = 0.9
-"""Slow over fast velocity beyond which the slider hardly turns back."""
+EDGE, REACHED = 0.9, 0.4
+"""Slow over fast velocity beyond which the slider hardly turns back, and what such a part costs
+over one that is passed."""
+EDGE_ROUGH = 0.15
+"""Power of the share of friction in the drive by which that part costs more."""
 PANELS = (-inf, -0.7, 0.0, 0.7, inf)
 """Slow over fast velocities between which panels lie."""
 NEXT = 0.03
 """Overlap with a panel that is not followed."""
 USUAL = (0.1, 0.6)
 """Slow over fast velocity, where it is not known."""
-ROUGH = 2.0
-"""Root of the share of friction in the drive by which orbits cost more, up to twice as much."""
+MIN_SLOWNESS, SLOWNESS_OF_TABLE_1 = 1e-5, 2.2e-4
+"""Share of friction in the drive below which panels cost no less, and that of table 1."""
+SETTLES = 12.0
+"""Relaxation times in which the slow velocity settles so far that it counts as constant."""
 LOAD_PERIODS = 5.0
 """Drive periods in which a change of the load is worked off."""
-ORBIT_DIGIT, ORBIT_DIGITS = 0.06, 8.0
-"""Share of a curve that each digit less of the tolerance saves, below so many."""
+ORBIT_SHARE = 0.01
+"""Tolerance of a map of orbits of LuGre friction, over that of the run."""
+MAP, USUAL_MAP = 1.4e-6, 4e-6
+"""Seconds of a map of orbits of LuGre friction besides the motion in it, and of one at the prices
+above."""
 AVERAGING_ORDERS = (1, 2)
 """Orders of averaged motion to choose from."""
 OUTPUT = {
@@ -221,31 +240,36 @@ def _orbit_cost(
         return resolved_cost(full, candidate.tolerance, scales, plan, periods)
     work = orbit_work(plan, scales, law)
     cost = resolved_cost(full, candidate.tolerance, scales, plan, work.resolved)
-    rough = 1.0 + min(1.0, ROUGH * sqrt(scales.slowness or 0.0))
-    coarse = ORBIT_DIGIT * max(0.0, ORBIT_DIGITS + log10(candidate.tolerance))
-    cost += prices.start + work.curves * (1.0 - coarse) * _curve_cost(prices, scales, slow)
-    cost += prices.change * work.changes + prices.combined * work.combined
+    maps = _map_cost(full, candidate.tolerance, scales)
+    cost += prices.start + maps * work.curves * _curve_cost(prices, scales, slow)
+    if plan.kicks:
+        cost += maps * prices.shifts * work.curves
+    cost += prices.change * work.changes + maps * prices.combined * work.combined
     length = plan.duration / plan.steps / scales.period
-    steps, marks = rough * plan.steps / periods, min(2.0, length)
-    cost += steps * work.tabulated * (prices.step + marks * prices.mark)
+    steps, marks = plan.steps / periods, min(2.0, length)
+    settling = SETTLES * (1 + plan.kicks) * scales.relaxation / plan.duration
+    each = prices.step + marks * prices.mark + min(1.0, settling) * prices.moving
+    cost += steps * work.tabulated * each
     cost += steps * work.drifting * prices.drifting
     loads = max(0, plan.kicks - sum(stay.count for stay in plan.stays[1:]))
     cost += prices.load * loads * min(1.0, length / LOAD_PERIODS)
-    search = prices.soft_search if _is_soft(scales) else 1.0
-    cost += search * steps * work.searched * (1.0 + marks) * prices.searched
+    cost += maps * steps * work.searched * (1.0 + marks) * prices.searched
     swing = _swing(scales, plan)
     each = prices.beat + prices.swing * sqrt(scales.slowness or 0.0) * swing
     cost += each * work.tabulated_beats
     each = prices.searched_beat + prices.searched_swing * swing
-    cost += each * work.searched_beats
+    cost += maps * each * work.searched_beats
     if work.searched_beats == 0.0:
         relaxations = work.searched * scales.period / scales.relaxation
-        cost += prices.searched_transient * min(relaxations, FORGETS * (1 + plan.kicks))
+        cost += maps * prices.searched_transient * min(relaxations, FORGETS * (1 + plan.kicks))
     return cost
 
 
-def _is_soft(scales: Scales) -> bool:
-    return (scales.kappa or inf) < SOFT_BRISTLE
+def _map_cost(model: Model, tolerance: float, scales: Scales) -> float:
+    """Return the cost of mapping a drive period for orbits, relative to a usual one."""
+    if model.friction_law == COULOMB:
+        return 1.0
+    return (MAP + period_cost(model, ORBIT_SHARE * tolerance, scales)) / USUAL_MAP
 
 
 def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) -> float:
@@ -254,10 +278,13 @@ def _curve_cost(prices: OrbitPrices, scales: Scales, slow: tuple[float, float]) 
     if low > 1.0 or high < -1.0:
         return prices.curve
     visited = [low < right - NEXT and high > left + NEXT for left, right in pairwise(PANELS)]
-    cost = prices.panel * max(1, sum(visited))
+    share = max(scales.slowness or 0.0, MIN_SLOWNESS) / SLOWNESS_OF_TABLE_1
+    cost = prices.panel * max(1, sum(visited)) * float(share**prices.rough)
     if scales.lifts:
         cost *= prices.lifting
-    edges = (low < -EDGE and high > -1.0) + (high > EDGE and low < 1.0)
+    passed = (low < -1.0) + (high > 1.0)
+    reached = (low < -EDGE) + (high > EDGE) - passed
+    edges = (passed + REACHED * reached) * float(share**EDGE_ROUGH)
     return prices.curve + cost + prices.edge * edges
 
 

@@ -54,7 +54,8 @@ class Plan:
     `settings` are the points after the start at which values are set, twice as many where their
     derivatives are, too. `kicks` are those at which a value jumps or a straight line that is passed
     on changes its slope, and `stays` what lies between those of phase, ratio and parameters.
-    `chirped` are the drive periods in which the frequency ratio grows along a line.
+    `ramped` are the drive periods in which an input grows along a line, `chirped` those in which
+    the frequency ratio does.
     """
 
     duration: float
@@ -62,6 +63,7 @@ class Plan:
     settings: int = 0
     kicks: int = 0
     stays: tuple[Stay, ...] = ()
+    ramped: float = 0.0
     chirped: float = 0.0
 
     @property
@@ -94,6 +96,7 @@ def plan_of(schedule: Schedule, period: float) -> Plan:
         settings=len(schedule.changes()) * (2 if schedule.ramps else 1),
         kicks=int(np.count_nonzero(np.any(jumped | bent, axis=1) | np.any(tuned, axis=1))),
         stays=_stays(schedule, jumped, bent, tuned, lengths, detuning),
+        ramped=float(lengths[np.any(rates[:-1] != 0.0, axis=1)].sum()),
         chirped=float(lengths[chirps].sum()),
     )
 

@@ -35,10 +35,10 @@ class ResolvedPrices:
 
 
 RESOLVED = {
-    (1, COULOMB): ResolvedPrices(0.42e-6, 0.16e-6, 0.75e-6, 0.3e-6, 0.7e-6),
-    (2, COULOMB): ResolvedPrices(0.48e-6, 0.4e-6, 1.6e-6, 0.4e-6, 1.4e-6),
-    (1, LUGRE): ResolvedPrices(0.0, 0.0, 2.2e-6, 0.5e-6, 0.7e-6, 0.19e-6, 2.1e-6),
-    (2, LUGRE): ResolvedPrices(0.0, 0.5e-6, 2.5e-6, 0.6e-6, 1.4e-6, 0.21e-6, 2.4e-6, 80e-6),
+    (1, COULOMB): ResolvedPrices(0.435e-6, 0.0, 0.75e-6, 0.22e-6, 0.7e-6),
+    (2, COULOMB): ResolvedPrices(0.46e-6, 0.4e-6, 1.6e-6, 0.26e-6, 1.4e-6),
+    (1, LUGRE): ResolvedPrices(0.0, 0.0, 2.3e-6, 0.1e-6, 0.7e-6, 0.14e-6, 3.8e-6),
+    (2, LUGRE): ResolvedPrices(0.0, 2e-6, 2.2e-6, 0.16e-6, 1.4e-6, 0.13e-6, 3.6e-6, 27e-6),
 }
 """By fidelity and friction law. LuGre friction that slides is in `BRISTLES`."""
 
@@ -57,12 +57,18 @@ class BristlePrices:
 
 
 BRISTLES = (
-    BristlePrices(2.5, 1.4e-6, 0.2e-6),
-    BristlePrices(30.0, 1.2e-6, 0.7e-6),
-    BristlePrices(150.0, 0.5e-6, 0.2e-6),
-    BristlePrices(inf, 0.95e-6, 0.08e-6),
+    BristlePrices(0.3, 3.5e-6, 0.0),
+    BristlePrices(3.0, 3.1e-6, 0.28e-6),
+    BristlePrices(15.0, 1.75e-6, 0.6e-6),
+    BristlePrices(40.0, 0.7e-6, 0.63e-6),
+    BristlePrices(300.0, 1.25e-6, 0.175e-6),
+    BristlePrices(1e4, 1.2e-6, 0.08e-6),
+    BristlePrices(inf, 0.17e-6, 0.155e-6),
 )
-FIRST_FIDELITY = 0.9
+SERIES = 15.0
+"""Largest kappa of bristles that series follow. Stiffer ones cost as much while an input
+grows along a line: panels are for inputs that are held."""
+FIRST_FIDELITY = 0.95
 """Share of it at fidelity 1."""
 CHIRP = 2.4e-6
 """Seconds of a drive period in which the frequency ratio grows along a line, besides."""
@@ -90,14 +96,18 @@ def period_cost(model: Model, tolerance: float, scales: Scales) -> float:
         cost += prices.damped
     if model.friction_law == COULOMB:
         return cost
-    digits = -log10(tolerance)
     if not sticks:
-        kappa = scales.kappa or 0.0
-        bristle = next(prices for prices in BRISTLES if kappa < prices.to)
-        share = FIRST_FIDELITY if model.fidelity == 1 else 1.0
-        return cost + share * (bristle.period + bristle.digit * digits)
+        return cost + _bristle_cost(model, tolerance, scales.kappa or 0.0)
+    digits = -log10(tolerance)
     turns = scales.bristle_turns * _sticking_share(scales)
     return cost + prices.digit * digits + prices.turn * turns
+
+
+def _bristle_cost(model: Model, tolerance: float, kappa: float) -> float:
+    """Return what a sliding bristle adds to the cost (s) of a drive period."""
+    prices = next(prices for prices in BRISTLES if kappa < prices.to)
+    share = FIRST_FIDELITY if model.fidelity == 1 else 1.0
+    return share * (prices.period - prices.digit * log10(tolerance))
 
 
 def _sticking_share(scales: Scales) -> float:
@@ -114,6 +124,10 @@ def resolved_cost(
     """Return the cost (s) of so many drive periods of a run."""
     prices = RESOLVED[model.fidelity, model.friction_law]
     unsettled = min(periods, FORGETS * scales.memory * (1.0 + plan.shakes))
-    chirped = plan.chirped * periods * scales.period / plan.duration
-    cost = prices.start + prices.unsettled * unsettled + CHIRP * chirped
+    share = periods * scales.period / plan.duration
+    cost = prices.start + prices.unsettled * unsettled + CHIRP * share * plan.chirped
+    if model.friction_law == LUGRE:
+        kappas = scales.kappa or 0.0, min(scales.kappa or 0.0, 0.99 * SERIES)
+        panels, series = (_bristle_cost(model, tolerance, kappa) for kappa in kappas)
+        cost += share * plan.ramped * max(0.0, series - panels)
     return cost + periods * period_cost(model, tolerance, scales)

@@ -23,7 +23,7 @@ def test_mean_velocity_to_a_per_cent_needs_averaged_motion_in_one_step(instance:
 
 
 def test_what_averaging_leaves_out_needs_the_full_device(instance: Instance) -> None:
-    choice = choose_with(instance, table_1("position = { abs = 1e-9 }"))
+    choice = choose_with(instance, table_1("position = { abs = 1e-9 }", steps=0.1))
     assert (choice.meets, choice.fidelity) == (True, 2)
     why = {(m.fidelity, m.averaging_order): m.why for m in choice.ruled_out}
     assert set(why) == {(0, 1), (0, 2), (1, None)}

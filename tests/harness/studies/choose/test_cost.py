@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from math import tau
 
 import pytest
@@ -97,12 +98,44 @@ def test_leads_of_a_series_cost_a_curve_each_where_those_of_a_few_curves_are_kep
     assert cost(6) > 2.0 * cost(4)
 
 
-def test_searches_among_soft_bristles_cost_less() -> None:
-    second = Candidate(Model(0, 1, 2), 1e-8, 100.0)
-    costs = []
-    for stiffness in (1e3, 1e5):
-        device = f"[device]\nfriction_law = 1\nbristle_stiffness = {stiffness}\n"
-        scales = scales_of(scene_of(device))
-        stays = (Stay(4000.0, (0.0, 1.0), drifts=True),)
-        costs.append(run_cost(second, scales, Plan(4000.0 * scales.period, 400, stays=stays)))
-    assert costs[0] < 0.5 * costs[1]
+def orbits_cost(stiffness: float, drifts: bool) -> float:
+    """Return the cost of averages of second order on bristles over 4000 drive periods."""
+    device = f"[device]\nfriction_law = 1\nbristle_stiffness = {stiffness}\n"
+    scales = scales_of(scene_of(device))
+    plan = Plan(4000.0 * scales.period, 400, stays=(Stay(4000.0, (0.0, 1.0), drifts=drifts),))
+    return run_cost(Candidate(Model(0, 1, 2), 1e-8, 100.0), scales, plan)
+
+
+@pytest.mark.parametrize(("drifts", "least"), [(False, 1.1), (True, 1.4)])
+def test_orbits_cost_as_the_motion_of_the_bristle_does(drifts: bool, least: float) -> None:
+    soft, bending, stiff = (orbits_cost(stiffness, drifts) for stiffness in (1.5e3, 1.5e4, 1e7))
+    assert bending > soft > least * stiff
+
+
+def test_orbits_cost_more_where_friction_takes_more_of_the_drive() -> None:
+    second, costs = Candidate(Model(0, 0, 2), 1e-8, 100.0), []
+    for friction in (0.1, 5.0):
+        scales = scales_of(scene_of(f"[device]\nfriction_coefficient = {friction}\n"))
+        costs.append(run_cost(second, scales, plan(10.0, 1)))
+    assert costs[1] > 2.0 * costs[0]
+
+
+def test_steps_cost_more_until_the_slow_velocity_has_settled() -> None:
+    scales, second = scales_of(scene_of("")), Candidate(Model(0, 0, 2), 1e-8, 100.0)
+
+    def step(duration: float) -> float:
+        few, many = (run_cost(second, scales, plan(duration, n)) for n in (1000, 2000))
+        return (many - few) / 1000.0
+
+    assert step(10.0) > 1.3 * step(1000.0)
+
+
+def test_stiff_bristles_cost_as_series_do_where_an_input_grows_along_a_line() -> None:
+    scales, held = scales_of(scene_of("[device]\nfriction_law = 1\n")), plan(10.0, 10)
+    line = replace(held, ramped=held.duration / scales.period)
+    for fidelity in (1, 2):
+        candidate = Candidate(Model(fidelity, 1), 1e-8, 1.0)
+        costs = [run_cost(candidate, scales, one) for one in (held, line)]
+        assert costs[1] > 1.5 * costs[0]
+    soft = scales_of(scene_of("[device]\nfriction_law = 1\nbristle_stiffness = 1e3\n"))
+    assert run_cost(candidate, soft, line) == run_cost(candidate, soft, held)

@@ -12,11 +12,11 @@ from slider_resonator.studies.choose.choosing import choose_with
 from tests.harness.scene_text import scene_of
 from tests.harness.studies.choose.judging import described, judge
 
-ALTERNATING = ", ".join(f"[{0.09 * i:.2f}, {i % 2}.0]" for i in range(60))
+ALTERNATING = ", ".join(f"[{0.18 * i:.2f}, {i % 2}.0]" for i in range(60))
 SCENES = {
     "phases that alternate share two curves of orbits": (
         f"[inputs]\nphase = {{ steps = [{ALTERNATING}] }}\n"
-        "[run]\nstop_time = 5.4\nstep_size = 0.01\n[need]\nmean_velocity = { rel = 1e-4 }\n",
+        "[run]\nstop_time = 10.8\nstep_size = 0.01\n[need]\nmean_velocity = { rel = 1e-4 }\n",
         (0, 2, 0),
     ),
     "orbits in flight": (
