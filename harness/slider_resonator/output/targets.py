@@ -6,6 +6,7 @@ import os
 import stat
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from tempfile import TemporaryFile
 
 from slider_resonator.errors import HarnessError
 
@@ -33,9 +34,20 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
         raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be one of {allowed}")
     if not path.parent.is_dir():
         raise HarnessError(f"{path}: there is no folder {path.parent}; create it first")
-    if not os.access(path.parent, os.W_OK):
-        raise HarnessError(f"{path}: the folder {path.parent} cannot be written to")
+    _check_folder(path)
     return path
+
+
+def _check_folder(path: Path) -> None:
+    """Raise HarnessError if no file can be created beside a path: permissions do not say it all."""
+    reason = ""
+    try:
+        with TemporaryFile(dir=path.parent):
+            pass
+    except OSError as error:
+        reason = f": {error.strerror}"
+    if reason or not os.access(path.parent, os.W_OK):
+        raise HarnessError(f"{path}: the folder {path.parent} cannot be written to{reason}")
 
 
 def make_folder(path: Path) -> None:

@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+import errno
 import os
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.errors import HarnessError
+from slider_resonator.output import targets
 from slider_resonator.output.targets import distinct, make_folder, writable
 
 
@@ -48,6 +50,20 @@ def test_a_folder_that_cannot_be_written_to_is_refused(
 ) -> None:
     monkeypatch.setattr(os, "access", lambda path, mode: False)  # root may write everywhere
     with pytest.raises(HarnessError, match="cannot be written to"):
+        writable(str(tmp_path / "out.csv"))
+
+
+def test_a_folder_in_which_no_file_can_be_created_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert writable(str(tmp_path / "out.csv")).name == "out.csv"
+    assert not list(tmp_path.iterdir()), "trying leaves nothing behind"
+
+    def read_only(*_: object, **__: object) -> None:
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    monkeypatch.setattr(targets, "TemporaryFile", read_only)
+    with pytest.raises(HarnessError, match="cannot be written to: Read-only file system"):
         writable(str(tmp_path / "out.csv"))
 
 
