@@ -25,6 +25,7 @@ PREDICTED = {
     "slow_motion_error",
     "slow_error_share",
     "mean_error_share",
+    "momentary_error_share",
 }
 """Quantities that are measured from `PREDICTIONS` in a run."""
 

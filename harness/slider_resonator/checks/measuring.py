@@ -35,6 +35,7 @@ from slider_resonator.checks.measures.slow import slow_displacement, travelled_v
 from slider_resonator.checks.measures.slow_error import (
     centre_velocity,
     mean_error_share,
+    momentary_error_share,
     slow_error_share,
 )
 from slider_resonator.errors import NotApplicable, SceneError
@@ -136,6 +137,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "slow_motion_error": _final("slow_motion_error"),
     "slow_error_share": slow_error_share,
     "mean_error_share": mean_error_share,
+    "momentary_error_share": momentary_error_share,
     "stick_fraction": _final("stick_fraction"),
     "stick_fraction_in_run": _output("stick_fraction"),
     "reversals": _final("reversals"),

@@ -190,6 +190,11 @@ QUANTITIES: Mapping[str, Quantity] = {
         "largest error of the mean velocity over a drive period against the FMU's own fidelity 2, "
         "over the largest slow_motion_error",
     ),
+    "momentary_error_share": _number_of_run(
+        "1",
+        "largest error of the mean velocity over a drive period against the FMU's own fidelity 2, "
+        "over the slow_motion_error at the same point",
+    ),
     "stick_fraction": _number_of_run(
         "1", "share of the last whole drive period of the run spent sticking", *RESOLVED
     ),

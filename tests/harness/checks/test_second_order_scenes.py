@@ -11,7 +11,7 @@ from slider_resonator.scenes.scene_files import find_scene
 
 OF_BOTH = {"normal_force", "prediction_valid", "last_event_time"}
 """Quantities that do not depend on the order."""
-BOUNDED = {"slow_error_share", "mean_error_share", "reversals"}
+BOUNDED = {"slow_error_share", "mean_error_share", "momentary_error_share", "reversals"}
 """Quantities with bounds: order 1 reports its larger error, and resolves no motion."""
 
 

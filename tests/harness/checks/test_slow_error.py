@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import pytest
 
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.checks.measures.slow_error import mean_error_share, slow_error_share
+from slider_resonator.checks.measures.slow_error import (
+    mean_error_share,
+    momentary_error_share,
+    slow_error_share,
+)
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
@@ -41,11 +46,24 @@ def test_the_shares_are_those_of_the_largest_error_and_estimate(instance: Instan
     assert slow_error_share(side) == pytest.approx(max(moments[1:]) / estimate, rel=1e-9)
 
 
-def test_the_start_is_left_out(instance: Instance) -> None:
+def test_the_momentary_share_is_that_of_an_error_and_the_estimate_then(instance: Instance) -> None:
     side = FmuSide(instance, scene_of(AVERAGED))
-    before = mean_error_share(side)
+    side.record["mean_velocity"][:] = side.resolved["mean_velocity"]
+    assert momentary_error_share(side) == 0.0
+    side.record["slow_motion_error"][:] = 1e-3
+    side.record["mean_velocity"][2:4] += (1e-3, 1e-4)
+    side.record["slow_motion_error"][3] = 5e-5
+    assert momentary_error_share(side) == pytest.approx(2.0, rel=1e-6)
+    side.record["slow_motion_error"][3] = 0.0
+    assert momentary_error_share(side) == math.inf
+
+
+@pytest.mark.parametrize("measure", [mean_error_share, momentary_error_share])
+def test_the_start_is_left_out(instance: Instance, measure: Callable[[FmuSide], float]) -> None:
+    side = FmuSide(instance, scene_of(AVERAGED))
+    before = measure(side)
     side.record["mean_velocity"][0] += 1e3
-    assert mean_error_share(side) == before
+    assert measure(side) == before
 
 
 def test_resolved_runs_differ_only_in_fidelity(instance: Instance) -> None:
@@ -53,7 +71,7 @@ def test_resolved_runs_differ_only_in_fidelity(instance: Instance) -> None:
     assert list(side.record["velocity"]) == list(side.resolved["velocity"])
 
 
-@pytest.mark.parametrize("measure", [mean_error_share, slow_error_share])
+@pytest.mark.parametrize("measure", [mean_error_share, momentary_error_share, slow_error_share])
 def test_an_fmu_without_estimate_has_no_share(
     instance: Instance, monkeypatch: pytest.MonkeyPatch, measure: Callable[[FmuSide], float]
 ) -> None:

@@ -30,9 +30,24 @@ def mean_error_share(fmu: FmuSide) -> float:
     The same as `slow_error_share`, but of the mean over a drive period, which the estimate is for:
     what the velocity errs by within a period does not count.
     """
+    return _over_estimate(_error_of_mean(fmu), fmu.record)
+
+
+def momentary_error_share(fmu: FmuSide) -> float:
+    """Return the largest error of the mean velocity over the estimate of it at the same point.
+
+    An estimate must hold at each moment, also after a larger one. The start is left out;
+    NotApplicable for an FMU without estimate.
+    """
+    error = np.abs(_error_of_mean(fmu))[1:]
+    with np.errstate(divide="ignore"):
+        shares = error[error > 0.0] / fmu.record[_ESTIMATE][1:][error > 0.0]
+    return float(shares.max(initial=0.0))
+
+
+def _error_of_mean(fmu: FmuSide) -> Array:
     fmu.instance.fmu.variable(_ESTIMATE)
-    error = fmu.record["mean_velocity"] - fmu.resolved["mean_velocity"]
-    return _over_estimate(error, fmu.record)
+    return np.asarray(fmu.record["mean_velocity"] - fmu.resolved["mean_velocity"])
 
 
 def _over_estimate(error: Array, record: Record) -> float:
