@@ -2,9 +2,8 @@
 
 Most variants that pass the first scenes pass all. So several are put into one FMU. Where it passes,
 each has passed whose changed statement was executed; where it is rejected, halves are tried, down
-to one: a rejection is always that of one variant alone. Where variants fail together only, one of
-them is taken out. Those that were, or whose statements others kept from being executed, are tried
-again with fewer.
+to one: a rejection is always that of one variant alone, and variants that fail together only have
+passed in halves. Those whose statements others kept from being executed are tried again with fewer.
 """
 
 from __future__ import annotations
@@ -66,35 +65,15 @@ def rejected_members(
             for some in _halves(members):
                 find(some, point)
 
-    def involved(members: Sequence[Member], point: int) -> Member:
-        """Return one of those because of which members fail together: without it fewer do."""
-        passing, failing = 0, len(members)
-        while failing - passing > 1:
-            middle = (passing + failing) // 2
-            if attempt(members[:middle], [point]).rejection is None:
-                passing = middle
-            else:
-                failing = middle
-        return members[failing - 1]
-
     members, left = list(points), list(order)
-    apart: dict[Member, list[int]] = {}
     while left := [point for point in left if any(point in points[m] for m in members)]:
         outcome = tried(members, left)
         if outcome.rejection is None:
             break
         point = left[0] if outcome.at is None else outcome.at
-        left = left[left.index(point) :]
         find([m for m in members if point in points[m]], point)
-        if rejected.isdisjoint(members):
-            one = involved(members, point)
-            apart[one] = [p for p in left if p in points[one]]
-        else:
-            left = left[1:]
-        members = [m for m in members if m not in rejected and m not in apart]
-    own = {m: p for m, p in apart.items() if p}
-    if own:
-        rejected |= rejected_members(attempt, own, order, report)
+        members = [m for m in members if m not in rejected]
+        left = left[left.index(point) + 1 :]
     for some in _halves([member for member in hidden if member not in rejected]):
         own = {member: hidden[member] for member in some}
         rejected |= rejected_members(attempt, own, order, report)

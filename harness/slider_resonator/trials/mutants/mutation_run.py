@@ -27,7 +27,7 @@ from slider_resonator.trials.mutants.verdict import MutantVerdict, MutationRun
 TIME_LIMIT = 30.0
 """Seconds for a mutant and a scene or point of a sweep; the slowest built-in one takes a few."""
 PROBES = 39
-BATCH = 1024
+BATCH = 2048
 """Mutants that get their verdicts before the next ones begin."""
 
 

@@ -31,7 +31,7 @@ from slider_resonator.trials.mutants.verdict import (
 
 QUICK = 0.3
 """CPU time (s) of the original on the scenes on which a mutant is tried alone."""
-GROUP = 128
+GROUP = 512
 """Maximum mutants that are tried in one FMU."""
 
 Keep = Callable[[MutantVerdict], None]

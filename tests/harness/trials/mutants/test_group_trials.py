@@ -72,7 +72,22 @@ def test_members_that_only_fail_together_pass_and_others_stay_together() -> None
         points[passed_before] = [0, 2, 3, 4]
     found = rejections(attempt, points, POINTS)
     assert {m: r.scene for m, r in found.items()} == {"g": "three"}, "only g fails alone"
-    assert "abcdefh" in tried, "only one of two that fail together is taken out"
+    assert tried.count("abcdefgh") == 3, "those that fail together at 1 go on together"
+
+
+def test_a_sum_of_small_changes_costs_a_few_trials() -> None:
+    sizes: list[int] = []
+
+    def attempt(members: Sequence[str], points: Sequence[int]) -> Outcome[str]:
+        sizes.append(len(members))
+        everyone = frozenset(members)
+        if len(members) > 6 and 2 in points:  # together they exceed a bound
+            return Outcome(Rejection("two", "", "sum"), 2, dict.fromkeys(points[:2], everyone))
+        return Outcome(None, None, dict.fromkeys(points, everyone))
+
+    points = {m: list(POINTS) for m in "abcdefghijklmnopqrstuvwx"}
+    assert rejections(attempt, points, POINTS) == {}
+    assert sizes == [24, 24, 12, 6, 6, 12, 6, 6, 24], "quarters pass at 2, all at the rest"
 
 
 def test_one_that_is_tried_with_others_is_not_rejected_for_them() -> None:
