@@ -61,6 +61,8 @@ def experiment_faults(fmu: FmuSide) -> Findings:
             with instance.explained():
                 known = {n: v for n, v in device.items() if n in instance.fmu.variables}
                 instance.start(known, start_time=EARLY)
+                if instance.value("last_event_time") != EARLY:
+                    faults.append("last_event_time does not begin at the start time")
                 instance.step_by(size)
         except Refusal as error:
             faults.append(f"a step of {size:g} s is refused: {error}")

@@ -168,7 +168,10 @@ def _text_faults(instance: Instance) -> Iterator[str]:
 
 
 def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
-    """Create an instance for another host, to which alone its refusals must be reported."""
+    """Create an instance for another host, to which alone its refusals must be reported.
+
+    An FMU with log categories must report them without debug logging, too.
+    """
     if instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
         return
     environments: list[int | None] = []
@@ -182,7 +185,7 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     folder = Path(instance.fmu.folder, "resources").as_uri()
     guid = instance.fmu.description.guid
     made = slave.dll.fmi2Instantiate(
-        b"beside", fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks), False, True
+        b"beside", fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks), False, False
     )
     if not made:
         yield "an instance beside another is not made"
@@ -193,6 +196,8 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     fmu_log.forget("beside")
     if messages or instance.messages or set(environments) - {OTHER_HOST}:
         yield "an instance beside another reports to the host of that one"
+    if _has_category(instance, EVERYTHING) and not environments:
+        yield "without debug logging a refusal is not reported"
 
 
 def _many_values_faults(instance: Instance) -> Iterator[str]:
