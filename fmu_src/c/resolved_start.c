@@ -68,14 +68,22 @@ double velocity_of_swing(const Law *law, double swing) {
     return device_mass_fraction(&law->device) * swing * law->device.drive_frequency / PI;
 }
 
-double velocity_of_free_swing(const Law *law, double swing) {
+/* How far a free swing of the resonator is from itself a turn later, over its size. */
+static double apart_in_turn(const Law *law) {
     const Oscillator *slip = &law->resolved->held.plant.slip;
     double w = law->device.drive_frequency;
     Response free = free_response(slip, TAU / w);
-    double by_place = free.displacement + slip->decay * free.rate - 1.0, by_rate = w * free.rate;
-    double apart = hypot(by_place, by_rate), velocity = device_mass_fraction(&law->device) * swing * w;
-    double share = apart / TAU + BY_FRICTION * friction_share(law) / apart;
-    return velocity > 0.0 ? velocity * share : 0.0;
+    return hypot(free.displacement + slip->decay * free.rate - 1.0, w * free.rate);
+}
+
+double velocity_by_friction(const Law *law, double swing) {
+    double velocity = device_mass_fraction(&law->device) * swing * law->device.drive_frequency;
+    return velocity > 0.0 ? velocity * BY_FRICTION * friction_share(law) / apart_in_turn(law) : 0.0;
+}
+
+double velocity_of_free_swing(const Law *law, double swing) {
+    double velocity = device_mass_fraction(&law->device) * swing * law->device.drive_frequency;
+    return velocity * apart_in_turn(law) / TAU + velocity_by_friction(law, swing);
 }
 
 double lag_angle(const Law *law, double added_mass) {

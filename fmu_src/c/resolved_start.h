@@ -36,7 +36,10 @@ double swing_by_inertia(const Law *law);
 /* What a swing [m] of the resonator adds at most to the slider's mean velocity of a turn [m/s]. */
 double velocity_of_swing(const Law *law, double swing);
 
-/* The same of a free one: by what differs of it a turn later, and by the friction that it changes until then. */
+/* Change of slow velocity [m/s] by the friction that a free swing [m] of the resonator changes, as long as it lasts. */
+double velocity_by_friction(const Law *law, double swing);
+
+/* What a free swing adds at most to mean velocity: by what differs of it a turn later, and by friction. */
 double velocity_of_free_swing(const Law *law, double swing);
 
 #endif

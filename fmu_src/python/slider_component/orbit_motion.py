@@ -13,7 +13,7 @@ has decayed. A load leaves V as it is; another phase, preload or amplitude leave
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf, remainder, tau
+from math import hypot, inf, remainder, tau
 
 from . import events
 from .budget import Budget
@@ -31,7 +31,13 @@ from .orbit_price import is_due, orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
 from .orbit_state import OpenError, OpenKind, OrbitState, Stage, Swing
 from .period import PeriodMeans
-from .resolved_start import bend_angle, lag_angle, resolved_angle, resolved_is_bounded
+from .resolved_start import (
+    bend_angle,
+    lag_angle,
+    resolved_angle,
+    resolved_is_bounded,
+    velocity_by_friction,
+)
 from .slow_friction import SlowFriction, slow_friction
 from .slow_motion_error import (
     decay_in_turn,
@@ -247,6 +253,9 @@ class OrbitLaw:
         centre = now.position + share * apart
         if orbit.stage == Stage.ON_ORBIT:
             swing = Swing(apart, now.state.rate - there.state.rate)
+            size = hypot(swing.displacement, swing.rate / self.full.plant.drive_frequency)
+            doubt = orbit.doubt + velocity_by_friction(self.full.device, self.fast, size)
+            orbit = orbit._replace(doubt=doubt)
         else:
             # What is apart after resolved motion is how far it lags behind the orbit: it stays.
             swing = Swing()

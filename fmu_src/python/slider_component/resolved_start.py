@@ -87,18 +87,32 @@ def velocity_of_swing(device: Device, swing: float) -> float:
     return share * swing * device.drive_frequency / pi
 
 
-def velocity_of_free_swing(device: Device, fast: FastVibration, swing: float) -> float:
-    """The same of a free swing.
+def velocity_by_friction(device: Device, fast: FastVibration, swing: float) -> float:
+    """Change of slow velocity [m/s] by the friction that a free swing [m] of the resonator changes.
 
-    By what differs of it a turn later, and by the friction that it changes until then.
+    As long as it lasts.
     """
-    w, slip = device.drive_frequency, slip_oscillator(device)
-    cosine, sine = free_response(slip, tau / w)
-    apart = hypot(cosine + slip.decay * sine - 1.0, w * sine)
-    velocity = device.resonator_mass / device.total_mass * swing * w
+    velocity = device.resonator_mass / device.total_mass * swing * device.drive_frequency
     if not velocity > 0.0:
         return 0.0
-    return velocity * (apart / tau + BY_FRICTION * friction_share(device, fast) / apart)
+    return velocity * BY_FRICTION * friction_share(device, fast) / _apart_in_turn(device)
+
+
+def velocity_of_free_swing(device: Device, fast: FastVibration, swing: float) -> float:
+    """What a free swing adds at most to mean velocity.
+
+    By what differs of it a turn later, and by friction.
+    """
+    velocity = device.resonator_mass / device.total_mass * swing * device.drive_frequency
+    by_friction = velocity_by_friction(device, fast, swing)
+    return velocity * _apart_in_turn(device) / tau + by_friction
+
+
+def _apart_in_turn(device: Device) -> float:
+    """How far a free swing of the resonator is from itself a turn later, over its size."""
+    w, slip = device.drive_frequency, slip_oscillator(device)
+    cosine, sine = free_response(slip, tau / w)
+    return hypot(cosine + slip.decay * sine - 1.0, w * sine)
 
 
 def lag_angle(device: Device, fast: FastVibration, added_mass: float) -> float:
