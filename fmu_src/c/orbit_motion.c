@@ -6,6 +6,7 @@
 #include "angle.h"
 #include "constants.h"
 #include "contact.h"
+#include "elementary.h"
 #include "events.h"
 #include "orbit_bend.h"
 #include "orbit_changes.h"
