@@ -247,6 +247,12 @@ void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, doub
         (OpenError){TAKEN_OVER, 0.0, velocity, theta, now->state.displacement, now->state.rate};
 }
 
+void error_jump(const Law *law, OrbitState *orbit) {
+    double rate = orbit->swing.rate / law->device.drive_frequency;
+    orbit->doubt += velocity_by_friction(law, hypot(orbit->swing.displacement, rate));
+    bound(law, orbit);
+}
+
 void error_open(double theta, OrbitState *orbit) {
     if (orbit->open.kind == NOTHING_OPEN) {
         orbit->open = (OpenError){.kind = FOLLOWED, .velocity = orbit->velocity, .angle = theta};

@@ -15,6 +15,9 @@
 void error_begin(OrbitRide *ride, const OrbitPoint *point, double velocity, double theta,
                  const Moment *now, OrbitState *orbit);
 
+/* Jump to another orbit, on which the resonator swings: friction that this changes is not followed. */
+void error_jump(const Law *law, OrbitState *orbit);
+
 /* Leave orbits for resolved motion, which begins with the error of the tables and without the lag of the resonator. */
 void error_leave(const Law *law, OrbitState *orbit);
 

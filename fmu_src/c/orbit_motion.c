@@ -6,7 +6,6 @@
 #include "angle.h"
 #include "constants.h"
 #include "contact.h"
-#include "elementary.h"
 #include "events.h"
 #include "orbit_bend.h"
 #include "orbit_changes.h"
@@ -117,8 +116,7 @@ static bool take_over(const Law *law, Moment *now, OrbitPoint *point) {
     double centre = now->position + share * apart;
     if (orbit->stage == ON_ORBIT) {
         orbit->swing = (Response){apart, now->state.rate - there.state.rate};
-        double rate = orbit->swing.rate / law->device.drive_frequency;
-        orbit->doubt += velocity_by_friction(law, hypot(apart, rate));
+        error_jump(law, orbit);
     } else {
         /* What is apart after resolved motion is how far it lags behind the orbit: it stays. */
         orbit->swing = (Response){0.0, 0.0};

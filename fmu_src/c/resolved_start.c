@@ -77,13 +77,13 @@ static double apart_in_turn(const Law *law) {
 }
 
 double velocity_by_friction(const Law *law, double swing) {
-    double velocity = device_mass_fraction(&law->device) * swing * law->device.drive_frequency;
+    double velocity = PI * velocity_of_swing(law, swing);
     return velocity > 0.0 ? velocity * BY_FRICTION * friction_share(law) / apart_in_turn(law) : 0.0;
 }
 
 double velocity_of_free_swing(const Law *law, double swing) {
-    double velocity = device_mass_fraction(&law->device) * swing * law->device.drive_frequency;
-    return velocity * apart_in_turn(law) / TAU + velocity_by_friction(law, swing);
+    double within = 0.5 * velocity_of_swing(law, swing) * apart_in_turn(law);
+    return within + velocity_by_friction(law, swing);
 }
 
 double lag_angle(const Law *law, double added_mass) {

@@ -32,10 +32,10 @@ EXCESS = 1e-2
 small."""
 
 QUADRATURE_NODES = 4
-"""Gauss's nodes of the unit interval."""
+"""How many nodes the integral over a part of an orbit has."""
 
 NODES = (0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263)
-"""Those nodes."""
+"""Gauss's nodes of the unit interval."""
 
 WEIGHTS = (0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693)
 """Their weights."""

@@ -20,7 +20,12 @@ from .orbit_panel import place_between
 from .orbit_point import OrbitPoint
 from .orbit_ride import OrbitRide
 from .orbit_state import OpenError, OpenKind, OrbitState
-from .resolved_start import swing_by_inertia, velocity_of_free_swing, velocity_of_swing
+from .resolved_start import (
+    swing_by_inertia,
+    velocity_by_friction,
+    velocity_of_free_swing,
+    velocity_of_swing,
+)
 from .shift_tables import gain_between, shifts_at
 from .slow_motion_error import (
     decay_in_turn,
@@ -54,6 +59,16 @@ ROOT_SUM = 0.1
 def is_without_error(orbit: OrbitState) -> bool:
     """Whether no orbit has been followed since resolved motion ended, so that it just goes on."""
     return orbit.open.kind == OpenKind.TAKEN_OVER and orbit.open.elapsed == 0.0
+
+
+def jumped(device: Device, fast: FastVibration, orbit: OrbitState) -> OrbitState:
+    """The state after a jump to another orbit, on which the resonator swings.
+
+    Friction that this changes is not followed.
+    """
+    size = hypot(orbit.swing.displacement, orbit.swing.rate / device.drive_frequency)
+    doubt = orbit.doubt + velocity_by_friction(device, fast, size)
+    return orbit._replace(doubt=min(doubt, fast.velocity))
 
 
 def left_orbits(device: Device, fast: FastVibration, orbit: OrbitState) -> OrbitState:

@@ -13,7 +13,7 @@ has decayed. A load leaves V as it is; another phase, preload or amplitude leave
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import hypot, inf, remainder, tau
+from math import inf, remainder, tau
 
 from . import events
 from .budget import Budget
@@ -25,19 +25,13 @@ from .moment import Counts, Moment
 from .motion import State
 from .orbit_bend import orbit_bend_decay, velocity_of_bend
 from .orbit_changes import noted, orbit_values
-from .orbit_error import ErrorRide, calmed, is_without_error, left_orbits
+from .orbit_error import ErrorRide, calmed, is_without_error, jumped, left_orbits
 from .orbit_follow import LostOrbitError, followed
 from .orbit_price import is_due, orbit_price, with_paid
 from .orbit_ride import OrbitRide, begin_ride, orbit_phase_of
 from .orbit_state import OpenError, OpenKind, OrbitState, Stage, Swing
 from .period import PeriodMeans
-from .resolved_start import (
-    bend_angle,
-    lag_angle,
-    resolved_angle,
-    resolved_is_bounded,
-    velocity_by_friction,
-)
+from .resolved_start import bend_angle, lag_angle, resolved_angle, resolved_is_bounded
 from .slow_friction import SlowFriction, slow_friction
 from .slow_motion_error import (
     decay_in_turn,
@@ -253,13 +247,11 @@ class OrbitLaw:
         centre = now.position + share * apart
         if orbit.stage == Stage.ON_ORBIT:
             swing = Swing(apart, now.state.rate - there.state.rate)
-            size = hypot(swing.displacement, swing.rate / self.full.plant.drive_frequency)
-            doubt = orbit.doubt + velocity_by_friction(self.full.device, self.fast, size)
-            orbit = orbit._replace(doubt=doubt)
+            orbit = jumped(self.full.device, self.fast, orbit._replace(swing=swing))
         else:
             # What is apart after resolved motion is how far it lags behind the orbit: it stays.
-            swing = Swing()
             orbit = self._errors(ride).begun(point, velocity, theta, now, orbit)
+            orbit = orbit._replace(swing=Swing())
             now.position = centre
         now.orbit = orbit._replace(
             stage=Stage.ON_ORBIT,
@@ -267,7 +259,6 @@ class OrbitLaw:
             waited=0.0,
             velocity=velocity,
             centre=centre - there.position,
-            swing=swing,
         )
         return now, point.of.factor
 

@@ -88,11 +88,8 @@ def velocity_of_swing(device: Device, swing: float) -> float:
 
 
 def velocity_by_friction(device: Device, fast: FastVibration, swing: float) -> float:
-    """Change of slow velocity [m/s] by the friction that a free swing [m] of the resonator changes.
-
-    As long as it lasts.
-    """
-    velocity = device.resonator_mass / device.total_mass * swing * device.drive_frequency
+    """Change of slow velocity [m/s] by the friction that a free swing [m] changes in all."""
+    velocity = pi * velocity_of_swing(device, swing)
     if not velocity > 0.0:
         return 0.0
     return velocity * BY_FRICTION * friction_share(device, fast) / _apart_in_turn(device)
@@ -103,9 +100,8 @@ def velocity_of_free_swing(device: Device, fast: FastVibration, swing: float) ->
 
     By what differs of it a turn later, and by friction.
     """
-    velocity = device.resonator_mass / device.total_mass * swing * device.drive_frequency
-    by_friction = velocity_by_friction(device, fast, swing)
-    return velocity * _apart_in_turn(device) / tau + by_friction
+    within = 0.5 * velocity_of_swing(device, swing) * _apart_in_turn(device)
+    return within + velocity_by_friction(device, fast, swing)
 
 
 def _apart_in_turn(device: Device) -> float:

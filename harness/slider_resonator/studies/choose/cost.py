@@ -2,7 +2,7 @@
 
 The counts are communication steps, changes of the inputs, drive periods, and for averaged motion
 beats, relaxation times, and the orbits that are prepared and followed. Their weights were fitted to
-some 1600 runs of the native FMU in a host in C: the shortest of several CPU times, each in a new
+some 1400 runs of the native FMU in a host in C: the shortest of several CPU times, each in a new
 instance. Steps and changes are those of fmpy (`python -m tests.harness.studies.choose.pricing`
 compares with it). A model of cost decides between candidates; the seconds of another machine are
 another multiple of it.
