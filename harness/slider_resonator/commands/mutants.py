@@ -132,9 +132,10 @@ def mutants_command(
     condition, statement, event, input or unit, or a parameter off by 1 %. It runs on the scenes
     that execute the changed statement, the cheapest first, in a process of its own, until a check
     fails; a crash or a hang counts as rejected. What passes the cheapest runs on the others with
-    up to 127 other mutants in one FMU, and in ever smaller groups where that is rejected. A
-    survivor runs on random probes beside the original: it is equivalent if no result differs by
-    more than the scenes allow. Without FMU: the Python one in dist.
+    up to 511 other mutants in one FMU, and in ever smaller groups where that is rejected. What
+    passes all runs on random probes beside the original: it is equivalent if no result differs by
+    more than the scenes allow; otherwise it runs on all scenes once more, alone. Without FMU: the
+    Python one in dist.
 
     With --native a C compiler of this machine builds copies of the native FMU from its sources,
     each with one fault written by hand, or with a harmless change that must pass.

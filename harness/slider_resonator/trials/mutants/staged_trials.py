@@ -2,7 +2,8 @@
 
 The cheapest scenes and those that have rejected other mutants of a module reject most. What passes
 those is tried on all scenes in groups; what passes all scenes on probes, whose results are the
-original's.
+original's. What a probe rejects is tried alone on all scenes: others of its group may have hidden
+what it does there. What they hide on the probes, too, counts as equivalent.
 """
 
 from __future__ import annotations
@@ -79,8 +80,9 @@ class StagedTrials:
                 keep(_rejected(mutant, rejection))
 
         def differ(mutant: Mutant, rejection: Rejection) -> None:
+            verdict = self._alone_on_all(mutant, rejection)
             with lock:
-                keep(self._survivor(mutant, rejection))
+                keep(verdict)
 
         passed = self._in_groups(left, self._scenes, reject)
         probes = {mutant: self._through(mutant, self._probes) for mutant in passed}
@@ -158,14 +160,17 @@ class StagedTrials:
         }
         return Outcome(found.rejection, found.at, passed)
 
-    def _survivor(self, mutant: Mutant, difference: Rejection) -> MutantVerdict:
-        """Return the verdict on a mutant that all scenes accept and a probe does not."""
+    def _alone_on_all(self, mutant: Mutant, difference: Rejection) -> MutantVerdict:
+        """Return the verdict on a mutant that all scenes accept in groups and a probe does not."""
         what = f"{difference.quantity or 'cannot be run'}: {difference.reason}"
-        scenes = len(self._through(mutant, self._scenes))
-        if scenes == 0:
+        scenes = self._through(mutant, self._scenes)
+        if not scenes:
             reason = f"no scene executes the statement, but {difference.scene} does: {what}"
-        else:
-            reason = f"in {difference.scene}: {what}; the {scenes} scenes that execute it pass"
+            return MutantVerdict(mutant, SURVIVED, reason)
+        found = self._servers.attempt(Attempt({mutant.path: mutant.new.encode()}, scenes))
+        if found.rejection is not None:
+            return _rejected(mutant, found.rejection)
+        reason = f"in {difference.scene}: {what}; the {len(scenes)} scenes that execute it pass"
         return MutantVerdict(mutant, SURVIVED, reason)
 
     def _equivalent(self, mutant: Mutant) -> MutantVerdict:
