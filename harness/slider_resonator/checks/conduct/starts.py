@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.conduct.other_values import other_value
@@ -37,7 +37,7 @@ def start_faults(fmu: FmuSide) -> Findings:
         faults += _unequal(instance, others, "after it was set")
         faults += _in_one_call(instance, others)
         call(instance.slave, "fmi2EnterInitializationMode")
-        first = instance.read(instance.fmu.outputs)
+        first = _one_by_one(instance, instance.fmu.outputs)
         instance.begin()
         faults += _unequal(instance, others, "in a run")
         faults += _unequal(instance, first, "after initialization, as it was read in it")
@@ -58,6 +58,13 @@ def _in_one_call(instance: Instance, others: Mapping[str, float]) -> Iterator[st
         if found != others[name]:
             yield f"{name} is {found!r} among others in one call, must be {others[name]!r}"
     yield from _unequal(instance, others, "after it was set with others")
+
+
+def _one_by_one(instance: Instance, names: Iterable[str]) -> dict[str, float]:
+    """Read variables, Integers first: no Real may be needed to bring them up to date."""
+    variables = instance.fmu.variables
+    ordered = sorted(names, key=lambda name: (variables[name].type, name))
+    return {name: instance.read([name])[name] for name in ordered}
 
 
 def _unequal(instance: Instance, values: Mapping[str, float], when: str) -> Iterator[str]:
