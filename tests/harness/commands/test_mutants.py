@@ -67,7 +67,8 @@ def test_native_changes_are_listed(native_fmu: Path) -> None:
 
 @pytest.mark.slow
 def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
-    only = ("--native", "--file", "settling.c", "--scene", "averaged_long_steps", "--jobs", "1")
+    scenes = ("--scene", "averaged_long_steps", "--scene", "averaged_long_steps_weak_drive")
+    only = ("--native", "--file", "settling.c", *scenes, "--jobs", "1")
     result = call("mutants", native_fmu, *only, "--json")
     assert_public_keys("mutants --native", result.output)
     written = json.loads(result.output)
@@ -77,6 +78,8 @@ def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
         "later_settling": False,
         "settle_early": False,
         "settled_nearer": False,
+        "settled_wide_for_weak_drive": True,
+        "settled_below_balance": True,
     }
     assert written["rate"] == 1.0
     assert result.exit_code == 0
