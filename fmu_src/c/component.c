@@ -13,12 +13,10 @@
 /* Prepare the law of `values`; it replaces the present law unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
-    if (!prepare_law(values, &component->table, &component->orbits, &component->laws[next],
-                     &component->resolved[next], refusal)) {
+    if (!prepare_law(values, &component->table, &component->bending, &component->laws[next],
+                     refusal)) {
         return false;
     }
-    component->laws[next].bending = component->resolved[next].bending = &component->bending;
-    component->orbits.bending = &component->bending;
     component->present = next;
     component->prepared = true;
     component->theory.known = false;
@@ -62,7 +60,7 @@ bool component_exit_initialization(Component *component, Refusal *refusal) {
         || !prepare_present(component, refusal)) {
         return false;
     }
-    component->now.moment = law_start(present_law(component));
+    component->now.moment = present_law(component)->motion->start(present_law(component));
     component->now.moving = true;
     component->now.lifecycle = STEP_COMPLETE;
     return true;
@@ -76,7 +74,7 @@ bool component_terminate(Component *component, Refusal *refusal) {
 
 /* Whether the present law can take over values that differ in these variables alone. */
 static bool changes_in_place(const Component *component, const unsigned *references, size_t count) {
-    bool in_place = component->prepared && present_law(component)->device.fidelity > 0;
+    bool in_place = component->prepared;
     for (size_t i = 0; i < count; i++) {
         in_place = in_place && (references[i] == VR_PHASE || references[i] == VR_LOAD);
     }
@@ -108,12 +106,8 @@ bool component_set(Component *component, const unsigned *references, const doubl
     }
     bool running = is_running(component->now.lifecycle);
     if (!same) {
-        if (running) {
-            const Law *before = present_law(component);
-            if (!change(component, changed, references, count, refusal)) {
-                return false;
-            }
-            law_settle_error(before, &component->now.moment);
+        if (running && !change(component, changed, references, count, refusal)) {
+            return false;
         }
         component->prepared = running;
         memcpy(component->now.values, changed, sizeof changed);
@@ -143,7 +137,7 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *fir
     }
     *moment = &component->now.moment;
     if (!component->now.moving) {
-        *first = law_start(present_law(component));
+        *first = present_law(component)->motion->start(present_law(component));
         *moment = first;
     }
     return true;
@@ -229,11 +223,10 @@ static bool advance(Component *component, double step_size, double duration, Eve
     const Law *law = present_law(component);
     Budget budget = budget_of(step_size);
     if (inputs_vary(now->derivatives)) {
-        return ramped_step(&component->ramped, now, law, duration, &component->table,
-                           &component->orbits, &budget, after, refusal);
+        return ramped_step(&component->ramped, now, duration, &component->table, &budget,
+                           after, refusal);
     }
-    return bounded_work_check(law, step_size, refusal)
-           && law_advance(law, &now->moment, duration, search, &budget, after, refusal);
+    return law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);
 }
 
 /* Take over the inputs at the end of a step during which they vary. */

@@ -9,24 +9,21 @@
 #include "experiment.h"
 #include "friction_table.h"
 #include "law.h"
-#include "orbit_tables.h"
 #include "outputs.h"
 #include "ramped_step.h"
 #include "refusal.h"
 #include "snapshot.h"
 
 /* A slider-resonator. `now` is its complete state, the rest a cache of what follows from it: laws[present]
- * is the law of the present values if `prepared`, the other entry is for the law tried next; `resolved` are
- * the laws of the full device, which averages of second order need; `ramped` is the last step under inputs
- * that vary. A component must not move in memory: its laws point to its tables. */
+ * is the law of the present values if `prepared`, the other entry is for the law tried next; `ramped` is the last
+ * step under inputs that vary. A component must not move in memory: its laws point to its tables. */
 typedef struct {
     Snapshot now;
     bool prepared;
     int present;
-    Law laws[2], resolved[2];
+    Law laws[2];
     RampedStep ramped;
     FrictionTable table;
-    OrbitTables orbits;
     BendingTables bending;
     Theory theory;
 } Component;

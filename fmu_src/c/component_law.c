@@ -3,9 +3,7 @@
 #include <math.h>
 
 #include "averaged.h"
-#include "constants.h"
 #include "refusal_texts.h"
-#include "resolved_start.h"
 #include "state.h"
 #include "values.h"
 
@@ -58,37 +56,19 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
     return inputs;
 }
 
-/* Give a law its `orbits` and the law of the full device (`resolved`) if averages of second order need
- * them. */
-static bool prepare_orbits(OrbitTables *orbits, Law *law, Law *resolved, Refusal *refusal) {
-    if (law_follows_orbits(law)) {
-        Device full = law->device;
-        full.fidelity = 2;
-        full.tolerance = fmin(full.tolerance, RESOLVED_TOLERANCE);
-        if (!law_prepare(resolved, &full, &law->inputs, NULL, refusal)) {
-            return false;
-        }
-        law->resolved = resolved;
-        law->orbits = orbits;
-    }
-    return true;
-}
-
-bool prepare_law(const double values[SETTABLE_COUNT], FrictionTable *table, OrbitTables *orbits,
-                 Law *law, Law *resolved, Refusal *refusal) {
+bool prepare_law(const double values[SETTABLE_COUNT], FrictionTable *table, BendingTables *bending,
+                 Law *law, Refusal *refusal) {
     Device device = device_of(values);
     Inputs inputs = reduced_inputs(values);
-    if (!law_prepare(law, &device, &inputs, table, refusal)) {
+    const Motion *motion = motion_of(&device);
+    if (motion == &LEAPING_MOTION) {
+        device.fidelity = 2;
+    }
+    if (!law_prepare(law, &device, &inputs, refusal)) {
         return false;
     }
-    if (!law_is_finite(law)) {
-        return refuse_extreme(values, refusal);
-    }
-    return prepare_orbits(orbits, law, resolved, refusal);
-}
-
-bool bounded_work_check(const Law *law, double step_size, Refusal *refusal) {
-    double frequency = LONGEST_ARC / law->held.arc;
-    return law->device.fidelity == 0 || !(step_size * frequency > TAU * MAX_TURNS)
-           || refuse_too_many_turns(refusal, step_size, frequency, MAX_TURNS);
+    law->motion = motion;
+    law->table = table;
+    law->bending = bending;
+    return law_is_finite(law) || refuse_extreme(values, refusal);
 }

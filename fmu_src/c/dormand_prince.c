@@ -1,53 +1,57 @@
 #include "dormand_prince.h"
 
+#include <math.h>
+
 #include "elementary.h"
 
-/* A step tried: `change` of the velocity and its estimated `error` [m/s], displacement `moved` [m], and
- * the acceleration `last` at the end [m/s^2]. */
-typedef struct {
-    double change, moved, error, last;
-} Stage;
+/* The last stage is the first of the next step. */
+enum { STAGES = 7 };
 
-static Stage try_step(AccelerationFunction acceleration, const void *motion, double t, double v,
-                      double h, double k1) {
-    double k2 = acceleration(motion, t + h / 5, v + h * k1 / 5);
-    double k3 = acceleration(motion, t + 3 * h / 10, v + h * (3 * k1 + 9 * k2) / 40);
-    double k4 = acceleration(motion, t + 4 * h / 5,
-                             v + h * (44 * k1 / 45 - 56 * k2 / 15 + 32 * k3 / 9));
-    double k5 = acceleration(motion, t + 8 * h / 9,
-                             v + h * (19372 * k1 / 6561 - 25360 * k2 / 2187 + 64448 * k3 / 6561 -
-                                      212 * k4 / 729));
-    double k6 = acceleration(motion, t + h,
-                             v + h * (9017 * k1 / 3168 - 355 * k2 / 33 + 46732 * k3 / 5247 +
-                                      49 * k4 / 176 - 5103 * k5 / 18656));
-    Stage stage;
-    stage.change = h * (35 * k1 / 384 + 500 * k3 / 1113 + 125 * k4 / 192 - 2187 * k5 / 6784 +
-                        11 * k6 / 84);
-    stage.last = acceleration(motion, t + h, v + stage.change);
-    stage.error = h * fabs(71 * k1 / 57600 - 71 * k3 / 16695 + 71 * k4 / 1920 -
-                           17253 * k5 / 339200 + 22 * k6 / 525 - stage.last / 40);
-    /* The weights of the fifth order, applied to the velocities at the stages. */
-    stage.moved = h * v + h * h * (35 * k1 / 384 + 50 * k3 / 159 + 25 * k4 / 192 -
-                                   243 * k5 / 6784);
-    return stage;
+static const double NODES[STAGES] = {0.0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1.0, 1.0};
+static const double WEIGHTS[STAGES][STAGES - 1] = {
+    {0.0},
+    {1.0 / 5},
+    {3.0 / 40, 9.0 / 40},
+    {44.0 / 45, -56.0 / 15, 32.0 / 9},
+    {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+    {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+    {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84},
+};
+static const double ERROR[STAGES] = {71.0 / 57600,      0.0,        -71.0 / 16695, 71.0 / 1920,
+                                     -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+
+/* Bounds of the growth of a step, and the share of the best growth that is taken. */
+#define MIN_GROWTH 0.2
+#define MAX_GROWTH 5.0
+#define SAFETY 0.9
+
+bool dormand_prince_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
+                         SlowStep *step) {
+    SlowRate rates[STAGES] = {from->rate};
+    double error = h * ERROR[0] * from->rate.acceleration, before = 0.0;
+    SlowPoint to = *from;
+    for (int i = 1; i < STAGES; i++) {
+        double gained = 0.0, travel = 0.0;
+        for (int j = 0; j < i; j++) {
+            gained += WEIGHTS[i][j] * rates[j].acceleration;
+            travel += WEIGHTS[i][j] * rates[j].travel;
+        }
+        before = to.velocity;
+        to.t = from->t + NODES[i] * h;
+        to.velocity = from->velocity + h * gained;
+        to.travel = from->travel + h * travel;
+        if (!rate(motion, to.t, to.velocity, &rates[i])) {
+            return false;
+        }
+        error += h * ERROR[i] * rates[i].acceleration;
+    }
+    to.rate = rates[STAGES - 1];
+    double risen = to.rate.acceleration - rates[STAGES - 2].acceleration;
+    *step = (SlowStep){to, fabs(error), risen / (to.velocity - before)};
+    return true;
 }
 
-Reached integrate(AccelerationFunction acceleration, const void *motion, Reached from, double end,
-                  double tolerance, double longest, int max_steps) {
-    Reached now = from;
-    double first = acceleration(motion, now.t, now.velocity);
-    for (int count = 0; count < max_steps && now.t < end && isfinite(now.velocity); count++) {
-        double left = end - now.t, h = fmin(fmin(now.step, longest), left);
-        now.tried++;
-        Stage stage = try_step(acceleration, motion, now.t, now.velocity, h, first);
-        if (!(stage.error > tolerance)) {
-            now.moved += stage.moved;
-            now.velocity += stage.change;
-            now.t = h < left ? now.t + h : end;
-            first = stage.last;
-        }
-        double growth = stage.error > 0.0 ? 0.9 * pow(tolerance / stage.error, 0.2) : 5.0;
-        now.step = h * fmin(5.0, fmax(0.2, growth));
-    }
-    return now;
+double step_growth(double error, double tolerance) {
+    double growth = error > 0.0 ? SAFETY * pow(tolerance / error, 0.2) : MAX_GROWTH;
+    return fmin(MAX_GROWTH, fmax(MIN_GROWTH, growth));
 }

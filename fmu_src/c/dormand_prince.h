@@ -1,21 +1,35 @@
-/* Dormand and Prince's 5(4) pair for one velocity and the displacement, its integral. */
+/* Dormand and Prince's 5(4) pair for one velocity and its travel, whose rates depend on time and velocity. */
 #ifndef SLIDER_DORMAND_PRINCE_H
 #define SLIDER_DORMAND_PRINCE_H
 
-/* Acceleration [m/s^2] at time `t` [s] and velocity `v` [m/s]. */
-typedef double (*AccelerationFunction)(const void *motion, double t, double v);
+#include <stdbool.h>
 
-/* Where an integration is: time [s], velocity [m/s], displacement [m], the step size to try next [s], and
- * the number of steps `tried`. */
+/* Rates of the velocity and of the travel. */
 typedef struct {
-    double t, velocity, moved, step;
-    int tried;
-} Reached;
+    double acceleration, travel;
+} SlowRate;
 
-/* Integrate to time `end` [s], or for `max_steps` accepted and rejected steps. `tolerance` [m/s] is the
- * error allowed in a step. `longest` [s] bounds the step size: over the period of a periodic acceleration
- * all stages would see the same value. */
-Reached integrate(AccelerationFunction acceleration, const void *motion, Reached from, double end,
-                  double tolerance, double longest, int max_steps);
+/* Give the rates at time `t` and velocity `v`. Return false where there are none. */
+typedef bool (*SlowRateFunction)(void *motion, double t, double v, SlowRate *rate);
+
+/* Where an integration is: time, velocity and travel, and the rates there. */
+typedef struct {
+    double t, velocity, travel;
+    SlowRate rate;
+} SlowPoint;
+
+/* A step to a point; `error` is the estimated error of the velocity, `gain` the derivative of the acceleration by the
+ * velocity, from two stages at the end. */
+typedef struct {
+    SlowPoint to;
+    double error, gain;
+} SlowStep;
+
+/* One step of `h` from a point. Return false where the rates are not defined at a stage; `step` is then undefined. */
+bool dormand_prince_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
+                         SlowStep *step);
+
+/* Factor by which the next step may be longer or shorter than one with this error. */
+double step_growth(double error, double tolerance);
 
 #endif

@@ -100,22 +100,27 @@ static void ramp_to(Plant *plant, const Plant *begin, double elapsed, bool turne
 }
 
 /* Looks at the motion on a leg that begins at a moment, `elapsed` [s] after the beginning of the motion. */
-static void look(Trace *trace, const Leg *leg, const Moment *begin, double elapsed) {
-    double t, travelled;
+static void look(Trace *trace, const Law *law, const Leg *leg, const Moment *begin, double elapsed) {
     for (; trace->seen < trace->count; trace->seen++) {
-        t = trace->first + trace->seen * trace->every - elapsed;
+        double t = trace->first + trace->seen * trace->every - elapsed, travelled;
         if (t > leg->t) {
             return;
         }
-        State state = leg_state_at(leg, fmax(t, 0.0), &travelled);
-        trace->see(trace->observer, trace->seen, &state, begin->position + travelled);
+        Moment moment = *begin;
+        moment.state = leg_state_at(leg, fmax(t, 0.0), &travelled);
+        moment.position += travelled;
+        moment.bristle = law->friction->bristle(law, begin, travelled);
+        if (leg->turns) {
+            moment.counts = counts_slid(moment.counts, leg->direction);
+        }
+        trace->see(trace->observer, trace->seen, &moment);
     }
 }
 
 /* Looks at the end of a motion, where rounding puts the last looks behind it. */
 static void look_at_end(Trace *trace, const Moment *end) {
     for (; trace->seen < trace->count; trace->seen++) {
-        trace->see(trace->observer, trace->seen, &end->state, end->position);
+        trace->see(trace->observer, trace->seen, end);
     }
 }
 
@@ -158,7 +163,8 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
         }
         friction->follow(&leg, law, now, longest, switching);
         if (trace != NULL) {
-            look(trace, &leg, now, clock.elapsed);
+            look(trace, law, &leg, now, clock.elapsed);
+            trace_mode(trace, leg.mode == LIFTED ? LIFTED : leg.direction);
         }
         leg_finish(&leg, held, now);
         if (law == &moving) {

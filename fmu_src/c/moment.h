@@ -3,7 +3,6 @@
 #define SLIDER_MOMENT_H
 
 #include "contact.h"
-#include "orbit_state.h"
 #include "period.h"
 #include "state.h"
 #include "stops.h"
@@ -18,7 +17,8 @@ typedef struct {
 /* Position [m], phases [rad], contact mode. `event_age` is the time [s] since the last event,
  * infinite before any; `bristle` is the friction sigma_0 z of the bristle per unit normal load, 0 with
  * Coulomb friction. `stops` determine where the search for a stop begins, and so the last digit of the
- * time that it finds: as part of the state they make a replay equal to the last bit. */
+ * time that it finds: as part of the state they make a replay equal to the last bit. `leap_error` is what leaps
+ * over periods may have added to the error of the slow velocity [m/s]. */
 typedef struct {
     State state;
     double position, theta, psi;
@@ -28,7 +28,7 @@ typedef struct {
     PeriodMeans means;
     double bristle;
     Stops stops;
-    OrbitState orbit;
+    double leap_error;
 } Moment;
 
 /* The counts after the slider has moved in `direction`. */

@@ -4,16 +4,15 @@
 
 #include "elementary.h"
 #include "fast_vibration.h"
+#include "motion.h"
 #include "prediction.h"
-#include "slow_phase.h"
 #include "state.h"
 #include "variables.h"
-#include "vibrating_load.h"
 
 /* Displacement [m] and velocity [m/s] of the resonator. */
 static Response resonator_swing(const Law *law, const Moment *moment) {
     const Plant *plant = &law->held.plant;
-    if (plant->resolves_resonator || moment->orbit.stage != AVERAGED) {
+    if (plant->resolves_resonator) {
         return (Response){moment->state.displacement, moment->state.rate};
     }
     return steady_swing(plant->resonator_amplitude, moment->theta, plant->drive_frequency);
@@ -26,16 +25,21 @@ static double normal_force(const Law *law, const Moment *moment) {
 }
 
 static double stick_fraction(const Law *law, const Moment *moment) {
-    return period_stick_fraction(&moment->means, law_mode(law, moment) == STICK);
+    return period_stick_fraction(&moment->means, law->motion->mode(law, moment) == STICK);
 }
 
-/* psi - n theta in [-pi, pi] [rad]; 0 where the load never repeats. */
+/* Parts of a radian to which leads of the normal load are rounded: inputs that return to earlier values find their
+ * prediction in spite of rounding errors of phases. */
+#define LEAD_PARTS 1e11
+
+/* psi - n theta [rad], the same in all turns of the load; 0 where it never repeats. */
 static double normal_lead(const Law *law, const Moment *moment) {
-    double ratio = law->inputs.frequency_ratio;
-    if (turns_to_repeat(&law->device, ratio, EXACT) == 0) {
+    int turns = turns_of_load(law);
+    if (turns == 0) {
         return 0.0;
     }
-    return rounded_lead(remainder(moment->psi - ratio * moment->theta, TAU));
+    double lead = moment->psi - law->inputs.frequency_ratio * moment->theta;
+    return nearbyint(remainder(lead, TAU / turns) * LEAD_PARTS) / LEAD_PARTS;
 }
 
 static const Averaged *theory_of(const Law *law, const Moment *moment, Theory *theory) {
@@ -64,9 +68,9 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
     case VR_NORMAL_FORCE:
         return normal_force(law, moment);
     case VR_FRICTION_FORCE:
-        return law_friction_force(law, moment, law_mode(law, moment));
+        return law->motion->force(law, moment, law->motion->mode(law, moment));
     case VR_CONTACT_MODE:
-        return law_mode(law, moment);
+        return law->motion->mode(law, moment);
     case VR_REVERSALS:
         return moment->counts.reversals;
     case VR_STICK_FRACTION:
@@ -80,7 +84,7 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
     case VR_PREDICTION_VALID:
         return theory_of(law, moment, theory)->valid ? 1.0 : 0.0;
     case VR_SLOW_MOTION_ERROR:
-        return law_slow_motion_error(law, moment);
+        return law->motion->error(law, moment);
     }
     return NAN; /* no output has this reference */
 }

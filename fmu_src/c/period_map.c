@@ -3,90 +3,173 @@
 #include <stddef.h>
 
 #include "angle.h"
-#include "contact.h"
 #include "elementary.h"
 #include "events.h"
 #include "friction_law.h"
 #include "state.h"
-#include "vibrating_load.h"
 
-bool period_map_prepare(PeriodMap *map, const Device *device, double ratio, int turns,
-                        Refusal *refusal) {
-    Device full = *device;
-    Inputs inputs = {.frequency_ratio = ratio};
-    full.fidelity = 2;
-    full.tolerance = fmin(device->tolerance, MAP_TOLERANCE);
-    if (!law_prepare(&map->law, &full, &inputs, NULL, refusal) ||
-        !fast_vibration_prepare(&map->fast, &full, refusal)) {
+/* Largest tolerance of LuGre friction in a map: differences of high order amplify its error. */
+#define MAP_TOLERANCE 1e-10
+
+/* Smallest number of turns, up to `max_turns`, after which the load repeats best: one more turn must halve its drift [rad]
+ * at least. */
+static int turns_to_repeat_best(const Law *law, int max_turns, double *drift) {
+    double ratio = law->inputs.frequency_ratio;
+    int best = 1;
+    *drift = 0.0;
+    if (law->device.normal_amplitude == 0.0) {
+        return best;
+    }
+    for (int turns = 1; turns <= max_turns; turns++) {
+        double waves = turns * ratio, off = TAU * (waves - nearbyint(waves));
+        if (turns == 1 || fabs(off) < 0.5 * fabs(*drift)) {
+            *drift = off;
+            best = turns;
+        }
+    }
+    return best;
+}
+
+/* Largest factor by which the resonator's free motion decays in a period. */
+static double resonator_decay(const Oscillator *slip, double period) {
+    double spread = slip->decay * slip->decay - slip->stiffness;
+    double rate = spread > 0.0 ? slip->stiffness / (slip->decay + sqrt(spread)) : slip->decay;
+    return exp(-rate * period);
+}
+
+static bool prepare_homing(PeriodMap *map, const Oscillator *slip) {
+    Response free = free_response(slip, map->period);
+    double a = free.displacement + slip->decay * free.rate - 1.0, b = free.rate;
+    double c = -slip->stiffness * free.rate;
+    double d = free.displacement - slip->decay * free.rate - 1.0;
+    double determinant = a * d - b * c;
+    map->homing[0][0] = d / determinant;
+    map->homing[0][1] = -b / determinant;
+    map->homing[1][0] = -c / determinant;
+    map->homing[1][1] = a / determinant;
+    return isfinite(1.0 / determinant);
+}
+
+static void prepare_fast_states(PeriodMap *map) {
+    const Law *law = &map->law;
+    const Plant *plant = &law->held.plant;
+    double w = plant->drive_frequency;
+    double swing = complex_abs(map->vibration.resonator);
+    double felt = map->speed / (plant->mass_fraction * w);
+    map->scale[0] = swing > 0.0 ? fmin(swing, felt) : felt;
+    map->scale[1] = map->scale[0] * w;
+    map->scale[2] = 1.0;
+    map->fast_count = 2;
+    map->kept = 0.0;
+    map->decay = resonator_decay(&plant->slip, map->period);
+    if (!law->friction->sticks) {
+        double path = 4.0 * map->turns * map->speed / w;
+        map->scale[2] = law->bristle.coefficient;
+        map->fast_count = 3;
+        map->kept = exp(-law->bristle.stiffness * path / law->bristle.coefficient);
+        map->decay = fmax(map->decay, map->kept);
+    }
+}
+
+bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns) {
+    Refusal refusal;
+    if (!fast_vibration_prepare(&map->vibration, &law->device, &refusal) ||
+        !(map->vibration.velocity > 0.0) || !law->held.plant.resolves_resonator) {
         return false;
     }
-    const Held *held = &map->law.held;
-    double w = held->plant.drive_frequency;
-    map->turns = turns;
-    map->states = full.friction_law == 0 ? 3 : 4;
-    map->period = TAU * turns / w;
-    map->speed = map->fast.velocity;
-    map->swing = complex_abs(map->fast.resonator);
-    if (!(map->swing > 0.0)) {
-        map->swing = map->speed / w;
-    }
-    map->force = held->plant.total_mass * map->speed / map->period;
-    return true;
+    map->law = *law;
+    map->tolerance = law->device.tolerance;
+    map->law.device.tolerance = fmin(law->device.tolerance, MAP_TOLERANCE);
+    const Device *device = &map->law.device;
+    const Plant *plant = &map->law.held.plant;
+    map->turns = turns_to_repeat_best(law, max_turns, &map->drift);
+    map->period = TAU * map->turns / plant->drive_frequency;
+    map->section = within_turn(map->vibration.lag + PI);
+    map->speed = map->vibration.velocity;
+    double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
+    double full = device->friction_faces * device->friction_coefficient * normal;
+    map->share = full * map->period / (plant->total_mass * map->speed);
+    prepare_fast_states(map);
+    return map->decay < 1.0 && prepare_homing(map, &plant->slip);
 }
 
-double section_phase(const PeriodMap *map, int direction) {
-    return within_turn(map->fast.lag + (direction > 0 ? PI : 0.0));
+double momentum_velocity(const PeriodMap *map, const Moment *moment) {
+    return moment->state.velocity + map->law.held.plant.mass_fraction * moment->state.rate +
+           map->vibration.pair_velocity * cos(moment->theta);
 }
 
-double momentum_velocity(const PeriodMap *map, const State *state, double theta) {
-    return state->velocity + map->law.held.plant.mass_fraction * state->rate +
-           map->fast.pair_velocity * cos(theta);
+double psi_after(const PeriodMap *map, double psi, double periods) {
+    const Plant *plant = &map->law.held.plant;
+    double t = periods * map->period, chirp = 0.5 * plant->normal_rate * t * t;
+    return within_turn(psi + remainder(map->drift * periods + chirp, TAU));
 }
 
-/* The law with the phase and the load of an orbit. */
-static Law law_under(const PeriodMap *map, double lead, double load) {
-    Law law = map->law;
-    law.inputs.phase = law.held.plant.phase = lead;
-    law.inputs.load = law.held.plant.load = load;
-    return law;
-}
-
-void orbit_enter(const PeriodMap *map, double lead, double theta, Moment *moment) {
-    Law law = law_under(map, lead, 0.0);
-    moment->position = 0.0;
-    moment->theta = theta;
-    moment->psi = within_turn(map->law.inputs.frequency_ratio * theta);
-    moment->event_age = INFINITY;
-    moment->means = (PeriodMeans){0};
-    moment->counts = (Counts){0};
-    moment->mode = law_mode(&law, moment);
+void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,
+                  Moment *moment) {
+    const Law *law = &map->law;
+    moment->theta = map->section;
+    moment->psi = psi;
+    moment->state.displacement = fast[0];
+    moment->state.rate = fast[1];
+    moment->bristle = fast[2];
+    moment->state.velocity = velocity - map->vibration.pair_velocity * cos(map->section) -
+                             law->held.plant.mass_fraction * fast[1];
+    moment->mode = law->friction->mode(law, moment);
     moment->counts.sliding = moment->mode == LIFTED ? STICK : moment->mode;
 }
 
-static bool is_finite(const Moment *moment) {
-    return isfinite(moment->position + moment->state.velocity + moment->state.displacement +
-                    moment->state.rate + moment->bristle);
+static Visit visit_of(const PeriodMap *map, const Moment *moment) {
+    return (Visit){momentum_velocity(map, moment),
+                   moment->position,
+                   {moment->state.displacement, moment->state.rate, moment->bristle},
+                   moment->counts.reversals,
+                   moment->counts.sticks};
 }
 
-bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment *moment,
-                   double duration, Moment *after) {
-    Law law = law_under(map, lead, load);
-    Budget budget = budget_of(duration);
+/* Where the visits of a sequence are kept. */
+typedef struct {
+    const PeriodMap *map;
+    Visit *visits;
+} Guest;
+
+static void see(void *observer, int index, const Moment *moment) {
+    const Guest *guest = observer;
+    Moment visit = *moment;
+    visit.theta = guest->map->section;
+    guest->visits[index] = visit_of(guest->map, &visit);
+}
+
+bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
+                 Visit *visits, uint64_t *itinerary) {
     Refusal refusal;
-    return events_advance(&law, moment, duration, NULL, &budget, after, &refusal) && is_finite(after);
+    Moment before = *moment;
+    Law later = law_after(&map->law, begin * map->period);
+    Guest guest = {map, visits};
+    Trace trace = {.first = map->period, .every = map->period, .count = count, .see = see, .observer = &guest, .mode = NO_MODE};
+    guest.visits = visits + 1;
+    visits[0] = visit_of(map, moment);
+    if (!events_trace(&later, &before, count * map->period, &trace, budget, moment, &refusal)) {
+        return false;
+    }
+    moment->theta = map->section;
+    *itinerary = trace.itinerary;
+    const Visit *last = &visits[count];
+    return isfinite(last->velocity + last->position + last->fast[0] + last->fast[1] + last->fast[2]);
 }
 
-bool orbit_trace(const PeriodMap *map, double lead, double load, const Moment *moment,
-                 double duration, Trace *trace, Moment *after) {
-    Law law = law_under(map, lead, load);
-    Budget budget = budget_of(duration);
-    Refusal refusal;
-    return events_trace(&law, moment, duration, trace, &budget, after, &refusal) && is_finite(after);
+void map_homing(const PeriodMap *map, int times, double fast[MAX_FAST]) {
+    for (int i = 0; i < times; i++) {
+        double displacement = fast[0], rate = fast[1];
+        fast[0] = map->homing[0][0] * displacement + map->homing[0][1] * rate;
+        fast[1] = map->homing[1][0] * displacement + map->homing[1][1] * rate;
+        fast[2] /= map->kept - 1.0;
+    }
 }
 
-double sliding_friction(const PeriodMap *map, double lead) {
-    const Device *device = &map->law.device;
-    VibratingLoad load = vibrating_load_of(device, map->law.inputs.frequency_ratio, lead);
-    double mean = load.is_constant ? load.constant : load.per_turn / TAU;
-    return device->friction_faces * device->friction_coefficient * mean;
+double fast_size(const PeriodMap *map, const double fast[MAX_FAST]) {
+    double largest = 0.0;
+    for (int i = 0; i < map->fast_count; i++) {
+        largest = fmax(largest, fabs(fast[i]) / map->scale[i]);
+    }
+    return largest;
 }

@@ -1,58 +1,75 @@
-/* The period map: the state of the full device after one period under a constant load.
+/* The period map: resolved motion of the full device, seen once in each period of the normal load.
  *
- * A period is `turns` of the drive, after which the normal load repeats too; at drive phase theta = 0 the
- * phase of the normal load is `lead`. The motion is resolved event by event with two degrees of freedom,
- * whatever the fidelity of the device.
- *
- * The map begins at a section, the drive phase at which the vibration without friction is fastest forward,
- * or backward: near it the slider neither reverses nor sticks, and a bristle is fully bent. */
+ * It is seen at a section: the phase of the drive at which the vibration is fastest forward, where no reversal comes unless
+ * sliding is about to end reversing at all. There the slow state is V = W and the position X, with W = X' + r Y' + D / (Mt w) cos(theta) and
+ * exactly Mt W' = -F - load. The fast state is the resonator's Y and Y' and, with LuGre friction, the bristle. From
+ * period to period both change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011). */
 #ifndef SLIDER_PERIOD_MAP_H
 #define SLIDER_PERIOD_MAP_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
+#include "budget.h"
+#include "fast_vibration.h"
 #include "law.h"
-#include "trace.h"
+#include "moment.h"
 
-/* Largest tolerance of a map under LuGre friction. */
-#define MAP_TOLERANCE 1e-10
+/* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
+enum { MAX_FAST = 3 };
 
-/* `law` is that of the full device, `fast` its vibration without friction. `period` [s]; `speed` [m/s],
- * `swing` [m] and `force` [N] are the scales of velocity (v_q), resonator displacement and load (the force
- * that stops v_q in a period). `states` is the number of states that are mapped: 3, with LuGre friction 4. */
+/* The motion at a section: slow velocity V [m/s], position X [m], fast states; reversals and sticks so far. */
+typedef struct {
+    double velocity, position;
+    double fast[MAX_FAST];
+    double reversals, sticks;
+} Visit;
+
+/* The period map under the inputs of `law`, which may grow.
+ *
+ * The normal load repeats after `turns` turns of the drive, in `period` [s], but for a `drift` [rad] of its phase.
+ * `section` is the drive phase of the section [rad].
+ *
+ * `speed` is the fast velocity v_q [m/s], `tolerance` the error of V that leaps may make, over v_q; `share` the change of V by full friction in a period, over v_q. The fast state
+ * has `fast_count` entries. An error by `scale` in one of them is as large as the vibration, or changes V by v_q times
+ * `share`. `homing` is the inverse of the map of Y and Y' over a period without friction, less 1; `kept` what remains of
+ * a bristle's deflection after a period; `decay` the largest factor by which a transient decays in a period. */
 typedef struct {
     Law law;
-    FastVibration fast;
-    int turns, states;
-    double period, speed, swing, force;
+    FastVibration vibration;
+    int turns;
+    double period, drift, section;
+    double speed, share, tolerance;
+    int fast_count;
+    double scale[MAX_FAST];
+    double homing[2][2], kept, decay;
 } PeriodMap;
 
-/* Prepare the map of `device` at a frequency ratio for which `turns * ratio` is an integer. Refuses where
- * device and friction law do not fit, and where undamped resonance leaves no steady vibration. */
-bool period_map_prepare(PeriodMap *map, const Device *device, double ratio, int turns,
-                        Refusal *refusal);
+/* Prepare the map of a law of the full device, for a load that repeats after up to `max_turns` turns. Return false where
+ * there is none: without vibration, or where transients do not decay. */
+bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns);
 
-/* Drive phase [rad] of the section where the vibration is fastest in `direction`, 1 or -1. */
-double section_phase(const PeriodMap *map, int direction);
+/* The slow velocity V [m/s] at a moment, but for its change within a period. */
+double momentum_velocity(const PeriodMap *map, const Moment *moment);
 
-/* Momentum of the pair over total mass, without the part that the drive makes:
- * W = X' + r Y' + D / (Mt w) cos(theta) [m/s]. */
-double momentum_velocity(const PeriodMap *map, const State *state, double theta);
+/* Phase of the normal load [rad] `periods` after it was `psi` [rad]; periods need not be whole. */
+double psi_after(const PeriodMap *map, double psi, double periods);
 
-/* Set phases, contact mode and counts of a `moment` for a motion that begins at drive phase `theta` [rad],
- * at position 0; its state, bristle and stops are kept. */
-void orbit_enter(const PeriodMap *map, double lead, double theta, Moment *moment);
+/* Put a moment to the slow velocity V [m/s] and the fast states of a section at normal phase `psi` [rad]. */
+void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,
+                  Moment *moment);
 
-/* Advance by `duration` [s] from a moment that orbit_enter prepared, under `load` [N]. False where the motion
- * takes too many legs or numbers leave the range of floating point. */
-bool orbit_advance(const PeriodMap *map, double lead, double load, const Moment *moment,
-                   double duration, Moment *after);
+/* Advance a moment at the section, `begin` periods after the inputs of the law began to grow, by `count` periods.
+ * `visits` are the count + 1 visits of the section, from the first on, `itinerary` the hash of the contact modes. Return false if the motion is refused or leaves
+ * the range of floating point. */
+bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
+                 Visit *visits, uint64_t *itinerary);
 
-/* The same with a `trace` that looks at the motion on its way. */
-bool orbit_trace(const PeriodMap *map, double lead, double load, const Moment *moment,
-                 double duration, Trace *trace, Moment *after);
+/* Apply `homing` to fast states, `times` times: the change of the fast state that undoes their differences of that
+ * order. */
+void map_homing(const PeriodMap *map, int times, double fast[MAX_FAST]);
 
-/* Mean friction [N] over a period in which the slider slides forward throughout. */
-double sliding_friction(const PeriodMap *map, double lead);
+/* Size of a change of the fast state, over the scales. */
+double fast_size(const PeriodMap *map, const double fast[MAX_FAST]);
 
 #endif

@@ -1,72 +1,57 @@
 #include "prediction.h"
 
 #include <math.h>
-#include <stddef.h>
 
-#include "friction_law.h"
-#include "orbit_motion.h"
-#include "orbit_ride.h"
-#include "steady_orbit.h"
+#include "angle.h"
+#include "steady_motion.h"
 #include "vibrating_load.h"
 
-/* Largest difference, in fast velocities, between steady velocities of first and second order that belong
- * to the same balance. */
-#define SAME 0.05
+/* Largest number of turns after which the normal load may repeat. */
+enum { MAX_TURNS_OF_LOAD = 32 };
 
-/* Whether friction is monotonic in the slow velocity, so that there is one balance. */
-static bool is_monotonic(const Law *law, const PeriodMap *map) {
-    const Device *device = &law->device;
-    double drag = law->friction->averaged->drag(&law->bristle, map->speed);
-    return device->normal_amplitude <= device->normal_preload && drag <= law->bristle.coefficient;
+int turns_of_load(const Law *law) {
+    if (law->device.normal_amplitude == 0.0) {
+        return 1;
+    }
+    double ratio = law->inputs.frequency_ratio;
+    for (int turns = 1; turns <= MAX_TURNS_OF_LOAD; turns++) {
+        if (fabs(turns * ratio - nearbyint(turns * ratio)) <= EXACT) {
+            return turns;
+        }
+    }
+    return 0;
 }
 
-/* The steady motion: found from the velocity of first order, or else by a search over all velocities. */
-static OrbitStatus find_steady(const Law *law, const PeriodMap *map, double lead, double velocity,
-                               HeldOrbit *orbit) {
-    double load = law->inputs.load;
-    if (is_monotonic(law, map) &&
-        held_orbit_at(map, lead, velocity, NULL, orbit) == ORBIT_FOUND &&
-        steady_orbit_at(map, lead, load, orbit, orbit) == ORBIT_FOUND &&
-        fabs(orbit->velocity - velocity) <= SAME * map->speed &&
-        held_orbit_check_stable(map, orbit) == ORBIT_FOUND) {
-        return ORBIT_FOUND;
+/* The law of the full device under the same inputs. */
+static bool full_law(const Law *law, Law *full) {
+    Device device = law->device;
+    Refusal refusal;
+    device.fidelity = 2;
+    if (!law_prepare(full, &device, &law->inputs, &refusal)) {
+        return false;
     }
-    return steady_orbit(map, lead, load, orbit);
+    full->bending = law->bending;
+    return true;
 }
 
 Averaged prediction_of(const Law *law, double normal_lead) {
-    const Device *device = &law->device;
     Averaged prediction = averaged(law, normal_lead);
-    SlowPhase slow = orbit_phase_of(law);
-    bool repeats = turns_to_repeat(device, law->inputs.frequency_ratio, EXACT) > 0;
-    if (device->averaging_order == 2 && device->fidelity == 0 && law->resolved == NULL) {
-        prediction.valid = false;
-    }
-    if (device->averaging_order < 2 || !prediction.valid ||
-        !(repeats || device->normal_amplitude == 0.0)) {
+    if (law->device.averaging_order == 1 || !prediction.valid) {
         return prediction;
     }
-    if (slow.turns == 0) {
-        prediction.valid = false;
-        return prediction;
-    }
+    Law full;
     PeriodMap map;
-    HeldOrbit steady, blocked;
-    Refusal refusal;
-    double lead = law->inputs.phase + normal_lead, force;
-    prediction.valid =
-        period_map_prepare(&map, device, slow.waves, slow.turns, &refusal) &&
-        find_steady(law, &map, lead, prediction.steady_velocity, &steady) == ORBIT_FOUND &&
-        blocking_orbit(&map, lead, &blocked, &force) == ORBIT_FOUND;
+    Periodic steady, blocked;
+    int turns = turns_of_load(law);
+    prediction.valid = turns > 0 && full_law(law, &full) && period_map_prepare(&map, &full, turns);
     if (prediction.valid) {
-        Law shaken = *law;
-        shaken.fast = map.fast;
-        prediction.valid =
-            has_slow_motion(&shaken) || (is_unique(&map, &steady) && is_unique(&map, &blocked));
+        double psi = within_turn(normal_lead + law->inputs.frequency_ratio * map.section);
+        prediction.valid = find_steady(&map, psi, prediction.steady_velocity, &steady) &&
+                           find_blocked(&map, psi, prediction.blocking_force, &blocked);
     }
     if (prediction.valid) {
         prediction.steady_velocity = steady.velocity;
-        prediction.blocking_force = force;
+        prediction.blocking_force = blocked.load;
     }
     return prediction;
 }

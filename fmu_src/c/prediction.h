@@ -5,12 +5,13 @@
 #include "averaged.h"
 #include "law.h"
 
-/* The prediction of the averaging order of the device; `normal_lead` [rad] as for `averaged`.
+/* Number of turns of the drive, at most 32, after which the normal load repeats; 0 if it does not. */
+int turns_of_load(const Law *law);
+
+/* The prediction of the averaging order of the device; `normal_lead` [rad] is psi - ratio theta.
  *
- * By second order both belong to periodic motions of the full device. Where the normal load never repeats
- * there are none, and the prediction is that of first order. It is of first order and not `valid` where the
- * vibration does not decay, where no steady motion or more than one is found, and at fidelity 0 where the
- * motion itself is averaged to first order. */
+ * By second order both belong to periodic motions of the full device, found from those of first order on. Where none is
+ * found, or the normal load never repeats, the prediction is that of first order and not `valid`. */
 Averaged prediction_of(const Law *law, double normal_lead);
 
 #endif

@@ -11,17 +11,15 @@
 #include "component_law.h"
 #include "snapshot.h"
 
-/* The law during the step, the law of the full device if it follows orbits (`resolved`), and the values at
- * the end (`reached`). */
+/* The law during the step, and the values at the end (`reached`). */
 typedef struct {
-    Law law, resolved;
+    Law law;
     double reached[SETTABLE_COUNT];
 } RampedStep;
 
-/* The moment after a step of `duration` [s] from `now` on, whose law is `held`. Refuses inputs that leave their bounds, and
- * what law_advance refuses; `after` is then undefined. */
-bool ramped_step(RampedStep *step, const Snapshot *now, const Law *held, double duration,
-                 FrictionTable *table, OrbitTables *orbits, Budget *budget, Moment *after,
-                 Refusal *refusal);
+/* The moment after a step of `duration` [s] from `now` on. Refuses inputs that leave their bounds, and what the motion
+ * refuses; `after` is then undefined. */
+bool ramped_step(RampedStep *step, const Snapshot *now, double duration, FrictionTable *table,
+                 Budget *budget, Moment *after, Refusal *refusal);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "dormand_prince.h"
+#include "slow_pass.h"
 
 /* Advance `now` to time `end` [s] if its velocity is close to one at which forces balance, relative to the
  * `fast` velocity [m/s], and reaches that well before `end`. Return whether that is so. The acceleration

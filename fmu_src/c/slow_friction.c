@@ -32,7 +32,10 @@ static bool is_steady_in_chirp(const SlowFriction *slow) {
 
 SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     const Device *device = &law->device;
-    SlowPhase phase = law_slow_phase(law);
+    double chirp = law->held.plant.normal_rate, ratio = law->inputs.frequency_ratio;
+    SlowPhase phase = chirp != 0.0
+                          ? slow_phase_chirped(device, ratio, law->middle_ratio, chirp)
+                          : slow_phase_of(device, ratio);
     double n = phase.waves;
     SlowFriction slow = {.law = law, .friction = law->friction->averaged};
     if (law->fast.velocity == 0.0) {

@@ -7,6 +7,7 @@
 #define SLIDER_SLOW_FRICTION_H
 
 #include "law.h"
+#include "slow_phase.h"
 
 /* How mean friction is computed: from the means under a sine, under a load that counts with its mean, or
  * as the mean under a load of any shape. */

@@ -2,9 +2,9 @@
 
 #include "angle.h"
 #include "constants.h"
-#include "dormand_prince.h"
 #include "elementary.h"
 #include "slow_friction.h"
+#include "slow_motion_error.h"
 #include "slow_pass.h"
 
 /* Error per step of the slow motion, relative to the fast velocity. */
@@ -176,13 +176,28 @@ double slow_velocity(const Law *law, const State *state, double theta) {
     return momentum + law->fast.pair_velocity * cos(theta);
 }
 
-int slow_mode(const Law *law, const Moment *moment) {
+/* Contact mode: lifted, or the direction of sliding with the fast vibration; STICK only at rest. */
+static int mode(const Law *law, const Moment *moment) {
     const Held *held = &law->held;
     return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
 }
 
-bool slow_advance(const Law *law, const Moment *moment, double duration, Budget *budget,
-                  Moment *after, Refusal *refusal) {
+/* The initial values determine the momentum of the pair, not its vibration: the first step takes care of that. */
+static Moment start(const Law *law) {
+    const Device *device = &law->device;
+    Moment first = {.position = device->initial_position, .event_age = INFINITY};
+    first.state.velocity = device->initial_velocity;
+    first.state.displacement = device->initial_resonator_displacement;
+    first.state.rate = device->initial_resonator_velocity;
+    first.mode = mode(law, &first);
+    first.means.complete = true;
+    first.means.mean_velocity = slow_velocity(law, &first.state, first.theta);
+    return first;
+}
+
+static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                    Budget *budget, Moment *after, Refusal *refusal) {
+    (void)search;
     const Plant *plant = &law->held.plant;
     double w = plant->drive_frequency, drive = law->fast.pair_velocity;
     double share = device_mass_fraction(&law->device);
@@ -202,7 +217,7 @@ bool slow_advance(const Law *law, const Moment *moment, double duration, Budget 
     state.rate = swing.rate;
     Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
     next.position = centre + reached.moved - drive / w * sin(theta) - share * swing.displacement;
-    next.mode = slow_mode(law, &next);
+    next.mode = mode(law, &next);
     next.event_age = INFINITY;
     next.means.complete = true;
     next.means.mean_velocity = reached.velocity;
@@ -210,7 +225,9 @@ bool slow_advance(const Law *law, const Moment *moment, double duration, Budget 
     return true;
 }
 
-double slow_friction_force(const Law *law, const Moment *moment) {
+/* Mean friction force [N] over a drive period, positive against +X. */
+static double force(const Law *law, const Moment *moment, int contact_mode) {
+    (void)contact_mode;
     double velocity = period_mean_velocity(&moment->means, moment->state.velocity);
     SlowFriction friction = slow_friction_of(law, moment->theta, moment->psi);
     if (law->fast.velocity == 0.0 && velocity == 0.0) {
@@ -219,3 +236,40 @@ double slow_friction_force(const Law *law, const Moment *moment) {
     }
     return slow_friction_at(&friction, 0.0, velocity);
 }
+
+/* The slow acceleration and the steady vibration. */
+static Rates rates(const Law *law, const Moment *moment) {
+    double w = law->held.plant.drive_frequency, share = device_mass_fraction(&law->device);
+    double slow = -(force(law, moment, STICK) + law->inputs.load) / law->held.plant.total_mass;
+    Response swing = steady_swing(law->fast.resonator, moment->theta, w);
+    State state = {.displacement = swing.rate, .rate = -w * w * swing.displacement};
+    state.velocity =
+        slow + law->fast.pair_velocity * w * sin(moment->theta) - share * state.rate;
+    return (Rates){state, slow};
+}
+
+static double error(const Law *law, const Moment *moment) {
+    (void)moment;
+    return first_order_error(law);
+}
+
+/* The time in which the normal load has one slow phase. */
+static double part(const Device *device, const Ramp *ramp, double left) {
+    if (ramp->ratio_rate == 0.0 || device->normal_amplitude == 0.0) {
+        return left;
+    }
+    double boundary = next_slow_boundary(device, ramp->ratio, copysign(1.0, ramp->ratio_rate));
+    /* By rounding, a boundary that was reached may be just ahead. */
+    double ahead = fmax(fabs(boundary - ramp->ratio), EXACT * fmax(1.0, fabs(ramp->ratio)));
+    return fmin(left, ahead / fabs(ramp->ratio_rate));
+}
+
+const Motion AVERAGED_MOTION = {
+    .start = start,
+    .advance = advance,
+    .mode = mode,
+    .force = force,
+    .rates = rates,
+    .error = error,
+    .part = part,
+};

@@ -1,4 +1,4 @@
-/* Averaged motion, fidelity 0: the slow motion of the pair under mean friction.
+/* Averaged motion of first order, fidelity 0: the slow motion of the pair under mean friction.
  *
  * With D the amplitude of the drive force on the pair, its momentum over the total mass is P = X' + r_m Y'
  * = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous, also where a parameter
@@ -9,23 +9,9 @@
 #ifndef SLIDER_SLOW_MOTION_H
 #define SLIDER_SLOW_MOTION_H
 
-#include <stdbool.h>
-
-#include "law.h"
-
-/* Advance by `duration` > 0 [s] from `moment` to `after`, which may be the same. Refuses, with `after`
- * undefined, where that takes more steps than the budget has. The initial velocities determine the momentum of the pair,
- * not the vibration. */
-bool slow_advance(const Law *law, const Moment *moment, double duration, Budget *budget,
-                  Moment *after, Refusal *refusal);
+#include "motion.h"
 
 /* Slow velocity V [m/s] of a state at drive phase `theta` [rad]. */
 double slow_velocity(const Law *law, const State *state, double theta);
-
-/* Contact mode: lifted, or the direction of sliding with the fast vibration; STICK only at rest. */
-int slow_mode(const Law *law, const Moment *moment);
-
-/* Mean friction force [N] over a drive period, positive against +X. */
-double slow_friction_force(const Law *law, const Moment *moment);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "dormand_prince.h"
 #include "settling.h"
 
 /* Step tried first, as a share of the time in which friction changes the fast velocity. */
@@ -55,6 +56,34 @@ static double to_edge(const SlowPass *pass, const Reached *now) {
     return fmax(time, MIN_APPROACH * pass->step);
 }
 
+static bool rate_at(void *data, double t, double v, SlowRate *rate) {
+    const SlowPass *pass = data;
+    *rate = (SlowRate){pass->acceleration(pass->motion, t, v), v};
+    return true;
+}
+
+/* Integrate to time `end` [s], or for `max_steps` accepted and rejected steps of at most `longest` [s]: over the period of
+ * a periodic acceleration all stages would see the same value. */
+static void integrate(const SlowPass *pass, double end, double longest, int max_steps, Reached *now) {
+    SlowPass own = *pass;
+    SlowPoint here = {.t = now->t, .velocity = now->velocity, .travel = now->moved};
+    rate_at(&own, here.t, here.velocity, &here.rate);
+    for (int count = 0; count < max_steps && here.t < end && isfinite(here.velocity); count++) {
+        double left = end - here.t, h = fmin(fmin(now->step, longest), left);
+        SlowStep step;
+        now->tried++;
+        dormand_prince_step(rate_at, &own, &here, h, &step);
+        if (!(step.error > pass->tolerance)) {
+            here = step.to;
+            here.t = h < left ? here.t : end;
+        }
+        now->step = h * step_growth(step.error, pass->tolerance);
+    }
+    now->t = here.t;
+    now->velocity = here.velocity;
+    now->moved = here.travel;
+}
+
 bool slow_pass(const SlowPass *pass, double end, Budget *budget, Reached *now, Refusal *refusal) {
     const char *what = "steps of averaged motion";
     int allowed = budget_left(budget, pass->max_steps), before = now->tried;
@@ -76,8 +105,7 @@ bool slow_pass(const SlowPass *pass, double end, Budget *budget, Reached *now, R
         double kink = fmax(pass->to_kink(pass->motion, now->t), MIN_SHARE * pass->beat);
         double smooth = grows ? fmin(kink, to_edge(pass, now)) : kink;
         int block = grows ? 1 : room < BLOCK ? room : BLOCK;
-        *now = integrate(pass->acceleration, pass->motion, *now, fmin(end, now->t + smooth),
-                         pass->tolerance, BEAT_SHARE * pass->beat, block);
+        integrate(pass, fmin(end, now->t + smooth), BEAT_SHARE * pass->beat, block, now);
         /* A time too short for a step counts as one, so that the loop ends. */
         now->tried += now->tried == allowed - room + before;
     }

@@ -18,15 +18,6 @@ typedef struct {
 /* Shortest time [s] in which a phase that drifts repeats; infinite for one that does not drift. */
 double slow_phase_beat(const SlowPhase *slow);
 
-/* Parts of a radian to which leads of the normal load are rounded. */
-#define LEAD_PARTS 1e9
-
-/* A lead without the rounding errors of phases, so that results do not depend on these, and inputs that
- * return to earlier values find their tables. */
-static inline double rounded_lead(double lead) {
-    return nearbyint(lead * LEAD_PARTS) / LEAD_PARTS;
-}
-
 /* Drift of the phase in `t` [s], in rad. */
 static inline double slow_phase_gain(const SlowPhase *slow, double t) {
     return (slow->drift + 0.5 * slow->chirp * t) * t;

@@ -1,0 +1,224 @@
+#include "leap.h"
+
+#include "dormand_prince.h"
+#include "elementary.h"
+#include "state.h"
+
+/* Evaluations in a step of the solver, and the share of the leapt periods that they may map: the rest is the gain. */
+#define EVALUATIONS 6.0
+#define MAX_COST 0.5
+
+/* Fewest periods of a step: its evaluations would map more. */
+#define SHORTEST_STEP 16.0
+
+/* First step of the solver at a tolerance of 1, over the time in which rates change. Median over 300 random devices of what
+ * the solver accepts. */
+#define FIRST_STEP 4.0
+
+/* Estimated error of a step that is accepted, in tolerances; by how much that estimate, of the embedded method of order 4,
+ * exceeds the error. */
+#define STEP_TOLERANCE 4.0
+#define OVERESTIMATE 10.0
+
+/* Share of the tolerance for errors of the fast states: on the manifold, and where a transient is left out. Such a transient
+ * is so small, over the scales of the fast states, that outputs of the resonator do not show it. */
+#define FAST_SHARE 0.3
+#define MAX_TRANSIENT 1e-6
+
+/* Part of the way to a grazing velocity that a step may pass: the rates are singular there. */
+#define TO_GRAZING 0.5
+
+/* Factor by which a step becomes shorter that meets a kink. */
+#define ON_KINK 0.5
+
+/* Drift of the load's phase [rad] over a leap up to which its rates depend on the slow velocity alone. */
+#define NO_DRIFT 1e-9
+
+/* Acceleration, over that under full friction, up to which the motion is steady: fast states then stay. */
+#define STILL 1e-9
+
+/* How far fast states are extrapolated by a cubic, over the distance of its two points. */
+#define FARTHEST 8.0
+
+/* A point of the slow motion, `n` periods after the start: the slow velocity [m/s], its rates, the moment there (`landing`)
+ * and the one a few periods later (`after`). */
+typedef struct {
+    double n, velocity;
+    SlowRates rates;
+    Moment landing, after;
+} Visited;
+
+/* The slow motion from a moment at the section, `begin` periods after the inputs began to grow, at normal phase `psi`
+ * [rad]. `varies`: its rates depend on time, too. Fast states are extrapolated from two points, that where the present
+ * step begins (`here`) and another. */
+typedef struct {
+    Manifold manifold;
+    double begin, psi;
+    bool varies;
+    Visited here, other;
+} SlowMotion;
+
+/* What fast states are smooth functions of: the slow velocity or, under rates that vary, the number of periods. */
+static double coordinate(const SlowMotion *motion, double n, double velocity) {
+    return motion->varies ? n : velocity;
+}
+
+/* The derivative of a fast state by the coordinate. */
+static double slope(const SlowMotion *motion, const Visited *point, int i) {
+    const SlowRates *rates = &point->rates;
+    const PeriodMap *map = motion->manifold.map;
+    if (motion->varies) {
+        return rates->fast_rate[i];
+    }
+    bool moves = fabs(rates->acceleration) > STILL * map->share * map->speed;
+    return moves ? rates->fast_rate[i] / rates->acceleration : 0.0;
+}
+
+/* Fast states at a point: by Hermite's cubic through two points, or along the tangent of one. */
+static void guess_fast(const SlowMotion *motion, double n, double velocity, double fast[MAX_FAST]) {
+    const Visited *a = &motion->here, *b = &motion->other;
+    double from = coordinate(motion, a->n, a->velocity);
+    double width = coordinate(motion, b->n, b->velocity) - from;
+    double way = coordinate(motion, n, velocity) - from, s = width != 0.0 ? way / width : INFINITY;
+    for (int i = 0; i < MAX_FAST; i++) {
+        double tangent = slope(motion, a, i);
+        fast[i] = a->rates.fast[i] + tangent * way;
+        if (fabs(s) < FARTHEST) {
+            double rise = b->rates.fast[i] - a->rates.fast[i] - width * tangent;
+            double bend = width * (slope(motion, b, i) - tangent);
+            fast[i] += s * s * (3.0 * rise - bend + s * (bend - 2.0 * rise));
+        }
+    }
+}
+
+/* The rates at `n` periods and a slow velocity [m/s]. There are none where sliding does not repeat as it did at the start of
+ * the step: they have a kink in between. */
+static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
+    SlowMotion *motion = data;
+    const PeriodMap *map = motion->manifold.map;
+    Visited visited = {.n = n, .velocity = velocity, .landing = motion->here.landing};
+    double fast[MAX_FAST];
+    guess_fast(motion, n, velocity, fast);
+    moment_place(map, velocity, fast, psi_after(map, motion->psi, n), &visited.landing);
+    if (!slow_rates(&motion->manifold, motion->begin + n, &visited.landing, &visited.after,
+                    &visited.rates) ||
+        visited.rates.itinerary != motion->here.rates.itinerary) {
+        return false;
+    }
+    motion->other = visited;
+    *rate = (SlowRate){visited.rates.acceleration, visited.rates.travel};
+    return true;
+}
+
+/* Time, in periods, in which the rates change. */
+static double time_of_change(const SlowMotion *motion) {
+    const SlowRates *rates = &motion->here.rates;
+    double by_motion = fabs(rates->acceleration / rates->jerk);
+    double by_drift = motion->varies ? 1.0 / fabs(motion->manifold.map->drift) : INFINITY;
+    return fmin(by_motion, by_drift);
+}
+
+/* Largest transient of the fast states that may be left out, over their scales: its effect on the slow velocity, for as long
+ * as it lasts, is a share of the tolerance. */
+static double max_transient(const PeriodMap *map) {
+    double effect = map->share / (1.0 - map->decay);
+    return fmin(MAX_TRANSIENT, FAST_SHARE * map->tolerance / effect);
+}
+
+/* Put the start of a leap on the manifold, with the lowest order at which the rates are as accurate as is allowed. `h` is the
+ * first step to be tried. Return false where nothing would be gained. */
+static bool prepare(SlowMotion *motion, double longest, double *h) {
+    Manifold *manifold = &motion->manifold;
+    const PeriodMap *map = manifold->map;
+    Visited *here = &motion->here;
+    double time = time_of_change(motion), allowed = map->tolerance * map->speed;
+    bool placed = here->rates.offset <= FAST_SHARE * map->tolerance;
+    *h = FIRST_STEP * pow(map->tolerance, 0.2) * time;
+    manifold->max_sequences = MAX_SEQUENCES;
+    manifold->allowed = FAST_SHARE * map->tolerance;
+    motion->other = *here;
+    for (; manifold->order <= MAX_ORDER; manifold->order++) {
+        SlowRate rate;
+        if (EVALUATIONS * manifold->order * ceil(longest / *h) > MAX_COST * longest ||
+            (!placed && !rate_at(motion, 0.0, here->velocity, &rate))) {
+            return false;
+        }
+        *here = motion->other;
+        if (here->rates.error * fmin(time, longest) <= allowed) {
+            return true;
+        }
+        placed = false;
+    }
+    return false;
+}
+
+/* Periods that the next step passes, of `h` that are wanted: a whole number. */
+static double step_of(const SlowMotion *motion, const SlowPoint *now, double h, double longest) {
+    const PeriodMap *map = motion->manifold.map;
+    double distance = fabs(fabs(now->velocity) - map->speed);
+    double to_grazing = TO_GRAZING * distance / fabs(now->rate.acceleration);
+    return floor(fmin(fmin(h, to_grazing), longest - now->t));
+}
+
+/* The error of the slow velocity [m/s] behind a step: what there was before has decayed as differences of velocity do, and the
+ * step adds that of the solver and that of the rates. */
+static double error_behind(const SlowMotion *motion, const SlowStep *step, double h, double before) {
+    double decay = step->gain < 0.0 ? exp(step->gain * h) : 1.0;
+    double of_rates = fmax(motion->here.rates.error, motion->other.rates.error);
+    return decay * before + step->error / OVERESTIMATE + h * of_rates;
+}
+
+/* Integrate the slow motion over at most `longest` periods, as far as that goes. `error` is that of the slow velocity. */
+static SlowPoint integrate(SlowMotion *motion, double longest, double h, double *error) {
+    const PeriodMap *map = motion->manifold.map;
+    Visited *here = &motion->here;
+    double allowed = STEP_TOLERANCE * map->tolerance * map->speed;
+    SlowPoint now = {.velocity = here->velocity,
+                     .rate = {here->rates.acceleration, here->rates.travel}};
+    while ((h = step_of(motion, &now, h, longest)) >= SHORTEST_STEP) {
+        SlowStep step = {.error = INFINITY};
+        Visited before = *here;
+        if (dormand_prince_step(rate_at, motion, &now, h, &step) && step.error <= allowed) {
+            *error = error_behind(motion, &step, h, *error);
+            now = step.to;
+            *here = motion->other;
+        }
+        motion->other = before;
+        h *= isfinite(step.error) ? step_growth(step.error, allowed) : ON_KINK;
+    }
+    return now;
+}
+
+Leap leap(const PeriodMap *map, const Moment *moment, double begin, double longest, Budget *budget,
+          Moment *after) {
+    SlowMotion motion = {
+        .manifold = {map, budget, MIN_ORDER, 1, max_transient(map), 0},
+        .begin = begin,
+        .psi = moment->psi,
+        .varies = fabs(map->drift) * longest > NO_DRIFT || is_ramped(&map->law.held.plant),
+        .here = {.velocity = momentum_velocity(map, moment), .landing = *moment},
+    };
+    Manifold *manifold = &motion.manifold;
+    Visited *here = &motion.here;
+    Leap done = {.outcome = NO_GAIN, .periods = MIN_ORDER};
+    double h, error = moment->leap_error;
+    bool found = slow_rates(manifold, begin, &here->landing, &here->after, &here->rates);
+    *after = here->after;
+    if (!found) {
+        done.outcome = NOT_ON_MANIFOLD;
+        done.wait = log(here->rates.offset / manifold->allowed) / -log(map->decay);
+        return done;
+    }
+    if (prepare(&motion, longest - MAX_ORDER, &h)) {
+        SlowPoint end = integrate(&motion, longest - manifold->order, h, &error);
+        if (end.t > 0.0) {
+            *after = here->after;
+            after->position += end.travel;
+            after->leap_error = error;
+            done.outcome = LEAPT;
+            done.periods = end.t + manifold->order;
+        }
+    }
+    done.in_vain = (int)fmax(0.0, manifold->maps - done.periods);
+    return done;
+}

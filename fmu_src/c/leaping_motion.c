@@ -1,0 +1,107 @@
+/* Motion that leaps over periods: fidelity 0, averages of second order.
+ *
+ * Resolved to the next section, over a whole number of periods in a leap, resolved again for the last periods: outputs,
+ * events and state are those of resolved motion. Where leaping gains nothing or does not hold, motion stays resolved. */
+#include <stddef.h>
+
+#include "angle.h"
+#include "clock.h"
+#include "elementary.h"
+#include "events.h"
+#include "leap.h"
+#include "resolved_motion.h"
+
+/* Largest number of turns after which the normal load may repeat. */
+enum { MAX_TURNS_OF_PERIOD = 4 };
+
+/* Fewest periods that may be left for a leap. */
+#define SHORTEST_LEAP 64.0
+
+/* Periods that are resolved after an attempt, by period mapped in vain: attempts cost an eighth of resolved motion at most.
+ * `MIN_PAUSE` follows an attempt that told that nothing is to be gained. */
+#define PAUSE 8.0
+#define MIN_PAUSE 32.0
+
+/* A motion on its way: the present moment, and the time left [s]. */
+typedef struct {
+    const Law *law;
+    Budget *budget;
+    Clock clock;
+    double left;
+    Moment now;
+} Way;
+
+static bool resolve(Way *way, double duration, Refusal *refusal) {
+    Moment before = way->now;
+    Law law = law_after(way->law, way->clock.elapsed);
+    if (!events_advance(&law, &before, duration, NULL, way->budget, &way->now, refusal)) {
+        return false;
+    }
+    way->left = duration == way->left ? 0.0 : clock_advance(&way->clock, duration);
+    return true;
+}
+
+/* Resolve the motion for `periods`, and on to the next section. */
+static bool resolve_to_section(Way *way, const PeriodMap *map, double periods, Refusal *refusal) {
+    double w = way->law->held.plant.drive_frequency;
+    double to_section = within_turn(map->section - way->now.theta) / w;
+    double duration = periods * map->period + to_section;
+    if (duration > 0.0 && !resolve(way, duration, refusal)) {
+        return false;
+    }
+    way->now.theta = map->section;
+    return true;
+}
+
+/* Periods to be resolved after an attempt to leap. */
+static double pause_after(const Leap *leap) {
+    switch (leap->outcome) {
+    case NOT_ON_MANIFOLD:
+        return ceil(leap->wait);
+    case NO_GAIN:
+        return fmax(MIN_PAUSE, PAUSE * leap->in_vain);
+    case LEAPT:
+        break;
+    }
+    return PAUSE * leap->in_vain;
+}
+
+static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                    Budget *budget, Moment *after, Refusal *refusal) {
+    (void)search;
+    Way way = {law, budget, clock_of(duration), duration, *moment};
+    PeriodMap map;
+    bool leaps = duration > SHORTEST_LEAP * TAU / law->held.plant.drive_frequency &&
+                 period_map_prepare(&map, law, MAX_TURNS_OF_PERIOD);
+    double pause = 0.0;
+    while (leaps && way.left > (SHORTEST_LEAP + pause) * map.period) {
+        if (!resolve_to_section(&way, &map, pause, refusal)) {
+            return false;
+        }
+        Moment before = way.now;
+        double begin = way.clock.elapsed / map.period, longest = floor(way.left / map.period);
+        Leap done = leap(&map, &before, begin, longest, budget, &way.now);
+        way.left = clock_advance(&way.clock, done.periods * map.period);
+        pause = pause_after(&done);
+    }
+    if (way.left > 0.0 && !resolve(&way, way.left, refusal)) {
+        return false;
+    }
+    *after = way.now;
+    return true;
+}
+
+static double error(const Law *law, const Moment *moment) {
+    (void)law;
+    return moment->leap_error;
+}
+
+const Motion LEAPING_MOTION = {
+    .start = resolved_start,
+    .advance = advance,
+    .mode = resolved_mode,
+    .force = resolved_force,
+    .rates = resolved_rates,
+    .error = error,
+    .part = whole_part,
+};

@@ -1,0 +1,55 @@
+/* The interface of a kind of motion: a row of functions.
+ *
+ * Motion is resolved (fidelity 1 and 2), averaged (fidelity 0, order 1), or leaps over periods (fidelity 0, order 2). */
+#ifndef SLIDER_MOTION_H
+#define SLIDER_MOTION_H
+
+#include <stdbool.h>
+
+#include "budget.h"
+#include "event_search.h"
+#include "law.h"
+#include "moment.h"
+#include "refusal.h"
+
+/* Rates of the state and of the mean velocity [m/s, m/s^2]. */
+typedef struct {
+    State state;
+    double mean_velocity;
+} Rates;
+
+typedef struct Motion {
+    /* The first moment, at drive and normal phase 0, from the initial values of the device. */
+    Moment (*start)(const Law *law);
+
+    /* Advance by `duration` > 0 [s] from `moment` to `after`, another moment, or to the event that a `search` finds
+     * before. NULL searches for none; only resolved motion has events to find. Refuses, with `after` undefined, a
+     * motion of more work than the budget of the communication step has. Where numbers leave the range of floating
+     * point, entries of `after` are not finite; loops end all the same. */
+    bool (*advance)(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                    Budget *budget, Moment *after, Refusal *refusal);
+
+    /* Contact mode under the held inputs. */
+    int (*mode)(const Law *law, const Moment *moment);
+
+    /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
+    double (*force)(const Law *law, const Moment *moment, int mode);
+
+    Rates (*rates)(const Law *law, const Moment *moment);
+
+    /* Estimate of the error of the slow velocity [m/s]; 0 for resolved motion. */
+    double (*error)(const Law *law, const Moment *moment);
+
+    /* The part [s] of the time `left` for which one law holds, prepared for its middle, where inputs grow by `ramp`. */
+    double (*part)(const Device *device, const Ramp *ramp, double left);
+} Motion;
+
+extern const Motion RESOLVED_MOTION, AVERAGED_MOTION, LEAPING_MOTION;
+
+/* The whole time: one law holds however long inputs grow. */
+double whole_part(const Device *device, const Ramp *ramp, double left);
+
+/* The motion of a device, by its fidelity and averaging order. */
+const Motion *motion_of(const Device *device);
+
+#endif

@@ -1,0 +1,100 @@
+/* Resolved motion, event by event: fidelity 1 and 2. */
+#include "resolved_motion.h"
+
+#include "elementary.h"
+#include "events.h"
+#include "friction_law.h"
+#include "refusal_texts.h"
+#include "state.h"
+
+/* Velocity [m/s] at the start. A resonator that is not resolved vibrates steadily at once; the velocity is
+ * chosen so that the momentum of the pair is that of the initial values. */
+static double start_velocity(const Law *law) {
+    const Device *device = &law->device;
+    const Plant *plant = &law->held.plant;
+    if (plant->resolves_resonator) {
+        return device->initial_velocity;
+    }
+    double rate = steady_swing(plant->resonator_amplitude, 0.0, plant->drive_frequency).rate;
+    return device->initial_velocity +
+           device_mass_fraction(device) * (device->initial_resonator_velocity - rate);
+}
+
+Moment resolved_start(const Law *law) {
+    const Device *device = &law->device;
+    Moment first = {.position = device->initial_position, .event_age = INFINITY};
+    first.state.velocity = start_velocity(law);
+    first.state.displacement = device->initial_resonator_displacement;
+    first.state.rate = device->initial_resonator_velocity;
+    first.mode = law->friction->mode(law, &first);
+    first.bristle = law->friction->first_bristle(law);
+    return first;
+}
+
+/* Refuse a motion that spans too many turns of the fastest oscillation. */
+static bool bounded_work_check(const Law *law, double duration, const Budget *budget,
+                               Refusal *refusal) {
+    double frequency = LONGEST_ARC / law->held.arc;
+    return !(duration * frequency > TAU * MAX_TURNS) ||
+           refuse_too_many_turns(refusal, budget->step_size, frequency, MAX_TURNS);
+}
+
+static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+                    Budget *budget, Moment *after, Refusal *refusal) {
+    return bounded_work_check(law, duration, budget, refusal) &&
+           events_advance(law, moment, duration, search, budget, after, refusal);
+}
+
+int resolved_mode(const Law *law, const Moment *moment) {
+    return law->friction->mode(law, moment);
+}
+
+double resolved_force(const Law *law, const Moment *moment, int mode) {
+    return law->friction->force(law, moment, mode);
+}
+
+/* The equations of motion (26)-(27). */
+Rates resolved_rates(const Law *law, const Moment *moment) {
+    const Plant *plant = &law->held.plant;
+    double w = plant->drive_frequency, sine = sin(moment->theta), cosine = cos(moment->theta);
+    State rates = {.displacement = moment->state.rate};
+    int mode = law->friction->mode(law, moment);
+    if (mode != STICK || !law->friction->sticks) {
+        double force = plant->holding_drive.re * sine + plant->holding_drive.im * cosine -
+                       plant->load - law->friction->force(law, moment, mode);
+        force += plant->spring * moment->state.displacement + plant->damper * moment->state.rate;
+        rates.velocity = force / plant->slider_mass;
+    }
+    if (plant->resolves_resonator) {
+        rates.rate = plant->base_acceleration * sine -
+                     2.0 * plant->stick.decay * moment->state.rate -
+                     plant->stick.stiffness * moment->state.displacement - rates.velocity;
+    } else {
+        Response swing = steady_swing(plant->resonator_amplitude, moment->theta, w);
+        rates.displacement = swing.rate;
+        rates.rate = -w * w * swing.displacement;
+    }
+    return (Rates){rates, 0.0};
+}
+
+static double no_error(const Law *law, const Moment *moment) {
+    (void)law;
+    (void)moment;
+    return 0.0;
+}
+
+double whole_part(const Device *device, const Ramp *ramp, double left) {
+    (void)device;
+    (void)ramp;
+    return left;
+}
+
+const Motion RESOLVED_MOTION = {
+    .start = resolved_start,
+    .advance = advance,
+    .mode = resolved_mode,
+    .force = resolved_force,
+    .rates = resolved_rates,
+    .error = no_error,
+    .part = whole_part,
+};

@@ -1,0 +1,44 @@
+/* The slow manifold of the period map, and the slow rates on it.
+ *
+ * On the slow manifold the fast states follow the slow velocity smoothly: their differences of high order over the
+ * periods vanish (Gear, Kaper, Kevrekidis, Zagaris 2005). */
+#ifndef SLIDER_SLOW_MANIFOLD_H
+#define SLIDER_SLOW_MANIFOLD_H
+
+#include <stdbool.h>
+
+#include "period_map.h"
+
+/* Smallest and largest order of differences. */
+enum { MIN_ORDER = 3, MAX_ORDER = 5 };
+
+/* Largest number of sequences that one evaluation maps. */
+enum { MAX_SEQUENCES = 6 };
+
+/* How to find the manifold: by differences of `order`, until a correction of the fast states is at most `allowed`, over
+ * their scales. */
+typedef struct {
+    const PeriodMap *map;
+    Budget *budget;
+    int order, max_sequences;
+    double allowed;
+    int maps;
+} Manifold;
+
+/* Change of the slow velocity [m/s] and of the position [m] by period, and that of `acceleration`; the fast states and
+ * their change by period; reversals and sticks by period. `error` is the estimated error of `acceleration`; `offset` the size of the first correction of the fast states. */
+typedef struct {
+    double acceleration, travel, jerk;
+    double fast[MAX_FAST], fast_rate[MAX_FAST];
+    double reversals, sticks;
+    double error, offset;
+    uint64_t itinerary;
+} SlowRates;
+
+/* The rates at the slow velocity V [m/s] and normal phase of a moment at the section, `begin` periods after the inputs of
+ * the law began to grow. The fast states of the moment are a first guess; they are put on the manifold. `after` is the
+ * moment `order` periods later. Return false where the manifold is not found. */
+bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
+                SlowRates *rates);
+
+#endif
