@@ -1,6 +1,6 @@
 #include "leap.h"
 
-#include "dormand_prince.h"
+#include "runge_kutta.h"
 #include "elementary.h"
 #include "state.h"
 
@@ -11,9 +11,10 @@
 /* Fewest periods of a step: its evaluations would map more. */
 #define SHORTEST_STEP 16.0
 
-/* First step of the solver at a tolerance of 1, over the time in which rates change. Median over 300 random devices of what
- * the solver accepts. */
-#define FIRST_STEP 4.0
+/* First step of the solver's pairs of order 5 and 3, over the time in which rates change, where all that the slow velocity
+ * still changes by is the tolerance: what they accept in most devices. */
+#define FIRST_STEP_5 3.3
+#define FIRST_STEP_3 4.5
 
 /* Estimated error of a step that is accepted, in tolerances; by how much that estimate, of the embedded method of order 4,
  * exceeds the error. */
@@ -36,6 +37,11 @@
 
 /* Acceleration, over that under full friction, up to which the motion is steady: fast states then stay. */
 #define STILL 1e-9
+
+/* Change of the slow velocity up to which its rate may be linear, over v_q and the root of the tolerance; and the decay below
+ * which it is constant. */
+#define LINEAR 0.3
+#define NO_DECAY 1e-6
 
 /* How far fast states are extrapolated by a cubic, over the distance of its two points. */
 #define FARTHEST 8.0
@@ -98,6 +104,7 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
     const PeriodMap *map = motion->manifold.map;
     Visited visited = {.n = n, .velocity = velocity, .landing = motion->here.landing};
     double fast[MAX_FAST];
+    visited.landing.stops = motion->other.after.stops;
     guess_fast(motion, n, velocity, fast);
     moment_place(map, velocity, fast, psi_after(map, motion->psi, n), &visited.landing);
     if (!slow_rates(&motion->manifold, motion->begin + n, &visited.landing, &visited.after,
@@ -118,6 +125,14 @@ static double time_of_change(const SlowMotion *motion) {
     return fmin(by_motion, by_drift);
 }
 
+/* The step that a pair of an order is expected to accept, in periods. */
+static double first_step(const SlowMotion *motion, double share, int order) {
+    const PeriodMap *map = motion->manifold.map;
+    double time = time_of_change(motion);
+    double change = fabs(motion->here.rates.acceleration) * time / map->speed;
+    return share * time * pow(map->tolerance / change, 1.0 / order);
+}
+
 /* Largest transient of the fast states that may be left out, over their scales: its effect on the slow velocity, for as long
  * as it lasts, is a share of the tolerance. */
 static double max_transient(const PeriodMap *map) {
@@ -133,7 +148,7 @@ static bool prepare(SlowMotion *motion, double longest, double *h) {
     Visited *here = &motion->here;
     double time = time_of_change(motion), allowed = map->tolerance * map->speed;
     bool placed = here->rates.offset <= FAST_SHARE * map->tolerance;
-    *h = FIRST_STEP * pow(map->tolerance, 0.2) * time;
+    *h = first_step(motion, FIRST_STEP_5, DORMAND_PRINCE.order);
     manifold->max_sequences = MAX_SEQUENCES;
     manifold->allowed = FAST_SHARE * map->tolerance;
     motion->other = *here;
@@ -152,6 +167,11 @@ static bool prepare(SlowMotion *motion, double longest, double *h) {
     return false;
 }
 
+/* Whether a step is so short that fewer evaluations do for its accuracy. */
+static bool is_short(const SlowMotion *motion, double h) {
+    return h <= first_step(motion, FIRST_STEP_3, BOGACKI_SHAMPINE.order);
+}
+
 /* Periods that the next step passes, of `h` that are wanted: a whole number. */
 static double step_of(const SlowMotion *motion, const SlowPoint *now, double h, double longest) {
     const PeriodMap *map = motion->manifold.map;
@@ -168,6 +188,30 @@ static double error_behind(const SlowMotion *motion, const SlowStep *step, doubl
     return decay * before + step->error / OVERESTIMATE + h * of_rates;
 }
 
+/* The rest of a leap of `h` periods in one step, near a steady velocity: the slow velocity changes so little that its rate is
+ * linear in it. Return whether the rate at the end confirms that. */
+static bool linear_step(SlowMotion *motion, const SlowPoint *from, double h, SlowStep *step) {
+    const PeriodMap *map = motion->manifold.map;
+    const SlowRates *rates = &motion->here.rates;
+    double acceleration = rates->acceleration, tolerance = map->tolerance;
+    double z = h * fmin(0.0, rates->jerk / acceleration), decayed = exp(z);
+    double mean = z < -NO_DECAY ? expm1(z) / z : 1.0;
+    double change = h * acceleration * mean;
+    if (motion->varies || !(fabs(change) <= LINEAR * sqrt(tolerance) * map->speed)) {
+        return false;
+    }
+    SlowPoint *to = &step->to;
+    *to = (SlowPoint){.t = from->t + h, .velocity = from->velocity + change};
+    if (!rate_at(motion, to->t, to->velocity, &to->rate)) {
+        return false;
+    }
+    double weight = z < -NO_DECAY ? (mean - decayed) / (1.0 - decayed) : 0.5;
+    to->travel = from->travel + h * (to->rate.travel + weight * (from->rate.travel - to->rate.travel));
+    step->error = h * mean * fabs(to->rate.acceleration - decayed * acceleration);
+    step->gain = z / h;
+    return step->error <= tolerance * map->speed;
+}
+
 /* Integrate the slow motion over at most `longest` periods, as far as that goes. `error` is that of the slow velocity. */
 static SlowPoint integrate(SlowMotion *motion, double longest, double h, double *error) {
     const PeriodMap *map = motion->manifold.map;
@@ -178,13 +222,17 @@ static SlowPoint integrate(SlowMotion *motion, double longest, double h, double 
     while ((h = step_of(motion, &now, h, longest)) >= SHORTEST_STEP) {
         SlowStep step = {.error = INFINITY};
         Visited before = *here;
-        if (dormand_prince_step(rate_at, motion, &now, h, &step) && step.error <= allowed) {
+        double rest = longest - now.t;
+        const RungeKutta *pair = is_short(motion, h) ? &BOGACKI_SHAMPINE : &DORMAND_PRINCE;
+        if (linear_step(motion, &now, rest, &step) ||
+            (runge_kutta_step(pair, rate_at, motion, &now, h, &step) && step.error <= allowed)) {
+            h = step.to.t - now.t;
             *error = error_behind(motion, &step, h, *error);
             now = step.to;
             *here = motion->other;
         }
         motion->other = before;
-        h *= isfinite(step.error) ? step_growth(step.error, allowed) : ON_KINK;
+        h *= isfinite(step.error) ? step_growth(pair, step.error, allowed) : ON_KINK;
     }
     return now;
 }

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "dormand_prince.h"
+#include "runge_kutta.h"
 #include "settling.h"
 
 /* Step tried first, as a share of the time in which friction changes the fast velocity. */
@@ -72,12 +72,12 @@ static void integrate(const SlowPass *pass, double end, double longest, int max_
         double left = end - here.t, h = fmin(fmin(now->step, longest), left);
         SlowStep step;
         now->tried++;
-        dormand_prince_step(rate_at, &own, &here, h, &step);
+        runge_kutta_step(&DORMAND_PRINCE, rate_at, &own, &here, h, &step);
         if (!(step.error > pass->tolerance)) {
             here = step.to;
             here.t = h < left ? here.t : end;
         }
-        now->step = h * step_growth(step.error, pass->tolerance);
+        now->step = h * step_growth(&DORMAND_PRINCE, step.error, pass->tolerance);
     }
     now->t = here.t;
     now->velocity = here.velocity;

@@ -1,6 +1,6 @@
-/* Dormand and Prince's 5(4) pair for one velocity and its travel, whose rates depend on time and velocity. */
-#ifndef SLIDER_DORMAND_PRINCE_H
-#define SLIDER_DORMAND_PRINCE_H
+/* Embedded Runge-Kutta pairs for one velocity and its travel, whose rates depend on time and velocity. */
+#ifndef SLIDER_RUNGE_KUTTA_H
+#define SLIDER_RUNGE_KUTTA_H
 
 #include <stdbool.h>
 
@@ -25,11 +25,23 @@ typedef struct {
     double error, gain;
 } SlowStep;
 
+/* Largest number of stages. */
+enum { MAX_STAGES = 7 };
+
+/* A pair of `order` and one below; the last of its `stages` is the first of the next step. */
+typedef struct {
+    int order, stages;
+    double nodes[MAX_STAGES], weights[MAX_STAGES][MAX_STAGES], error[MAX_STAGES];
+} RungeKutta;
+
+/* Bogacki and Shampine's pair 3(2), and Dormand and Prince's 5(4). */
+extern const RungeKutta BOGACKI_SHAMPINE, DORMAND_PRINCE;
+
 /* One step of `h` from a point. Return false where the rates are not defined at a stage; `step` is then undefined. */
-bool dormand_prince_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
-                         SlowStep *step);
+bool runge_kutta_step(const RungeKutta *pair, SlowRateFunction rate, void *motion,
+                      const SlowPoint *from, double h, SlowStep *step);
 
 /* Factor by which the next step may be longer or shorter than one with this error. */
-double step_growth(double error, double tolerance);
+double step_growth(const RungeKutta *pair, double error, double tolerance);
 
 #endif

@@ -1,0 +1,64 @@
+#include "runge_kutta.h"
+
+#include <math.h>
+
+#include "elementary.h"
+
+const RungeKutta BOGACKI_SHAMPINE = {
+    .order = 3,
+    .stages = 4,
+    .nodes = {0.0, 1.0 / 2, 3.0 / 4, 1.0},
+    .weights = {{0.0}, {1.0 / 2}, {0.0, 3.0 / 4}, {2.0 / 9, 1.0 / 3, 4.0 / 9}},
+    .error = {5.0 / 72, -1.0 / 12, -1.0 / 9, 1.0 / 8},
+};
+
+const RungeKutta DORMAND_PRINCE = {
+    .order = 5,
+    .stages = 7,
+    .nodes = {0.0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1.0, 1.0},
+    .weights = {{0.0},
+                {1.0 / 5},
+                {3.0 / 40, 9.0 / 40},
+                {44.0 / 45, -56.0 / 15, 32.0 / 9},
+                {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+                {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+                {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}},
+    .error = {71.0 / 57600, 0.0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40},
+};
+
+/* Bounds of the growth of a step, and the share of the best growth that is taken. */
+#define MIN_GROWTH 0.2
+#define MAX_GROWTH 5.0
+#define SAFETY 0.9
+
+bool runge_kutta_step(const RungeKutta *pair, SlowRateFunction rate, void *motion,
+                      const SlowPoint *from, double h, SlowStep *step) {
+    SlowRate rates[MAX_STAGES] = {from->rate};
+    int stages = pair->stages;
+    double error = h * pair->error[0] * from->rate.acceleration, before = 0.0;
+    SlowPoint to = *from;
+    for (int i = 1; i < stages; i++) {
+        double gained = 0.0, travel = 0.0;
+        for (int j = 0; j < i; j++) {
+            gained += pair->weights[i][j] * rates[j].acceleration;
+            travel += pair->weights[i][j] * rates[j].travel;
+        }
+        before = to.velocity;
+        to.t = from->t + pair->nodes[i] * h;
+        to.velocity = from->velocity + h * gained;
+        to.travel = from->travel + h * travel;
+        if (!rate(motion, to.t, to.velocity, &rates[i])) {
+            return false;
+        }
+        error += h * pair->error[i] * rates[i].acceleration;
+    }
+    to.rate = rates[stages - 1];
+    double risen = to.rate.acceleration - rates[stages - 2].acceleration;
+    *step = (SlowStep){to, fabs(error), risen / (to.velocity - before)};
+    return true;
+}
+
+double step_growth(const RungeKutta *pair, double error, double tolerance) {
+    double growth = error > 0.0 ? SAFETY * pow(tolerance / error, 1.0 / pair->order) : MAX_GROWTH;
+    return fmin(MAX_GROWTH, fmax(MIN_GROWTH, growth));
+}
