@@ -141,7 +141,7 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
         return false;
     }
     *now = *moment;
-    leg_reset(&leg);
+    leg.known.known = false;
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {

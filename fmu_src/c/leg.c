@@ -18,24 +18,6 @@ void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
                 now->psi + held->plant.phase);
 }
 
-static void forget(TurnMemory *memory) {
-    memory->oldest = 0;
-    for (int i = 0; i < PAST_TURNS; i++) {
-        memory->past[i].uses = 0;
-    }
-}
-
-void leg_reset(Leg *leg) {
-    leg->known.known = false;
-    forget(&leg->backward);
-    forget(&leg->forward);
-}
-
-/* Lets a slide reuse the turns of the last slide in its direction. */
-static void remember(Leg *leg, SplitSlide *slide) {
-    slide->memory = slide->direction < 0 ? &leg->backward : &leg->forward;
-}
-
 void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now) {
     if (!leg->known.known) {
         leg->known = (KnownPhasors){true, phasors_of(plant, now->theta, now->psi + plant->phase)};
@@ -66,9 +48,6 @@ void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int directio
     leg->kind = SLIDES;
     slide_begin(&leg->motion.slide, held, sign, &now->state, now->theta,
                 now->psi + held->plant.phase, &leg->known, direction);
-    if (leg->motion.slide.splits) {
-        remember(leg, &leg->motion.slide.form.split);
-    }
 }
 
 static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
@@ -101,7 +80,6 @@ void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const 
         leg->mode = now->mode;
         leg->direction = direction;
         leg->watched_from = panel->length;
-        remember(leg, &panel->slide);
         return;
     }
 }

@@ -37,11 +37,7 @@ typedef struct {
     int zero_of;
     bool turns, departs;
     KnownPhasors known;
-    TurnMemory backward, forward;
 } Leg;
-
-/* Empty the memory of a leg, before the first one of a step. */
-void leg_reset(Leg *leg);
 
 /* Computes the phasors at `now`, where the leg begins, unless they are known. */
 void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now);

@@ -1,7 +1,6 @@
 #include "split_slide.h"
 
 #include "elementary.h"
-#include <stddef.h>
 
 #include "split_turns.h"
 
@@ -115,7 +114,6 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     slide->start.free = complex_of(1.0, 0.0);
     slide->start.envelope = 1.0;
     slide->anchored = false;
-    slide->memory = NULL;
     slide->resonator_drive = split->resonator_drive;
     slide->velocity_drive = split->velocity_drive;
     slide->resonator_normal = complex_scale(sign, split->resonator_normal);

@@ -59,23 +59,6 @@ typedef struct {
     double envelope;
 } Turns;
 
-/* Turns at phases `theta` and `chi` [rad]. After a turn of the drive the phases are nearly the same: turns
- * are then rotated by the difference, up to `uses` times more, instead of computing sines. */
-typedef struct {
-    int uses;
-    double theta, chi;
-    Turns turns;
-} PastTurns;
-
-/* The turns for which recent slides in one direction computed sines: about two on the way to a stop, and one
- * where a period ends. `oldest` is replaced next. */
-enum { PAST_TURNS = 3 };
-
-typedef struct {
-    PastTurns past[PAST_TURNS];
-    int oldest;
-} TurnMemory;
-
 /* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad] on. The
  * resonator vibrates about `constant` [m] + `slope` [m/s] t. `travel_free` is the integral of the free part
  * of the velocity, vh / lambda [m]; `bound` and `free_bound` [m/s^3] bound the second derivative of the
@@ -83,8 +66,7 @@ typedef struct {
  * the velocity.
  *
  * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the
- * anchor or the `start`, and close to turns in `memory` unless that is NULL, these are rotated instead of
- * computing sines. */
+ * anchor or the `start` these are rotated instead of computing sines. */
 typedef struct {
     const Split *split;
     const Plant *plant;
@@ -97,7 +79,6 @@ typedef struct {
     double bound, free_bound, noise;
     Turns start, anchor;
     bool anchored;
-    TurnMemory *memory;
 } SplitSlide;
 
 /* Begin a slide from `state`, under friction in direction `sign`. The velocity is watched in `direction`,

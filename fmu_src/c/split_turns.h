@@ -6,7 +6,6 @@
 #define SLIDER_SPLIT_TURNS_H
 
 #include <math.h>
-#include <stddef.h>
 
 #include "elementary_functions.h"
 #include "split_slide.h"
@@ -43,9 +42,6 @@ static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
                                 : complex_rect(1.0, slide->chi + plant->normal_frequency * t);
 }
 
-/* How often the same turns may be rotated from slide to slide: limits the sum of rounding errors. */
-enum { MAX_USES = 15 };
-
 /* `z` exp(i angle) for a small `angle` [rad]. */
 static inline Complex rotated(Complex z, double angle) {
     double square = angle * angle;
@@ -80,64 +76,6 @@ static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, do
                                 : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
 }
 
-/* `angle` [rad], less than a turn and a half in size, reduced to [-pi, pi] by whole turns. */
-static inline double nearest(double angle) {
-    return angle > PI ? angle - TAU : angle < -PI ? angle + TAU : angle;
-}
-
-/* Whether past turns can be rotated to phases `theta` and `chi` [rad]. */
-static bool is_close(const SplitSlide *slide, double t, const PastTurns *past, double theta,
-                     double chi) {
-    return past->uses > 0 &&
-           fabs(t - past->turns.t) * slide->split->fastest < SMALL_TURN &&
-           fabs(nearest(theta - past->theta)) < SMALL_TURN &&
-           (slide->split->merges || fabs(nearest(chi - past->chi)) < SMALL_TURN);
-}
-
-/* Rotates past turns to `t` and phases `theta` and `chi` [rad]. */
-static void rotate_past(const SplitSlide *slide, double t, PastTurns *past, double theta,
-                        double chi) {
-    const Plant *plant = slide->plant;
-    Turns *turns = &past->turns;
-    double ahead = t - turns->t;
-    if (plant->resolves_resonator) {
-        Complex eigenvalue = plant->slip.eigenvalue;
-        double growth = grown(eigenvalue.re * ahead);
-        turns->envelope *= growth;
-        turns->free = complex_scale(growth, rotated(turns->free, eigenvalue.im * ahead));
-    }
-    turns->t = t;
-    turns->phasors.drive = rotated(turns->phasors.drive, nearest(theta - past->theta));
-    turns->phasors.normal = slide->split->merges
-                                ? slide->start.phasors.normal
-                                : rotated(turns->phasors.normal, nearest(chi - past->chi));
-    past->theta = theta;
-    past->chi = chi;
-    past->uses--;
-}
-
-/* Turns at `t`, from the past or by sines and cosines. */
-static void find_turns(const SplitSlide *slide, double t, Turns *turns) {
-    TurnMemory *memory = slide->memory;
-    if (memory == NULL) {
-        compute_turns(slide, t, turns);
-        return;
-    }
-    double theta = slide->theta + slide->plant->drive_frequency * t;
-    double chi = slide->chi + slide->plant->normal_frequency * t;
-    for (int i = 0; i < PAST_TURNS; i++) {
-        PastTurns *past = &memory->past[i];
-        if (is_close(slide, t, past, theta, chi)) {
-            rotate_past(slide, t, past, theta, chi);
-            *turns = past->turns;
-            return;
-        }
-    }
-    compute_turns(slide, t, turns);
-    memory->past[memory->oldest] = (PastTurns){MAX_USES, theta, chi, *turns};
-    memory->oldest = (memory->oldest + 1) % PAST_TURNS;
-}
-
 /* Turns at `t`: rotated from the start or the anchor (in `place`), or computed (in `fresh`). Close to the
  * start they are always rotated, so that rounding errors are those of the start: a slider that sets out
  * must not seem to move back. */
@@ -154,7 +92,7 @@ static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *pl
         rotate_turns(slide, &slide->anchor, t, place);
         return place;
     }
-    find_turns(slide, t, fresh);
+    compute_turns(slide, t, fresh);
     return fresh;
 }
 
