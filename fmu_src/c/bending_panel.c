@@ -38,7 +38,9 @@ static void follow_path(const BendingPanel *panel, const BendingOutlook *outlook
     }
     add_swing(exponent, complex_mul(slide->velocity_drive, start->drive), &kernels->drive, count);
     if (slide->plant->mass_fraction != 0.0) {
-        add_swing(exponent, slide->velocity_free, &kernels->free, count);
+        Complex rate = complex_mul(slide->plant->slip.eigenvalue, slide->resonator_free);
+        Complex recoil = complex_scale(-slide->plant->mass_fraction, rate);
+        add_swing(exponent, recoil, &kernels->free, count);
     }
     if (!slide->split->merges) {
         Complex normal = complex_mul(slide->velocity_normal, start->normal);
@@ -204,7 +206,8 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
                                   const Phasors *start, double longest, double tolerance) {
     const Plant *plant = &held->plant;
     double chi = now->psi + plant->phase;
-    if (!held->splits || !(bristle->stiffness > 0.0)) {
+    bool swings = held->splits && plant->slip.oscillatory && !held->split.creeps;
+    if (!swings || !(bristle->stiffness > 0.0)) {
         return BY_SERIES;
     }
     BendingOutlook outlook;
