@@ -7,26 +7,15 @@
 
 #include "averaged_friction.h"
 #include "elementary.h"
+#include "gauss_nodes.h"
 #include "state.h"
 
-enum { NODES = 12, EDGES = 6, MAX_BISECTIONS = 60 };
-
-/* Gauss and Legendre's rule on [-1, 1]. */
-static const double NODE[NODES] = {
-    0.9815606342467192,  0.9041172563704748,  0.7699026741943047,  0.5873179542866175,
-    0.3678314989981802,  0.12523340851146894, -0.1252334085114689, -0.3678314989981802,
-    -0.5873179542866175, -0.7699026741943047, -0.9041172563704748, -0.9815606342467192,
-};
-static const double WEIGHT[NODES] = {
-    0.047175336386511835, 0.10693932599531818, 0.16007832854334633, 0.20316742672306584,
-    0.23349253653835478,  0.24914704581340288, 0.24914704581340288, 0.23349253653835478,
-    0.20316742672306584,  0.16007832854334633, 0.10693932599531818, 0.047175336386511835,
-};
+enum { EDGES = 6, MAX_BISECTIONS = 60 };
 
 /* Edges of the panels of the quadrature over an arc; they crowd where sliding begins. */
 static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 
-/* Widest panel, as an angle [rad] of the normal load: 12 nodes follow its sine to rounding
+/* Widest panel, as an angle [rad] of the normal load: the nodes follow its sine to rounding
  * there. */
 #define WIDEST 6.0
 
@@ -119,13 +108,13 @@ static double bent_at(const Quadrature *over, const Arc *arc) {
 static void integrate_panel(const Quadrature *over, const Arc *arc, double low, double high) {
     const Bristle *bristle = over->bristle;
     double half = 0.5 * (high - low), mu = bristle->coefficient;
-    for (int i = 0; i < NODES; i++) {
-        double ahead = low + half * (1.0 + NODE[i]);
+    for (int i = 0; i < GAUSS_NODES; i++) {
+        double ahead = low + half * (1.0 + GAUSS_NODE[i]);
         Way gone = way(over, arc, ahead);
         double fade = exp(-bristle->stiffness * gone.path / mu);
         double drag = bristle->damping * over->fast->velocity * gone.speed;
         double friction = arc->unbent * fade * (1.0 - drag / mu);
-        over->gather(over->sum, arc->begin + ahead, WEIGHT[i] * half * friction);
+        over->gather(over->sum, arc->begin + ahead, GAUSS_WEIGHT[i] * half * friction);
     }
 }
 

@@ -125,8 +125,9 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
                           Refusal *refusal) {
     Law moving;
     const Law *law = start;
-    if (is_ramped(&start->held.plant)) {
+    if (is_ramped(&start->held.plant) || trace != NULL) {
         moving = *start;
+        moving.bending = NULL; /* a panel has no state before its end */
         law = &moving;
     }
     const FrictionLaw *friction = law->friction;
