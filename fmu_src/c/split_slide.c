@@ -28,7 +28,7 @@ bool split_prepare(Split *split, const Plant *plant) {
         resisting.re -= plant->friction_amplitude / plant->total_mass;
         velocity_normal = split->creeps ? resisting : complex_div(resisting, complex_of(0.0, q));
     }
-    split->fastest = fmax(fmax(w, fabs(q)), follows ? slip->frequency : 0.0);
+    split->fastest = fmax(fmax(w, fabs(q)), slip->frequency);
     split->resonator_drive = complex_mul(turn, resonator_drive);
     split->velocity_drive = complex_mul(turn, velocity_drive);
     split->resonator_normal = complex_mul(turn, resonator_normal);
