@@ -23,7 +23,7 @@ from fmu_src.building.universal_binary import universal_binary
 
 FLAGS = (
     "-std=c99",
-    "-O2",
+    "-O3",
     "-g0",
     "-fPIC",
     "-shared",

@@ -10,46 +10,29 @@
 #include "refusal.h"
 #include "state.h"
 
-/* Halvings of [0, pi] in which bisection finds the angle of balance; the first of these, which select
- * one of several balances; evaluations of Chandrupatla's method; halvings that locate the edge of a
- * flat balance. */
-enum { BISECTIONS = 52, SORTING = 4, MAX_EVALUATIONS = 100, EDGE_HALVINGS = 40 };
+/* Halvings of [0, pi] that select one of several balances. */
+enum { SORTING = 4 };
 
-/* Width [rad] of the bracket at which Chandrupatla's method ends. */
+/* Width [rad] at which the angle of balance is known. */
 #define CLOSE 2e-15
-
-/* Width [rad] of a bracket below which any angle in it serves as the balance. */
-#define STEEP 1e-12
-
-/* Width [rad] of a balance from which on it is flat, not just uncertain by rounding. */
-#define FLAT 3e-3
 
 /* Rounding error of a mean friction, in units of the last place of the largest friction. */
 #define ROUNDING 8.0
 
 /* Friction and load as functions of the angle Theta at which sliding turns forward; `noise` is the
- * rounding error of their sum [N]. Where friction has a `closed` form it is the sum of `preload`,
- * `sine` and `cosine` [N] times its means. Where it `rises` with the angle there may be several
- * balances. */
+ * rounding error of their sum [N]. Where friction `rises` with the angle there may be several balances. */
 typedef struct {
     const Law *law;
     double opposing, noise;
-    bool closed, rises;
-    double preload, sine, cosine;
+    bool rises;
     FastMotion fast;
     VibratingLoad load;
 } Balance;
 
-/* The sum of friction and load (`excess`) [N] at an angle Theta (`turning`) [rad]. */
+/* By how much friction and load exceed rounding (`excess`) [N] at an angle Theta (`turning`) [rad]. */
 typedef struct {
     double turning, excess;
 } Point;
-
-/* Angles [rad]: up to `positive` the excess is above 0 beyond rounding, from `negative` on it is below
- * 0. In between it is 0 within rounding; `root` is the best estimate. */
-typedef struct {
-    double positive, negative, root;
-} Bracket;
 
 static Balance balance_of(const Law *law, Complex force, double normal_lead) {
     const Device *device = &law->device;
@@ -59,16 +42,11 @@ static Balance balance_of(const Law *law, Complex force, double normal_lead) {
     double delta = law->inputs.phase + normal_lead + ratio * force_lag(force);
     balance.fast = (FastMotion){fast_velocity(device, force), device->drive_frequency};
     balance.load = vibrating_load_of(device, ratio, delta);
-    balance.closed = !friction->is_expensive && !balance.load.is_constant &&
-                     device->normal_amplitude <= device->normal_preload;
     double mu = law->bristle.coefficient;
     double drag = friction->drag(&law->bristle, balance.fast.velocity);
     balance.rises = drag > mu;
     balance.noise = ROUNDING * EPSILON * faces * (mu + drag) *
                     (device->normal_preload + device->normal_amplitude);
-    balance.preload = faces * device->normal_preload;
-    balance.sine = faces * device->normal_amplitude * cos(delta);
-    balance.cosine = faces * device->normal_amplitude * sin(delta);
     return balance;
 }
 
@@ -80,130 +58,39 @@ static double friction_at(const Balance *balance, double turning) {
 }
 
 static Point point_at(const Balance *balance, double turning) {
-    return (Point){turning, friction_at(balance, turning) + balance->opposing};
+    double sum = friction_at(balance, turning) + balance->opposing;
+    return (Point){turning, sum - balance->noise};
 }
 
-/* The same, by the closed form where there is one: it takes less time. */
-static Point point_near(const Balance *balance, double turning) {
-    if (!balance->closed) {
-        return point_at(balance, turning);
-    }
-    const Law *law = balance->law;
-    FrictionMeans means = law->friction->averaged->means(&law->bristle, &balance->fast,
-                                                         balance->load.ratio, turning);
-    return (Point){turning, balance->preload * means.plain + balance->sine * means.sine +
-                                balance->cosine * means.cosine + balance->opposing};
-}
-
-/* Narrows the bracket by a point; returns whether the sign of its excess is certain. */
-static bool bracket_narrows(Bracket *bracket, const Balance *balance, Point point) {
-    if (!(fabs(point.excess) > balance->noise)) {
-        return false;
-    }
-    if (point.excess > 0.0) {
-        bracket->positive = fmax(bracket->positive, point.turning);
-    } else {
-        bracket->negative = fmin(bracket->negative, point.turning);
-    }
-    return true;
-}
-
-/* Inverse quadratic interpolation through the newest point `a`, the opposite one `b` and the one before,
- * `c`: gives the `share` of the way from a to b, and returns whether Chandrupatla's criterion accepts it. */
-static bool interpolates(Point a, Point b, Point c, double *share) {
+/* Share of the way from the newest point `a` to the opposite one `b`, by inverse quadratic interpolation through
+ * these and the one before, `c`, where Chandrupatla's criterion accepts it; a half otherwise. */
+static double next_share(Point a, Point b, Point c) {
     double xi = (a.turning - b.turning) / (c.turning - b.turning);
     double phi = (a.excess - b.excess) / (c.excess - b.excess);
-    *share = a.excess / (b.excess - a.excess) * c.excess / (b.excess - c.excess) +
-             (c.turning - a.turning) / (b.turning - a.turning) * a.excess / (c.excess - a.excess) *
-                 b.excess / (c.excess - b.excess);
-    return phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
+    if (!(phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)) {
+        return 0.5;
+    }
+    return a.excess / (b.excess - a.excess) * c.excess / (b.excess - c.excess) +
+           (c.turning - a.turning) / (b.turning - a.turning) * a.excess / (c.excess - a.excess) *
+               b.excess / (c.excess - b.excess);
 }
 
-/* Chandrupatla's method: inverse quadratic interpolation where its criterion accepts it, bisection
- * otherwise. The excess is above 0 at `low` and not at `high`; `next` is between. */
-static Bracket close_in(const Balance *balance, Point low, Point next, Point high) {
-    Point newest = high, other = low;
-    Bracket bracket = {low.turning, high.turning, 0.0};
-    for (int i = 0; i < MAX_EVALUATIONS; i++) {
-        Point before = newest;
-        if ((next.excess > 0.0) != (newest.excess > 0.0)) {
-            before = other;
-            other = newest;
+/* Angle to which halving leads where friction and load balance [rad], by Chandrupatla's method. Where they
+ * balance over a range of angles (even ratios, with flight while sliding turns) it is the end of the highest
+ * velocity: what is 0 within rounding counts as below 0. */
+static double balanced_turning(const Balance *balance, Point low, Point high) {
+    double share = 0.5;
+    for (int i = 0; high.turning - low.turning > CLOSE; i++) {
+        double width = high.turning - low.turning, min_share = CLOSE / (2.0 * width);
+        Point next = point_at(balance, low.turning + share * width);
+        bool above = next.excess > 0.0;
+        Point before = above ? low : high;
+        *(above ? &low : &high) = next;
+        share = 0.5;
+        if (i >= SORTING && low.excess > 0.0 && !(high.excess > 0.0)) {
+            share = above ? next_share(low, high, before) : 1.0 - next_share(high, low, before);
+            share = fmin(fmax(share, min_share), 1.0 - min_share);
         }
-        newest = next;
-        double width = other.turning - newest.turning, min_share = CLOSE / fabs(width), share;
-        if (!bracket_narrows(&bracket, balance, newest) || !(min_share < 0.5)) {
-            break;
-        }
-        share = interpolates(newest, other, before, &share) ? share : 0.5;
-        share = fmin(fmax(share, min_share), 1.0 - min_share);
-        next = point_near(balance, newest.turning + share * width);
-    }
-    bracket.root = fabs(newest.excess) < fabs(other.excess) ? newest.turning : other.turning;
-    double flatness = fabs((other.turning - newest.turning) / (other.excess - newest.excess));
-    double aside = CLOSE + 1.5 * balance->noise * flatness;
-    if (bracket.positive < bracket.root - aside) {
-        bracket_narrows(&bracket, balance, point_near(balance, bracket.root - aside));
-    }
-    if (bracket.negative > bracket.root + aside) {
-        bracket_narrows(&bracket, balance, point_near(balance, bracket.root + aside));
-    }
-    return bracket;
-}
-
-/* The edge of a flat balance, between an angle `outside` and one `inside` [rad]. */
-static double flat_edge(const Balance *balance, double outside, double inside, double sign) {
-    for (int i = 0; i < EDGE_HALVINGS; i++) {
-        double middle = 0.5 * (outside + inside);
-        *(sign * point_at(balance, middle).excess > balance->noise ? &outside : &inside) = middle;
-    }
-    return inside;
-}
-
-/* The lower end [rad] of the range in which friction and load balance; NAN where it is narrower than
- * FLAT. */
-static double flat_from(const Balance *balance, const Bracket *bracket) {
-    if (fabs(point_at(balance, bracket->root).excess) > balance->noise) {
-        return NAN;
-    }
-    double begin = flat_edge(balance, bracket->positive, bracket->root, 1.0);
-    double end = flat_edge(balance, bracket->negative, bracket->root, -1.0);
-    return end - begin > FLAT ? begin : NAN;
-}
-
-/* Angle at which friction and load balance [rad]: the result of plain bisection, but signs that the
- * bracket already implies are not evaluated. On a flat balance (even ratios, with flight while sliding
- * turns) it is the end of the highest velocity. On a weak one it is uncertain by rounding. */
-static double balanced_turning(const Balance *balance, Point low, Point halfway, Point high) {
-    int done = 0;
-    for (; done < (balance->rises ? SORTING : 0); done++) {
-        *(halfway.excess > 0.0 ? &low : &high) = halfway;
-        halfway = point_at(balance, 0.5 * (low.turning + high.turning));
-    }
-    Bracket bracket = {low.turning, high.turning, 0.0};
-    if (low.excess > 0.0 && high.excess <= 0.0) {
-        bracket = close_in(balance, low, halfway, high);
-    } else if (!balance->rises) {
-        return low.excess > 0.0 ? high.turning : low.turning;
-    }
-    if (bracket.positive > bracket.negative) {
-        bracket.positive = low.turning;
-        bracket.negative = high.turning;
-    }
-    if (bracket.negative - bracket.positive < STEEP) {
-        return bracket.root;
-    }
-    double flat = flat_from(balance, &bracket);
-    if (!isnan(flat)) {
-        return flat;
-    }
-    for (; done < BISECTIONS; done++) {
-        double turning = 0.5 * (low.turning + high.turning);
-        bool above = turning <= bracket.positive;
-        if (!above && turning < bracket.negative) {
-            above = point_at(balance, turning).excess > 0.0;
-        }
-        *(above ? &low.turning : &high.turning) = turning;
     }
     return 0.5 * (low.turning + high.turning);
 }
@@ -253,9 +140,8 @@ Averaged averaged(const Law *law, double normal_lead) {
         double fastest = load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
         return (Averaged){fastest, 0.0, false};
     }
-    double middle = friction_at(&balance, 0.5 * PI);
-    Point low = {0.0, first + load}, halfway = {0.5 * PI, middle + load}, high = {PI, last + load};
-    double turning = balanced_turning(&balance, low, halfway, high);
+    Point low = {0.0, first + load - balance.noise}, high = {PI, last + load - balance.noise};
+    double turning = balanced_turning(&balance, low, high);
     bool valid = fabs(load) < first && breaks_loose(&balance, complex_abs(force), first);
-    return (Averaged){balance.fast.velocity * cos(turning), -middle, valid};
+    return (Averaged){balance.fast.velocity * cos(turning), -friction_at(&balance, 0.5 * PI), valid};
 }

@@ -7,26 +7,15 @@
 
 #include "averaged_friction.h"
 #include "elementary.h"
+#include "gauss_nodes.h"
 #include "state.h"
 
-enum { NODES = 12, EDGES = 6, MAX_BISECTIONS = 60 };
-
-/* Gauss and Legendre's rule on [-1, 1]. */
-static const double NODE[NODES] = {
-    0.9815606342467192,  0.9041172563704748,  0.7699026741943047,  0.5873179542866175,
-    0.3678314989981802,  0.12523340851146894, -0.1252334085114689, -0.3678314989981802,
-    -0.5873179542866175, -0.7699026741943047, -0.9041172563704748, -0.9815606342467192,
-};
-static const double WEIGHT[NODES] = {
-    0.047175336386511835, 0.10693932599531818, 0.16007832854334633, 0.20316742672306584,
-    0.23349253653835478,  0.24914704581340288, 0.24914704581340288, 0.23349253653835478,
-    0.20316742672306584,  0.16007832854334633, 0.10693932599531818, 0.047175336386511835,
-};
+enum { EDGES = 6, MAX_BISECTIONS = 60 };
 
 /* Edges of the panels of the quadrature over an arc; they crowd where sliding begins. */
 static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 
-/* Widest panel, as an angle [rad] of the normal load: 12 nodes follow its sine to rounding
+/* Widest panel, as an angle [rad] of the normal load: the nodes follow its sine to rounding
  * there. */
 #define WIDEST 6.0
 
@@ -40,19 +29,15 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
  * add to the mean friction falls with their number, to less than 1e-3 of full friction. */
 #define MAX_WAVES 1000.0
 
-/* Takes in friction per unit load beyond Coulomb's, times a weight of the quadrature, at
- * `angle`. */
-typedef void (*Gather)(void *sum, double angle, double friction);
-
-/* What the quadrature is over: `waves` of the integrand over a turn, and the load whose kinks it has
- * (NULL for none). */
+/* What the quadrature is over: `waves` of the integrand over a turn, and the load (`load`), with its kinks, or, where
+ * that is NULL, unit loads: 1 and sine and cosine of `waves` times the angle. The `sum` of friction beyond
+ * Coulomb's under these loads is its result; under a load it has one part, `plain`. */
 typedef struct {
     const Bristle *bristle;
     const FastMotion *fast;
     double waves;
     const VibratingLoad *load;
-    Gather gather;
-    void *sum;
+    FrictionMeans sum;
 } Quadrature;
 
 /* A part of the turn with one direction of sliding, from the angle `begin` on for `length` [rad], and
@@ -116,16 +101,29 @@ static double bent_at(const Quadrature *over, const Arc *arc) {
     return high;
 }
 
-static void integrate_panel(const Quadrature *over, const Arc *arc, double low, double high) {
+/* Adds `friction` per unit load, times a weight of the quadrature, at `angle` [rad]. */
+static void gather(Quadrature *over, double angle, double friction) {
+    if (over->load != NULL) {
+        over->sum.plain += vibrating_load_at(over->load, angle) * friction;
+        return;
+    }
+    over->sum.plain += friction;
+    if (over->waves != 0.0) {
+        over->sum.sine += friction * sin(over->waves * angle);
+        over->sum.cosine += friction * cos(over->waves * angle);
+    }
+}
+
+static void integrate_panel(Quadrature *over, const Arc *arc, double low, double high) {
     const Bristle *bristle = over->bristle;
     double half = 0.5 * (high - low), mu = bristle->coefficient;
-    for (int i = 0; i < NODES; i++) {
-        double ahead = low + half * (1.0 + NODE[i]);
+    for (int i = 0; i < GAUSS_NODES; i++) {
+        double ahead = low + half * (1.0 + GAUSS_NODE[i]);
         Way gone = way(over, arc, ahead);
         double fade = exp(-bristle->stiffness * gone.path / mu);
         double drag = bristle->damping * over->fast->velocity * gone.speed;
         double friction = arc->unbent * fade * (1.0 - drag / mu);
-        over->gather(over->sum, arc->begin + ahead, WEIGHT[i] * half * friction);
+        gather(over, arc->begin + ahead, GAUSS_WEIGHT[i] * half * friction);
     }
 }
 
@@ -137,7 +135,7 @@ static double smooth_until(const VibratingLoad *load, double begin, double low, 
 }
 
 /* Panels between edges and kinks, none wider than WIDEST of the normal load. */
-static void integrate_arc(const Quadrature *over, const Arc *arc) {
+static void integrate_arc(Quadrature *over, const Arc *arc) {
     if (!(fabs(arc->unbent) > EPSILON * over->bristle->coefficient)) {
         return;
     }
@@ -158,7 +156,7 @@ static void integrate_arc(const Quadrature *over, const Arc *arc) {
 
 /* Quadrature over both arcs of what the bristle still lacks of being fully bent. The response is
  * periodic: sigma_0 z where the forward arc begins follows from the lengths of both. */
-static void integrate_turn(const Quadrature *over, double turning) {
+static void integrate_turn(Quadrature *over, double turning) {
     double stiffness = over->bristle->stiffness, mu = over->bristle->coefficient;
     double sine = sin(turning), cosine = cos(turning);
     Arc forward = {1, turning, TAU - 2.0 * turning, cosine, sine, 0.0};
@@ -177,57 +175,27 @@ static void integrate_turn(const Quadrature *over, double turning) {
     integrate_arc(over, &backward);
 }
 
-typedef struct {
-    const VibratingLoad *load;
-    double friction;
-} LoadedSum;
-
-static void gather_loaded(void *sum, double angle, double friction) {
-    LoadedSum *loaded = sum;
-    loaded->friction += vibrating_load_at(loaded->load, angle) * friction;
-}
-
 static double mean(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
                    double turning) {
     VibratingLoad counted = *load;
     if (fabs(vibrating_load_waves(load)) > MAX_WAVES) {
         counted = vibrating_load_flattened(load);
     }
-    LoadedSum bent = {&counted, 0.0};
-    Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted, .sum = &bent};
+    Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted};
     over.waves = vibrating_load_waves(&counted);
-    over.gather = gather_loaded;
     integrate_turn(&over, turning);
     double coulomb = bristle->coefficient * vibrating_load_difference(&counted, turning);
-    return (coulomb + bent.friction) / TAU;
-}
-
-typedef struct {
-    double n;
-    FrictionMeans means;
-} WavySum;
-
-static void gather_wavy(void *sum, double angle, double friction) {
-    WavySum *wavy = sum;
-    wavy->means.plain += friction;
-    if (wavy->n != 0.0) {
-        wavy->means.sine += friction * sin(wavy->n * angle);
-        wavy->means.cosine += friction * cos(wavy->n * angle);
-    }
+    return (coulomb + over.sum.plain) / TAU;
 }
 
 static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, double n,
                            double turning) {
     double mu = bristle->coefficient, waves = fabs(n) <= MAX_WAVES ? n : 0.0;
-    WavySum sum = {waves, {mu * (TAU - 4.0 * turning), 0.0, 0.0}};
-    if (waves != 0.0) {
-        sum.means.cosine = -4.0 * mu * sin(n * turning) / n;
-    }
-    Quadrature over = {.bristle = bristle, .fast = fast, .waves = waves, .sum = &sum};
-    over.gather = gather_wavy;
+    Quadrature over = {.bristle = bristle, .fast = fast, .waves = waves};
+    over.sum.plain = mu * (TAU - 4.0 * turning);
+    over.sum.cosine = waves != 0.0 ? -4.0 * mu * sin(n * turning) / n : 0.0;
     integrate_turn(&over, turning);
-    return (FrictionMeans){sum.means.plain / TAU, sum.means.sine / TAU,
-                           sum.means.cosine / TAU};
+    return (FrictionMeans){over.sum.plain / TAU, over.sum.sine / TAU, over.sum.cosine / TAU};
 }
 
 /* A vibration far shorter than mu / sigma_0 only bends the bristle. */

@@ -36,7 +36,7 @@ static Complex grow(Complex z, double t, Complex *integral) {
 }
 
 static void prepare_normal(BendingKernels *kernels, double frequency) {
-    for (int i = 0; i < kernels->gauss->count + 2; i++) {
+    for (int i = 0; i < POINTS; i++) {
         Complex integral;
         put(&kernels->turn, i, grow(complex_of(0.0, frequency), kernels->time[i], &integral));
         put(&kernels->normal, i, integral);
@@ -44,11 +44,13 @@ static void prepare_normal(BendingKernels *kernels, double frequency) {
     kernels->has_normal = true;
 }
 
-void bending_left(Complex eigenvalue, Complex back, double time, double weight, double even[LEFT],
-                  double late[LEFT]) {
+/* The integrals of a unit force a and of a unit impulse b at a node. */
+static void prepare_left(BendingKernels *kernels, Complex eigenvalue, Complex back, int node,
+                         double weight) {
+    double *even = kernels->left_even[node], *late = kernels->left_late[node];
     Complex turned = complex_scale(weight, complex_mul(eigenvalue, back));
     even[IMPULSE] = weight;
-    even[LEVER] = weight * time;
+    even[LEVER] = weight * kernels->time[node];
     even[BACK_RE] = weight * back.re;
     even[BACK_IM] = weight * back.im;
     late[IMPULSE] = 0.0;
@@ -57,18 +59,27 @@ void bending_left(Complex eigenvalue, Complex back, double time, double weight, 
     late[BACK_IM] = turned.im;
 }
 
-static void prepare(BendingKernels *kernels, const GaussNodes *gauss, const Plant *plant,
+static void prepare_interpolation(BendingKernels *kernels) {
+    for (int i = 0; i <= END; i++) {
+        double product = 1.0;
+        for (int j = 0; j <= END; j++) {
+            product *= i == j ? 1.0 : 4.0 * (kernels->time[i] - kernels->time[j]) / kernels->length;
+        }
+        kernels->interpolating[i] = 1.0 / product;
+    }
+}
+
+static void prepare(BendingKernels *kernels, const GaussIntegrals *gauss, const Plant *plant,
                     double length) {
-    Complex eigenvalue = plant->slip.eigenvalue, turned[MAX_ROW], back[MAX_ROW];
+    Complex eigenvalue = plant->slip.eigenvalue, turned[POINTS], back[POINTS];
     double w = plant->drive_frequency;
     double per_mass = 1.0 / plant->total_mass;
     double swing = plant->mass_fraction / (plant->slider_mass * eigenvalue.im);
-    int count = gauss->count;
     kernels->gauss = gauss;
     kernels->has_normal = false;
     kernels->length = length;
-    for (int i = 0; i < count + 2; i++) {
-        double t = i < count ? length * gauss->node[i] : length;
+    for (int i = 0; i < POINTS; i++) {
+        double t = i < END ? 0.5 * length * (1.0 + GAUSS_NODE[i]) : length;
         Complex integral;
         kernels->end_drive = grow(complex_of(0.0, w), t, &integral);
         put(&kernels->drive, i, integral);
@@ -77,24 +88,22 @@ static void prepare(BendingKernels *kernels, const GaussNodes *gauss, const Plan
         back[i] = complex_div(complex_of(1.0, 0.0), turned[i]);
         kernels->time[i] = t;
         kernels->response[i] = per_mass * t + swing * turned[i].im;
-        put(&kernels->back, i, back[i]);
     }
-    for (int i = 0; i < count + 2; i++) {
-        for (int j = 0; j < count; j++) {
+    for (int i = 0; i < POINTS; i++) {
+        for (int j = 0; j < GAUSS_NODES; j++) {
             Complex since = complex_mul(turned[i], back[j]);
-            double weight = length * gauss->integral[i < count ? i : count][j];
+            double weight = length * gauss->integral[i < END ? i : END][j];
             double ago = kernels->time[i] - kernels->time[j];
             double slope = per_mass + swing * complex_mul(eigenvalue, since).im;
             kernels->travel[j][i] = weight * (per_mass * ago + swing * since.im);
             kernels->speed[j][i] = weight * slope;
         }
     }
-    for (int j = 0; j < count; j++) {
-        double weight = length * gauss->weight[j];
-        bending_left(eigenvalue, back[j], kernels->time[j], weight, kernels->left_even[j],
-                     kernels->left_late[j]);
+    for (int j = 0; j < GAUSS_NODES; j++) {
+        prepare_left(kernels, eigenvalue, back[j], j, length * gauss->integral[END][j]);
     }
-    kernels->end_free = turned[count];
+    prepare_interpolation(kernels);
+    kernels->end_free = turned[END];
 }
 
 /* Whether the tables are those of this plant, at any normal frequency. */
@@ -114,17 +123,11 @@ static void begin_anew(BendingTables *tables, const Plant *plant) {
     tables->drive_frequency = plant->drive_frequency;
     tables->normal_frequency = plant->normal_frequency;
     tables->eigenvalue = plant->slip.eigenvalue;
-    for (int i = 0; i < KEPT_KERNELS; i++) {
-        tables->key[i] = 0;
+    tables->kept_count = tables->oldest = 0;
+    if (!tables->has_gauss) {
+        gauss_integrals_prepare(&tables->gauss);
+        tables->has_gauss = true;
     }
-}
-
-static const GaussNodes *gauss_of(BendingTables *tables, int nodes) {
-    GaussNodes *gauss = &tables->gauss[(nodes - MIN_NODES) / NODES_STEP];
-    if (gauss->count == 0) {
-        gauss_nodes_prepare(gauss, nodes);
-    }
-    return gauss;
 }
 
 /* 2^((k + 1) / LENGTHS_PER_OCTAVE) / 2. */
@@ -133,8 +136,7 @@ static const double OCTAVE[LENGTHS_PER_OCTAVE] = {
     0.7711054127039704, 0.8408964152537145, 0.9170040432046712, 1.0,
 };
 
-BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length,
-                                   int nodes) {
+BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length) {
     if (!fit(tables, plant)) {
         begin_anew(tables, plant);
     }
@@ -150,17 +152,19 @@ BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, do
     while (OCTAVE[part] < share) {
         part++;
     }
-    int key = (LENGTHS_PER_OCTAVE * exponent + part) * (MAX_NODES + 1) + nodes;
-    int place = 0;
-    while (place < KEPT_KERNELS && tables->key[place] != key) {
+    int key = LENGTHS_PER_OCTAVE * exponent + part, place = 0;
+    while (place < tables->kept_count && tables->key[place] != key) {
         place++;
     }
-    if (place == KEPT_KERNELS) {
-        place = tables->oldest;
-        tables->oldest = (place + 1) % KEPT_KERNELS;
+    if (place == tables->kept_count) {
+        if (place == KEPT_KERNELS) {
+            place = tables->oldest;
+            tables->oldest = (place + 1) % KEPT_KERNELS;
+        } else {
+            tables->kept_count++;
+        }
         tables->key[place] = key;
-        prepare(&tables->kept[place], gauss_of(tables, nodes), plant,
-                ldexp(OCTAVE[part], exponent) / w);
+        prepare(&tables->kept[place], &tables->gauss, plant, ldexp(OCTAVE[part], exponent) / w);
     }
     BendingKernels *kernels = &tables->kept[place];
     if (!kernels->has_normal) {

@@ -3,6 +3,25 @@
 #include "elementary.h"
 #include "fast_decay.h"
 
+/* Exponent of E at which the decay of f is first estimated. */
+#define GUESSED_EXPONENT 16.0
+
+/* Share of the tolerance for the part of f after the panel, which is dropped. It is small because this
+ * error has the same sign at each reversal, and adds up. */
+#define LEFT_OUT 0.2
+
+/* Safety factor on the estimated length of a panel. */
+#define LONGER 1.05
+
+/* Longest panel, as an angle [rad] of the fastest oscillation: the nodes follow that to rounding. */
+#define MAX_ARC 2.0
+
+/* Exponent of E that a panel must reach: series are as cheap for bristles that bend less, as in presliding. */
+#define MIN_EXPONENT 5.0
+
+/* Share of the interpolation error of f that appears in the displacement within the panel. */
+#define DISPLACING 0.05
+
 enum { MAX_CORRECTIONS = 6 };
 
 /* Share of the tolerance for the error of the last iterate. */
@@ -12,39 +31,116 @@ enum { MAX_CORRECTIONS = 6 };
  * because f acts on the path only while E lasts, and later with each correction. */
 #define NEXT 0.25
 
+/* What is known before any integration. `rate` k [1/m] of E = exp(-k |x - x_r|), `lag` rho [s], `bend` beta;
+ * `push` bounds the acceleration by the force f of the bristle [m/s^2]; `speed` [m/s] and `acceleration`
+ * [m/s^2] are those under full friction, in the direction of sliding. From E = exp(-`exponent`) on, after
+ * about `length` [s], f changes the velocity by less than the tolerance. */
+typedef struct {
+    double rate, lag, bend, push, speed, acceleration, exponent, length;
+} Outlook;
+
+/* Chooses by the time in which the bristle bends. */
+static BendingMotion look_out(Outlook *outlook, const Held *held, const Bristle *bristle,
+                              int direction, const Moment *now, const Phasors *phasors,
+                              double longest, double tolerance) {
+    const Plant *plant = &held->plant;
+    double mu = bristle->coefficient, speed = fabs(now->state.velocity);
+    double resisting = direction * friction_limit_by(plant, phasors);
+    double force = direction * (force_by(plant, &now->state, phasors) - resisting);
+    double limit = plant->friction_preload + plant->friction_amplitude;
+    double reach = fmin(MAX_ARC / held->split.fastest, longest);
+    outlook->rate = bristle->stiffness / mu;
+    outlook->speed = speed;
+    outlook->acceleration = force / plant->slider_mass;
+    if (!(outlook->rate * reach * (speed + 0.5 * outlook->acceleration * reach) > MIN_EXPONENT)) {
+        return BY_SERIES;
+    }
+    outlook->lag = bristle->damping / bristle->stiffness;
+    outlook->bend = (mu - direction * now->bristle) / mu;
+    outlook->push = outlook->bend * limit / plant->slider_mass;
+    double path = GUESSED_EXPONENT / outlook->rate;
+    double square = speed * speed + 2.0 * outlook->acceleration * path;
+    if (!(outlook->bend > 0.0 && outlook->bend <= 2.0 && square > 0.25 * speed * speed)) {
+        return BY_SERIES;
+    }
+    double time = 1.0 / (outlook->rate * sqrt(square)) + outlook->lag;
+    outlook->exponent = log(outlook->push * time / (LEFT_OUT * tolerance));
+    if (outlook->exponent <= 0.0) {
+        return AS_BENT;
+    }
+    path = outlook->exponent / outlook->rate;
+    double last = sqrt(speed * speed + 2.0 * outlook->acceleration * path);
+    double length = LONGER * 2.0 * path / (speed + last);
+    outlook->length = fmin(length, longest / MAX_KERNELS_STEP);
+    return MAX_KERNELS_STEP * length * held->split.fastest < MAX_ARC ? BY_PANEL : BY_SERIES;
+}
+
+/* Bound on G' over 1 / M within `length` [s]; NAN where G' may be negative. */
+static double response_bound(const Plant *plant, double length) {
+    const Oscillator *slip = &plant->slip;
+    double share = plant->slider_mass / plant->total_mass;
+    double swing = plant->mass_fraction * slip->frequency / slip->eigenvalue.im;
+    return swing < share || slip->frequency * length < 0.5 ? share + swing : NAN;
+}
+
+/* Whether the slider is guaranteed not to stop for `length` [s].
+ *
+ * A parabola bounds the velocity under full friction from below. Of f only the part with E' < 0 decreases
+ * the velocity: by push rho (1 - E), where 1 - E is at most k times the path. */
+static bool goes_on(const Outlook *outlook, const SplitSlide *slide, double length) {
+    double bound = slide->bound + slide->free_bound;
+    double push = outlook->push * response_bound(slide->plant, length);
+    double fastest = fmax(outlook->acceleration, 0.0) + push + bound * length;
+    double gained = outlook->speed + outlook->acceleration * length;
+    double path = (outlook->speed + 0.5 * fastest * length) * length;
+    double lost = 0.5 * bound * length * length + push * outlook->lag * outlook->rate * path;
+    return (outlook->speed > 0.0 || outlook->acceleration > 0.0) &&
+           gained - lost > slide->noise;
+}
+
+/* Estimate of the error of the velocity [m/s] at the end of the panel: the nodes miss a `share` of f, which
+ * changes the velocity by no more than `weight` [m/s].
+ *
+ * E is an entire function, so its Legendre coefficients fall ever faster. Integrals up to the end miss only
+ * those of twice the order, which are below 2^(-nodes) times the square of the last one. */
+static double error_of(double weight, double share, double contraction) {
+    return weight * share * (DISPLACING * contraction + ldexp(share, -GAUSS_NODES / 2));
+}
+
 /* Friction limit [N] (re) and its derivative [N/s] (im) at a turn of the normal load. */
 static Complex limit_at(const Plant *plant, Complex normal) {
     return complex_of(plant->friction_preload + plant->friction_amplitude * normal.im,
                       plant->friction_amplitude * plant->normal_frequency * normal.re);
 }
 
-static void add_swing(double *travel, Complex amplitude, const ComplexRow *row, int count) {
-    for (int i = 0; i < count + 2; i++) {
+static void add_swing(double *travel, Complex amplitude, const ComplexRow *row) {
+    for (int i = 0; i < POINTS; i++) {
         travel[i] += amplitude.re * row->re[i] - amplitude.im * row->im[i];
     }
 }
 
 /* k |x - x_r| at the points, under full friction. */
-static void follow_path(const BendingPanel *panel, const BendingOutlook *outlook,
+static void follow_path(const BendingPanel *panel, const Outlook *outlook,
                         double *exponent) {
     const SplitSlide *slide = &panel->slide;
     const BendingKernels *kernels = panel->kernels;
     const Phasors *start = &slide->start.phasors;
-    int count = kernels->gauss->count;
     double speed = slide->direction * outlook->speed, scale = slide->direction * outlook->rate;
-    for (int i = 0; i < count + 2; i++) {
+    for (int i = 0; i < POINTS; i++) {
         double t = kernels->time[i];
         exponent[i] = (speed + 0.5 * slide->k1 * t) * t;
     }
-    add_swing(exponent, complex_mul(slide->velocity_drive, start->drive), &kernels->drive, count);
+    add_swing(exponent, complex_mul(slide->velocity_drive, start->drive), &kernels->drive);
     if (slide->plant->mass_fraction != 0.0) {
-        add_swing(exponent, slide->velocity_free, &kernels->free, count);
+        Complex rate = complex_mul(slide->plant->slip.eigenvalue, slide->resonator_free);
+        Complex recoil = complex_scale(-slide->plant->mass_fraction, rate);
+        add_swing(exponent, recoil, &kernels->free);
     }
     if (!slide->split->merges) {
         Complex normal = complex_mul(slide->velocity_normal, start->normal);
-        add_swing(exponent, normal, &kernels->normal, count);
+        add_swing(exponent, normal, &kernels->normal);
     }
-    for (int i = 0; i < count + 2; i++) {
+    for (int i = 0; i < POINTS; i++) {
         exponent[i] *= scale;
     }
 }
@@ -55,7 +151,7 @@ static void prepare_forces(BendingPanel *panel, double *even, double *late) {
     const Plant *plant = panel->slide.plant;
     Complex normal = normal_phasor(plant, &panel->slide.start.phasors);
     panel->first = panel->scale * panel->lag * limit_at(plant, normal).re;
-    for (int i = 0; i < kernels->gauss->count + 2; i++) {
+    for (int i = 0; i < POINTS; i++) {
         Complex turn = complex_of(kernels->turn.re[i], kernels->turn.im[i]);
         Complex limit = limit_at(plant, complex_mul(normal, turn));
         even[i] = panel->scale * (limit.re - panel->lag * limit.im);
@@ -63,46 +159,25 @@ static void prepare_forces(BendingPanel *panel, double *even, double *late) {
     }
 }
 
-/* Adds the product of `matrix` and the forces at the nodes to `sum`. Constant numbers of nodes let a
- * compiler unroll the loops. */
-static inline void add_products(double *restrict sum, double (*restrict matrix)[MAX_ROW],
-                                const double *restrict forces, int nodes) {
-    for (int j = 0; j < nodes; j++) {
-        for (int i = 0; i < nodes + 2; i++) {
+/* Adds the product of `matrix` and the forces at the nodes to `sum`. */
+static void add_response(double *restrict sum, double (*restrict matrix)[POINTS],
+                         const double *restrict forces) {
+    for (int j = 0; j < GAUSS_NODES; j++) {
+        for (int i = 0; i < POINTS; i++) {
             sum[i] += matrix[j][i] * forces[j];
         }
     }
 }
 
-static void add_response(double *sum, double (*matrix)[MAX_ROW], const double *forces, int nodes) {
-    switch (nodes) {
-    case 8:
-        add_products(sum, matrix, forces, 8);
-        break;
-    case 12:
-        add_products(sum, matrix, forces, 12);
-        break;
-    case 16:
-        add_products(sum, matrix, forces, 16);
-        break;
-    case 20:
-        add_products(sum, matrix, forces, 20);
-        break;
-    default:
-        add_products(sum, matrix, forces, MAX_NODES);
-    }
-}
-
 /* Displacements [m] by f at the points. */
-static void displace(const BendingPanel *panel, double change[MAX_ROW]) {
+static void displace(const BendingPanel *panel, double change[POINTS]) {
     BendingKernels *kernels = panel->kernels;
-    int count = kernels->gauss->count;
-    for (int i = 0; i < count + 2; i++) {
+    for (int i = 0; i < POINTS; i++) {
         change[i] = -kernels->response[i] * panel->first;
     }
-    add_response(change, kernels->travel, panel->even, count);
+    add_response(change, kernels->travel, panel->even);
     if (panel->lag > 0.0) {
-        add_response(change, kernels->speed, panel->late, count);
+        add_response(change, kernels->speed, panel->late);
     }
 }
 
@@ -114,27 +189,25 @@ typedef struct {
 
 /* Corrects E and f, beginning with the path under full friction, until another correction would change the
  * velocity by less than `tolerance` [m/s]; `weight` [m/s] bounds the change by f. */
-static Iteration iterate(BendingPanel *panel, const double *exponent, double weight,
-                         double tolerance) {
-    int count = panel->kernels->gauss->count;
-    double even[MAX_ROW], late[MAX_ROW], bent[MAX_ROW], before[MAX_ROW] = {0.0};
-    double remaining[MAX_ROW], scale = panel->slide.direction * panel->rate, next = 1.0;
+static Iteration iterate(BendingPanel *panel, double weight, double tolerance) {
+    double even[POINTS], late[POINTS], bent[POINTS], before[POINTS] = {0.0};
+    double remaining[POINTS], scale = panel->slide.direction * panel->rate, next = 1.0;
     Iteration at = {false, 0.0, 1.0};
     prepare_forces(panel, even, late);
     for (int correction = 0; correction <= MAX_CORRECTIONS && at.contraction < 1.0; correction++) {
-        for (int i = 0; i < count + 2; i++) {
-            remaining[i] = fast_decay(exponent[i] + before[i]);
+        for (int i = 0; i < POINTS; i++) {
+            remaining[i] = fast_decay(panel->exponent[i] + before[i]);
             panel->even[i] = even[i] * remaining[i];
             panel->late[i] = late[i] * remaining[i];
         }
-        at.left = remaining[count];
+        at.left = remaining[END];
         if (weight * next <= tolerance) {
             at.done = true;
             break;
         }
         double largest = 0.0;
         displace(panel, bent);
-        for (int i = 0; i <= count; i++) {
+        for (int i = 0; i <= END; i++) {
             bent[i] *= scale;
             double turned = fabs(bent[i] - before[i]) * remaining[i];
             largest = turned > largest ? turned : largest;
@@ -143,162 +216,111 @@ static Iteration iterate(BendingPanel *panel, const double *exponent, double wei
         at.contraction = correction == 0 ? largest : at.contraction;
         next = NEXT * largest * at.contraction;
     }
+    for (int i = 0; i <= END; i++) {
+        panel->exponent[i] += before[i];
+    }
     return at;
 }
 
-/* Adds the integrals of the value `late` [N s] that b has at its end `t` [s]. */
-static void add_end(const Plant *plant, double left[LEFT], double t, double late) {
-    Complex eigenvalue = plant->slip.eigenvalue;
+/* The integrals of f. */
+static void sum_up(const BendingPanel *panel, double left[LEFT]) {
+    const BendingKernels *kernels = panel->kernels;
+    double t = panel->length, late = panel->late[END];
+    Complex eigenvalue = panel->slide.plant->slip.eigenvalue;
     Complex back = complex_rect(late * exp(-eigenvalue.re * t), -eigenvalue.im * t);
-    left[IMPULSE] += late;
-    left[LEVER] += t * late;
-    left[BACK_RE] += back.re;
-    left[BACK_IM] += back.im;
-}
-
-/* The integrals of f from those of forces at the nodes, without the value of b at the end. */
-static void sum_up(const BendingPanel *panel, double (*even)[LEFT], double (*late)[LEFT],
-                   double left[LEFT]) {
-    int count = panel->kernels->gauss->count;
-    left[IMPULSE] = left[BACK_RE] = -panel->first;
-    left[LEVER] = left[BACK_IM] = 0.0;
-    for (int j = 0; j < count; j++) {
+    left[IMPULSE] = late - panel->first;
+    left[LEVER] = t * late;
+    left[BACK_RE] = back.re - panel->first;
+    left[BACK_IM] = back.im;
+    for (int j = 0; j < GAUSS_NODES; j++) {
         for (int k = 0; k < LEFT; k++) {
-            left[k] += even[j][k] * panel->even[j];
+            left[k] += kernels->left_even[j][k] * panel->even[j] +
+                       kernels->left_late[j][k] * panel->late[j];
         }
     }
-    for (int j = 0; j < count && panel->lag > 0.0; j++) {
-        for (int k = 0; k < LEFT; k++) {
-            left[k] += late[j][k] * panel->late[j];
-        }
-    }
-}
-
-static Given given_by(const Plant *plant, const double left[LEFT]) {
-    Given given = {-left[LEVER] / plant->total_mass, left[IMPULSE] / plant->total_mass, {0.0, 0.0}};
-    if (plant->resolves_resonator) {
-        double per_force = 1.0 / (plant->slider_mass * plant->slip.eigenvalue.im);
-        given.swing = complex_of(-left[BACK_IM] * per_force, left[BACK_RE] * per_force);
-        given.offset -= plant->mass_fraction * given.swing.re;
-    }
-    return given;
 }
 
 /* Turns the motion under full friction into that after the panel. */
 static void end_panel(BendingPanel *panel) {
-    BendingKernels *kernels = panel->kernels;
-    int end = kernels->gauss->count;
+    const BendingKernels *kernels = panel->kernels;
+    const Plant *plant = panel->slide.plant;
     double left[LEFT];
-    sum_up(panel, kernels->left_even, kernels->left_late, left);
-    if (panel->late[end] != 0.0) {
-        add_end(panel->slide.plant, left, panel->length, panel->late[end]);
+    sum_up(panel, left);
+    double momentum = left[IMPULSE] / plant->total_mass;
+    Complex swing = complex_of(0.0, 0.0);
+    if (plant->resolves_resonator) {
+        double per_force = 1.0 / (plant->slider_mass * plant->slip.eigenvalue.im);
+        swing = complex_of(-left[BACK_IM] * per_force, left[BACK_RE] * per_force);
     }
-    panel->all = given_by(panel->slide.plant, left);
-    split_slide_change(&panel->slide, panel->all.momentum, panel->all.swing);
+    panel->offset = -left[LEVER] / plant->total_mass - plant->mass_fraction * swing.re;
+    split_slide_change(&panel->slide, momentum, swing);
     split_slide_anchor(&panel->slide, panel->length, kernels->end_drive,
-                       complex_of(kernels->turn.re[end], kernels->turn.im[end]), kernels->end_free);
+                       complex_of(kernels->turn.re[END], kernels->turn.im[END]),
+                       kernels->end_free);
 }
 
 BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, const Held *held,
                                   const Bristle *bristle, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance) {
     const Plant *plant = &held->plant;
-    double chi = now->psi + plant->phase;
-    if (!held->splits || !(bristle->stiffness > 0.0)) {
+    bool swings = held->splits && plant->slip.oscillatory && !held->split.creeps;
+    if (!swings || !(bristle->stiffness > 0.0)) {
         return BY_SERIES;
     }
-    BendingOutlook outlook;
+    Outlook outlook;
     BendingMotion motion =
-        bending_outlook(&outlook, held, bristle, direction, now, start, longest, tolerance);
+        look_out(&outlook, held, bristle, direction, now, start, longest, tolerance);
     if (motion != BY_PANEL) {
         return motion;
     }
-    double length = outlook.length;
-    bool ends_within = MAX_KERNELS_STEP * length > longest;
-    int nodes = bending_nodes(&outlook, length, ends_within, tolerance);
-    if (nodes == 0) {
-        return BY_SERIES;
-    }
     SplitSlide *slide = &panel->slide;
-    split_slide_begin(slide, &held->split, plant, direction, &now->state, now->theta, chi, start,
-                      direction);
-    if (!bending_goes_on(&outlook, slide, MAX_KERNELS_STEP * length)) {
+    split_slide_begin(slide, &held->split, plant, direction, &now->state, now->theta,
+                      now->psi + plant->phase, start, direction);
+    if (!goes_on(&outlook, slide, MAX_KERNELS_STEP * outlook.length)) {
         return BY_SERIES;
     }
-    BendingKernels *kernels = bending_kernels_of(tables, plant, length, nodes);
-    panel->kernels = kernels;
-    length = panel->length = kernels->length;
+    panel->kernels = bending_kernels_of(tables, plant, outlook.length);
+    panel->length = panel->kernels->length;
     panel->rate = outlook.rate;
     panel->scale = direction * outlook.bend;
     panel->lag = outlook.lag;
-    double exponent[MAX_ROW], weight = bending_weight(&outlook, length);
-    follow_path(panel, &outlook, exponent);
-    Iteration at = iterate(panel, exponent, weight, ITERATION_SHARE * tolerance);
-    double missed = gauss_nodes_last(kernels->gauss, panel->even);
+    double weight = outlook.push * (0.5 * panel->length + outlook.lag);
+    follow_path(panel, &outlook, panel->exponent);
+    Iteration at = iterate(panel, weight, ITERATION_SHARE * tolerance);
+    double missed = gauss_last(panel->kernels->gauss, panel->even);
     double share = missed / (plant->slider_mass * outlook.push);
-    if (!at.done || !(bending_error(weight, share, at.contraction, nodes, length > longest) <=
-                      tolerance)) {
+    if (!at.done || !(error_of(weight, share, at.contraction) <= tolerance)) {
         return BY_SERIES;
     }
-    panel->reach = at.left <= fast_decay(outlook.exponent) ? INFINITY : length;
+    panel->reach = at.left <= fast_decay(outlook.exponent) ? INFINITY : panel->length;
     end_panel(panel);
     return BY_PANEL;
 }
 
-/* The motion that goes on if f has given no more than `given`. */
-static SplitSlide slide_with(const BendingPanel *panel, const Given *given) {
-    SplitSlide slide = panel->slide;
-    split_slide_change(&slide, given->momentum - panel->all.momentum,
-                       complex_sub(given->swing, panel->all.swing));
-    return slide;
-}
-
-/* The motion that goes on if f ends at `t` [s] within the panel; `offset` [m] is to be added to its
- * displacement. */
-static SplitSlide slide_from(const BendingPanel *panel, double t, double *offset) {
+/* Displacement [m] within the panel, by interpolation between start and points. */
+static double travel_within(const BendingPanel *panel, double t) {
     const BendingKernels *kernels = panel->kernels;
-    const Plant *plant = panel->slide.plant;
-    double integral[MAX_NODES], even[MAX_NODES][LEFT], late[MAX_NODES][LEFT], left[LEFT];
-    gauss_nodes_integrate(kernels->gauss, t / panel->length, integral);
-    for (int j = 0; j < kernels->gauss->count; j++) {
-        Complex back = complex_of(kernels->back.re[j], kernels->back.im[j]);
-        bending_left(plant->slip.eigenvalue, back, kernels->time[j], panel->length * integral[j],
-                     even[j], late[j]);
+    double sum = 0.0, weights = 0.0;
+    for (int i = 0; i <= END; i++) {
+        double apart = t - kernels->time[i];
+        if (apart == 0.0) {
+            return panel->slide.direction * panel->exponent[i] / panel->rate;
+        }
+        /* The path over the time has the same polynomial but one degree less. */
+        double weight = kernels->interpolating[i] / apart;
+        sum += weight * panel->exponent[i] / kernels->time[i];
+        weights += weight;
     }
-    sum_up(panel, even, late, left);
-    Given given = given_by(plant, left);
-    SplitSlide slide = slide_with(panel, &given);
-    if (panel->lag > 0.0) {
-        double travel = split_slide_travel(&slide, t) + given.offset;
-        Complex normal = normal_phasor(plant, &panel->slide.start.phasors);
-        Complex turned = complex_mul(normal, complex_rect(1.0, plant->normal_frequency * t));
-        double limit = panel->scale * panel->lag * limit_at(plant, turned).re;
-        add_end(plant, left, t, limit * fast_decay(panel->rate * fabs(travel)));
-        given = given_by(plant, left);
-        slide = slide_with(panel, &given);
-    }
-    *offset = given.offset;
-    return slide;
+    return panel->slide.direction * t * sum / (weights * panel->rate);
 }
 
 double bending_panel_travel(const BendingPanel *panel, double t) {
-    if (t >= panel->length) {
-        return split_slide_travel(&panel->slide, t) + panel->all.offset;
-    }
-    double offset;
-    SplitSlide slide = slide_from(panel, t, &offset);
-    return split_slide_travel(&slide, t) + offset;
+    return t < panel->length ? travel_within(panel, t)
+                             : split_slide_travel(&panel->slide, t) + panel->offset;
 }
 
 State bending_panel_end(const BendingPanel *panel, double t, double *travel, KnownPhasors *known) {
-    double offset = panel->all.offset;
-    State state;
-    if (t >= panel->length) {
-        state = split_slide_end(&panel->slide, t, travel, known);
-    } else {
-        SplitSlide slide = slide_from(panel, t, &offset);
-        state = split_slide_end(&slide, t, travel, known);
-    }
-    *travel += offset;
+    State state = split_slide_end(&panel->slide, t, travel, known);
+    *travel += panel->offset;
     return state;
 }

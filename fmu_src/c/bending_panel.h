@@ -11,35 +11,32 @@
  * by about the ratio of f to the force that moves the slider. After the panel the motion is that under full
  * friction with another momentum and another free oscillation, in closed form up to the next stop.
  *
- * A panel is used where it is guaranteed to end before the next stop and its estimated error is below the
- * tolerance; series are used elsewhere. */
+ * A panel is used where it is guaranteed to end before the next stop, and where the error that it turns out to
+ * have is below the tolerance; series are used elsewhere. */
 #ifndef SLIDER_BENDING_PANEL_H
 #define SLIDER_BENDING_PANEL_H
 
 #include <stdbool.h>
 
 #include "bending_kernels.h"
-#include "bending_outlook.h"
 #include "bristle.h"
 #include "held.h"
 #include "moment.h"
+#include "split_slide.h"
 
-/* Changes by f up to some time of the motion under full friction, counted from the start of the panel:
- * displacement [m], velocity [m/s] and complex amplitude of the free oscillation [m]. */
-typedef struct {
-    double offset, momentum;
-    Complex swing;
-} Given;
+/* How to follow a bending bristle: in one panel; as sliding under full friction, where f changes the
+ * velocity by less than the tolerance; or by series otherwise. */
+typedef enum { BY_PANEL, AS_BENT, BY_SERIES } BendingMotion;
 
 /* `slide` is the motion after the panel, whose length is `length` [s]; it holds up to `reach` [s]. Of f are
- * kept: a (`even`) [N] and b (`late`) [N s] at the points, b at the start (`first`) [N s], and what the
- * whole panel has given (`all`). */
+ * kept: a (`even`) [N] and b (`late`) [N s] at the points, b at the start (`first`) [N s], and the
+ * displacement that f leaves beyond that of the `slide` (`offset`) [m]. `exponent` is k |x - x_r| at the points,
+ * with `rate` k [1/m]. */
 typedef struct {
     SplitSlide slide;
     BendingKernels *kernels;
-    double length, reach, rate, scale, lag, first;
-    double even[MAX_ROW], late[MAX_ROW];
-    Given all;
+    double length, reach, rate, scale, lag, first, offset;
+    double exponent[POINTS], even[POINTS], late[POINTS];
 } BendingPanel;
 
 /* Begin motion in contact from `now` on in `direction`, that of its velocity or, from rest, of its
@@ -53,7 +50,7 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
 /* Displacement of the slider after `t` [s], in m. */
 double bending_panel_travel(const BendingPanel *panel, double t);
 
-/* State after `t` [s]; displacement [m] and phasors as of a slide. */
+/* State after `t` [s], not before the end of the panel; displacement [m] and phasors as of a slide. */
 State bending_panel_end(const BendingPanel *panel, double t, double *travel, KnownPhasors *known);
 
 #endif

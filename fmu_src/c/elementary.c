@@ -29,7 +29,8 @@
 /* A sum with it rounds to an integer, which then are the last bits. */
 #define SHIFT 0x1.8p52
 
-/* Polynomials are Taylor series of twice the order, economised by Chebyshev polynomials: to 1e-17. */
+/* Polynomials are Taylor series of twice the order, economised by Chebyshev polynomials: to 1e-17. Processors
+ * compute pairs of their terms in parallel. */
 
 /* An argument within the range of a polynomial, and what its rounding has left out. */
 typedef struct {
@@ -43,30 +44,30 @@ static inline Rest difference(double first, double second) {
 }
 
 static inline double sine_within(Rest rest) {
-    double r = rest.value, z = r * r;
+    double r = rest.value, z = r * r, y = z * z;
     double sum = -2.505112999912784e-08 + z * 1.5917995630635248e-10;
-    sum = -0.00019841269836741755 + z * (2.755731609375319e-06 + z * sum);
-    sum = -0.16666666666666666 + z * (0.008333333333330938 + z * sum);
+    sum = (-0.00019841269836741755 + z * 2.755731609375319e-06) + y * sum;
+    sum = (-0.16666666666666666 + z * 0.008333333333330938) + y * sum;
     return r + (r * (z * sum) + rest.tail);
 }
 
 static inline double cosine_within(Rest rest) {
-    double r = rest.value, z = r * r, half = 0.5 * z, most = 1.0 - half;
+    double r = rest.value, z = r * r, y = z * z, half = 0.5 * z, most = 1.0 - half;
     double sum = 2.0876145106497293e-09 - z * 1.1382548343152154e-11;
-    sum = 2.480158729875508e-05 + z * (-2.7557317266186513e-07 + z * sum);
-    sum = 0.041666666666666664 + z * (-0.001388888888888739 + z * sum);
+    sum = (2.480158729875508e-05 - z * 2.7557317266186513e-07) + y * sum;
+    sum = (0.041666666666666664 - z * 0.001388888888888739) + y * sum;
     return most + (((1.0 - most) - half) + (z * z * sum - r * rest.tail));
 }
 
 /* exp(r) - 1 for |r| <= ln(2) / 2. */
 static inline double growth_within(Rest rest) {
-    double r = rest.value;
+    double r = rest.value, z = r * r;
     double sum = 2.7620086491464514e-07 + r * 2.5105215165649368e-08;
-    sum = 2.4801521299750923e-05 + r * (2.75572554044176e-06 + r * sum);
-    sum = 0.001388888891721154 + r * (0.00019841269874817515 + r * sum);
-    sum = 0.04166666666662413 + r * (0.008333333333326136 + r * sum);
-    sum = 0.5000000000000001 + r * (0.1666666666666667 + r * sum);
-    return r + (r * r * sum + rest.tail);
+    sum = (2.4801521299750923e-05 + r * 2.75572554044176e-06) + z * sum;
+    sum = (0.001388888891721154 + r * 0.00019841269874817515) + z * sum;
+    sum = (0.04166666666662413 + r * 0.008333333333326136) + z * sum;
+    sum = (0.5000000000000001 + r * 0.1666666666666667) + z * sum;
+    return r + (z * sum + rest.tail);
 }
 
 /* asin(x) for |x| <= 1/2. */

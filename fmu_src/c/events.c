@@ -130,8 +130,9 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
                           Refusal *refusal) {
     Law moving;
     const Law *law = start;
-    if (is_ramped(&start->held.plant)) {
+    if (is_ramped(&start->held.plant) || trace != NULL) {
         moving = *start;
+        moving.bending = NULL; /* a panel has no state before its end */
         law = &moving;
     }
     const FrictionLaw *friction = law->friction;
@@ -146,7 +147,7 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
         return false;
     }
     *now = *moment;
-    leg_reset(&leg);
+    leg.known.known = false;
     leg.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(law, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {

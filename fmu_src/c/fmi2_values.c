@@ -20,78 +20,49 @@ bool references_check(const char *call, const fmi2ValueReference *references, si
     return true;
 }
 
-fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                       fmi2Real value[]) {
-    Instance *instance = c;
-    Refusal refusal;
-    bool done = instance != NULL
-                && references_check("fmi2GetReal", vr, nvr, value, REAL_TYPE, &refusal)
-                && component_get(&instance->component, vr, value, nvr, &refusal);
-    return answer(instance, done, &refusal);
-}
-
-fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                          fmi2Integer value[]) {
+/* There are no variables but of type Real and Integer: of the other types only an empty call passes. */
+static fmi2Status get_values(fmi2Component c, const char *call, const fmi2ValueReference *vr,
+                             size_t nvr, void *values, ValueType type) {
     Instance *instance = c;
     Refusal refusal;
     double found[VARIABLE_COUNT];
-    bool done = instance != NULL
-                && references_check("fmi2GetInteger", vr, nvr, value, INTEGER_TYPE, &refusal)
+    bool done = instance != NULL && references_check(call, vr, nvr, values, type, &refusal)
                 && component_get(&instance->component, vr, found, nvr, &refusal);
     for (size_t i = 0; done && i < nvr; i++) {
-        value[i] = (fmi2Integer)found[i];
+        if (type == REAL_TYPE) {
+            ((fmi2Real *)values)[i] = found[i];
+        } else {
+            ((fmi2Integer *)values)[i] = (fmi2Integer)found[i];
+        }
     }
     return answer(instance, done, &refusal);
 }
 
-fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                       const fmi2Real value[]) {
-    Instance *instance = c;
-    Refusal refusal;
-    bool done = instance != NULL
-                && references_check("fmi2SetReal", vr, nvr, value, REAL_TYPE, &refusal)
-                && component_set(&instance->component, vr, value, nvr, &refusal);
-    return answer(instance, done, &refusal);
-}
-
-fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                          const fmi2Integer value[]) {
+static fmi2Status set_values(fmi2Component c, const char *call, const fmi2ValueReference *vr,
+                             size_t nvr, const void *values, ValueType type) {
     Instance *instance = c;
     Refusal refusal;
     double changes[VARIABLE_COUNT];
-    bool done = instance != NULL
-                && references_check("fmi2SetInteger", vr, nvr, value, INTEGER_TYPE, &refusal);
+    bool done = instance != NULL && references_check(call, vr, nvr, values, type, &refusal);
     for (size_t i = 0; done && i < nvr; i++) {
-        changes[i] = value[i];
+        changes[i] = type == REAL_TYPE ? ((const fmi2Real *)values)[i]
+                                       : ((const fmi2Integer *)values)[i];
     }
     done = done && component_set(&instance->component, vr, changes, nvr, &refusal);
     return answer(instance, done, &refusal);
 }
 
-/* There are no variables of the other types: only an empty call passes. */
-static fmi2Status other_type(fmi2Component c, const char *call, const fmi2ValueReference *vr,
-                             size_t nvr, const void *values, ValueType type) {
-    Refusal refusal;
-    bool done = c != NULL && references_check(call, vr, nvr, values, type, &refusal);
-    return answer(c, done, &refusal);
-}
+#define GET_AND_SET(NAME, TYPE) \
+    fmi2Status fmi2Get##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
+                             fmi2##NAME value[]) { \
+        return get_values(c, "fmi2Get" #NAME, vr, nvr, (void *)value, TYPE); \
+    } \
+    fmi2Status fmi2Set##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
+                             const fmi2##NAME value[]) { \
+        return set_values(c, "fmi2Set" #NAME, vr, nvr, (const void *)value, TYPE); \
+    }
 
-fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                          fmi2Boolean value[]) {
-    return other_type(c, "fmi2GetBoolean", vr, nvr, value, BOOLEAN_TYPE);
-}
-
-fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                         fmi2String value[]) {
-    return other_type(c, "fmi2GetString", vr, nvr, value, STRING_TYPE);
-}
-
-fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                          const fmi2Boolean value[]) {
-    return other_type(c, "fmi2SetBoolean", vr, nvr, value, BOOLEAN_TYPE);
-}
-
-fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
-                         const fmi2String value[]) {
-    return other_type(c, "fmi2SetString", vr, nvr, value, STRING_TYPE);
-}
+GET_AND_SET(Real, REAL_TYPE)
+GET_AND_SET(Integer, INTEGER_TYPE)
+GET_AND_SET(Boolean, BOOLEAN_TYPE)
+GET_AND_SET(String, STRING_TYPE)

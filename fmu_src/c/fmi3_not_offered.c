@@ -4,6 +4,9 @@
 
 #include "fmi3_api.h"
 
+/* The parameters are those that FMI prescribes; a refusal needs none but the instance. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
 #define MODEL_EXCHANGE "this FMU is for co-simulation"
 #define CLOCKS "there are no clocks"
 #define CONFIGURATION "there are no structural parameters"
@@ -31,7 +34,6 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String in
                                           fmi3Boolean loggingOn,
                                           fmi3InstanceEnvironment instanceEnvironment,
                                           fmi3LogMessageCallback logMessage) {
-    (void)instantiationToken, (void)resourcePath, (void)visible, (void)loggingOn;
     return refuse_other_interface("fmi3InstantiateModelExchange", instanceName,
                                   instanceEnvironment, logMessage);
 }
@@ -41,187 +43,74 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     fmi3Boolean visible, fmi3Boolean loggingOn, fmi3InstanceEnvironment instanceEnvironment,
     fmi3LogMessageCallback logMessage, fmi3ClockUpdateCallback clockUpdate,
     fmi3LockPreemptionCallback lockPreemption, fmi3UnlockPreemptionCallback unlockPreemption) {
-    (void)instantiationToken, (void)resourcePath, (void)visible, (void)loggingOn;
-    (void)clockUpdate, (void)lockPreemption, (void)unlockPreemption;
     return refuse_other_interface("fmi3InstantiateScheduledExecution", instanceName,
                                   instanceEnvironment, logMessage);
 }
 
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
-    return not_offered(instance, "fmi3EnterContinuousTimeMode", MODEL_EXCHANGE);
-}
+#define REFUSED(NAME, REASON, PARAMETERS) \
+    fmi3Status fmi3##NAME PARAMETERS { \
+        return not_offered(instance, "fmi3" #NAME, REASON); \
+    }
 
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance,
-                                       fmi3Boolean noSetFMUStatePriorToCurrentPoint,
-                                       fmi3Boolean *enterEventMode,
-                                       fmi3Boolean *terminateSimulation) {
-    (void)noSetFMUStatePriorToCurrentPoint, (void)enterEventMode, (void)terminateSimulation;
-    return not_offered(instance, "fmi3CompletedIntegratorStep", MODEL_EXCHANGE);
-}
+/* The first parameters of functions of many variables. */
+#define VARIABLES_OF \
+    fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences
+#define PRODUCT_OF \
+    fmi3Instance instance, const fmi3ValueReference unknowns[], size_t nUnknowns, \
+        const fmi3ValueReference knowns[], size_t nKnowns, const fmi3Float64 seed[], size_t nSeed
 
-fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
-    (void)time;
-    return not_offered(instance, "fmi3SetTime", MODEL_EXCHANGE);
-}
+REFUSED(EnterContinuousTimeMode, MODEL_EXCHANGE, (fmi3Instance instance))
+REFUSED(CompletedIntegratorStep, MODEL_EXCHANGE,
+        (fmi3Instance instance, fmi3Boolean noSetFMUStatePriorToCurrentPoint,
+         fmi3Boolean *enterEventMode, fmi3Boolean *terminateSimulation))
+REFUSED(SetTime, MODEL_EXCHANGE, (fmi3Instance instance, fmi3Float64 time))
+REFUSED(SetContinuousStates, MODEL_EXCHANGE,
+        (fmi3Instance instance, const fmi3Float64 continuousStates[], size_t nContinuousStates))
+REFUSED(GetContinuousStateDerivatives, MODEL_EXCHANGE,
+        (fmi3Instance instance, fmi3Float64 derivatives[], size_t nContinuousStates))
+REFUSED(GetEventIndicators, MODEL_EXCHANGE,
+        (fmi3Instance instance, fmi3Float64 eventIndicators[], size_t nEventIndicators))
+REFUSED(GetContinuousStates, MODEL_EXCHANGE,
+        (fmi3Instance instance, fmi3Float64 continuousStates[], size_t nContinuousStates))
+REFUSED(GetNominalsOfContinuousStates, MODEL_EXCHANGE,
+        (fmi3Instance instance, fmi3Float64 nominals[], size_t nContinuousStates))
+REFUSED(GetNumberOfEventIndicators, MODEL_EXCHANGE,
+        (fmi3Instance instance, size_t *nEventIndicators))
+REFUSED(GetNumberOfContinuousStates, MODEL_EXCHANGE,
+        (fmi3Instance instance, size_t *nContinuousStates))
+REFUSED(ActivateModelPartition, MODEL_EXCHANGE,
+        (fmi3Instance instance, fmi3ValueReference clockReference, fmi3Float64 activationTime))
 
-fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 continuousStates[],
-                                   size_t nContinuousStates) {
-    (void)continuousStates, (void)nContinuousStates;
-    return not_offered(instance, "fmi3SetContinuousStates", MODEL_EXCHANGE);
-}
+REFUSED(GetIntervalDecimal, CLOCKS,
+        (VARIABLES_OF, fmi3Float64 intervals[], fmi3IntervalQualifier qualifiers[]))
+REFUSED(GetIntervalFraction, CLOCKS,
+        (VARIABLES_OF, fmi3UInt64 counters[], fmi3UInt64 resolutions[],
+         fmi3IntervalQualifier qualifiers[]))
+REFUSED(GetShiftDecimal, CLOCKS, (VARIABLES_OF, fmi3Float64 shifts[]))
+REFUSED(GetShiftFraction, CLOCKS,
+        (VARIABLES_OF, fmi3UInt64 counters[], fmi3UInt64 resolutions[]))
+REFUSED(SetIntervalDecimal, CLOCKS, (VARIABLES_OF, const fmi3Float64 intervals[]))
+REFUSED(SetIntervalFraction, CLOCKS,
+        (VARIABLES_OF, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]))
+REFUSED(SetShiftDecimal, CLOCKS, (VARIABLES_OF, const fmi3Float64 shifts[]))
+REFUSED(SetShiftFraction, CLOCKS,
+        (VARIABLES_OF, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]))
 
-fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivatives[],
-                                             size_t nContinuousStates) {
-    (void)derivatives, (void)nContinuousStates;
-    return not_offered(instance, "fmi3GetContinuousStateDerivatives", MODEL_EXCHANGE);
-}
+REFUSED(EnterConfigurationMode, CONFIGURATION, (fmi3Instance instance))
+REFUSED(ExitConfigurationMode, CONFIGURATION, (fmi3Instance instance))
 
-fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 eventIndicators[],
-                                  size_t nEventIndicators) {
-    (void)eventIndicators, (void)nEventIndicators;
-    return not_offered(instance, "fmi3GetEventIndicators", MODEL_EXCHANGE);
-}
+REFUSED(GetOutputDerivatives, DERIVATIVES,
+        (VARIABLES_OF, const fmi3Int32 orders[], fmi3Float64 values[], size_t nValues))
+REFUSED(GetDirectionalDerivative, DERIVATIVES,
+        (PRODUCT_OF, fmi3Float64 sensitivity[], size_t nSensitivity))
+REFUSED(GetAdjointDerivative, DERIVATIVES,
+        (PRODUCT_OF, fmi3Float64 sensitivity[], size_t nSensitivity))
 
-fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 continuousStates[],
-                                   size_t nContinuousStates) {
-    (void)continuousStates, (void)nContinuousStates;
-    return not_offered(instance, "fmi3GetContinuousStates", MODEL_EXCHANGE);
-}
+REFUSED(GetNumberOfVariableDependencies, DEPENDENCIES,
+        (fmi3Instance instance, fmi3ValueReference valueReference, size_t *nDependencies))
+REFUSED(GetVariableDependencies, DEPENDENCIES,
+        (fmi3Instance instance, fmi3ValueReference dependent, size_t elementIndicesOfDependent[],
+         fmi3ValueReference independents[], size_t elementIndicesOfIndependents[],
+         fmi3DependencyKind dependencyKinds[], size_t nDependencies))
 
-fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[],
-                                             size_t nContinuousStates) {
-    (void)nominals, (void)nContinuousStates;
-    return not_offered(instance, "fmi3GetNominalsOfContinuousStates", MODEL_EXCHANGE);
-}
-
-fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventIndicators) {
-    (void)nEventIndicators;
-    return not_offered(instance, "fmi3GetNumberOfEventIndicators", MODEL_EXCHANGE);
-}
-
-fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nContinuousStates) {
-    (void)nContinuousStates;
-    return not_offered(instance, "fmi3GetNumberOfContinuousStates", MODEL_EXCHANGE);
-}
-
-fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clockReference,
-                                      fmi3Float64 activationTime) {
-    (void)clockReference, (void)activationTime;
-    return not_offered(instance, "fmi3ActivateModelPartition", MODEL_EXCHANGE);
-}
-
-fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance,
-                                  const fmi3ValueReference valueReferences[],
-                                  size_t nValueReferences, fmi3Float64 intervals[],
-                                  fmi3IntervalQualifier qualifiers[]) {
-    (void)valueReferences, (void)nValueReferences, (void)intervals, (void)qualifiers;
-    return not_offered(instance, "fmi3GetIntervalDecimal", CLOCKS);
-}
-
-fmi3Status fmi3GetIntervalFraction(fmi3Instance instance,
-                                   const fmi3ValueReference valueReferences[],
-                                   size_t nValueReferences, fmi3UInt64 counters[],
-                                   fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[]) {
-    (void)valueReferences, (void)nValueReferences, (void)counters, (void)resolutions;
-    (void)qualifiers;
-    return not_offered(instance, "fmi3GetIntervalFraction", CLOCKS);
-}
-
-fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                               size_t nValueReferences, fmi3Float64 shifts[]) {
-    (void)valueReferences, (void)nValueReferences, (void)shifts;
-    return not_offered(instance, "fmi3GetShiftDecimal", CLOCKS);
-}
-
-fmi3Status fmi3GetShiftFraction(fmi3Instance instance,
-                                const fmi3ValueReference valueReferences[],
-                                size_t nValueReferences, fmi3UInt64 counters[],
-                                fmi3UInt64 resolutions[]) {
-    (void)valueReferences, (void)nValueReferences, (void)counters, (void)resolutions;
-    return not_offered(instance, "fmi3GetShiftFraction", CLOCKS);
-}
-
-fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance,
-                                  const fmi3ValueReference valueReferences[],
-                                  size_t nValueReferences, const fmi3Float64 intervals[]) {
-    (void)valueReferences, (void)nValueReferences, (void)intervals;
-    return not_offered(instance, "fmi3SetIntervalDecimal", CLOCKS);
-}
-
-fmi3Status fmi3SetIntervalFraction(fmi3Instance instance,
-                                   const fmi3ValueReference valueReferences[],
-                                   size_t nValueReferences, const fmi3UInt64 counters[],
-                                   const fmi3UInt64 resolutions[]) {
-    (void)valueReferences, (void)nValueReferences, (void)counters, (void)resolutions;
-    return not_offered(instance, "fmi3SetIntervalFraction", CLOCKS);
-}
-
-fmi3Status fmi3SetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                               size_t nValueReferences, const fmi3Float64 shifts[]) {
-    (void)valueReferences, (void)nValueReferences, (void)shifts;
-    return not_offered(instance, "fmi3SetShiftDecimal", CLOCKS);
-}
-
-fmi3Status fmi3SetShiftFraction(fmi3Instance instance,
-                                const fmi3ValueReference valueReferences[],
-                                size_t nValueReferences, const fmi3UInt64 counters[],
-                                const fmi3UInt64 resolutions[]) {
-    (void)valueReferences, (void)nValueReferences, (void)counters, (void)resolutions;
-    return not_offered(instance, "fmi3SetShiftFraction", CLOCKS);
-}
-
-fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {
-    return not_offered(instance, "fmi3EnterConfigurationMode", CONFIGURATION);
-}
-
-fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
-    return not_offered(instance, "fmi3ExitConfigurationMode", CONFIGURATION);
-}
-
-fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,
-                                    const fmi3ValueReference valueReferences[],
-                                    size_t nValueReferences, const fmi3Int32 orders[],
-                                    fmi3Float64 values[], size_t nValues) {
-    (void)valueReferences, (void)nValueReferences, (void)orders, (void)values, (void)nValues;
-    return not_offered(instance, "fmi3GetOutputDerivatives", DERIVATIVES);
-}
-
-fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance,
-                                        const fmi3ValueReference unknowns[], size_t nUnknowns,
-                                        const fmi3ValueReference knowns[], size_t nKnowns,
-                                        const fmi3Float64 seed[], size_t nSeed,
-                                        fmi3Float64 sensitivity[], size_t nSensitivity) {
-    (void)unknowns, (void)nUnknowns, (void)knowns, (void)nKnowns, (void)seed, (void)nSeed;
-    (void)sensitivity, (void)nSensitivity;
-    return not_offered(instance, "fmi3GetDirectionalDerivative", DERIVATIVES);
-}
-
-fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
-                                    size_t nUnknowns, const fmi3ValueReference knowns[],
-                                    size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
-                                    fmi3Float64 sensitivity[], size_t nSensitivity) {
-    (void)unknowns, (void)nUnknowns, (void)knowns, (void)nKnowns, (void)seed, (void)nSeed;
-    (void)sensitivity, (void)nSensitivity;
-    return not_offered(instance, "fmi3GetAdjointDerivative", DERIVATIVES);
-}
-
-fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance,
-                                               fmi3ValueReference valueReference,
-                                               size_t *nDependencies) {
-    (void)valueReference, (void)nDependencies;
-    return not_offered(instance, "fmi3GetNumberOfVariableDependencies", DEPENDENCIES);
-}
-
-fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference dependent,
-                                       size_t elementIndicesOfDependent[],
-                                       fmi3ValueReference independents[],
-                                       size_t elementIndicesOfIndependents[],
-                                       fmi3DependencyKind dependencyKinds[], size_t nDependencies) {
-    (void)dependent, (void)elementIndicesOfDependent, (void)independents;
-    (void)elementIndicesOfIndependents, (void)dependencyKinds, (void)nDependencies;
-    return not_offered(instance, "fmi3GetVariableDependencies", DEPENDENCIES);
-}
-
-fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
-    return not_offered(instance, "fmi3EvaluateDiscreteStates", DISCRETE_STATES);
-}
+REFUSED(EvaluateDiscreteStates, DISCRETE_STATES, (fmi3Instance instance))

@@ -1,6 +1,4 @@
 /* FMI 3.0: get and set values of variables, all of a call or none. */
-#include <string.h>
-
 #include "fmi3_api.h"
 #include "values.h"
 
@@ -60,132 +58,102 @@ static bool call_check(const Instance *own, const char *call,
            && places_of(references, count, type, places, place_count, refusal);
 }
 
-fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                          size_t nValueReferences, fmi3Float64 values[], size_t nValues) {
+/* There are no variables but of type Float64 and Int32: of the other types only an empty call passes. */
+static fmi3Status get_values(fmi3Instance instance, const char *call,
+                             const fmi3ValueReference *references, size_t count, void *values,
+                             size_t value_count, ValueType type) {
     Instance *own = instance;
     Refusal refusal;
     unsigned places[VARIABLE_COUNT + 1];
     double found[VARIABLE_COUNT + 1];
-    size_t count = 0;
-    bool done = call_check(own, "fmi3GetFloat64", valueReferences, nValueReferences, values,
-                           nValues, REAL_TYPE, places, &count, &refusal)
-                && component_get(&own->component, places, found, count, &refusal);
+    size_t place_count = 0;
+    bool done = call_check(own, call, references, count, values, value_count, type, places,
+                           &place_count, &refusal)
+                && component_get(&own->component, places, found, place_count, &refusal);
     const double *next = found;
-    for (size_t i = 0; done && i < nValueReferences; i++) {
-        bool time = is_time(valueReferences[i], REAL_TYPE);
-        values[i] = time ? own->component.now.time : *next++;
-    }
-    return answer(own, done, &refusal);
-}
-
-fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                        size_t nValueReferences, fmi3Int32 values[], size_t nValues) {
-    Instance *own = instance;
-    Refusal refusal;
-    unsigned places[VARIABLE_COUNT + 1];
-    double found[VARIABLE_COUNT + 1];
-    size_t count = 0;
-    bool done = call_check(own, "fmi3GetInt32", valueReferences, nValueReferences, values, nValues,
-                           INTEGER_TYPE, places, &count, &refusal)
-                && component_get(&own->component, places, found, count, &refusal);
     for (size_t i = 0; done && i < count; i++) {
-        values[i] = (fmi3Int32)found[i];
+        double value = is_time(references[i], type) ? own->component.now.time : *next++;
+        if (type == REAL_TYPE) {
+            ((fmi3Float64 *)values)[i] = value;
+        } else {
+            ((fmi3Int32 *)values)[i] = (fmi3Int32)value;
+        }
     }
     return answer(own, done, &refusal);
 }
 
-fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                          size_t nValueReferences, const fmi3Float64 values[], size_t nValues) {
-    Instance *own = instance;
-    Refusal refusal;
-    unsigned places[VARIABLE_COUNT + 1];
-    size_t count = 0;
-    bool done = call_check(own, "fmi3SetFloat64", valueReferences, nValueReferences, values,
-                           nValues, REAL_TYPE, places, &count, &refusal);
-    if (done && count < nValueReferences) {
-        done = refuse(&refusal, "time (valueReference = %d) refused: it is the independent variable "
-                      "and cannot be set", TIME_REFERENCE);
-    }
-    done = done && component_set(&own->component, places, values, count, &refusal);
-    return answer(own, done, &refusal);
-}
-
-fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                        size_t nValueReferences, const fmi3Int32 values[], size_t nValues) {
+static fmi3Status set_values(fmi3Instance instance, const char *call,
+                             const fmi3ValueReference *references, size_t count,
+                             const void *values, size_t value_count, ValueType type) {
     Instance *own = instance;
     Refusal refusal;
     unsigned places[VARIABLE_COUNT + 1];
     double changes[VARIABLE_COUNT + 1];
-    size_t count = 0;
-    bool done = call_check(own, "fmi3SetInt32", valueReferences, nValueReferences, values, nValues,
-                           INTEGER_TYPE, places, &count, &refusal);
+    size_t place_count = 0;
+    bool done = call_check(own, call, references, count, values, value_count, type, places,
+                           &place_count, &refusal);
+    if (done && place_count < count) {
+        done = refuse(&refusal, "time (valueReference = %d) refused: it is the independent variable "
+                      "and cannot be set", TIME_REFERENCE);
+    }
     for (size_t i = 0; done && i < count; i++) {
-        changes[i] = values[i];
+        changes[i] = type == REAL_TYPE ? ((const fmi3Float64 *)values)[i]
+                                       : ((const fmi3Int32 *)values)[i];
     }
     done = done && component_set(&own->component, places, changes, count, &refusal);
     return answer(own, done, &refusal);
 }
 
-/* There are no variables of the other types: only an empty call passes. */
-static fmi3Status other_type(fmi3Instance instance, const char *call,
-                             const fmi3ValueReference *references, size_t count,
-                             const void *values, size_t value_count, ValueType type) {
-    Refusal refusal;
-    unsigned places[VARIABLE_COUNT + 1];
-    size_t found = 0;
-    bool done = call_check(instance, call, references, count, values, value_count, type, places,
-                           &found, &refusal);
-    return answer(instance, done, &refusal);
-}
-
-#define OTHER_TYPE(NAME, TYPE) \
+#define GET_AND_SET(NAME, TYPE) \
     fmi3Status fmi3Get##NAME(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
                              size_t nValueReferences, fmi3##NAME values[], size_t nValues) { \
-        return other_type(instance, "fmi3Get" #NAME, valueReferences, nValueReferences, values, \
-                          nValues, TYPE); \
+        return get_values(instance, "fmi3Get" #NAME, valueReferences, nValueReferences, \
+                          (void *)values, nValues, TYPE); \
     } \
     fmi3Status fmi3Set##NAME(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
                              size_t nValueReferences, const fmi3##NAME values[], \
                              size_t nValues) { \
-        return other_type(instance, "fmi3Set" #NAME, valueReferences, nValueReferences, values, \
-                          nValues, TYPE); \
+        return set_values(instance, "fmi3Set" #NAME, valueReferences, nValueReferences, \
+                          (const void *)values, nValues, TYPE); \
     }
 
-OTHER_TYPE(Float32, FLOAT32_TYPE)
-OTHER_TYPE(Int8, INT8_TYPE)
-OTHER_TYPE(UInt8, UINT8_TYPE)
-OTHER_TYPE(Int16, INT16_TYPE)
-OTHER_TYPE(UInt16, UINT16_TYPE)
-OTHER_TYPE(UInt32, UINT32_TYPE)
-OTHER_TYPE(Int64, INT64_TYPE)
-OTHER_TYPE(UInt64, UINT64_TYPE)
-OTHER_TYPE(Boolean, BOOLEAN_TYPE)
-OTHER_TYPE(String, STRING_TYPE)
+GET_AND_SET(Float64, REAL_TYPE)
+GET_AND_SET(Int32, INTEGER_TYPE)
+GET_AND_SET(Float32, FLOAT32_TYPE)
+GET_AND_SET(Int8, INT8_TYPE)
+GET_AND_SET(UInt8, UINT8_TYPE)
+GET_AND_SET(Int16, INT16_TYPE)
+GET_AND_SET(UInt16, UINT16_TYPE)
+GET_AND_SET(UInt32, UINT32_TYPE)
+GET_AND_SET(Int64, INT64_TYPE)
+GET_AND_SET(UInt64, UINT64_TYPE)
+GET_AND_SET(Boolean, BOOLEAN_TYPE)
+GET_AND_SET(String, STRING_TYPE)
 
 fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                          size_t nValueReferences, size_t valueSizes[], fmi3Binary values[],
                          size_t nValues) {
     (void)valueSizes;
-    return other_type(instance, "fmi3GetBinary", valueReferences, nValueReferences, values, nValues,
-                      BINARY_TYPE);
+    return get_values(instance, "fmi3GetBinary", valueReferences, nValueReferences,
+                      (void *)values, nValues, BINARY_TYPE);
 }
 
 fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                          size_t nValueReferences, const size_t valueSizes[],
                          const fmi3Binary values[], size_t nValues) {
     (void)valueSizes;
-    return other_type(instance, "fmi3SetBinary", valueReferences, nValueReferences, values, nValues,
-                      BINARY_TYPE);
+    return set_values(instance, "fmi3SetBinary", valueReferences, nValueReferences,
+                      (const void *)values, nValues, BINARY_TYPE);
 }
 
 fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                         size_t nValueReferences, fmi3Clock values[]) {
-    return other_type(instance, "fmi3GetClock", valueReferences, nValueReferences, values,
-                      nValueReferences, CLOCK_TYPE);
+    return get_values(instance, "fmi3GetClock", valueReferences, nValueReferences,
+                      (void *)values, nValueReferences, CLOCK_TYPE);
 }
 
 fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                         size_t nValueReferences, const fmi3Clock values[]) {
-    return other_type(instance, "fmi3SetClock", valueReferences, nValueReferences, values,
-                      nValueReferences, CLOCK_TYPE);
+    return set_values(instance, "fmi3SetClock", valueReferences, nValueReferences,
+                      (const void *)values, nValueReferences, CLOCK_TYPE);
 }

@@ -9,23 +9,14 @@
 
 #include "averaged_friction.h"
 
-/* Degree of the polynomials, the most panels that they may need, and how many tables are kept. */
-enum { TABLE_DEGREE = 8, MAX_PANELS = 32, TABLES = 4 };
+/* Nodes of a polynomial, the most panels that the means may need, and how many tables are kept. */
+enum { TABLE_NODES = 9, MAX_PANELS = 32, TABLES = 4 };
 
 /* Waves of the normal load over a turn up to which a table takes less time than it saves. */
 #define MAX_WAVES_TABULATED 8.0
 
-/* Coefficients of a mean on a panel, which stands for [-1, 1]: that of the highest power first. */
-typedef struct {
-    double coefficient[TABLE_DEGREE + 1];
-} MeanPolynomial;
-
-typedef struct {
-    MeanPolynomial plain, sine, cosine;
-} FrictionPanel;
-
-/* `panels` of them, for a friction law, its bristle, a fast motion and `n` waves of the normal load:
- * those between `ends` [k] and [k + 1], which rise from 0 to pi / 2 [rad]. */
+/* The means for a friction law, its bristle, a fast motion and `n` waves of the normal load: those at the
+ * Chebyshev nodes of each panel, which lie between `ends` [k] and [k + 1] and rise from 0 to pi / 2 [rad]. */
 typedef struct {
     const AveragedFriction *friction;
     Bristle bristle;
@@ -33,7 +24,7 @@ typedef struct {
     double n;
     int panels;
     double ends[MAX_PANELS + 1];
-    FrictionPanel panel[MAX_PANELS];
+    FrictionMeans panel[MAX_PANELS][TABLE_NODES];
 } TabulatedMeans;
 
 /* The tables that were made last; zeroed memory holds none. `next` is the place of the next one. */

@@ -1,73 +1,62 @@
 #include "gauss_nodes.h"
 
-#include "elementary.h"
-#include "state.h"
+#include <math.h>
 
-enum { MAX_NEWTON_STEPS = 8 };
+const double GAUSS_NODE[GAUSS_NODES] = {
+    -0.9894009349916499, -0.9445750230732326, -0.8656312023878318, -0.755404408355003,
+    -0.6178762444026438, -0.45801677765722737, -0.2816035507792589, -0.09501250983763744,
+    0.09501250983763744, 0.2816035507792589, 0.45801677765722737, 0.6178762444026438,
+    0.755404408355003, 0.8656312023878318, 0.9445750230732326, 0.9894009349916499,
+};
+const double GAUSS_WEIGHT[GAUSS_NODES] = {
+    0.027152459411754096, 0.062253523938647894, 0.09515851168249279, 0.12462897125553388,
+    0.14959598881657674, 0.16915651939500254, 0.18260341504492358, 0.1894506104550685,
+    0.1894506104550685, 0.18260341504492358, 0.16915651939500254, 0.14959598881657674,
+    0.12462897125553388, 0.09515851168249279, 0.062253523938647894, 0.027152459411754096,
+};
 
-/* Size of a step of Newton's method after which another step changes nothing but rounding. */
-#define CONVERGED 1e-9
-
-/* Legendre polynomials P_0 to P_count at x in [-1, 1]. */
-static void legendre(double x, int count, double values[MAX_NODES + 1]) {
+/* Legendre polynomials P_0 to P_NODES at x in [-1, 1]. */
+static void legendre(double x, double values[GAUSS_NODES + 1]) {
     values[0] = 1.0;
     values[1] = x;
-    for (int k = 1; k < count; k++) {
+    for (int k = 1; k < GAUSS_NODES; k++) {
         values[k + 1] = ((2 * k + 1) * x * values[k] - k * values[k - 1]) / (k + 1);
     }
 }
 
-/* P_count' at an x inside the interval, from the values of the polynomials there. */
-static double last_slope(double x, int count, const double *values) {
-    return count * (x * values[count] - values[count - 1]) / (x * x - 1.0);
-}
-
-void gauss_nodes_prepare(GaussNodes *gauss, int count) {
-    gauss->count = count;
-    for (int i = 0; i < count; i++) {
-        double values[MAX_NODES + 1], x = -cos(PI * (i + 0.75) / (count + 0.5));
-        double step = 1.0;
-        for (int k = 0; k < MAX_NEWTON_STEPS && fabs(step) > CONVERGED; k++) {
-            legendre(x, count, values);
-            step = values[count] / last_slope(x, count, values);
-            x -= step;
-        }
-        legendre(x, count, values);
-        double slope = last_slope(x, count, values);
-        double weight = 1.0 / ((1.0 - x * x) * slope * slope);
-        gauss->node[i] = 0.5 * (x + 1.0);
-        gauss->weight[i] = weight;
-        for (int k = 0; k < count; k++) {
-            gauss->weighed[k][i] = weight * values[k];
-        }
-    }
-    for (int i = 0; i < count; i++) {
-        gauss_nodes_integrate(gauss, gauss->node[i], gauss->integral[i]);
-        gauss->integral[count][i] = gauss->weight[i];
-    }
-}
-
-void gauss_nodes_integrate(const GaussNodes *gauss, double end, double integral[MAX_NODES]) {
-    double values[MAX_NODES + 1];
-    int count = gauss->count;
-    legendre(2.0 * end - 1.0, count, values);
-    for (int j = 0; j < count; j++) {
-        integral[j] = gauss->weight[j] * end;
-    }
-    for (int k = 1; k < count; k++) {
-        double share = 0.5 * (values[k + 1] - values[k - 1]);
-        for (int j = 0; j < count; j++) {
-            integral[j] += gauss->weighed[k][j] * share;
+/* Integrals from 0 to `end` <= 1. */
+static void integrate(const GaussIntegrals *gauss, double end, double integral[GAUSS_NODES]) {
+    double values[GAUSS_NODES + 1];
+    legendre(2.0 * end - 1.0, values);
+    for (int j = 0; j < GAUSS_NODES; j++) {
+        integral[j] = gauss->weighed[0][j] * end;
+        for (int k = 1; k < GAUSS_NODES; k++) {
+            integral[j] += gauss->weighed[k][j] * (0.5 * (values[k + 1] - values[k - 1]));
         }
     }
 }
 
-double gauss_nodes_last(const GaussNodes *gauss, const double *values) {
-    int last = gauss->count - 1;
-    double higher = 0.0, lower = 0.0;
-    for (int j = 0; j <= last; j++) {
-        higher += gauss->weighed[last][j] * values[j];
-        lower += gauss->weighed[last - 1][j] * values[j];
+void gauss_integrals_prepare(GaussIntegrals *gauss) {
+    for (int j = 0; j < GAUSS_NODES; j++) {
+        double values[GAUSS_NODES + 1];
+        legendre(GAUSS_NODE[j], values);
+        for (int k = 0; k < GAUSS_NODES; k++) {
+            gauss->weighed[k][j] = 0.5 * GAUSS_WEIGHT[j] * values[k];
+        }
     }
-    return fmax((2 * last + 1) * fabs(higher), (2 * last - 1) * fabs(lower));
+    for (int i = 0; i < GAUSS_NODES; i++) {
+        integrate(gauss, 0.5 * (GAUSS_NODE[i] + 1.0), gauss->integral[i]);
+        gauss->integral[GAUSS_NODES][i] = 0.5 * GAUSS_WEIGHT[i];
+    }
+}
+
+double gauss_last(const GaussIntegrals *gauss, const double *values) {
+    double last[2] = {0.0, 0.0};
+    for (int i = 0; i < 2; i++) {
+        int degree = GAUSS_NODES - 1 - i;
+        for (int j = 0; j < GAUSS_NODES; j++) {
+            last[i] += (2 * degree + 1) * gauss->weighed[degree][j] * values[j];
+        }
+    }
+    return fmax(fabs(last[0]), fabs(last[1]));
 }

@@ -18,37 +18,17 @@ void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
                 now->psi + held->plant.phase);
 }
 
-static void forget(TurnMemory *memory) {
-    memory->oldest = 0;
-    for (int i = 0; i < PAST_TURNS; i++) {
-        memory->past[i].uses = 0;
-    }
-}
-
-void leg_reset(Leg *leg) {
-    leg->known.known = false;
-    forget(&leg->backward);
-    forget(&leg->forward);
-}
-
-/* Lets a slide reuse the turns of the last slide in its direction. */
-static void remember(Leg *leg, SplitSlide *slide) {
-    slide->memory = slide->direction < 0 ? &leg->backward : &leg->forward;
-}
-
 void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now) {
     if (!leg->known.known) {
         leg->known = (KnownPhasors){true, phasors_of(plant, now->theta, now->psi + plant->phase)};
     }
 }
 
-/* Sliding or flight under a normal load whose frequency changes: series with a bristle that is fully bent,
- * which gives full friction. */
-static void begin_chirped(Leg *leg, const Plant *plant, const Moment *now, int sign) {
+/* Sliding or flight by series with a bristle that is fully bent, which gives full friction. */
+static void begin_bent(Leg *leg, const Plant *plant, const Moment *now, int sign) {
     const Bristle bent = {1.0, 0.0, 0.0};
     double tolerance = SERIES_ROUNDING * velocity_scale(plant, &now->state);
     leg->kind = FOLLOWS_SERIES;
-    leg_know_phasors(leg, plant, now);
     taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign,
                        &leg->known.phasors, tolerance);
     leg->motion.series.direction = leg->direction; /* the velocity is watched in flight, too */
@@ -59,16 +39,14 @@ void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int directio
     leg->mode = now->mode;
     leg->direction = direction;
     leg->watched_from = 0.0;
-    if (held->plant.normal_rate != 0.0) {
-        begin_chirped(leg, &held->plant, now, sign);
+    leg_know_phasors(leg, &held->plant, now);
+    if (!held->splits || held->plant.normal_rate != 0.0) {
+        begin_bent(leg, &held->plant, now, sign);
         return;
     }
     leg->kind = SLIDES;
-    slide_begin(&leg->motion.slide, held, sign, &now->state, now->theta,
-                now->psi + held->plant.phase, &leg->known, direction);
-    if (leg->motion.slide.splits) {
-        remember(leg, &leg->motion.slide.form.split);
-    }
+    split_slide_begin(&leg->motion.slide, &held->split, &held->plant, sign, &now->state, now->theta,
+                      now->psi + held->plant.phase, &leg->known.phasors, direction);
 }
 
 static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
@@ -101,7 +79,6 @@ void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const 
         leg->mode = now->mode;
         leg->direction = direction;
         leg->watched_from = panel->length;
-        remember(leg, &panel->slide);
         return;
     }
 }
@@ -113,7 +90,7 @@ bool leg_departs(Leg *leg) {
     if (leg->kind == FOLLOWS_SERIES) {
         return taylor_slide_departs(&leg->motion.series);
     }
-    Watch watch = slide_watch(&leg->motion.slide);
+    Watch watch = split_slide_watch(&leg->motion.slide);
     return watch.signal(watch.motion, 0.0).slope >= 0.0;
 }
 
@@ -151,7 +128,7 @@ static Watch watch_of(Leg *leg) {
     if (leg->kind == FOLLOWS_SERIES) {
         return taylor_slide_watch(&leg->motion.series, leg->t);
     }
-    return leg->kind == SLIDES ? slide_watch(&leg->motion.slide)
+    return leg->kind == SLIDES ? split_slide_watch(&leg->motion.slide)
                                : split_slide_watch(&leg->motion.panel.slide);
 }
 
@@ -198,7 +175,7 @@ static double travel_at(const void *motion, double t) {
     case RESTS:
         return 0.0;
     case SLIDES:
-        return slide_travel(&leg->motion.slide, t);
+        return split_slide_travel(&leg->motion.slide, t);
     case FOLLOWS_SERIES:
         return taylor_slide_travel(&leg->motion.series, t);
     case BENDS_AND_SLIDES:
@@ -216,7 +193,7 @@ static State place_of(const Leg *leg, double t, double *travelled, KnownPhasors 
         *travelled = 0.0;
         return stick_state(&leg->motion.stick, t);
     case SLIDES:
-        return slide_end(&leg->motion.slide, t, travelled, known);
+        return split_slide_end(&leg->motion.slide, t, travelled, known);
     case FOLLOWS_SERIES:
         *travelled = taylor_slide_travel(&leg->motion.series, t);
         return taylor_slide_state(&leg->motion.series, t);

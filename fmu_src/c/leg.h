@@ -7,13 +7,13 @@
 #include "bristle.h"
 #include "held.h"
 #include "moment.h"
-#include "slide.h"
+#include "split_slide.h"
 #include "stick.h"
 #include "taylor_slide.h"
 
 /* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles,
- * and under a normal load whose frequency changes; or sliding on bending bristles by a panel, and on after
- * it. */
+ * under a normal load whose frequency changes, and where the closed form would lose digits; or sliding on
+ * bending bristles by a panel, and on after it. */
 typedef enum { RESTS, SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } LegKind;
 
 /* Begun by a friction law: the contact `mode`, and the `direction` of sliding, in which the velocity
@@ -29,7 +29,7 @@ typedef struct {
     double watched_from;
     union {
         Stick stick;
-        Slide slide;
+        SplitSlide slide;
         TaylorSlide series;
         BendingPanel panel;
     } motion;
@@ -37,11 +37,7 @@ typedef struct {
     int zero_of;
     bool turns, departs;
     KnownPhasors known;
-    TurnMemory backward, forward;
 } Leg;
-
-/* Empty the memory of a leg, before the first one of a step. */
-void leg_reset(Leg *leg);
 
 /* Computes the phasors at `now`, where the leg begins, unless they are known. */
 void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now);
@@ -50,7 +46,7 @@ void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now);
 void leg_begin_rest(Leg *leg, const Held *held, const Moment *now);
 
 /* Sliding in `direction` under full friction, or flight in contact mode LIFTED: in closed form, or by
- * series while the normal frequency changes. */
+ * series where there is none. */
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction);
 
 /* Sliding in `direction` while a bristle bends, to `tolerance` [m/s], for up to `longest` [s]. Series alone

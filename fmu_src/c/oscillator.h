@@ -1,7 +1,7 @@
 /* Closed forms of one damped oscillator, y'' + 2 decay y' + stiffness y = g(t).
  *
- * Every form stays regular: at and around critical damping, without damping, and when the forcing
- * frequency meets the damped one, where the usual particular solution is singular. */
+ * Free motion is regular at and around critical damping and without damping. Where the forcing frequency
+ * meets the damped one, the response from rest is regular, unlike the steady one. */
 #ifndef SLIDER_OSCILLATOR_H
 #define SLIDER_OSCILLATOR_H
 
@@ -10,7 +10,7 @@
 #include "complex_number.h"
 
 /* Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady response
- * would be far larger than the response between two reversals. */
+ * would be far larger than the response between two reversals, and lose as many digits. */
 #define SLOW 0.02
 
 /* The longest leg, as an angle [rad] of the fastest oscillation: avoids the rounding errors of large
@@ -42,28 +42,23 @@ Complex transfer(const Oscillator *oscillator, double frequency);
 /* Whether the particular solution at this frequency [rad/s] is too large to be split off. */
 bool resonates(const Oscillator *oscillator, double frequency);
 
-/* Decaying cosine C (in `displacement`) and sine S [s] (in `rate`) after t >= 0 [s]. From
- * displacement y and velocity u the free motion is y (C + decay S) + u S, its velocity u (C - decay
- * S) - stiffness y S. */
+/* Decaying cosine C (in `displacement`) and sine S [s] (in `rate`) after t >= 0 [s]. */
 Response free_response(const Oscillator *oscillator, double t);
+
+/* Free motion from `start` on, by the free response. */
+static inline Response free_motion(const Oscillator *oscillator, Response start, Response free) {
+    double y = start.displacement, u = start.rate, sway = oscillator->decay * free.rate;
+    return (Response){y * (free.displacement + sway) + u * free.rate,
+                      u * (free.displacement - sway) - oscillator->stiffness * y * free.rate};
+}
 
 /* Response to exp(i frequency t) from rest; regular at resonance. Only for oscillatory damping and
  * frequency > 0. `free` is the free response and `turn` exp(i frequency t), both after t. */
 ComplexResponse response_from_rest(const Oscillator *oscillator, double frequency, double t,
                                    Response free, Complex turn);
 
-/* Response to a unit step from rest, without cancellation for soft oscillators; `free` as above. */
-Response step_response(const Oscillator *oscillator, double t, Response free);
-
-/* Response to a unit ramp from rest, likewise. */
-Response ramp_response(const Oscillator *oscillator, double t, Response free);
-
-/* Response to exp(i frequency t) from rest, by a power series, for t far below all periods. */
-ComplexResponse slow_response_from_rest(const Oscillator *oscillator, double frequency, double t);
-
-/* Integral of exp(i frequency s) over s from 0 to t [s], regular at frequency 0; `turn` is
- * exp(i frequency t). */
-Complex exponential_integral(double frequency, double t, Complex turn);
+/* Integral of exp(i frequency s) over s from 0 to t [s], regular at frequency 0. */
+Complex exponential_integral(double frequency, double t);
 
 /* Integral of (t - s) exp(i frequency s) over s from 0 to t [s^2], regular at frequency 0. */
 Complex exponential_double_integral(double frequency, double t);

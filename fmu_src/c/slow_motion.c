@@ -21,30 +21,6 @@ enum { MIN_STEPS = 16 };
 /* Pieces of a beat, with constant friction in each, in motion without vibration. */
 #define PIECES 256.0
 
-/* Motion of a block without vibration under constant forces, from `velocity` [m/s] on. */
-static Reached block_after(double velocity, double friction, double load, double mass,
-                           double duration) {
-    Reached reached = {.t = duration};
-    if (velocity != 0.0) {
-        double deceleration = (copysign(friction, velocity) + load) / mass;
-        double stop = deceleration * velocity > 0.0 ? velocity / deceleration : INFINITY;
-        double time = fmin(stop, duration);
-        reached.moved = velocity * time - 0.5 * deceleration * time * time;
-        if (stop >= duration) {
-            reached.velocity = velocity - deceleration * duration;
-            return reached;
-        }
-        duration -= stop;
-    }
-    double spare = fabs(load) - friction;
-    if (spare > 0.0) {
-        double acceleration = -copysign(spare, load) / mass;
-        reached.velocity = acceleration * duration;
-        reached.moved += 0.5 * acceleration * duration * duration;
-    }
-    return reached;
-}
-
 /* Largest number of legs of a block under a load that grows: it stops, sticks and sets out twice at most. */
 enum { MAX_BLOCK_LEGS = 8 };
 
@@ -60,9 +36,9 @@ static int block_sets_out(double friction, double load, double rate) {
     return STICK;
 }
 
-/* block_after under a load that grows by `rate` [N/s]. */
-static Reached block_ramped(double velocity, double friction, double load, double rate, double mass,
-                            double duration) {
+/* Motion of a block without vibration under constant friction [N] and a load that grows by `rate` [N/s]. */
+static Reached block_after(double velocity, double friction, double load, double rate, double mass,
+                           double duration) {
     Reached reached = {.t = duration, .velocity = velocity};
     double left = duration;
     for (int leg = 0; leg < MAX_BLOCK_LEGS && left > 0.0; leg++) {
@@ -71,9 +47,12 @@ static Reached block_ramped(double velocity, double friction, double load, doubl
             direction = block_sets_out(friction, load, rate);
         }
         double a = -(direction * friction + load) / mass, j = -rate / mass;
-        double end = direction == STICK ? (copysign(friction, rate) - load) / rate
-                                        : time_to_stop(direction * reached.velocity, direction * a,
-                                                       direction * j);
+        double end = INFINITY;
+        if (direction != STICK) {
+            end = time_to_stop(direction * reached.velocity, direction * a, direction * j);
+        } else if (rate != 0.0) {
+            end = (copysign(friction, rate) - load) / rate;
+        }
         double t = fmin(left, end);
         if (direction != STICK) {
             reached.moved += (reached.velocity + (0.5 * a + j * t / 6.0) * t) * t;
@@ -112,9 +91,7 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Budget 
     for (double k = 0.0; k < pieces; k += 1.0) {
         double resisting = slow_friction_at(friction, (k + 0.5) * piece, INFINITY);
         double load = plant->load + rate * (k * piece);
-        *reached = rate == 0.0
-                       ? block_after(reached->velocity, resisting, load, mass, piece)
-                       : block_ramped(reached->velocity, resisting, load, rate, mass, piece);
+        *reached = block_after(reached->velocity, resisting, load, rate, mass, piece);
         moved += reached->moved;
     }
     reached->moved = moved;

@@ -1,22 +1,18 @@
 #include "split_slide.h"
 
 #include "elementary.h"
-#include <stddef.h>
-
-#include "split_turns.h"
 
 bool split_prepare(Split *split, const Plant *plant) {
     const Oscillator *slip = &plant->slip;
     double w = plant->drive_frequency, q = plant->normal_frequency, fraction = plant->mass_fraction;
     bool follows = plant->resolves_resonator;
-    if (!slip->oscillatory || (0.0 < fabs(q) && fabs(q) < SLOW * w)) {
-        return false;
-    }
     if (follows && (slip->frequency < SLOW * fmax(w, fabs(q)) || resonates(slip, w) ||
                     resonates(slip, q))) {
         return false;
     }
     Complex zero = complex_of(0.0, 0.0), turn = complex_of(0.0, -1.0);
+    split->merges = q == w || q == 0.0;
+    split->creeps = 0.0 < fabs(q) && fabs(q) < SLOW * w;
     Complex resonator_drive = zero, resonator_normal = zero, velocity_normal = zero;
     if (follows) {
         resonator_drive = complex_scale(plant->relative_drive, transfer(slip, w));
@@ -30,10 +26,9 @@ bool split_prepare(Split *split, const Plant *plant) {
         }
         Complex resisting = complex_scale(fraction * q * q, resonator_normal);
         resisting.re -= plant->friction_amplitude / plant->total_mass;
-        velocity_normal = complex_div(resisting, complex_of(0.0, q));
+        velocity_normal = split->creeps ? resisting : complex_div(resisting, complex_of(0.0, q));
     }
-    split->merges = q == w || q == 0.0;
-    split->fastest = fmax(fmax(w, fabs(q)), complex_abs(slip->eigenvalue));
+    split->fastest = fmax(fmax(w, fabs(q)), slip->frequency);
     split->resonator_drive = complex_mul(turn, resonator_drive);
     split->velocity_drive = complex_mul(turn, velocity_drive);
     split->resonator_normal = complex_mul(turn, resonator_normal);
@@ -63,17 +58,138 @@ double friction_limit_by(const Plant *plant, const Phasors *phasors) {
     return limit > 0.0 ? limit : 0.0;
 }
 
+/* Angle [rad] of the fastest oscillation up to which turns are rotated: the series below are then exact to
+ * rounding. */
+#define SMALL_TURN 0x1p-7
+
+/* Whether `t` [s] is close to the start. */
+static inline bool is_soon(const SplitSlide *slide, double t) {
+    return t * slide->split->fastest < SMALL_TURN;
+}
+
+/* exp(i theta), without a sine at the end of a turn, where means over a period need it. */
+static Complex drive_at(double theta) {
+    double passed = theta - TAU;
+    return fabs(passed) < 1e-9 ? complex_of(1.0, passed) : complex_rect(1.0, theta);
+}
+
+/* The free motion of the resonator at `t`. */
+static void compute_free(const Plant *plant, double t, Turns *turns) {
+    Complex eigenvalue = plant->slip.eigenvalue;
+    turns->free = complex_of(1.0, 0.0);
+    turns->envelope = 1.0;
+    if (!plant->resolves_resonator) {
+        return;
+    }
+    if (plant->slip.oscillatory) {
+        turns->envelope = elementary_exp(eigenvalue.re * t);
+        turns->free = complex_rect(turns->envelope, eigenvalue.im * t);
+    } else {
+        Response response = free_response(&plant->slip, t);
+        turns->free = complex_of(response.displacement, response.rate);
+    }
+}
+
+/* Turns at `t`, by sines and cosines. */
+static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
+    const Plant *plant = slide->plant;
+    turns->t = t;
+    compute_free(plant, t, turns);
+    turns->phasors.drive = drive_at(slide->theta + plant->drive_frequency * t);
+    turns->phasors.normal = slide->split->merges
+                                ? slide->start.phasors.normal
+                                : complex_rect(1.0, slide->chi + plant->normal_frequency * t);
+}
+
+/* `z` exp(i angle) for a small `angle` [rad]. */
+static inline Complex rotated(Complex z, double angle) {
+    double square = angle * angle;
+    double versed = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
+    double sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
+    return complex_of(z.re - (versed * z.re + sine * z.im), z.im + (sine * z.re - versed * z.im));
+}
+
+/* exp(x) for a small `x`. */
+static inline double grown(double x) {
+    double tail = 1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0));
+    return 1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * tail)));
+}
+
+/* Turns at the time of `anchor`, rotated to the close time `t`. */
+static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, double t,
+                                Turns *turns) {
+    const Plant *plant = slide->plant;
+    double ahead = t - anchor->t;
+    turns->t = t;
+    turns->free = anchor->free;
+    turns->envelope = anchor->envelope;
+    if (plant->resolves_resonator && plant->slip.oscillatory) {
+        Complex eigenvalue = plant->slip.eigenvalue;
+        double growth = grown(eigenvalue.re * ahead);
+        turns->envelope *= growth;
+        turns->free = complex_scale(growth, rotated(anchor->free, eigenvalue.im * ahead));
+    } else if (plant->resolves_resonator) {
+        compute_free(plant, t, turns);
+    }
+    turns->phasors.drive = rotated(anchor->phasors.drive, plant->drive_frequency * ahead);
+    turns->phasors.normal = slide->split->merges
+                                ? anchor->phasors.normal
+                                : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
+}
+
+/* Turns at `t`: rotated from the start or the anchor (in `place`), or computed (in `fresh`). Close to the
+ * start they are always rotated, so that rounding errors are those of the start: a slider that sets out
+ * must not seem to move back. */
+static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place,
+                                    Turns *fresh) {
+    if (t == 0.0) {
+        return &slide->start;
+    }
+    if (is_soon(slide, t)) {
+        rotate_turns(slide, &slide->start, t, place);
+        return place;
+    }
+    if (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < SMALL_TURN) {
+        rotate_turns(slide, &slide->anchor, t, place);
+        return place;
+    }
+    compute_turns(slide, t, fresh);
+    return fresh;
+}
+
+/* Free motion of the resonator, its displacement [m] and rate [m/s]. */
+static inline Response free_motion_at(const SplitSlide *slide, const Turns *turns) {
+    const Oscillator *slip = &slide->plant->slip;
+    if (!slip->oscillatory) {
+        return free_motion(slip, slide->free_start, (Response){turns->free.re, turns->free.im});
+    }
+    Complex swing = complex_mul(slide->resonator_free, turns->free);
+    return (Response){swing.re, slip->eigenvalue.re * swing.re - slip->eigenvalue.im * swing.im};
+}
+
 /* Sets the complex amplitude of the free oscillation of the resonator [m] and returns the velocity amplitude
  * of the slider that belongs to it [m/s]. */
 static double swing_freely(SplitSlide *slide, Complex free) {
     const Plant *plant = slide->plant;
-    Complex turning = complex_mul(plant->slip.eigenvalue, free);
+    double decaying = plant->mass_fraction * plant->slip.frequency * complex_abs(free);
     slide->resonator_free = free;
-    slide->velocity_free = complex_scale(-plant->mass_fraction, turning);
-    slide->travel_free = complex_scale(-plant->mass_fraction, free);
-    double decaying = plant->resolves_resonator ? complex_abs(slide->velocity_free) : 0.0;
+    slide->free_start.displacement = free.re;
     slide->free_bound = decaying * plant->slip.stiffness;
     return decaying;
+}
+
+/* Sets the free motion of the resonator, from displacement [m] and rate [m/s] on; returns the velocity of the
+ * slider that belongs to it at most [m/s]. */
+static double begin_freely(SplitSlide *slide, Response free) {
+    const Plant *plant = slide->plant;
+    Complex eigenvalue = plant->slip.eigenvalue;
+    slide->free_start = free;
+    slide->free_bound = 0.0;
+    if (plant->slip.oscillatory) {
+        double quarter = (free.rate - eigenvalue.re * free.displacement) / eigenvalue.im;
+        return swing_freely(slide, complex_of(free.displacement, -quarter));
+    }
+    return plant->mass_fraction * hypot(free.rate, plant->slip.frequency * free.displacement);
 }
 
 /* Sets the free part and the bounds of a slide whose forced parts are known, so that it begins at `state`. */
@@ -83,21 +199,26 @@ static void match_state(SplitSlide *slide, const State *state) {
     const Phasors *start = &slide->start.phasors;
     Complex ae = complex_mul(slide->resonator_drive, start->drive), aq = complex_of(0.0, 0.0);
     double forced = complex_mul(slide->velocity_drive, start->drive).re, normal = 0.0;
+    double bound = 0.0;
     if (!slide->split->merges) {
         aq = complex_mul(slide->resonator_normal, start->normal);
-        forced += complex_mul(slide->velocity_normal, start->normal).re;
         normal = complex_abs(slide->velocity_normal);
+        if (slide->split->creeps) {
+            bound = normal * fabs(q);
+            normal = 0.0;
+        } else {
+            forced += complex_mul(slide->velocity_normal, start->normal).re;
+            bound = normal * q * q;
+        }
     }
-    Complex free = complex_of(0.0, 0.0);
+    Response free = {0.0, 0.0};
     if (plant->resolves_resonator) {
-        Complex eigenvalue = plant->slip.eigenvalue;
-        double displacement = state->displacement - slide->constant - (ae.re + aq.re);
-        double rate = state->rate + w * ae.im + q * aq.im - slide->slope;
-        free = complex_of(displacement, -(rate - eigenvalue.re * displacement) / eigenvalue.im);
+        free.displacement = state->displacement - slide->constant - (ae.re + aq.re);
+        free.rate = state->rate + w * ae.im + q * aq.im - slide->slope;
     }
-    double decaying = swing_freely(slide, free), drive = complex_abs(slide->velocity_drive);
-    slide->k0 = state->velocity - (forced + slide->velocity_free.re);
-    slide->bound = drive * w * w + normal * q * q + 2.0 * fabs(slide->k2);
+    double decaying = begin_freely(slide, free), drive = complex_abs(slide->velocity_drive);
+    slide->k0 = state->velocity - forced + plant->mass_fraction * free.rate;
+    slide->bound = drive * w * w + bound + 2.0 * fabs(slide->k2);
     slide->noise = 2.0 * EPSILON * (fabs(slide->k0) + drive + normal + decaying);
 }
 
@@ -115,7 +236,6 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     slide->start.free = complex_of(1.0, 0.0);
     slide->start.envelope = 1.0;
     slide->anchored = false;
-    slide->memory = NULL;
     slide->resonator_drive = split->resonator_drive;
     slide->velocity_drive = split->velocity_drive;
     slide->resonator_normal = complex_scale(sign, split->resonator_normal);
@@ -154,26 +274,61 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
     slide->anchored = true;
 }
 
+/* Velocity [m/s] by the changing normal load at turns. */
+static inline double normal_velocity(const SplitSlide *slide, const Turns *turns) {
+    if (!slide->split->creeps) {
+        return complex_mul(slide->velocity_normal, turns->phasors.normal).re;
+    }
+    Complex push = complex_mul(slide->velocity_normal, slide->start.phasors.normal);
+    return complex_mul(push, exponential_integral(slide->plant->normal_frequency, turns->t)).re;
+}
+
+static inline double velocity_by(const SplitSlide *slide, const Turns *turns, double rate) {
+    double t = turns->t;
+    double velocity = slide->k0 + (slide->k1 + slide->k2 * t) * t +
+                      complex_mul(slide->velocity_drive, turns->phasors.drive).re -
+                      slide->plant->mass_fraction * rate;
+    return slide->split->merges ? velocity : velocity + normal_velocity(slide, turns);
+}
+
+static inline double acceleration_by(const SplitSlide *slide, const Turns *turns,
+                                     double acceleration) {
+    const Plant *plant = slide->plant;
+    Complex drive = complex_mul(slide->velocity_drive, turns->phasors.drive);
+    double total = slide->k1 + 2.0 * slide->k2 * turns->t - plant->drive_frequency * drive.im -
+                   plant->mass_fraction * acceleration;
+    if (!slide->split->merges) {
+        Complex normal = complex_mul(slide->velocity_normal, turns->phasors.normal);
+        total += slide->split->creeps ? normal.re : -plant->normal_frequency * normal.im;
+    }
+    return total;
+}
+
+/* Bound [m/s^3] on the second derivative of the velocity from turns on. That by the free motion is bounded by
+ * its energy, which never grows. */
+static inline double bound_by(const SplitSlide *slide, const Turns *turns, double rate,
+                              double acceleration) {
+    const Oscillator *slip = &slide->plant->slip;
+    if (slip->oscillatory) {
+        return slide->bound + slide->free_bound * turns->envelope;
+    }
+    double jerk = -2.0 * slip->decay * acceleration - slip->stiffness * rate;
+    return slide->bound +
+           slide->plant->mass_fraction * hypot(jerk, slip->frequency * acceleration);
+}
+
 static Signal velocity_ahead(void *motion, double t) {
     SplitSlide *slide = motion;
-    const Plant *plant = slide->plant;
-    Complex eigenvalue = plant->slip.eigenvalue;
+    const Oscillator *slip = &slide->plant->slip;
     Turns place;
     bool later = !slide->anchored || t > slide->anchor.t;
     const Turns *turns = turns_at(slide, t, &place, later ? &slide->anchor : &place);
     slide->anchored = slide->anchored || turns == &slide->anchor;
-    Complex e = complex_mul(slide->velocity_drive, turns->phasors.drive);
-    Complex h = complex_mul(slide->velocity_free, turns->free);
-    double velocity = slide->k0 + (slide->k1 + slide->k2 * t) * t + e.re + h.re;
-    double acceleration = slide->k1 + 2.0 * slide->k2 * t - plant->drive_frequency * e.im +
-                          eigenvalue.re * h.re - eigenvalue.im * h.im;
-    if (!slide->split->merges) {
-        Complex n = complex_mul(slide->velocity_normal, turns->phasors.normal);
-        velocity += n.re;
-        acceleration -= plant->normal_frequency * n.im;
-    }
-    return (Signal){slide->direction * velocity, slide->direction * acceleration,
-                    slide->bound + slide->free_bound * turns->envelope};
+    Response free = free_motion_at(slide, turns);
+    double second = -2.0 * slip->decay * free.rate - slip->stiffness * free.displacement;
+    return (Signal){slide->direction * velocity_by(slide, turns, free.rate),
+                    slide->direction * acceleration_by(slide, turns, second),
+                    bound_by(slide, turns, free.rate, second)};
 }
 
 Watch split_slide_watch(SplitSlide *slide) {
@@ -186,49 +341,52 @@ static double swing_travel(Complex amplitude, double frequency, Complex start, C
     return complex_mul(amplitude, complex_sub(end, start)).im / frequency;
 }
 
-static inline double travel_by(const SplitSlide *slide, double t, const Turns *turns) {
+/* Displacement [m] by the changing normal load. */
+static double normal_travel(const SplitSlide *slide, const Turns *turns) {
+    double q = slide->plant->normal_frequency;
+    Complex start = slide->start.phasors.normal;
+    if (!slide->split->creeps) {
+        return swing_travel(slide->velocity_normal, q, start, turns->phasors.normal);
+    }
+    Complex push = complex_mul(slide->velocity_normal, start);
+    return complex_mul(push, exponential_double_integral(q, turns->t)).re;
+}
+
+static inline double travel_by(const SplitSlide *slide, const Turns *turns,
+                               double displacement) {
     const Plant *plant = slide->plant;
-    const Phasors *start = &slide->start.phasors, *end = &turns->phasors;
-    Complex free = complex_of(turns->free.re - 1.0, turns->free.im);
-    double travel = complex_mul(slide->travel_free, free).re;
-    travel += swing_travel(slide->velocity_drive, plant->drive_frequency, start->drive, end->drive);
+    double t = turns->t, moved = displacement - slide->free_start.displacement;
+    double travel = swing_travel(slide->velocity_drive, plant->drive_frequency,
+                                 slide->start.phasors.drive, turns->phasors.drive) -
+                    plant->mass_fraction * moved;
     if (!slide->split->merges) {
-        travel += swing_travel(slide->velocity_normal, plant->normal_frequency, start->normal,
-                               end->normal);
+        travel += normal_travel(slide, turns);
     }
     return (slide->k0 + (0.5 * slide->k1 + slide->k2 * t / 3.0) * t) * t + travel;
 }
 
-static inline State state_by(const SplitSlide *slide, double t, const Turns *turns) {
-    const Plant *plant = slide->plant;
-    Complex eigenvalue = plant->slip.eigenvalue;
-    Complex ae = complex_mul(slide->resonator_drive, turns->phasors.drive);
-    Complex ah = complex_mul(slide->resonator_free, turns->free);
-    State state;
-    state.velocity = slide->k0 + (slide->k1 + slide->k2 * t) * t +
-                     complex_mul(slide->velocity_drive, turns->phasors.drive).re +
-                     complex_mul(slide->velocity_free, turns->free).re;
-    state.displacement = slide->constant + slide->slope * t + ae.re + ah.re;
-    state.rate = eigenvalue.re * ah.re - eigenvalue.im * ah.im - plant->drive_frequency * ae.im +
-                 slide->slope;
-    if (!slide->split->merges) {
-        Complex aq = complex_mul(slide->resonator_normal, turns->phasors.normal);
-        state.velocity += complex_mul(slide->velocity_normal, turns->phasors.normal).re;
-        state.displacement += aq.re;
-        state.rate -= plant->normal_frequency * aq.im;
-    }
-    return state;
-}
-
-double split_slide_travel(const SplitSlide *slide, double t) {
+double split_slide_travel(const void *motion, double t) {
+    const SplitSlide *slide = motion;
     Turns place;
-    return travel_by(slide, t, turns_at(slide, t, &place, &place));
+    const Turns *turns = turns_at(slide, t, &place, &place);
+    return travel_by(slide, turns, free_motion_at(slide, turns).displacement);
 }
 
 State split_slide_end(const SplitSlide *slide, double t, double *travel, KnownPhasors *known) {
+    const Plant *plant = slide->plant;
     Turns place;
     const Turns *turns = turns_at(slide, t, &place, &place);
-    *travel = travel_by(slide, t, turns);
+    Response free = free_motion_at(slide, turns);
+    Complex ae = complex_mul(slide->resonator_drive, turns->phasors.drive);
+    State state = {velocity_by(slide, turns, free.rate),
+                   slide->constant + slide->slope * t + ae.re + free.displacement,
+                   slide->slope - plant->drive_frequency * ae.im + free.rate};
+    if (!slide->split->merges) {
+        Complex aq = complex_mul(slide->resonator_normal, turns->phasors.normal);
+        state.displacement += aq.re;
+        state.rate -= plant->normal_frequency * aq.im;
+    }
+    *travel = travel_by(slide, turns, free.displacement);
     *known = (KnownPhasors){!is_soon(slide, t), turns->phasors};
-    return state_by(slide, t, turns);
+    return state;
 }

@@ -1,9 +1,9 @@
-/* Sliding or flight as a sum of exponentials: the fast form, for most devices.
+/* Sliding or flight in closed form, for most devices.
  *
- * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t) + vh exp(lambda t)): the
- * particular solutions at drive and normal frequency are split off from the free oscillation. That loses
- * digits near resonance and for slow normal loads; `split_prepare` returns false there, and RegularSlide is
- * used. */
+ * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t)) - r u(t): the particular
+ * solutions at drive and normal frequency are split off from the free motion of the resonator, whose rate is
+ * u. That loses digits near resonance and for soft resonators; `split_prepare` returns false there, and
+ * series are used (taylor_slide.h). */
 #ifndef SLIDER_SPLIT_SLIDE_H
 #define SLIDER_SPLIT_SLIDE_H
 
@@ -16,9 +16,10 @@
 /* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the
  * resonator (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal
  * load swing at one frequency, or the normal load is constant: one term of v(t) then stands for
- * both. */
+ * both. Where the normal load `creeps`, its velocity would be far larger than what it changes between two
+ * reversals: `velocity_normal` is then an acceleration, to be integrated from the start. */
 typedef struct {
-    bool merges;
+    bool merges, creeps;
     double fastest;
     Complex resonator_drive, velocity_drive, resonator_normal, velocity_normal;
 } Split;
@@ -50,8 +51,9 @@ double force_by(const Plant *plant, const State *state, const Phasors *phasors);
 /* Friction force [N] of all faces when sliding steadily; 0 in flight. */
 double friction_limit_by(const Plant *plant, const Phasors *phasors);
 
-/* Phasors after `t` [s], with exp(lambda t) (`free`) and its absolute value (`envelope`); the last two are 1
- * where the resonator is not resolved. */
+/* Phasors after `t` [s], with the free motion of the resonator: exp(lambda t) (`free`) and its absolute value
+ * (`envelope`), both 1 where the resonator is not resolved; where it does not oscillate `free` is its free
+ * response C + i S. */
 typedef struct {
     double t;
     Phasors phasors;
@@ -59,45 +61,26 @@ typedef struct {
     double envelope;
 } Turns;
 
-/* Turns at phases `theta` and `chi` [rad]. After a turn of the drive the phases are nearly the same: turns
- * are then rotated by the difference, up to `uses` times more, instead of computing sines. */
-typedef struct {
-    int uses;
-    double theta, chi;
-    Turns turns;
-} PastTurns;
-
-/* The turns for which recent slides in one direction computed sines: about two on the way to a stop, and one
- * where a period ends. `oldest` is replaced next. */
-enum { PAST_TURNS = 3 };
-
-typedef struct {
-    PastTurns past[PAST_TURNS];
-    int oldest;
-} TurnMemory;
-
 /* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad] on. The
- * resonator vibrates about `constant` [m] + `slope` [m/s] t. `travel_free` is the integral of the free part
- * of the velocity, vh / lambda [m]; `bound` and `free_bound` [m/s^3] bound the second derivative of the
- * velocity: of its forced part, and of its free part at the start. `noise` [m/s] is the rounding error of
- * the velocity.
+ * resonator vibrates about `constant` [m] + `slope` [m/s] t. Its free motion has the complex amplitude
+ * `resonator_free` [m] or, where it does not oscillate, begins at `free_start`. `bound` and `free_bound`
+ * [m/s^3] bound the second derivative of the velocity: of its forced part, and of the part by a free
+ * oscillation at the start. `noise` [m/s] is the rounding error of the velocity.
  *
  * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the
- * anchor or the `start`, and close to turns in `memory` unless that is NULL, these are rotated instead of
- * computing sines. */
+ * anchor or the `start` these are rotated instead of computing sines. */
 typedef struct {
     const Split *split;
     const Plant *plant;
     int direction;
     double theta, chi;
     double constant, slope, k0, k1, k2;
-    Complex resonator_drive, resonator_normal, resonator_free;
-    Complex velocity_drive, velocity_normal, velocity_free;
-    Complex travel_free;
+    Complex resonator_drive, resonator_normal, velocity_drive, velocity_normal;
+    Complex resonator_free;
+    Response free_start;
     double bound, free_bound, noise;
     Turns start, anchor;
     bool anchored;
-    TurnMemory *memory;
 } SplitSlide;
 
 /* Begin a slide from `state`, under friction in direction `sign`. The velocity is watched in `direction`,
@@ -117,8 +100,8 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
 /* The velocity in the direction to watch. */
 Watch split_slide_watch(SplitSlide *slide);
 
-/* Displacement of the slider after `t` [s], in m. */
-double split_slide_travel(const SplitSlide *slide, double t);
+/* Displacement of the slider after `t` [s], in m; a TravelFunction of a SplitSlide. */
+double split_slide_travel(const void *motion, double t);
 
 /* State after `t` [s], the displacement [m] in `travel`, and the phasors. */
 State split_slide_end(const SplitSlide *slide, double t, double *travel, KnownPhasors *known);

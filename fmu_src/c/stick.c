@@ -2,10 +2,13 @@
 
 #include "elementary.h"
 
+/* Horizon of the bounds of a response from rest, as an angle [rad] of the oscillator: longer than most
+ * sticks. */
+#define AHEAD 5.0
+
 void stick_begin(Stick *stick, const Plant *plant, const State *state, double theta, double chi) {
     double w = plant->drive_frequency, q = plant->normal_frequency;
-    Complex drive_turn = complex_of(sin(theta), -cos(theta));
-    Forcing forcing = {w, complex_scale(plant->base_acceleration, drive_turn)};
+    Complex drive_turn = complex_of(sin(theta), -cos(theta)), steady = complex_of(0.0, 0.0);
     stick->plant = plant;
     stick->direct = complex_mul(plant->holding_drive, drive_turn);
     stick->normal =
@@ -14,8 +17,59 @@ void stick_begin(Stick *stick, const Plant *plant, const State *state, double th
     double swing = complex_abs(stick->normal);
     stick->fixed_bound = swing * fastest * fastest + swing * fabs(plant->normal_rate) +
                          complex_abs(stick->direct) * w * w;
-    forced_oscillator_begin(&stick->resonator, &plant->stick, 0.0, 0.0, &forcing, 1,
-                            state->displacement, state->rate, fmax(w, fabs(q)));
+    stick->forcing = complex_scale(plant->base_acceleration, drive_turn);
+    stick->resonates = resonates(&plant->stick, w);
+    stick->horizon = stick->resonates ? AHEAD / fmax(plant->stick.frequency, w) : INFINITY;
+    if (!stick->resonates) {
+        steady = complex_mul(stick->forcing, transfer(&plant->stick, w));
+    }
+    stick->steady = steady;
+    stick->free_start =
+        (Response){state->displacement - steady.re, state->rate + w * steady.im};
+}
+
+/* Response to the drive at a time [s]. */
+static Response forced_at(const Stick *stick, double t, Complex drive_turn, Response free) {
+    double w = stick->plant->drive_frequency;
+    if (stick->resonates) {
+        ComplexResponse unit = response_from_rest(&stick->plant->stick, w, t, free, drive_turn);
+        return (Response){complex_mul(stick->forcing, unit.displacement).re,
+                          complex_mul(stick->forcing, unit.rate).re};
+    }
+    Complex steady = complex_mul(stick->steady, drive_turn);
+    return (Response){steady.re, -w * steady.im};
+}
+
+/* Motion of the resonator, with bounds on its acceleration and the derivative of that over the horizon. */
+typedef struct {
+    double displacement, rate, acceleration, acceleration_bound, jerk_bound;
+} Sample;
+
+/* The energy of the free part never grows, so that at a time `t` [s] bounds it later. */
+static Sample sample_at(const Stick *stick, double t, Complex drive_turn) {
+    const Oscillator *oscillator = &stick->plant->stick;
+    double decay = oscillator->decay, stiffness = oscillator->stiffness;
+    double frequency = oscillator->frequency, w = stick->plant->drive_frequency;
+    Response response = free_response(oscillator, t);
+    Response free = free_motion(oscillator, stick->free_start, response);
+    Response forced = forced_at(stick, t, drive_turn, response);
+    double second = -2.0 * decay * free.rate - stiffness * free.displacement;
+    double energy = hypot(2.0 * decay * second + stiffness * free.rate, frequency * second);
+    Sample sample = {free.displacement + forced.displacement, free.rate + forced.rate, 0.0,
+                     energy / frequency, energy};
+    sample.acceleration = complex_mul(stick->forcing, drive_turn).re - 2.0 * decay * sample.rate -
+                          stiffness * sample.displacement;
+    if (stick->resonates) {
+        double growing = w + 2.0 * decay + frequency + (t + stick->horizon) * w * w;
+        double jerk = complex_abs(stick->forcing) * growing;
+        sample.acceleration_bound += jerk / frequency;
+        sample.jerk_bound += jerk;
+    } else {
+        double acceleration = complex_abs(stick->steady) * w * w;
+        sample.acceleration_bound += acceleration;
+        sample.jerk_bound += acceleration * w;
+    }
+    return sample;
 }
 
 static Signal margin(const Stick *stick, double direction, double t) {
@@ -24,16 +78,13 @@ static Signal margin(const Stick *stick, double direction, double t) {
     double turned = turned_by(plant, t);
     double needed = -plant->load - plant->load_rate * t, change = -plant->load_rate;
     Signal signal = {0.0, 0.0, stick->fixed_bound};
-    Complex drive_turn;
+    Complex drive_turn = complex_rect(1.0, w * t);
     if (plant->spring != 0.0) {
-        Sample sample = forced_oscillator_sample(&stick->resonator, t);
-        drive_turn = sample.turn[0];
+        Sample sample = sample_at(stick, t, drive_turn);
         needed += plant->spring * sample.displacement + plant->damper * sample.rate;
         change += plant->spring * sample.rate + plant->damper * sample.acceleration;
         signal.bound +=
             plant->spring * sample.acceleration_bound + plant->damper * sample.jerk_bound;
-    } else {
-        drive_turn = complex_rect(1.0, w * t);
     }
     Complex held = complex_mul(stick->direct, drive_turn);
     Complex turn = turned == w * t ? drive_turn : complex_rect(1.0, turned);
@@ -59,12 +110,15 @@ int stick_watches(Stick *stick, double longest, Watch watches[2]) {
     double fastest = fmax(plant->drive_frequency, fabs(plant->normal_frequency));
     double horizon = INFINITY;
     if (plant->spring != 0.0) {
-        Response resonator = forced_oscillator_reach(&stick->resonator);
-        bool bounded = resonator.displacement < INFINITY; /* a damper may be 0 */
-        reach += bounded ? plant->spring * resonator.displacement + plant->damper * resonator.rate
-                         : INFINITY;
-        horizon = stick->resonator.horizon;
-        fastest = fmax(fastest, plant->stick.frequency);
+        Response start = stick->free_start;
+        horizon = stick->horizon;
+        double frequency = plant->stick.frequency, w = plant->drive_frequency;
+        double rate = hypot(start.rate, frequency * start.displacement);
+        double swing = complex_abs(stick->steady);
+        double force = plant->spring * (rate / frequency + swing) +
+                       plant->damper * (rate + w * swing);
+        reach += stick->resonates ? INFINITY : force;
+        fastest = fmax(fastest, frequency);
     }
     double limit = plant->friction_preload + plant->friction_amplitude;
     double least = plant->friction_preload - plant->friction_amplitude;
@@ -78,7 +132,10 @@ int stick_watches(Stick *stick, double longest, Watch watches[2]) {
 }
 
 State stick_state(const Stick *stick, double t) {
-    Complex turn = complex_rect(1.0, stick->plant->drive_frequency * t);
-    Response response = forced_oscillator_response(&stick->resonator, t, &turn);
-    return (State){0.0, response.displacement, response.rate};
+    const Oscillator *oscillator = &stick->plant->stick;
+    Response response = free_response(oscillator, t);
+    Response free = free_motion(oscillator, stick->free_start, response);
+    Complex drive_turn = complex_rect(1.0, stick->plant->drive_frequency * t);
+    Response forced = forced_at(stick, t, drive_turn, response);
+    return (State){0.0, free.displacement + forced.displacement, free.rate + forced.rate};
 }

@@ -4,18 +4,21 @@
 #define SLIDER_STICK_H
 
 #include "first_zero.h"
-#include "forced_oscillator.h"
 #include "plant.h"
 #include "state.h"
 
 /* Motion while |needed force| stays within the limit F0 + F1 sin(chi). `direct` is the part of the
  * needed force that follows the drive, `normal` the changing part of the limit, both complex
- * amplitudes [N]. */
+ * amplitudes [N].
+ *
+ * The resonator moves freely from `free_start` on, with the steady response `steady` [m] to its `forcing`
+ * [m/s^2] or, where it `resonates`, the response from rest; curvature bounds then hold for `horizon` [s]. */
 typedef struct {
     const Plant *plant;
-    Complex direct, normal;
-    double fixed_bound;
-    ForcedOscillator resonator;
+    Complex direct, normal, forcing, steady;
+    double fixed_bound, horizon;
+    bool resonates;
+    Response free_start;
 } Stick;
 
 /* `plant` must outlive the stick. */

@@ -12,7 +12,8 @@
  * the drive, and the velocities of slider and resonator. */
 static inline double velocity_scale(const Plant *plant, const State *state) {
     double w = plant->drive_frequency;
-    double forces = plant->friction_preload + plant->friction_amplitude + fabs(plant->load);
+    double load = fabs(plant->load) + fabs(plant->load_rate) / w;
+    double forces = plant->friction_preload + plant->friction_amplitude + load;
     Complex swing = complex_of(state->rate, plant->stick.frequency * state->displacement);
     return complex_abs(plant->drive) / w + forces / (plant->total_mass * w) +
            fabs(state->velocity) + plant->mass_fraction * complex_abs(swing);

@@ -20,13 +20,12 @@ Values = Mapping[str, float]
 @dataclass(frozen=True)
 class PanelErrors:
     """Errors of one panel: of velocity (m/s) and travel (m) at its end, of the velocity a fifth
-    later, and of that within a panel that is cut short, or None where series cover that."""
+    later, and of the travel within it."""
 
-    nodes: int
     velocity: float
     travel: float
     later: float
-    within: float | None
+    within: float
 
 
 @dataclass(frozen=True)
@@ -40,11 +39,11 @@ class NativeBending:
         self.library.decays(_pointer(x), len(x), _pointer(found))
         return found
 
-    def gauss(self, count: int, end: float) -> tuple[NDArray[np.float64], ...]:
-        """Return nodes, weights and the integrals up to `end` per value at the nodes."""
-        rows = [np.zeros(count) for _ in range(3)]
-        self.library.gauss(count, ctypes.c_double(end), *(_pointer(row) for row in rows))
-        return tuple(rows)
+    def gauss(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return nodes, weights, and integrals of [0, 1] from 0 to each node and to 1."""
+        node, weight, integral = np.zeros(16), np.zeros(16), np.zeros((17, 16))
+        self.library.gauss(*(_pointer(row) for row in (node, weight, integral)))
+        return node, weight, integral
 
     def run(
         self,
@@ -68,11 +67,8 @@ class NativeBending:
         """Return the errors of the panel after the first reversal past `start` (s), if there is."""
         errors = np.zeros(4)
         given = (ctypes.c_double(number) for number in (start, tolerance, share))
-        nodes = self.library.panel_errors(_values(values), *given, _pointer(errors))
-        if nodes == 0:
-            return None
-        velocity, travel, later, within = errors.tolist()
-        return PanelErrors(nodes, velocity, travel, later, None if within < 0.0 else within)
+        found = self.library.panel_errors(_values(values), *given, _pointer(errors))
+        return PanelErrors(*errors.tolist()) if found else None
 
 
 def random_device(seed: int) -> dict[str, float]:

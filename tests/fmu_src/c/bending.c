@@ -26,16 +26,16 @@ void decays(const double *x, int count, double *found) {
     }
 }
 
-/* Nodes and weights, and the integrals of the unit interval up to `end`. */
-void gauss(int count, double end, double *node, double *weight, double *integral) {
-    static GaussNodes nodes;
-    double row[MAX_NODES];
-    gauss_nodes_prepare(&nodes, count);
-    gauss_nodes_integrate(&nodes, end, row);
-    for (int i = 0; i < count; i++) {
-        node[i] = nodes.node[i];
-        weight[i] = nodes.weight[i];
-        integral[i] = row[i];
+/* Nodes and weights of [-1, 1], and the integrals from 0 to each node of the unit interval, and to 1. */
+void gauss(double *node, double *weight, double *integral) {
+    static GaussIntegrals gauss;
+    gauss_integrals_prepare(&gauss);
+    for (int j = 0; j < GAUSS_NODES; j++) {
+        node[j] = GAUSS_NODE[j];
+        weight[j] = GAUSS_WEIGHT[j];
+        for (int i = 0; i <= GAUSS_NODES; i++) {
+            integral[GAUSS_NODES * i + j] = gauss.integral[i][j];
+        }
     }
 }
 
@@ -69,27 +69,32 @@ int run_bending(const double *values, double tolerance, int panels, int warm, do
     return done ? 0 : 1;
 }
 
-/* Differences of the velocity [m/s] and the travel [m] of the panel and of series of tolerance 1e-14, `t` [s] after `now`. */
+/* Differences of the velocity [m/s] and the travel [m] of the panel and of series of tolerance 1e-14, `t` [s] after
+ * `now`; within the panel of the travel alone. */
 static bool compare(const Law *series, const BendingPanel *panel, const Moment *now, double t,
                     double *velocity, double *travelled) {
     Moment after;
     Refusal refusal;
     KnownPhasors known;
-    double travel;
+    double travel = bending_panel_travel(panel, t);
     Budget budget = budget_of(t);
-    State state = bending_panel_end(panel, t, &travel, &known);
     if (!law_advance(series, now, t, NULL, &budget, &after, &refusal)) {
         return false;
     }
-    *velocity = fabs(state.velocity - after.state.velocity);
-    *travelled = fabs(travel - (after.position - now->position)) +
-                 fabs(travel - bending_panel_travel(panel, t));
+    *travelled = fabs(travel - (after.position - now->position));
+    *velocity = 0.0;
+    if (t >= panel->length) {
+        double ended;
+        State state = bending_panel_end(panel, t, &ended, &known);
+        *velocity = fabs(state.velocity - after.state.velocity);
+        *travelled += fabs(travel - ended);
+    }
     return true;
 }
 
 /* The panel after the first reversal past `start` [s], held to `tolerance` [m/s]: errors of velocity [m/s]
- * and travel [m] at its end, of the velocity once a fifth more has passed, and, of a panel for motion that
- * ends at a `share` of it, the velocity there, -1 where there is none. Returns its nodes, 0 without it. */
+ * and travel [m] at its end, of the velocity once a fifth more has passed, and of the travel at a `share` of
+ * it. Returns whether there is one. */
 int panel_errors(const double *values, double start, double tolerance, double share,
                  double *errors) {
     static BendingTables tables;
@@ -119,16 +124,9 @@ int panel_errors(const double *values, double start, double tolerance, double sh
             panel.reach < INFINITY || !(1.2 * panel.length < switching)) {
             continue;
         }
-        int nodes = panel.kernels->gauss->count;
-        double part = share * panel.length;
-        bool done = compare(&law, &panel, &reversal, panel.length, &errors[0], &errors[1]) &&
-                    compare(&law, &panel, &reversal, 1.2 * panel.length, &errors[2], &unused);
-        errors[3] = -1.0;
-        if (done && bending_panel_begin(&panel, &tables, &law.held, &law.bristle, direction, &reversal,
-                                        &phasors, part, tolerance) == BY_PANEL) {
-            done = compare(&law, &panel, &reversal, part, &errors[3], &unused);
-        }
-        return done ? nodes : 0;
+        return compare(&law, &panel, &reversal, panel.length, &errors[0], &errors[1]) &&
+               compare(&law, &panel, &reversal, 1.2 * panel.length, &errors[2], &unused) &&
+               compare(&law, &panel, &reversal, share * panel.length, &unused, &errors[3]);
     }
     return 0;
 }
