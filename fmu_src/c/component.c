@@ -5,20 +5,67 @@
 
 #include "component_law.h"
 #include "constants.h"
+#include "friction_law.h"
 #include "output_derivatives.h"
 #include "refusal_texts.h"
 #include "state.h"
 #include "values.h"
 
+void component_begin(Component *component, const Memory *memory) {
+    component->memory = *memory;
+}
+
+void component_end(Component *component) {
+    const Memory *memory = &component->memory;
+    memory->release(memory->host, component->table);
+    memory->release(memory->host, component->orbits);
+    memory->release(memory->host, component->bending);
+    component->table = NULL;
+    component->orbits = NULL;
+    component->bending = NULL;
+}
+
+/* A table of `size` bytes: the one that is `kept`, or a new one, NULL if out of memory. */
+static void *table_of(const Memory *memory, void *kept, size_t size) {
+    return kept != NULL ? kept : memory->allocate(memory->host, size);
+}
+
+/* Make the tables that a law needs, and let it and the law of the full device point to them. */
+static bool provide_tables(Component *component, Law *law, Law *resolved, Refusal *refusal) {
+    const Memory *memory = &component->memory;
+    bool averaged = law->device.fidelity == 0, follows_orbits = law->resolved != NULL;
+    bool tabulates = averaged && law->friction->averaged->is_expensive;
+    bool bends = law->friction->bends && (!averaged || follows_orbits);
+    if (tabulates) {
+        component->table = table_of(memory, component->table, sizeof *component->table);
+    }
+    if (bends) {
+        component->bending = table_of(memory, component->bending, sizeof *component->bending);
+    }
+    if (follows_orbits) {
+        component->orbits = table_of(memory, component->orbits, sizeof *component->orbits);
+    }
+    if ((tabulates && component->table == NULL) || (bends && component->bending == NULL) ||
+        (follows_orbits && component->orbits == NULL)) {
+        return refuse(refusal, "out of memory: the host gives none for tables of friction");
+    }
+    law->table = component->table;
+    law->orbits = follows_orbits ? component->orbits : NULL;
+    law->bending = resolved->bending = component->bending;
+    if (follows_orbits) {
+        component->orbits->bending = component->bending;
+    }
+    return true;
+}
+
 /* Prepare the law of `values`; it replaces the present law unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
-    if (!prepare_law(values, &component->table, &component->orbits, &component->laws[next],
-                     &component->resolved[next], refusal)) {
+    Law *law = &component->laws[next], *resolved = &component->resolved[next];
+    if (!prepare_law(values, component->table, component->orbits, law, resolved, refusal)
+        || !provide_tables(component, law, resolved, refusal)) {
         return false;
     }
-    component->laws[next].bending = component->resolved[next].bending = &component->bending;
-    component->orbits.bending = &component->bending;
     component->present = next;
     component->prepared = true;
     component->theory.known = false;
@@ -229,8 +276,8 @@ static bool advance(Component *component, double step_size, double duration, Eve
     const Law *law = present_law(component);
     Budget budget = budget_of(step_size);
     if (inputs_vary(now->derivatives)) {
-        return ramped_step(&component->ramped, now, law, duration, &component->table,
-                           &component->orbits, &budget, after, refusal);
+        return ramped_step(&component->ramped, now, law, duration, component->table,
+                           component->orbits, &budget, after, refusal);
     }
     return bounded_work_check(law, step_size, refusal)
            && law_advance(law, &now->moment, duration, search, &budget, after, refusal);

@@ -9,6 +9,7 @@
 #include "experiment.h"
 #include "friction_table.h"
 #include "law.h"
+#include "memory.h"
 #include "orbit_tables.h"
 #include "outputs.h"
 #include "ramped_step.h"
@@ -18,16 +19,20 @@
 /* A slider-resonator. `now` is its complete state, the rest a cache of what follows from it: laws[present]
  * is the law of the present values if `prepared`, the other entry is for the law tried next; `resolved` are
  * the laws of the full device, which averages of second order need; `ramped` is the last step under inputs
- * that vary. A component must not move in memory: its laws point to its tables. */
+ * that vary.
+ *
+ * The tables take far more memory than the rest: each is NULL until a law needs it, comes from `memory`, and
+ * stays. Laws point to them. */
 typedef struct {
     Snapshot now;
     bool prepared;
     int present;
     Law laws[2], resolved[2];
     RampedStep ramped;
-    FrictionTable table;
-    OrbitTables orbits;
-    BendingTables bending;
+    Memory memory;
+    FrictionTable *table;
+    OrbitTables *orbits;
+    BendingTables *bending;
     Theory theory;
 } Component;
 
