@@ -66,7 +66,7 @@ SMALL = {
     "heavy preload": ({"normal_preload": 6.9e6}, 2e-4),
     "weak drive": ({"base_amplitude": 1e-15}, 0.05),
 }
-"""Parameters other than table 1, and durations (s), of motion slower than friction could make it."""
+"""Parameters other than table 1, and durations (s), of motion far slower than sliding."""
 
 
 @native_fmu_only
