@@ -39,6 +39,7 @@ SHARED = (
     "fmi_version.h",
     "instance.[ch]",
     "lifecycle.h",
+    "memory.h",
     "model_guid.h",
     "refusal.[ch]",
     "refusal_texts.h",

@@ -5,16 +5,54 @@
 
 #include "component_law.h"
 #include "constants.h"
+#include "friction_law.h"
 #include "output_derivatives.h"
 #include "refusal_texts.h"
 #include "state.h"
 #include "values.h"
 
+void component_begin(Component *component, const Memory *memory) {
+    component->memory = *memory;
+}
+
+void component_end(Component *component) {
+    const Memory *memory = &component->memory;
+    memory->release(memory->host, component->table);
+    memory->release(memory->host, component->bending);
+    component->table = NULL;
+    component->bending = NULL;
+}
+
+/* A table of `size` bytes: the one that is `kept`, or a new one, NULL if out of memory. */
+static void *table_of(const Memory *memory, void *kept, size_t size) {
+    return kept != NULL ? kept : memory->allocate(memory->host, size);
+}
+
+/* Make the tables that a law needs, and let it point to them. */
+static bool provide_tables(Component *component, Law *law, Refusal *refusal) {
+    const Memory *memory = &component->memory;
+    bool averages = law->motion->averages;
+    bool tabulates = averages && law->friction->averaged->is_expensive;
+    bool bends = !averages && law->friction->bends;
+    if (tabulates) {
+        component->table = table_of(memory, component->table, sizeof *component->table);
+    }
+    if (bends) {
+        component->bending = table_of(memory, component->bending, sizeof *component->bending);
+    }
+    if ((tabulates && component->table == NULL) || (bends && component->bending == NULL)) {
+        return refuse(refusal, "out of memory: the host gives none for tables of friction");
+    }
+    law->table = component->table;
+    law->bending = component->bending;
+    return true;
+}
+
 /* Prepare the law of `values`; it replaces the present law unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     int next = 1 - component->present;
-    if (!prepare_law(values, &component->table, &component->bending, &component->laws[next],
-                     refusal)) {
+    Law *law = &component->laws[next];
+    if (!prepare_law(values, law, refusal) || !provide_tables(component, law, refusal)) {
         return false;
     }
     component->present = next;
@@ -223,8 +261,8 @@ static bool advance(Component *component, double step_size, double duration, Eve
     const Law *law = present_law(component);
     Budget budget = budget_of(step_size);
     if (inputs_vary(now->derivatives)) {
-        return ramped_step(&component->ramped, now, duration, &component->table, &budget,
-                           after, refusal);
+        return ramped_step(&component->ramped, now, duration, component->table, &budget, after,
+                           refusal);
     }
     return law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);
 }

@@ -9,6 +9,7 @@
 #include "experiment.h"
 #include "friction_table.h"
 #include "law.h"
+#include "memory.h"
 #include "outputs.h"
 #include "ramped_step.h"
 #include "refusal.h"
@@ -16,15 +17,19 @@
 
 /* A slider-resonator. `now` is its complete state, the rest a cache of what follows from it: laws[present]
  * is the law of the present values if `prepared`, the other entry is for the law tried next; `ramped` is the last
- * step under inputs that vary. A component must not move in memory: its laws point to its tables. */
+ * step under inputs that vary.
+ *
+ * The tables take far more memory than the rest: each is NULL until a law needs it, comes from `memory`, and
+ * stays. Laws point to them. */
 typedef struct {
     Snapshot now;
     bool prepared;
     int present;
     Law laws[2];
     RampedStep ramped;
-    FrictionTable table;
-    BendingTables bending;
+    Memory memory;
+    FrictionTable *table;
+    BendingTables *bending;
     Theory theory;
 } Component;
 

@@ -5,7 +5,13 @@
 #ifndef COMPONENT_FUNCTIONS_H
 #define COMPONENT_FUNCTIONS_H
 
-/* Give the component, zeroed memory or one in use, its start values. */
+#include "memory.h"
+
+/* Let a new component, zeroed memory, take what it needs later from `memory`, or give all of that back. */
+void component_begin(Component *component, const Memory *memory);
+void component_end(Component *component);
+
+/* Give the component, a new one or one in use, its start values. */
 void component_reset(Component *component);
 
 bool component_setup_experiment(Component *component, const Experiment *experiment,

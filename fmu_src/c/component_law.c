@@ -56,8 +56,7 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
     return inputs;
 }
 
-bool prepare_law(const double values[SETTABLE_COUNT], FrictionTable *table, BendingTables *bending,
-                 Law *law, Refusal *refusal) {
+bool prepare_law(const double values[SETTABLE_COUNT], Law *law, Refusal *refusal) {
     Device device = device_of(values);
     Inputs inputs = reduced_inputs(values);
     const Motion *motion = motion_of(&device);
@@ -68,7 +67,5 @@ bool prepare_law(const double values[SETTABLE_COUNT], FrictionTable *table, Bend
         return false;
     }
     law->motion = motion;
-    law->table = table;
-    law->bending = bending;
     return law_is_finite(law) || refuse_extreme(values, refusal);
 }

@@ -5,8 +5,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "bending_kernels.h"
-#include "friction_table.h"
 #include "motion.h"
 #include "refusal.h"
 #include "variables.h"
@@ -16,9 +14,7 @@ bool all_finite(const double *numbers, size_t count);
 /* The inputs among `values`, with the phase reduced to [-pi, pi]. */
 Inputs reduced_inputs(const double values[SETTABLE_COUNT]);
 
-/* Prepare the law of `values`. `table` and `bending` are caches that outlive it. Refuse values that do not fit together;
- * `law` is then undefined. */
-bool prepare_law(const double values[SETTABLE_COUNT], FrictionTable *table, BendingTables *bending,
-                 Law *law, Refusal *refusal);
+/* Prepare the law of `values`, without tables. Refuse values that do not fit together; `law` is then undefined. */
+bool prepare_law(const double values[SETTABLE_COUNT], Law *law, Refusal *refusal);
 
 #endif

@@ -3,16 +3,18 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Short steps after which the shortest one doubles, and how short these are [rad]: bounds the work on signals
- * that stay within rounding of zero. */
+/* A step that cannot pass a zero may be as short as rounding allows where the signal is next to zero. Steps
+ * are then lengthened to `SHORTEST_STEP`, which doubles every FLOOR_DOUBLING steps up to `SHORT_STEP` [rad]:
+ * that bounds the work. What a lengthened step may pass is looked for at its end. */
 enum { FLOOR_DOUBLING = 20 };
+#define SHORTEST_STEP 1e-7
 #define SHORT_STEP 0.01
 
 /* Evaluations after which a search ends without a zero: reached only by motion at the limits of floating
  * point. */
 enum { MAX_SEARCH_EVALUATIONS = 1000000 };
 
-enum { MAX_NEWTON_STEPS = 60, MAX_EXPECTING_STEPS = 4 };
+enum { MAX_REFINEMENTS = 100, MAX_EXPECTING_STEPS = 4 };
 
 /* Share of the interval that two parabolas cover that is relied on: a margin for rounding. */
 #define SURE 0.99
@@ -27,19 +29,23 @@ static bool is_last(Signal at, double step, double resolved) {
     return at.bound * step * step <= -at.slope * resolved;
 }
 
-/* Newton's method from a point that satisfies Kantorovich's condition. */
-static double newton(const Watch *watch, double t, Signal at) {
+/* The zero between `low`, up to which the signal is positive, and `high`, where it is not: Newton's method
+ * from `t`, at one of the two, where the signal is `at`; bisection where that leaves the bracket. */
+static double zero_between(const Watch *watch, double low, double high, double t, Signal at) {
     double resolved = resolution(watch);
-    for (int i = 0; i < MAX_NEWTON_STEPS; i++) {
-        double step = -at.value / at.slope;
+    for (int i = 0; i < MAX_REFINEMENTS; i++) {
+        bool falls = at.slope < 0.0;
+        double step = falls ? -at.value / at.slope : INFINITY;
+        bool inside = low <= t + step && t + step <= high;
+        if (!inside) {
+            step = 0.5 * (low + high) - t;
+        }
         t += step;
-        if (fabs(step) <= resolved || is_last(at, step, resolved)) {
+        if (fabs(step) <= resolved || (inside && is_last(at, step, resolved))) {
             break;
         }
         at = watch->signal(watch->motion, t);
-        if (at.slope >= 0.0) {
-            break;
-        }
+        *(at.value > 0.0 ? &low : &high) = t;
     }
     return t;
 }
@@ -84,39 +90,56 @@ static bool is_first(Candidate candidate, const Watch *watch, double t, Signal a
            candidate.slope * candidate.slope > 16.0 * watch->noise * at.bound;
 }
 
+/* Whether the signal is below zero, or so steep in rounding of it that a zero is certain. */
+static bool is_below(const Watch *watch, Signal at) {
+    double noise = watch->noise;
+    return at.slope < 0.0 && at.value <= noise &&
+           (at.value < -noise || at.slope * at.slope > 16.0 * noise * at.bound);
+}
+
+/* Time in a lengthened step from `from`, where the signal was `before`, to `to` at which the signal may be
+ * below zero in between, if it turns there: on so short a way its slope changes evenly. Otherwise `to`. */
+static double lowest_between(double from, Signal before, double to, Signal at) {
+    bool turns = before.slope < 0.0 && at.slope > 0.0;
+    return turns ? from + (to - from) * before.slope / (before.slope - at.slope) : to;
+}
+
 double first_zero_near(const Watch *watch, double limit, double start, double expected) {
     double noise = watch->noise, horizon = watch->horizon;
-    double t = start, shortest = 1e-7 / watch->fastest;
+    double t = start, from = start, shortest = SHORTEST_STEP / watch->fastest;
+    double longest_forced = SHORT_STEP / watch->fastest;
     Candidate candidate = zero_near(watch, start, limit, expected);
-    int evaluations = 0, short_steps = 0;
-    while (t < limit && evaluations < MAX_SEARCH_EVALUATIONS) {
+    Signal before = {0.0, 0.0, 0.0};
+    bool forced = false;
+    int short_steps = 0;
+    for (int i = 0; (t < limit || forced) && i < MAX_SEARCH_EVALUATIONS; i++) {
         Signal at = watch->signal(watch->motion, t);
-        double square = at.slope * at.slope, value = at.value;
-        evaluations++;
-        if (at.slope < 0.0) {
-            if (value <= noise) {
-                if (value < -noise || square > 16.0 * noise * at.bound) {
-                    return t;
-                }
-                value = noise;
-            } else if (square > 2.2 * at.bound * (value + noise)) {
-                double root = newton(watch, t, at);
-                return root < limit ? root : NO_ZERO;
+        if (forced) {
+            double lowest = lowest_between(from, before, t, at);
+            Signal there = lowest < t ? watch->signal(watch->motion, lowest) : at;
+            if (there.value < -noise) {
+                return zero_between(watch, from, lowest, lowest, there);
             }
-        } else if (value < noise) {
-            value = noise;
+        }
+        if (is_below(watch, at)) {
+            return zero_between(watch, from, t, t, at);
+        }
+        double value = at.value < noise ? noise : at.value, square = at.slope * at.slope;
+        if (at.value > noise && at.slope < 0.0 && square > 2.2 * at.bound * (value + noise)) {
+            double root = zero_between(watch, t, t - 2.0 * value / at.slope, t, at);
+            return root < limit ? root : NO_ZERO;
         }
         double step = sure_ahead(value, at);
         if (is_first(candidate, watch, t, at, step)) {
             return candidate.time;
         }
-        if (step * watch->fastest < SHORT_STEP) {
-            short_steps++;
-            if (short_steps % FLOOR_DOUBLING == 0) {
-                shortest *= 2.0;
-            }
+        if (step < longest_forced && ++short_steps % FLOOR_DOUBLING == 0) {
+            shortest = fmin(2.0 * shortest, longest_forced);
         }
-        step = step < shortest ? shortest : step;
+        forced = step < shortest && t < limit;
+        before = at;
+        from = t;
+        step = forced ? fmin(shortest, limit - t) : step;
         t += step > horizon ? horizon : step; /* NaN stays NaN, and ends the search */
     }
     return NO_ZERO;

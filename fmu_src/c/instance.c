@@ -13,15 +13,28 @@ static bool gives_memory(const Host *host) {
 }
 
 void *host_allocate(const Host *host, size_t size) {
-    return gives_memory(host) ? host->allocate(1, size) : calloc(1, size);
+    void *memory = gives_memory(host) ? host->allocate(1, size) : calloc(1, size);
+    return memory != NULL ? memset(memory, 0, size) : NULL;
 }
 
 void host_free(const Host *host, void *memory) {
+    if (memory == NULL) {
+        return;
+    }
     if (gives_memory(host)) {
         host->release(memory);
     } else {
         free(memory);
     }
+}
+
+/* The same for the component, which does not know what a host is. */
+static void *allocate_for(const void *host, size_t size) {
+    return host_allocate(host, size);
+}
+
+static void release_for(const void *host, void *memory) {
+    host_free(host, memory);
 }
 
 static void send_message(const Host *host, const char *name, Status status, const char *text) {
@@ -68,12 +81,13 @@ Instance *instance_create(const Host *host, const char *call, const char *name, 
         refuse(&refusal, "%s: no memory for an instance", call);
         return refuse_instance(host, name, &refusal);
     }
-    memset(instance, 0, sizeof *instance);
     memcpy(instance->name, name, length + 1);
     instance->host = *host;
     enable_all(instance, debugging);
     /* The log is the only place that says why a call failed. */
     instance->enabled[STATUS_ERROR] = instance->enabled[STATUS_FATAL] = true;
+    component_begin(&instance->component,
+                    &(Memory){allocate_for, release_for, &instance->host});
     component_reset(&instance->component);
     return instance;
 }
@@ -81,6 +95,7 @@ Instance *instance_create(const Host *host, const char *call, const char *name, 
 void instance_free(Instance *instance) {
     if (instance != NULL) {
         Host host = instance->host;
+        component_end(&instance->component);
         host_free(&host, instance);
     }
 }

@@ -43,6 +43,8 @@ typedef struct {
 
 /* Zeroed memory from the host's functions, or from calloc if it has none; NULL if out of memory. */
 void *host_allocate(const Host *host, size_t size);
+
+/* Give it back; NULL is ignored. */
 void host_free(const Host *host, void *memory);
 
 /* Send the refusal of an instance to the host, even with logging off: the host has no other source

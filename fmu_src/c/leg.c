@@ -27,10 +27,9 @@ void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now) {
 /* Sliding or flight by series with a bristle that is fully bent, which gives full friction. */
 static void begin_bent(Leg *leg, const Plant *plant, const Moment *now, int sign) {
     const Bristle bent = {1.0, 0.0, 0.0};
-    double tolerance = SERIES_ROUNDING * velocity_scale(plant, &now->state);
     leg->kind = FOLLOWS_SERIES;
     taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign,
-                       &leg->known.phasors, tolerance);
+                       &leg->known.phasors, SERIES_ROUNDING, velocity_scale(plant, &now->state));
     leg->motion.series.direction = leg->direction; /* the velocity is watched in flight, too */
 }
 
@@ -50,26 +49,27 @@ void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int directio
 }
 
 static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
-                         int direction, double tolerance) {
+                         int direction, double tolerance, double scale) {
     leg->kind = FOLLOWS_SERIES;
     leg->mode = now->mode;
     leg->direction = direction;
     leg->watched_from = 0.0;
     taylor_slide_begin(&leg->motion.series, &held->plant, bristle, direction, &now->state,
-                       now->bristle, &leg->known.phasors, tolerance);
+                       now->bristle, &leg->known.phasors, tolerance, scale);
 }
 
 void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
                        const Moment *now, int direction, double longest, double tolerance) {
     BendingPanel *panel = &leg->motion.panel;
+    double scale = velocity_scale(&held->plant, &now->state);
     leg_know_phasors(leg, &held->plant, now);
     BendingMotion motion =
         tables == NULL ? BY_SERIES
                        : bending_panel_begin(panel, tables, held, bristle, direction, now,
-                                             &leg->known.phasors, longest, tolerance);
+                                             &leg->known.phasors, longest, tolerance * scale);
     switch (motion) {
     case BY_SERIES:
-        begin_series(leg, held, bristle, now, direction, tolerance);
+        begin_series(leg, held, bristle, now, direction, tolerance, scale);
         return;
     case AS_BENT:
         leg_begin_slide(leg, held, now, direction);

@@ -8,7 +8,6 @@
 
 #include "friction_law.h"
 #include "refusal_texts.h"
-#include "velocity_scale.h"
 
 /* Share of the tolerance for the error of one leg, and for the bend that a bristle still lacks when closed
  * forms take over. */
@@ -53,7 +52,6 @@ static void begin(Leg *leg, const Law *law, const Moment *now, int direction, do
         leg_begin_slide(leg, held, now, direction);
         return;
     }
-    tolerance *= velocity_scale(&held->plant, &now->state);
     leg_begin_bending(leg, law->bending, held, bristle, now, direction, longest, tolerance);
 }
 
@@ -89,6 +87,7 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw LUGRE = {
     .sticks = false,
+    .bends = true,
     .check = check,
     .first_bristle = first_bristle,
     .bristle = bristle,

@@ -49,9 +49,10 @@ static bool prepare_part(RampedStep *step, const double values[SETTABLE_COUNT], 
     double middle[SETTABLE_COUNT];
     memcpy(middle, values, sizeof middle);
     middle[VR_FREQUENCY_RATIO] = ramp->ratio + 0.5 * ramp->ratio_rate * duration;
-    if (!prepare_law(middle, table, NULL, &step->law, refusal)) {
+    if (!prepare_law(middle, &step->law, refusal)) {
         return false;
     }
+    step->law.table = table;
     law_ramp(&step->law, ramp, duration);
     return true;
 }

@@ -242,6 +242,7 @@ static double part(const Device *device, const Ramp *ramp, double left) {
 }
 
 const Motion AVERAGED_MOTION = {
+    .averages = true,
     .start = start,
     .advance = advance,
     .mode = mode,

@@ -34,13 +34,12 @@ static double value(const double *coefficients, double t) {
     return total;
 }
 
-/* Share of a motion that the last terms of its series may have, and how often a series is cut shorter
- * to reach that share. */
-#define SMALL 1e-3
-enum { MAX_SHRINKS = 4 };
-
-/* Motion [m/s] below which a series is not cut shorter. */
+/* A velocity is measured by the first terms of its series. Below MUCH_SMALLER of the scale to which the
+ * tolerance refers a series is cut shorter, so often at most, to keep the tolerance relative to the velocity;
+ * below NEGLIGIBLE_MOTION [m/s] it is not. */
+#define MUCH_SMALLER 0.1
 #define NEGLIGIBLE_MOTION 1e-200
+enum { FIRST_TERMS = 5, MAX_SHRINKS = 10 };
 
 /* Smallest coefficient that limits how far a series holds. */
 #define SMALLEST 1e-300
@@ -81,6 +80,24 @@ static double series_reach(LastTerms terms) {
     return fmin(pow(lower, INVERSE[TAYLOR_ORDER - 1]), pow(higher, INVERSE[TAYLOR_ORDER]));
 }
 
+/* How far the series of a velocity holds [s] if its last terms may reach `tolerance` times `scale` [m/s] or, if
+ * that is much less, times the velocity itself. */
+static double reach_of(const double *coefficients, double tolerance, double scale) {
+    double reach = series_reach(last_terms(coefficients, tolerance * scale));
+    for (int i = 0; i < MAX_SHRINKS && reach < INFINITY; i++) {
+        double size = 0.0;
+        for (int k = FIRST_TERMS - 1; k >= 0; k--) {
+            size = size * reach + fabs(coefficients[k]);
+        }
+        if (!(size > NEGLIGIBLE_MOTION && size < MUCH_SMALLER * scale)) {
+            break;
+        }
+        scale = size;
+        reach = series_reach(last_terms(coefficients, tolerance * scale));
+    }
+    return reach;
+}
+
 /* Coefficients of the vibrating part of the friction limit, from its complex amplitude `normal` [N] on:
  * c[k + 1] = i (q c[k] + chirp c[k - 1]) / (k + 1). */
 static void expand_normal(Complex normal, double q, double chirp, double limit[TAYLOR_ORDER]) {
@@ -98,7 +115,7 @@ static void expand_normal(Complex normal, double q, double chirp, double limit[T
 
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
                         int direction, const State *state, double friction,
-                        const Phasors *start, double tolerance) {
+                        const Phasors *start, double tolerance, double scale) {
     double w = plant->drive_frequency, q = plant->normal_frequency, mu = bristle->coefficient;
     double bend = (mu - direction * friction) / mu, share = friction / mu;
     double drag = bristle->damping / mu, rate_factor = -direction * bristle->stiffness / mu;
@@ -145,22 +162,10 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
         drive = turned(drive, w * step);
     }
     slide->bound = 0.0;
-    LastTerms last = last_terms(v, tolerance);
+    slide->reach = reach_of(v, tolerance, scale);
     if (slide->resonates) {
         double weight = plant->mass_fraction > 0.0 ? plant->mass_fraction : 1.0;
-        LastTerms resonator = last_terms(u, tolerance / weight);
-        last.lower = fmin(last.lower, resonator.lower);
-        last.higher = fmin(last.higher, resonator.higher);
-    }
-    slide->reach = series_reach(last);
-    /* In a motion far below the tolerance the last terms would otherwise exceed the motion itself, and its
-     * first zero would be hard to find. */
-    for (int i = 0; i < MAX_SHRINKS && slide->reach < INFINITY; i++) {
-        double small = SMALL * (fabs(v[0]) + fabs(v[1]) * slide->reach);
-        if (!(small > NEGLIGIBLE_MOTION && small < tolerance)) {
-            break;
-        }
-        slide->reach = fmin(slide->reach, series_reach(last_terms(v, small)));
+        slide->reach = fmin(slide->reach, reach_of(u, tolerance, scale / weight));
     }
 }
 

@@ -2,6 +2,8 @@
  *
  * Each function that returns a bool leaves the component as it was where it returns false, and the
  * reason in `refusal_text`. */
+#include <stdlib.h>
+
 #include "component.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
@@ -19,9 +21,20 @@ EXPORT(values_buffer) double *values_buffer(void) { return values; }
 
 EXPORT(refusal_text) const char *refusal_text(void) { return refusal.text; }
 
+static void *allocate(const void *host, size_t size) {
+    (void)host;
+    return calloc(1, size);
+}
+
+static void release(const void *host, void *memory) {
+    (void)host;
+    free(memory);
+}
+
 /* Begin a run at time 0 with `count` values from the buffers, all others at their start. */
 EXPORT(start) bool start(unsigned count) {
     const Experiment experiment = {.start_time = 0.0};
+    component_begin(&component, &(Memory){allocate, release, NULL});
     component_reset(&component);
     return count <= VARIABLE_COUNT
            && component_setup_experiment(&component, &experiment, &refusal)

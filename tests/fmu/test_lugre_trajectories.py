@@ -12,7 +12,7 @@ from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.trajectory import LugreTrajectory
 from tests.fmu.host import Instantiate
 from tests.fmu.trajectories import assert_equal, fmu_run
-from tests.fmus import both_fmus
+from tests.fmus import both_fmus, native_fmu_only
 from tests.problems import DURATION, Problem, under
 
 CASES = {
@@ -57,3 +57,25 @@ def test_motion_is_that_of_the_reference(
     signals, ends = fmu_run(instantiate, on_bristles(case, stiffness, damping), reference.time)
     assert_equal(signals, reference, 1e-6)
     assert ends["reversals"] == reference.reversals, "reversals seen by the reference"
+
+
+SMALL = {
+    "slow drive": ({"drive_frequency": 34.0}, 0.6),
+    "slow drive, hard bristles": ({"drive_frequency": 34.0, "bristle_stiffness": 1e7}, 0.4),
+    "slow drive, no damping": ({"drive_frequency": 34.0, "bristle_damping": 0.0}, 0.4),
+    "heavy preload": ({"normal_preload": 6.9e6}, 2e-4),
+    "weak drive": ({"base_amplitude": 1e-15}, 0.05),
+}
+"""Parameters other than table 1, and durations (s), of motion far slower than sliding."""
+
+
+@native_fmu_only
+@pytest.mark.parametrize("case", SMALL)
+def test_small_signals_are_held_to_the_tolerance(instantiate: Instantiate, case: str) -> None:
+    """That of each signal's own peak, tenfold for the sum over the run."""
+    parameters, duration = SMALL[case]
+    problem = Problem({"friction_law": 1, "tolerance": 1e-8, **parameters})
+    held = replace(problem.held[0], stop=duration)
+    reference = simulate_lugre(problem.device, [held], np.linspace(0.0, duration, 41)[1:])
+    signals, _ = fmu_run(instantiate, problem, reference.time)
+    assert_equal(signals, reference, 1e-7)

@@ -48,6 +48,8 @@ ONLY_IN_C = {
     *("LEAD_PARTS", "SLOWEST"),
     # Faster ways to the same zeros and series than those of the Python twin.
     *("MAX_BISECTIONS", "MAX_USES", "NEGLIGIBLE", "PAST_TURNS", "SMALL_TURN", "SMALLEST"),
+    *("FIRST_TERMS", "MAX_SHRINKS", "MUCH_SMALLER", "NEGLIGIBLE_MOTION"),
+    *("MAX_REFINEMENTS", "SHORTEST_STEP"),
 }
 """C constants without a twin."""
 

@@ -12,6 +12,14 @@
 /* Fraction of the time between two samples by which hosts may round their own time. */
 #define SAMPLE_TIME_SLACK 1e-6
 
+void component_begin(Component *component, const Memory *memory) {
+    (void)component, (void)memory; /* it needs none */
+}
+
+void component_end(Component *component) {
+    (void)component;
+}
+
 void component_reset(Component *component) {
     component->now = (Snapshot){.lifecycle = INSTANTIATED, .stop_time = INFINITY};
     start_values(component->now.values);

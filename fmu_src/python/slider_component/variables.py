@@ -224,7 +224,8 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _fixed(
         "tolerance",
-        "Relative tolerance of the LuGre integration; Coulomb friction needs none",
+        "Tolerance of LuGre friction, relative to the velocities of slider and resonator, each by "
+        "itself; Coulomb friction needs none",
         start=1e-8,
         unit="1",
         minimum=1e-14,

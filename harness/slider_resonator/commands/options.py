@@ -16,6 +16,7 @@ from slider_resonator.device.values import check_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
 from slider_resonator.output.targets import writable
+from slider_resonator.scenes.scene_files import find_scene
 
 SET = "--set"
 FC = TypeVar("FC", bound=Callable[..., Any])
@@ -191,7 +192,9 @@ def _fmu_argument(
 def _scene_alone(argument: Path | None) -> str:
     if argument is None or argument.suffix == ".fmu":
         raise click.UsageError("Missing argument 'SCENE'.")
-    return str(argument)
+    scene = str(argument)
+    find_scene(scene)  # a wrong name is reported before a default FMU that is not built
+    return scene
 
 
 def fmus_argument(command: Callable[..., Any]) -> Callable[..., Any]:

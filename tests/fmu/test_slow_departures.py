@@ -1,0 +1,75 @@
+"""Reversals after a velocity that stays next to zero for long, against the Taylor reference."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.taylor import simulate
+from tests.fmu.host import Instantiate
+from tests.fmus import native_fmu_only
+
+pytestmark = native_fmu_only
+
+RELEASED_BY_A_RAMP = {
+    "resonator_mass": 2.3,
+    "resonator_frequency": 1e4,
+    "drive_frequency": 19000.0,
+    "damping_ratio": 0.022,
+}
+RELEASED_BY_THE_DRIVE = {
+    "slider_mass": 12.3,
+    "resonator_mass": 9.66,
+    "resonator_frequency": 494.0,
+    "damping_ratio": 0.001,
+    "normal_preload": 0.7,
+    "normal_amplitude": 0.35,
+    "base_amplitude": 7.06e-5,
+    "drive_frequency": 631.7,
+    "tangential_force": -9.04,
+    "friction_coefficient": 0.435,
+    "friction_faces": 1,
+}
+
+
+@pytest.mark.parametrize(
+    ("device", "held", "first"),
+    [
+        (RELEASED_BY_A_RAMP, HeldInputs(0.0, 1.75e-3, load_rate=1.9e6), 5.91934e-6),
+        (
+            RELEASED_BY_THE_DRIVE,
+            HeldInputs(0.0, 0.08, phase=2.693, load=-1.25, frequency_ratio=0.0),
+            8.2e-4,
+        ),
+    ],
+    ids=["ramp", "drive"],
+)
+def test_the_first_reversal_is_located(
+    instantiate: Instantiate, device: dict[str, float], held: HeldInputs, first: float
+) -> None:
+    """Next to zero the search takes lengthened steps: one passes the reversal."""
+    reference = simulate(Device.from_mapping(device), [held], np.array([held.stop]))
+    reversal = reference.event_times[1]
+    assert reversal == pytest.approx(first, rel=0.01), "the event after the release"
+    inputs = {name: getattr(held, name) for name in ("phase", "load", "frequency_ratio")}
+    instance = instantiate().initialize(**device, **inputs)
+    if held.vary:
+        instance.ramp(load=held.load_rate)
+    start = instance.state()
+    instance.step(1.01 * reversal)
+    assert instance.get("last_event_time")[0] == pytest.approx(reversal, rel=1e-9)
+    instance.restore(start)
+    instance.time = 0.0
+    instance.step(held.stop)
+    velocity, reversals = instance.get("velocity", "reversals")
+    assert velocity == pytest.approx(reference.velocity[-1], rel=1e-12)
+    assert reversals == reference.reversals
+
+
+def test_a_ramp_gives_the_velocity_of_an_independent_program(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(**RELEASED_BY_A_RAMP)
+    instance.ramp(load=1.9e6)
+    instance.step(1.75e-3)
+    assert instance.get("velocity")[0] == pytest.approx(-10.383106274540, rel=1e-12)
