@@ -117,6 +117,12 @@ static void look(Trace *trace, const Law *law, const Leg *leg, const Moment *beg
     }
 }
 
+/* Time [s] to the next look, `elapsed` [s] after the beginning of the motion; infinite if there is none. */
+static double time_to_look(const Trace *trace, double elapsed) {
+    double next = trace->first + trace->seen * trace->every - elapsed;
+    return trace->seen < trace->count ? fmax(next, 0.0) : INFINITY;
+}
+
 /* Looks at the end of a motion, where rounding puts the last looks behind it. */
 static void look_at_end(Trace *trace, const Moment *end) {
     for (; trace->seen < trace->count; trace->seen++) {
@@ -130,9 +136,8 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
                           Refusal *refusal) {
     Law moving;
     const Law *law = start;
-    if (is_ramped(&start->held.plant) || trace != NULL) {
+    if (is_ramped(&start->held.plant)) {
         moving = *start;
-        moving.bending = NULL; /* a panel has no state before its end */
         law = &moving;
     }
     const FrictionLaw *friction = law->friction;
@@ -159,6 +164,10 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
                                    plant->normal_rate, now->mode == LIFTED);
         double turning = time_to_turn(plant);
         double longest = fmin(fmin(fmin(remaining, switching), held->arc), turning);
+        if (trace != NULL && law->bending != NULL) {
+            /* A panel has no state before its end. */
+            longest = fmin(longest, time_to_look(trace, clock.elapsed));
+        }
         if (search != NULL) {
             begin = *now;
         }
