@@ -221,15 +221,6 @@ double elementary_log(double x) {
     return count * OCTAVE + (count * OCTAVE_REST + (2.0 * s + s * (z * sum)));
 }
 
-/* What 1 + x misses of x is made up for by the quotient. */
-double elementary_log1p(double x) {
-    double sum = 1.0 + x;
-    if (!(sum >= 1e-300 && sum <= 1e300)) {
-        return log1p(x);
-    }
-    return sum == 1.0 ? x : elementary_log(sum) * (x / (sum - 1.0));
-}
-
 double elementary_pow(double x, double y) {
     if (!(x >= 1e-300 && x <= 1e300)) {
         return pow(x, y);

@@ -16,7 +16,6 @@
 #define exp(x) elementary_exp(x)
 #define expm1(x) elementary_expm1(x)
 #define log(x) elementary_log(x)
-#define log1p(x) elementary_log1p(x)
 #define pow(a, b) elementary_pow(a, b)
 
 #endif
