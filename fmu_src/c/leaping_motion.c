@@ -22,10 +22,11 @@ enum { MAX_TURNS_OF_PERIOD = 4 };
 #define PAUSE 8.0
 #define MIN_PAUSE 32.0
 
-/* A motion on its way: the present moment, and the time left [s]. */
+/* A motion on its way: the present moment, and the time left [s]. It began `passed` [s] after the step. */
 typedef struct {
     const Law *law;
     Budget *budget;
+    double passed;
     Clock clock;
     double left;
     Moment now;
@@ -34,6 +35,7 @@ typedef struct {
 static bool resolve(Way *way, double duration, Refusal *refusal) {
     Moment before = way->now;
     Law law = law_after(way->law, way->clock.elapsed);
+    way->budget->passed = way->passed + way->clock.elapsed;
     if (!events_advance(&law, &before, duration, NULL, way->budget, &way->now, refusal)) {
         return false;
     }
@@ -75,7 +77,7 @@ static bool prepare_map(const Way *way, PeriodMap *map) {
 static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
-    Way way = {law, budget, clock_of(duration), duration, *moment};
+    Way way = {law, budget, budget->passed, clock_of(duration), duration, *moment};
     double turn = TAU / law->held.plant.drive_frequency, pause = 0.0;
     PeriodMap map;
     bool leaps = way.left > SHORTEST_LEAP * turn && prepare_map(&way, &map);

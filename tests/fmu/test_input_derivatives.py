@@ -204,17 +204,30 @@ def test_a_step_in_which_an_input_leaves_its_bounds_is_refused(
 
 
 @pytest.mark.parametrize(
-    ("fidelity", "derivatives", "text"),
+    ("values", "derivatives", "text"),
     [
-        (2, {"frequency_ratio": 1e15}, "the step must be at most 8000000 turns of it"),
-        (1, {"phase": 1e300}, "the step must be at most 8000000 turns of it"),
-        (0, {"frequency_ratio": 1e9}, "it takes more work than 1000 slow phases of"),
+        (
+            {"fidelity": 2},
+            {"frequency_ratio": 1e15},
+            "the step must be at most 8000000 turns of it",
+        ),
+        ({"fidelity": 1}, {"phase": 1e300}, "the step must be at most 8000000 turns of it"),
+        (
+            {"fidelity": 0, "averaging_order": 1},
+            {"frequency_ratio": 1e9},
+            "it takes more work than 1000 slow phases of",
+        ),
+        (
+            {"fidelity": 0, "averaging_order": 2},
+            {"frequency_ratio": 1e9},
+            "it takes more work than 1000000 legs of motion",
+        ),
     ],
 )
 def test_the_work_of_a_step_stays_bounded(
-    instantiate: Instantiate, fidelity: int, derivatives: dict[str, float], text: str
+    instantiate: Instantiate, values: dict[str, int], derivatives: dict[str, float], text: str
 ) -> None:
-    instance = instantiate().initialize(fidelity=fidelity)
+    instance = instantiate().initialize(**values)
     instance.ramp(**derivatives)
     with instance.refuses("doStep: communicationStepSize = 1.0 refused", text):
         instance.slave.doStep(instance.time, 1.0)

@@ -241,7 +241,9 @@ def test_a_status_that_is_not_known_is_discarded(
 
 
 def test_time_overflow_is_refused(instantiate: Instantiate) -> None:
-    instance = instantiate().initialize(start_time=1.7e308, fidelity=0, friction_coefficient=0.0)
+    instance = instantiate().initialize(
+        start_time=1.7e308, fidelity=0, averaging_order=1, friction_coefficient=0.0
+    )
     with instance.refuses("leaves the range of floating point numbers"):
         instance.slave.doStep(instance.time, 1e308)
 
