@@ -277,6 +277,10 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
     Leap done = {.outcome = NO_GAIN, .periods = MIN_ORDER};
     double h, error = moment->leap_error;
     bool found = slow_rates(manifold, 0.0, &here->landing, &here->after, &here->rates);
+    if (!found && isinf(here->rates.offset)) {
+        *after = *moment;
+        return (Leap){.outcome = NO_GAIN};
+    }
     *after = here->after;
     if (!found) {
         done.outcome = NOT_ON_MANIFOLD;

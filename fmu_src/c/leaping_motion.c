@@ -74,6 +74,12 @@ static bool prepare_map(const Way *way, PeriodMap *map) {
     return period_map_prepare(map, &law, MAX_TURNS_OF_PERIOD);
 }
 
+/* Advance the motion:
+ *
+ * 1. resolve to the section, after a pause where the last attempt to leap asked for one;
+ * 2. leap over as many periods as are left, or as far as that gains;
+ * 3. repeat while enough periods are left;
+ * 4. resolve the rest. */
 static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;

@@ -13,7 +13,7 @@
 
 /* Smallest number of turns, up to `max_turns`, after which the load repeats best: one more turn must halve its drift [rad]
  * at least. */
-static int turns_to_repeat_best(const Law *law, int max_turns, double *drift) {
+static int repeating_turns(const Law *law, int max_turns, double *drift) {
     double ratio = law->inputs.frequency_ratio;
     int best = 1;
     *drift = 0.0;
@@ -37,16 +37,16 @@ static double resonator_decay(const Oscillator *slip, double period) {
     return exp(-rate * period);
 }
 
-static bool prepare_homing(PeriodMap *map, const Oscillator *slip) {
+static bool prepare_resolvent(PeriodMap *map, const Oscillator *slip) {
     Response free = free_response(slip, map->period);
     double a = free.displacement + slip->decay * free.rate - 1.0, b = free.rate;
     double c = -slip->stiffness * free.rate;
     double d = free.displacement - slip->decay * free.rate - 1.0;
     double determinant = a * d - b * c;
-    map->homing[0][0] = d / determinant;
-    map->homing[0][1] = -b / determinant;
-    map->homing[1][0] = -c / determinant;
-    map->homing[1][1] = a / determinant;
+    map->resolvent[0][0] = d / determinant;
+    map->resolvent[0][1] = -b / determinant;
+    map->resolvent[1][0] = -c / determinant;
+    map->resolvent[1][1] = a / determinant;
     return isfinite(1.0 / determinant);
 }
 
@@ -82,7 +82,7 @@ bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns) {
     map->law.device.tolerance = fmin(law->device.tolerance, MAP_TOLERANCE);
     const Device *device = &map->law.device;
     const Plant *plant = &map->law.held.plant;
-    map->turns = turns_to_repeat_best(law, max_turns, &map->drift);
+    map->turns = repeating_turns(law, max_turns, &map->drift);
     map->period = TAU * map->turns / plant->drive_frequency;
     map->section = within_turn(map->vibration.lag + PI);
     map->speed = map->vibration.velocity;
@@ -90,7 +90,7 @@ bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns) {
     double full = device->friction_faces * device->friction_coefficient * normal;
     map->share = full * map->period / (plant->total_mass * map->speed);
     prepare_fast_states(map);
-    return map->decay < 1.0 && prepare_homing(map, &plant->slip);
+    return map->decay < 1.0 && prepare_resolvent(map, &plant->slip);
 }
 
 double momentum_velocity(const PeriodMap *map, const Moment *moment) {
@@ -136,13 +136,13 @@ static Visit visit_of(const PeriodMap *map, const Moment *moment) {
 typedef struct {
     const PeriodMap *map;
     Visit *visits;
-} Guest;
+} Visitor;
 
 static void see(void *observer, int index, const Moment *moment) {
-    const Guest *guest = observer;
+    const Visitor *visitor = observer;
     Moment visit = *moment;
-    visit.theta = guest->map->section;
-    guest->visits[index] = visit_of(guest->map, &visit);
+    visit.theta = visitor->map->section;
+    visitor->visits[index] = visit_of(visitor->map, &visit);
 }
 
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
@@ -150,9 +150,9 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
     Refusal refusal;
     Moment before = *moment;
     Law later = law_after(&map->law, begin * map->period);
-    Guest guest = {map, visits};
-    Trace trace = {.first = map->period, .every = map->period, .count = count, .see = see, .observer = &guest, .mode = NO_MODE};
-    guest.visits = visits + 1;
+    Visitor visitor = {map, visits};
+    Trace trace = {.first = map->period, .every = map->period, .count = count, .see = see, .observer = &visitor, .mode = NO_MODE};
+    visitor.visits = visits + 1;
     visits[0] = visit_of(map, moment);
     if (!events_trace(&later, &before, count * map->period, &trace, budget, moment, &refusal)) {
         return false;
@@ -163,11 +163,11 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
     return isfinite(last->velocity + last->position + last->fast[0] + last->fast[1] + last->fast[2]);
 }
 
-void map_homing(const PeriodMap *map, int times, double fast[MAX_FAST]) {
+void apply_resolvent(const PeriodMap *map, int times, double fast[MAX_FAST]) {
     for (int i = 0; i < times; i++) {
         double displacement = fast[0], rate = fast[1];
-        fast[0] = map->homing[0][0] * displacement + map->homing[0][1] * rate;
-        fast[1] = map->homing[1][0] * displacement + map->homing[1][1] * rate;
+        fast[0] = map->resolvent[0][0] * displacement + map->resolvent[0][1] * rate;
+        fast[1] = map->resolvent[1][0] * displacement + map->resolvent[1][1] * rate;
         fast[2] /= map->kept - 1.0;
     }
 }

@@ -30,10 +30,11 @@ typedef struct {
  * The normal load repeats after `turns` turns of the drive, in `period` [s], but for a `drift` [rad] of its phase.
  * `section` is the drive phase of the section [rad].
  *
- * `speed` is the fast velocity v_q [m/s], `tolerance` the error of V that leaps may make, over v_q; `share` the change of V by full friction in a period, over v_q. The fast state
- * has `fast_count` entries. An error by `scale` in one of them is as large as the vibration, or changes V by v_q times
- * `share`. `homing` is the inverse of the map of Y and Y' over a period without friction, less 1; `kept` what remains of
- * a bristle's deflection after a period; `decay` the largest factor by which a transient decays in a period. */
+ * `speed` is the fast velocity v_q [m/s], `tolerance` the error of V that leaps may make, over v_q; `share` the change of V
+ * by full friction in a period, over v_q. The fast state has `fast_count` entries. An error by `scale` in one of them is as
+ * large as the vibration, or changes V by v_q times `share`. `resolvent` is the inverse of A - 1, A the map of Y and Y' over a
+ * period without friction; `kept` what remains of a bristle's deflection after a period; `decay` the largest factor by which
+ * a transient decays in a period. */
 typedef struct {
     Law law;
     FastVibration vibration;
@@ -42,7 +43,7 @@ typedef struct {
     double speed, share, tolerance;
     int fast_count;
     double scale[MAX_FAST];
-    double homing[2][2], kept, decay;
+    double resolvent[2][2], kept, decay;
 } PeriodMap;
 
 /* Prepare the map of a law of the full device, for a load that repeats after up to `max_turns` turns. Return false where
@@ -69,9 +70,9 @@ void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_F
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
                  Visit *visits, uint64_t *itinerary);
 
-/* Apply `homing` to fast states, `times` times: the change of the fast state that undoes their differences of that
+/* Apply `resolvent` to fast states, `times` times: the change of the fast state that undoes their differences of that
  * order. */
-void map_homing(const PeriodMap *map, int times, double fast[MAX_FAST]);
+void apply_resolvent(const PeriodMap *map, int times, double fast[MAX_FAST]);
 
 /* Size of a change of the fast state, over the scales. */
 double fast_size(const PeriodMap *map, const double fast[MAX_FAST]);

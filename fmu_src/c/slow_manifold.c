@@ -49,8 +49,8 @@ static void correction_of(const Manifold *manifold, const Visit *visits,
         correction[i] = -numbers[order];
         beyond[i] = next_term(numbers[order - 2], numbers[order - 1]);
     }
-    map_homing(map, order, correction);
-    map_homing(map, order, beyond);
+    apply_resolvent(map, order, correction);
+    apply_resolvent(map, order, beyond);
     *missing = fast_size(map, beyond);
 }
 
@@ -83,7 +83,7 @@ static SlowRates rates_of(const Manifold *manifold, const Visit *visits,
     return rates;
 }
 
-/* Broyden's method with the inverse of `homing` as first Jacobian: turns the correction after `count` earlier `steps`
+/* Broyden's method with the closed form as first Jacobian: turns the correction after `count` earlier `steps`
  * into the next step. */
 static void improve(const PeriodMap *map, double steps[][MAX_FAST], int count) {
     double *step = steps[count];
@@ -115,6 +115,7 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
         manifold->maps += manifold->order;
         if (!map_periods(map, begin, manifold->order, after, manifold->budget, visits,
                          &itinerary)) {
+            rates->offset = INFINITY;
             return false;
         }
         correction_of(manifold, visits, step, &missing);
