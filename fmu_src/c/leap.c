@@ -106,7 +106,8 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
     double fast[MAX_FAST];
     visited.landing.stops = motion->other.after.stops;
     guess_fast(motion, n, velocity, fast);
-    moment_place(map, velocity, fast, psi_after(map, motion->psi, n), &visited.landing);
+    moment_place(map, velocity, fast, psi_after(map, motion->psi, motion->begin, n),
+                 &visited.landing);
     if (!slow_rates(&motion->manifold, motion->begin + n, &visited.landing, &visited.after,
                     &visited.rates) ||
         visited.rates.itinerary != motion->here.rates.itinerary) {
@@ -262,6 +263,11 @@ Leap leap(const PeriodMap *map, const Moment *moment, double begin, double longe
         if (end.t > 0.0) {
             *after = here->after;
             after->position += end.travel;
+            after->counts.reversals += end.t * here->rates.reversals;
+            after->counts.sticks += end.t * here->rates.sticks;
+            if (after->event_age > manifold->order * map->period) {
+                after->event_age += end.t * map->period;
+            }
             after->leap_error = error;
             done.outcome = LEAPT;
             done.periods = end.t + manifold->order;

@@ -98,9 +98,10 @@ double momentum_velocity(const PeriodMap *map, const Moment *moment) {
            map->vibration.pair_velocity * cos(moment->theta);
 }
 
-double psi_after(const PeriodMap *map, double psi, double periods) {
+double psi_after(const PeriodMap *map, double psi, double begin, double periods) {
     const Plant *plant = &map->law.held.plant;
-    double t = periods * map->period, chirp = 0.5 * plant->normal_rate * t * t;
+    double t = periods * map->period, middle = (begin + 0.5 * periods) * map->period;
+    double chirp = plant->normal_rate * middle * t;
     return within_turn(psi + remainder(map->drift * periods + chirp, TAU));
 }
 
