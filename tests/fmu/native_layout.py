@@ -6,7 +6,6 @@ import json
 import struct
 from typing import Any
 
-from fmu_src.python.slider_component.orbit_state import OrbitValues, PaidTables
 from fmu_src.python.slider_component.variables import VARIABLES
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]
@@ -18,14 +17,7 @@ FIELDS = (
     *("sliding", "reversals", "sticks", "event_age"),
     *("travel", "elapsed", "sticking", "complete", "mean_velocity", "stick_fraction", "bristle"),
     *("backward_stop", "backward_drift", "forward_stop", "forward_drift"),
-    *("stage", "to_go", "waited", "slow_velocity", "centre", "lead"),
-    *("own_displacement", "own_rate"),
-    *(f"under_{name}" for name in OrbitValues._fields),
-    *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
-    *(f"paid_{name}" for name in PaidTables._fields),
-    *("varied", "loading", "ahead", "doubt", "unrest", "acceleration"),
-    *("open_kind", "open_elapsed", "open_velocity", "open_angle"),
-    *("open_displacement", "open_rate", "tunings"),
+    "leap_error",
 )
 HEAD = 8 + 40
 LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")
@@ -48,5 +40,5 @@ def moment_of(state: bytes) -> dict[str, Any]:
     """The motion in a state of either FMU by name, such as theta, psi and sticks."""
     if state.startswith(b"SLIDRES\x01") and len(state) == LAYOUT.size:
         return numbers(state)
-    moment = json.loads(state.partition(b"\n")[2])["moment"]
-    return {**moment, **moment["counts"]}
+    moment: dict[str, Any] = json.loads(state.partition(b"\n")[2])["moment"]
+    return moment
