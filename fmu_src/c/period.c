@@ -4,10 +4,6 @@
 
 #include "state.h"
 
-/* Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps of whole
- * periods complete their last period in spite of rounding. */
-#define MARK_TOLERANCE 1e-7
-
 /* Displacement [m] at time `t` [s]. Close to the end of the segment, where steps of whole periods ask for
  * it, it follows from the displacement at the end. */
 static double travel_until(const Segment *segment, double t, double frequency) {

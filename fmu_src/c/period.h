@@ -4,6 +4,10 @@
 
 #include <stdbool.h>
 
+/* Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps of whole
+ * periods complete their last period in spite of rounding. */
+#define MARK_TOLERANCE 1e-7
+
 /* Sums since the last period ended, and the means of the last whole period.
  *
  * `travel` [m], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);

@@ -40,5 +40,5 @@ def moment_of(state: bytes) -> dict[str, Any]:
     """The motion in a state of either FMU by name, such as theta, psi and sticks."""
     if state.startswith(b"SLIDRES\x01") and len(state) == LAYOUT.size:
         return numbers(state)
-    moment = json.loads(state.partition(b"\n")[2])["moment"]
-    return {**moment, **moment["counts"]}
+    moment: dict[str, Any] = json.loads(state.partition(b"\n")[2])["moment"]
+    return moment

@@ -61,7 +61,7 @@ def test_a_state_made_elsewhere_is_taken(instance: Instance, instantiate: Instan
         ({"stop_time": math.nan}, "stop_time = nan; must be a finite number"),
         ({"event_age": -math.inf}, "event_age = -inf; must be a finite number"),
         ({"velocity": math.inf}, "velocity = inf; must be a finite number"),
-        ({"theta": -1e-9}, "theta = -1e-09; must be a phase from 0 to 2 pi"),
+        ({"theta": -1e-6}, "theta = -1e-06; must be a phase from 0 to 2 pi"),
         ({"psi": 6.3}, "psi = 6.3; must be a phase from 0 to 2 pi"),
         ({"psi": 1e300}, "psi = 1e+300; must be a phase from 0 to 2 pi"),
         ({"theta": math.nan}, "theta = nan; must be a phase from 0 to 2 pi"),

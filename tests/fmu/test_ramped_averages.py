@@ -25,7 +25,6 @@ PHASE: list[Piece] = [(400, {"phase": 2.0})]
 LOAD: list[Piece] = [(400, {"load": 0.12})]
 BOTH_WAYS: list[Piece] = [(100, {"phase": 2.0}), (100, {}), (100, {"phase": -4.0, "load": 0.3}),
                           (100, {"load": -0.3})]  # fmt: skip
-THROUGH_ONE: list[Piece] = [(400, {"frequency_ratio": -0.02})]
 
 
 def run(instance: Instance, pieces: Sequence[Piece], steps: int) -> Array:
@@ -58,34 +57,6 @@ def compared(
 
 
 @pytest.mark.parametrize("law", [0, 1])
-@pytest.mark.parametrize(
-    ("pieces", "ratio"),
-    [(PHASE, 1.0), (LOAD, 1.0), (BOTH_WAYS, 1.0), (PHASE, 0.0), (THROUGH_ONE, 1.002)],
-    ids=["phase", "load", "both ways", "ratio 0", "through ratio 1"],
-)
-def test_second_order_follows_resolved_motion(
-    instantiate: Instantiate, pieces: list[Piece], ratio: float, law: int
-) -> None:
-    start = {"friction_law": law, "frequency_ratio": ratio}
-    deviation, stated = compared(instantiate, pieces, start, 2)
-    assert deviation[:, 0].max() <= stated <= 2e-6 * FAST
-    assert deviation[:, 2].max() <= 1e-7
-    first, _ = compared(instantiate, pieces, start, 1)
-    assert first[:, 2].max() > 20.0 * deviation[:, 2].max(), "first order is far coarser"
-
-
-@pytest.mark.parametrize("rate", [0.5, 8.0, 128.0])
-def test_the_stated_error_grows_with_the_turning_lead(
-    instantiate: Instantiate, rate: float
-) -> None:
-    """Under stronger friction, where turning counts."""
-    pieces: list[Piece] = [(60, {}), (min(200.0, 20_000.0 / rate), {"phase": rate})]
-    deviation, stated = compared(instantiate, pieces, {"friction_coefficient": 0.5}, 2)
-    assert deviation[:, 0].max() <= stated
-    assert stated <= 2e-4 * FAST
-
-
-@pytest.mark.parametrize("law", [0, 1])
 @pytest.mark.parametrize("pieces", [PHASE, LOAD, BOTH_WAYS], ids=["phase", "load", "both ways"])
 def test_first_order_keeps_the_error_it_states(
     instantiate: Instantiate, pieces: list[Piece], law: int
@@ -95,69 +66,33 @@ def test_first_order_keeps_the_error_it_states(
     assert deviation[5:, 0].max() <= stated
 
 
-@pytest.mark.parametrize("rate", [-100.0, -20.0, 2.0, 20.0])
 @pytest.mark.parametrize("law", [0, 1])
-def test_the_stated_error_grows_with_the_rate_of_load(
-    instantiate: Instantiate, law: int, rate: float
-) -> None:
-    """The load bends the resonator, whose momentum averages leave to the slider."""
-    pieces: list[Piece] = [(1.0 / PERIOD, {}), (0.01 / PERIOD, {"load": rate})]
-    start = {"initial_velocity": 0.126, "friction_law": law}
-    resolved = run(instantiate().initialize(**start, fidelity=2), pieces, 1)
-    averaged = run(instantiate().initialize(**start, fidelity=0), pieces, 1)
-    deviation = abs(averaged[1, 0] - resolved[1, 0])
-    bending = abs(rate) / 11.0 / (1.1 * 3500.0**2)
-    assert deviation <= averaged[1, 3] <= averaged[0, 3] + 1.5 * bending + 2e-8
-
-
-def test_a_lifting_contact_is_followed_by_search(instantiate: Instantiate) -> None:
-    pieces: list[Piece] = [(100, {}), (200, {"phase": 3.0})]
-    deviation, stated = compared(instantiate, pieces, {"normal_amplitude": 1.5}, 2)
-    assert deviation[:, 0].max() <= stated <= 2e-6 * FAST
-
-
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("law", [0, 1])
-def test_steps_do_not_matter(instantiate: Instantiate, law: int, order: int) -> None:
+def test_steps_do_not_matter(instantiate: Instantiate, law: int) -> None:
     """One slow phase after the other: from ratio 1 to 1.4, and a load and a phase that grow."""
     rates = {"phase": 1.0, "load": 0.05, "frequency_ratio": 2.0}
     ends = []
     for steps in (1, 3, 40):
-        start = {"fidelity": 0, "averaging_order": order, "friction_law": law}
+        start = {"fidelity": 0, "averaging_order": 1, "friction_law": law}
         instance = instantiate().initialize(**start)
         ends.append(run(instance, [(0.2 / PERIOD, rates)], steps)[-1])
-        assert instance.get("prediction_valid") == (float(order == 1),), "no phase is slow at 1.4"
     assert ends[1][2] == pytest.approx(ends[0][2], abs=2e-10)
     assert ends[2][2] == pytest.approx(ends[0][2], abs=2e-10)
 
 
 @pytest.mark.parametrize("velocity", [0.375, 0.44])
 @pytest.mark.parametrize("law", [0, 1])
-@pytest.mark.parametrize(("ratio", "order"), [(1.5, 2), (1.0, 1), (1.0, 2), (0.0, 1)])
+@pytest.mark.parametrize("ratio", [1.0, 0.0])
 def test_a_dip_below_the_fast_velocity_is_not_missed(
-    instantiate: Instantiate, ratio: float, order: int, law: int, velocity: float
+    instantiate: Instantiate, ratio: float, law: int, velocity: float
 ) -> None:
     """Constant friction beyond v_q lets steps grow; the load turns it at 0.193 or 0.258 m/s."""
-    start = {"frequency_ratio": ratio, "averaging_order": order, "friction_law": law}
+    start = {"frequency_ratio": ratio, "averaging_order": 1, "friction_law": law}
     ends = []
     for steps in (1, 2, 64):
         instance = instantiate().initialize(**start, fidelity=0, initial_velocity=velocity)
         found = run(instance, [(8.0 / PERIOD, {"load": -0.1})], steps)
         ends.append(found[-1, 0])
     assert ends[:2] == pytest.approx(ends[2:] * 2, abs=1e-8)
-
-
-def test_the_error_of_a_step_that_left_the_slow_phase_is_of_first_order(
-    instantiate: Instantiate,
-) -> None:
-    """Under flight the ratio 1/2 is slow, 0.471 is not; the inputs are held again after it."""
-    pieces: list[Piece] = [(0.5 / PERIOD, {}), (0.5 / PERIOD, {"phase": -100.0})]
-    start = {"normal_amplitude": 1.8, "frequency_ratio": 0.5}
-    resolved = run(instantiate().initialize(**start, fidelity=2), pieces, 1)
-    averaged = run(instantiate().initialize(**start, fidelity=0), pieces, 1)
-    deviation, stated = np.abs(averaged - resolved)[1, 0], averaged[1, 3]
-    assert 1e-6 <= deviation <= stated <= 20.0 * deviation
-    assert averaged[0, 3] <= 1e-3 * stated, "the step before was of second order"
 
 
 @pytest.mark.parametrize("duration", [0.2, 40.0])
@@ -178,15 +113,6 @@ def test_the_frequency_of_a_constant_load_does_not_matter(
     assert ends[1] == pytest.approx(ends[0], abs=2e-9)
 
 
-@pytest.mark.parametrize("law", [0, 1])
-def test_a_chirp_leaves_and_reaches_slow_phases(instantiate: Instantiate, law: int) -> None:
-    """1.3 to 0.9 and the reverse: away from 1 the load counts with its mean, to first order."""
-    for ratio, rate in ((1.3, -1.0), (0.8, 1.0)):
-        start = {"friction_law": law, "frequency_ratio": ratio}
-        deviation, _ = compared(instantiate, [(0.4 / PERIOD, {"frequency_ratio": rate})], start, 2)
-        assert deviation[:, 0].max() <= 5e-3 * FAST
-
-
 @pytest.mark.parametrize(
     ("load", "rate", "friction"), [(0.0, 0.12, 0.2), (0.5, -1.0, 0.2), (-0.5, 0.7, 0.2)]
 )
@@ -205,13 +131,3 @@ def test_a_block_without_vibration_is_exact(
         ends.append(instance.get("position", "velocity"))
     assert ends[0] == pytest.approx(ends[1], rel=1e-11, abs=1e-15)
     assert friction == 2.0 * 0.1 * 1.0
-
-
-def test_a_ramp_that_stops_and_starts_keeps_tables(instantiate: Instantiate) -> None:
-    """Each stop has a lead of its own: soon they are interpolated, not tabulated one by one."""
-    instance = instantiate().initialize(fidelity=0)
-    pieces: list[Piece] = [(40, {})]
-    pieces += [(5, rates) for _ in range(30) for rates in ({"phase": 1.7}, {})]
-    found = run(instance, pieces, 1)
-    resolved = run(instantiate().initialize(fidelity=2), pieces, 1)
-    assert np.abs(found - resolved)[:, 0].max() <= 2e-6 * FAST

@@ -34,7 +34,7 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
     ),
     "contact mode is that of the last step": (
         "outputs.c",
-        "        return law_mode(law, moment);\n    case VR_REVERSALS:",
+        "        return law->motion->mode(law, moment);\n    case VR_REVERSALS:",
         "        return moment->mode;\n    case VR_REVERSALS:",
         "read_at_rest",
     ),
@@ -145,12 +145,6 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         "    return true;",
         "ramps_conduct",
     ),
-    "orbits serve a device of another damping": (
-        "orbit_tables.c",
-        "           a->damping_ratio == b->damping_ratio && ",
-        "           ",
-        "after_others_second_order",
-    ),
     "bristles go on with the old drive": (
         "bending_kernels.c",
         "           tables->drive_frequency == plant->drive_frequency &&\n",
@@ -170,9 +164,9 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         "interface",
     ),
     "a mean velocity that is held has a derivative": (
-        "output_derivatives.c",
-        "is_averaged(law) ? slow_acceleration(law, moment) : 0.0",
-        "slow_acceleration(law, moment)",
+        "resolved_motion.c",
+        "return (Rates){rates, 0.0};",
+        "return (Rates){rates, rates.velocity};",
         "late_start",
     ),
     "derivatives of inputs outlive a reset": (
@@ -203,7 +197,7 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
         "interface",
     ),
     "bristles hold a slider at rest": (
-        "output_derivatives.c",
+        "resolved_motion.c",
         "mode != STICK || !law->friction->sticks",
         "mode != STICK",
         "tuned_lugre",

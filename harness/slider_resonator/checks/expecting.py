@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -61,14 +60,6 @@ def _beside_events(output: str) -> Mapping[str, Expected]:
 
 def _averaged(output: str) -> Mapping[str, Expected]:
     return {"averaged": lambda references: getattr(references.averaged_outputs, output)}
-
-
-def _held_orbits(output: str) -> Mapping[str, Expected]:
-    return {"held_orbits": lambda references: references.on_held_orbits(output)}
-
-
-def _centre_velocity(reference: str) -> Expected:
-    return lambda references: references.centre_velocity(partial(references.signal, reference))
 
 
 def _reversals(reference: str) -> Expected:
@@ -134,25 +125,19 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "position": {
         **_resolved("position"),
         "averaged": lambda references: references.averaged_motion.position,
-        **_held_orbits("position"),
     },
     "velocity": {
         **_resolved("velocity"),
         "averaged": lambda references: references.averaged_motion.velocity,
-        **_held_orbits("velocity"),
     },
     **{
-        output: {**_resolved(output), **_averaged(output), **_held_orbits(output)}
+        output: {**_resolved(output), **_averaged(output)}
         for output in ("resonator_displacement", "resonator_velocity")
     },
     "normal_force": {**_resolved("normal_force"), **_averaged("normal_force")},
     **{
         output: {**_beside_events(output), **_averaged(output)}
         for output in ("friction_force", "contact_mode")
-    },
-    "centre_velocity": {
-        **{reference: _centre_velocity(reference) for reference in RESOLVED},
-        "held_orbits": lambda references: references.centre_velocity(references.on_held_orbits),
     },
     "slow_displacement": {
         "located_events": lambda references: slow_displacement(
@@ -167,12 +152,10 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "mean_velocity": {
         **_at_the_end(ReferenceSide.mean_velocity),
         "averaged": lambda references: float(references.averaged_motion.mean_velocity[-1]),
-        "held_orbits": lambda references: float(references.mean_velocities_on_held_orbits[-1]),
     },
     "mean_velocity_in_run": {
         **_in_run(mean_velocities),
         "averaged": lambda references: references.averaged_motion.mean_velocity,
-        "held_orbits": lambda references: references.mean_velocities_on_held_orbits,
     },
     "stick_fraction": _at_the_end(ReferenceSide.stick_fraction),
     "stick_fraction_in_run": {

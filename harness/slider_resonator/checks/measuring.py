@@ -32,12 +32,7 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
 from slider_resonator.checks.measures.slow import slow_displacement, travelled_velocity
-from slider_resonator.checks.measures.slow_error import (
-    centre_velocity,
-    mean_error_share,
-    momentary_error_share,
-    slow_error_share,
-)
+from slider_resonator.checks.measures.slow_error import error_over_estimate
 from slider_resonator.errors import NotApplicable, SceneError
 from slider_resonator.fmu.interface_check import description_faults
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -133,11 +128,8 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "mean_velocity": _final("mean_velocity"),
     "mean_velocity_in_run": _output("mean_velocity"),
     "travelled_velocity": lambda fmu: travelled_velocity(fmu.record.times, fmu.record["position"]),
-    "centre_velocity": lambda fmu: centre_velocity(fmu.record, fmu.scene.device.mass_ratio),
     "slow_motion_error": _final("slow_motion_error"),
-    "slow_error_share": slow_error_share,
-    "mean_error_share": mean_error_share,
-    "momentary_error_share": momentary_error_share,
+    "error_over_estimate": error_over_estimate,
     "stick_fraction": _final("stick_fraction"),
     "stick_fraction_in_run": _output("stick_fraction"),
     "reversals": _final("reversals"),

@@ -39,19 +39,19 @@ def _full_friction(device: Device) -> float:
     return device.friction_faces * device.friction_coefficient * _largest_normal_force(device)
 
 
-_velocity = _vibration(lambda force: force.velocity_amplitude)
+fast_velocity = _vibration(lambda force: force.velocity_amplitude)
+"""Amplitude v_q of the fast velocity (m/s) of a device, 0 without vibration."""
 _displacement = _vibration(lambda force: force.ripple_amplitude)
 _resonator = _vibration(lambda force: force.resonator_amplitude)
 
 _SCALES: Mapping[str, Callable[[Device], float]] = {
-    "steady_velocity": _velocity,
-    "predicted_velocity": _velocity,
-    "predicted_velocity_in_run": _velocity,
-    "mean_velocity": _velocity,
-    "mean_velocity_in_run": _velocity,
-    "travelled_velocity": _velocity,
-    "velocity": _velocity,
-    "centre_velocity": _velocity,
+    "steady_velocity": fast_velocity,
+    "predicted_velocity": fast_velocity,
+    "predicted_velocity_in_run": fast_velocity,
+    "mean_velocity": fast_velocity,
+    "mean_velocity_in_run": fast_velocity,
+    "travelled_velocity": fast_velocity,
+    "velocity": fast_velocity,
     "blocking_force": _full_friction,
     "predicted_blocking_force": _full_friction,
     "predicted_blocking_force_in_run": _full_friction,

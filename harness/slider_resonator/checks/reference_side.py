@@ -27,10 +27,6 @@ from slider_resonator.references.averaged.averaged_outputs import (
     AveragedOutputs,
     averaged_outputs,
 )
-from slider_resonator.references.averaged.motion_from_start import (
-    MotionFromStart,
-    simulate_from_start,
-)
 from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
@@ -132,26 +128,6 @@ class ReferenceSide:
     def averaged_outputs(self) -> AveragedOutputs:
         """Resonator, contact and forces of the averaged motion, at the communication points."""
         return averaged_outputs(self.device, self.scene.schedule().held(), self.averaged_motion)
-
-    @cached_property
-    def _on_held_orbits(self) -> MotionFromStart:
-        """The motion of second order at the communication points and the ends of turns."""
-        times = np.union1d(self.times, self.turns.ends(self.times))
-        return simulate_from_start(self.device, self.scene.schedule().held(), times)
-
-    def on_held_orbits(self, name: str) -> Array:
-        """Return an output of the motion of second order at the communication points."""
-        run = self._on_held_orbits
-        return np.asarray(getattr(run, name)[np.searchsorted(run.time, self.times)])
-
-    @property
-    def mean_velocities_on_held_orbits(self) -> Array:
-        """Mean velocities (m/s) of `period_means` at the communication points, shape (n,)."""
-        return mean_velocities(self._on_held_orbits, self.times, self.turns)
-
-    def centre_velocity(self, signal: Callable[[str], Array]) -> Array:
-        """Return X' + r Y' (m/s) of the signals of a reference by name, shape (n,)."""
-        return signal("velocity") + self.device.mass_ratio * signal("resonator_velocity")
 
     def mean_velocity(self, reference: str) -> float:
         """Return the mean velocity (m/s) over the last whole drive period of the run."""

@@ -17,7 +17,6 @@ CALLED: Mapping[str, str] = {
     "taylor": "series",
     "bristle_state": "bristles",
     "averaged": "averages",
-    "held_orbits": "orbits",
     "closed_form": "formula",
     "value": "value",
     AT_MOST: "at most",

@@ -37,7 +37,7 @@ class RunTable(KeyTable):
         "next, in any FMU. With it their corners are communication points, too; what is expected "
         "of the run does not apply to an FMU without `canInterpolateInputs`.",
         "References with the fast motion follow any line under which `frequency_ratio` keeps its "
-        "sign, `averaged` and `held_orbits` lines of `phase` and `load`.",
+        "sign, `averaged` lines of `phase` and `load`.",
         "Without [run] only quantities of the steady motion can be expected.",
     )
 

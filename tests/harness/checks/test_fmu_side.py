@@ -25,12 +25,10 @@ def test_the_blocking_force_does_not_depend_on_the_load_of_the_scene(instance: I
 RUN = "[run]\ndrive_periods = 4\nsteps_per_period = 2\n"
 SLOW = "[device]\nfidelity = 0\n" + RUN
 NUMBER = '[[expect]]\nquantity = "{}"\nat_most = 1.0\nwhy = "test"\n'
-SHARES = {"slow_error_share", "mean_error_share", "momentary_error_share"}
-"""Quantities that need a run with an estimate that is not 0."""
 SIGNAL = '[[expect]]\nquantity = "{}"\nreference = "averaged"\nrelative = 1.0\nwhy = "test"\n'
 
 
-@pytest.mark.parametrize("quantity", sorted(PREDICTED - SHARES))
+@pytest.mark.parametrize("quantity", sorted(PREDICTED))
 def test_a_scene_that_expects_a_prediction_reads_it(instance: Instance, quantity: str) -> None:
     side = FmuSide(instance, scene_of(SLOW))
     assert not set(PREDICTIONS) & set(side.record.outputs), "what nobody asks for costs nothing"

@@ -178,7 +178,7 @@ BELOW_THE_HEAD = {
     "reference of another quantity": Mistake(
         expect('quantity = "position"', 'reference = "closed_form"', "relative = 1e-6"),
         "expect[0]",
-        "must be one of averaged, bristle_state, held_orbits, located_events, taylor",
+        "must be one of averaged, bristle_state, located_events, taylor",
     ),
     "no tolerance": Mistake(
         expect('quantity = "position"', 'reference = "taylor"'), "expect[0]", "needs a tolerance"

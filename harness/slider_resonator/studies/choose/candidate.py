@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 COULOMB, LUGRE = 0, 1
 TOLERANCES = tuple(10.0**-digits for digits in range(3, 13))
-"""Tolerances of LuGre friction, resolved or in orbits, from the cheapest on."""
+"""Tolerances of LuGre friction and of leaps, from the cheapest on."""
 START_TOLERANCE = 1e-8
 """The FMU's start value, answered where the model has no use for a tolerance."""
 
@@ -38,8 +38,8 @@ class Model:
 
     @property
     def uses_tolerance(self) -> bool:
-        """Whether it integrates a bristle, be it in orbits; else its accuracy is its own."""
-        return self.friction_law == LUGRE and (self.fidelity > 0 or self.averaging_order == 2)
+        """Whether it integrates a bristle or leaps over periods; else its accuracy is its own."""
+        return self.averaging_order == 2 or (self.friction_law == LUGRE and self.fidelity > 0)
 
     @property
     def any_step(self) -> bool:

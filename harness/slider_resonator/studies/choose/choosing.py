@@ -21,7 +21,7 @@ from slider_resonator.studies.choose.candidate import (
     models,
 )
 from slider_resonator.studies.choose.choice import Choice, Evaluation, RuledOut
-from slider_resonator.studies.choose.cost import USUAL, run_cost, search_cost
+from slider_resonator.studies.choose.cost import run_cost, search_cost
 from slider_resonator.studies.choose.coverage import FINEST_TOLERANCE
 from slider_resonator.studies.choose.errors import Estimates
 from slider_resonator.studies.choose.ladder import step_ladder
@@ -160,7 +160,7 @@ class _Choosing:
         if model.averaging_order == 2:
             if self.scales.has_slow_motion:
                 return None
-            return "no motion is slow against the resonator: there are no held orbits"
+            return "no motion is slow against the resonator: there is nothing to leap over"
         error = self.scales.averaging_error or 0.0
         for name in ("mean_velocity", "velocity") if self.law == COULOMB else ():
             need = self.needs.get(name)
@@ -192,9 +192,7 @@ class _Choosing:
         """Return the cost of the run and of searches over that number of drive periods."""
         cost = 0.0
         if candidate.step is not None:
-            plan, orbits = self.probe.plan(candidate.step), candidate.model.averaging_order == 2
-            slow = self.probe.slow_range if orbits else USUAL
-            cost += run_cost(candidate, self.scales, plan, slow)
+            cost += run_cost(candidate, self.scales, self.probe.plan(candidate.step))
         if self.probe.steady_needs:
             cost += search_cost(candidate.model, candidate.tolerance, periods, self.scales)
         return cost

@@ -17,7 +17,7 @@ from slider_resonator.scenes.scene import Scene
 from slider_resonator.studies.choose.beat import lacking_beat, unseen_beat
 from slider_resonator.studies.choose.candidate import START_TOLERANCE, Candidate, Model
 from slider_resonator.studies.choose.carrying import Drift, carried, defect, over_the_scene
-from slider_resonator.studies.choose.cost import AVERAGING_ORDERS, USUAL
+from slider_resonator.studies.choose.cost import AVERAGING_ORDERS
 from slider_resonator.studies.choose.coverage import (
     MAX_STEPS,
     SIGNAL_NEEDS,
@@ -38,8 +38,6 @@ HOLDING_STEPS = 500
 """Steps of averaged motion from which the error of holding the inputs follows."""
 MAX_FOLLOWED_STEPS = 100_000
 """Steps of a candidate besides a reference that follows lines of inputs, where inputs vary."""
-RANGE_POINTS = 60
-"""Points at which averaged motion gives the range of the slow velocity."""
 CAUTION = 3.0
 """Safety factor on errors extrapolated from the beginning, besides their growth with time."""
 
@@ -101,22 +99,6 @@ class Probe:
         if step not in self._plans:
             self._plans[step] = plan_of(self.scene.with_step(step).schedule(), self.scales.period)
         return self._plans[step]
-
-    @cached_property
-    def slow_range(self) -> tuple[float, float]:
-        """Least and greatest slow velocity of the scene, in fast velocities, by averaged motion."""
-        if not self.scales.fast_velocity:
-            return USUAL
-        points = self.duration * (np.arange(1, RANGE_POINTS + 1) / RANGE_POINTS) ** 3
-        stretch = Stretch(0.0, self.duration, points)
-        size = self.duration / RANGE_POINTS
-        try:
-            candidate = Candidate(self._averaged, START_TOLERANCE, size)
-            slow = self._runs.varying(candidate, size, stretch)["mean_velocity"]
-        except FmuError:
-            return USUAL
-        fast = self.scales.fast_velocity
-        return float(slow.min()) / fast, float(slow.max()) / fast
 
     @property
     def inputs(self) -> str | None:

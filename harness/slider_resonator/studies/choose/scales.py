@@ -56,15 +56,10 @@ class Scales:
     damping: float
 
     @property
-    def has_orbits(self) -> bool:
-        """Whether averages of second order follow held orbits: slow motion under a slow phase."""
-        return self.has_slow_motion and (self.detuning == 0.0 or self.beat > 0.0 or self.lifts)
-
-    @property
     def has_slow_motion(self) -> bool:
         """Whether the slow motion is slower than the resonator forgets, and slow in a period.
 
-        Else averages of second order do not exist.
+        Else averages of second order leap over nothing.
         """
         decay = 1.0 / self.memory if self.memory else inf
         return self.slowness is not None and 0.0 < 4.0 * self.slowness < min(1.0, decay)

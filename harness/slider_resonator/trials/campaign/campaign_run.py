@@ -20,7 +20,6 @@ from slider_resonator.fmu.run import run
 from slider_resonator.output.progress import Progress, counted
 from slider_resonator.trials.campaign.expected import AVERAGED, RESOLVED
 from slider_resonator.trials.campaign.random_case import RandomCase
-from slider_resonator.trials.campaign.second_order import OUTPUTS
 from slider_resonator.trials.campaign.verdict import FAILED, PASSED, REFUSED, CaseVerdict, judge
 
 TIME_LIMIT = 60.0
@@ -117,8 +116,7 @@ def run_campaign(
 
 def _outputs(instance: Instance, case: RandomCase) -> dict[str, Array]:
     """Run a case; what is raised is what `run` does."""
-    names: tuple[str, ...] = AVERAGED if case.device.fidelity == 0 else RESOLVED
-    if case.second_order:
-        names = OUTPUTS
+    first_order = case.device.fidelity == 0 and not case.second_order
+    names = AVERAGED if first_order else RESOLVED
     record = run(instance, case.parameters, case.schedule, outputs=names)
     return dict(record.outputs)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import log, log10, tau
+from math import log10, tau
 from random import Random
 
 import numpy as np
@@ -16,7 +16,6 @@ import numpy as np
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import Signal
-from slider_resonator.references.averaged.motion_from_start import SWING_LEFT, turns_resolved
 from slider_resonator.references.closed_forms import equivalent_force
 
 MODELS = (
@@ -27,14 +26,15 @@ MODELS = (
 RESOLVED_PERIODS = (0.3, 30.0)
 AVERAGED_PERIODS = (3.0, 3000.0)
 """Shortest and longest run, in drive periods."""
-SECOND_ORDER_PERIODS = (20.0, 300.0)
+SECOND_ORDER_PERIODS = (20.0, 800.0)
 """The same with averages of second order, whose reference is resolved."""
-FRICTION_SHARES = (1e-4, 0.1)
-"""Friction over the drive force, with averages of second order; at most `SHARE_OF_DECAY` of what
-the resonator's swing decays by in a turn of the drive."""
-SHARE_OF_DECAY = 0.1
+SECOND_ORDER_STEPS = 4
+"""Most steps of half of these runs: long ones, of which periods are leapt over."""
+LEAP_TOLERANCES = (1e-9, 1e-5)
+FRICTION_SHARES = (1e-4, 0.03)
+"""Friction over the drive force with averages of second order: slow motion."""
 MIN_DAMPING = 0.005
-"""Smallest damping ratio with them: what is left of a swing must decay."""
+"""Smallest damping ratio with them: transients must decay."""
 MAX_LUGRE_RELAXATIONS = 20.0
 """Longest averaged run with LuGre friction, in times in which friction stops the fast velocity."""
 TUNABLES = (
@@ -42,9 +42,7 @@ TUNABLES = (
     *("tangential_force", "friction_coefficient"),
 )
 """Parameters that are tuned by up to a factor of two; the drive frequency by up to a tenth."""
-RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 0.5, 1.5, 1.01, 0.97, 0.003)
-SLOW_RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 1.01, 0.97, 0.003)
-"""Those with a slow phase also where the contact does not lift."""
+RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 0.5, 1.5, 1.01, 1.0002, 0.97, 0.003)
 START_TIMES = (0.0, 0.0, 0.0, 1e-3, -5.0, 12.5, 1e4)
 
 
@@ -126,16 +124,18 @@ def _device(random: Random) -> dict[str, float]:
 
 
 def _light_friction(random: Random, values: Mapping[str, float]) -> dict[str, float]:
-    """Damping and friction for which averages of second order are made."""
+    """Damping, friction and tolerance under which periods are leapt over."""
     parameters = {**values, "damping_ratio": _decades(random, log10(MIN_DAMPING), 0.0)}
     device = Device.from_mapping(parameters)
-    low, high = FRICTION_SHARES
-    decay = -log(SWING_LEFT) / turns_resolved(device)
-    high = max(2.0 * low, min(high, SHARE_OF_DECAY * decay))
-    friction = abs(equivalent_force(device).amplitude) * _decades(random, log10(low), log10(high))
+    share = _decades(random, *map(log10, FRICTION_SHARES))
+    friction = abs(equivalent_force(device).amplitude) * share
     preload = friction / (device.friction_faces * device.friction_coefficient)
-    share = device.normal_amplitude / device.normal_preload
-    return parameters | {"normal_preload": preload, "normal_amplitude": preload * share}
+    varies = device.normal_amplitude / device.normal_preload
+    return parameters | {
+        "normal_preload": preload,
+        "normal_amplitude": preload * varies,
+        "tolerance": _decades(random, *map(log10, LEAP_TOLERANCES)),
+    }
 
 
 def _bristles(random: Random, values: Mapping[str, float]) -> dict[str, float]:
@@ -168,6 +168,8 @@ def _schedule(random: Random, values: Mapping[str, float]) -> Schedule:
             duration, MAX_LUGRE_RELAXATIONS * device.total_mass * fast / device.mean_friction
         )
     count = random.randint(1, 60)
+    if second_order and random.random() < 0.5:
+        count = random.randint(1, SECOND_ORDER_STEPS)
     inside = sorted(random.uniform(0.0, 1.0) for _ in range(count - 1))
     if random.random() < 0.5:  # equal steps, the last one a part of them
         inside = [i / (count - random.uniform(0.1, 1.0)) for i in range(1, count)]
@@ -176,9 +178,6 @@ def _schedule(random: Random, values: Mapping[str, float]) -> Schedule:
     starts = [float(times[i]) for i in jumps if i < len(times) - 1]
     load = device.mean_friction * random.choice((0.0, 0.3, 1.2))
     ratios: tuple[float, ...] = (*RATIOS, random.uniform(-3.0, 5.0))
-    if second_order:
-        lifts = device.normal_amplitude > device.normal_preload
-        ratios = RATIOS if lifts else SLOW_RATIOS
     ratio = random.choice(ratios)
 
     def over(draw: list[float]) -> Signal:

@@ -1,32 +1,23 @@
-"""Averaged motion of second order in a campaign: against the resolved motion of the full device."""
+"""Motion that leaps over periods in a campaign: against the resolved motion of the full device."""
 
 from __future__ import annotations
 
-from slider_resonator.checks.second_order import (
+from slider_resonator.checks.leap_error import (
     CENTRE,
     CENTRE_VELOCITY,
-    allowed_off,
+    MARGIN,
+    allowed_by_leaps,
     centre_signals,
-    lag_of,
 )
 from slider_resonator.trials.campaign.expected import Expected
 from slider_resonator.trials.campaign.random_case import RandomCase
 
-OUTPUTS = (
-    *("position", "velocity", "resonator_displacement", "resonator_velocity"),
-    "slow_motion_error",
-)
 
-
-def of_second_order(case: RandomCase, full: Expected, estimate: float) -> Expected:
-    """Return what is expected where the reference of the full device expects `full`.
-
-    `estimate` (m/s) is what the FMU says of its error, its largest slow_motion_error.
-    """
-    device = case.device
-    lag = lag_of(device, case.schedule.held())
-    off = allowed_off(device, lag, estimate, float(case.schedule.times[-1]))
-    own, share = full.allowed, device.mass_ratio
+def of_second_order(case: RandomCase, full: Expected) -> Expected:
+    """Return what is expected where the reference of the full device expects `full`."""
+    device, own = case.device, full.allowed
+    off = allowed_by_leaps(device, case.schedule.held(), float(case.schedule.times[-1]))
+    share = device.mass_ratio
     allowed = {
         CENTRE_VELOCITY: own["velocity"] + share * own["resonator_velocity"],
         CENTRE: own["position"] + share * own["resonator_displacement"],
@@ -34,5 +25,5 @@ def of_second_order(case: RandomCase, full: Expected, estimate: float) -> Expect
     return Expected(
         centre_signals(device, full.signals),
         {name: value + off[name] for name, value in allowed.items()},
-        full.resolution + lag.share,
+        full.resolution + MARGIN * device.tolerance,
     )

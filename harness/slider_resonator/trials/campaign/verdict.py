@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.second_order import centre_signals
+from slider_resonator.checks.leap_error import centre_signals
 from slider_resonator.trials.campaign.expected import CONDITIONING, Expected, expected, moved
 from slider_resonator.trials.campaign.random_case import RandomCase
 from slider_resonator.trials.campaign.second_order import of_second_order
@@ -43,19 +43,17 @@ def judge(case: RandomCase, record: Mapping[str, Array]) -> CaseVerdict:
         reference = expected(case)
     except (RuntimeError, ValueError, ArithmeticError) as error:
         return CaseVerdict(case.number, case.model, NO_REFERENCE, reason=str(error))
-    first = 0
     if case.second_order:
-        reference = of_second_order(case, reference, float(record["slow_motion_error"].max()))
+        reference = of_second_order(case, reference)
         record = centre_signals(case.device, record)
-        first = 1  # where nothing is slow, averages of first order begin with the steady swing
-    found, signal, words = _worst(record, reference, first)
+    found, signal, words = _worst(record, reference)
     if found <= 1.0:
         return CaseVerdict(case.number, case.model, PASSED, found, signal)
     try:
         near = moved(case, reference.resolution).signals
         if case.second_order:
             near = centre_signals(case.device, near)
-        own, _, _ = _worst(near, reference, first)
+        own, _, _ = _worst(near, reference)
     except (RuntimeError, ValueError, ArithmeticError):
         own = 0.0
     verdict = SENSITIVE if found <= CONDITIONING * own else FAILED
@@ -63,12 +61,12 @@ def judge(case: RandomCase, record: Mapping[str, Array]) -> CaseVerdict:
     return CaseVerdict(case.number, case.model, verdict, found, signal, reason)
 
 
-def _worst(record: Mapping[str, Array], reference: Expected, first: int) -> tuple[float, str, str]:
-    """Return the largest deviation over what is allowed from point `first` on, where, in words."""
+def _worst(record: Mapping[str, Array], reference: Expected) -> tuple[float, str, str]:
+    """Return the largest deviation over what is allowed, where, in words."""
     found, signal, words = 0.0, "", ""
     for name, there in reference.signals.items():
         # There is no mean over a period before the first step.
-        begin = max(first, int(name == "mean_velocity"))
+        begin = int(name == "mean_velocity")
         off = float(np.abs(record[name] - there)[begin:].max())
         allowed = reference.allowed[name]
         ratio = off / allowed if allowed else 2.0 * float(off > 0.0)

@@ -44,7 +44,7 @@ def _beats(model: Model) -> Iterator[MatrixCell]:
         limits: tuple[Limit, ...] = ()
         if model == Model(0, 0) and beats > 1.0:
             limits = (Limit("mean_velocity", -0.0984030, 1e-6, "by small steps"),)
-        # In one step, orbits of LuGre friction over more beats take more maps than a step may.
+        # Averages of second order resolve beats: more of them take more work than a step may.
         count = 8 if beats > 1.0 or model.second_order else 24
         size = min(beats, 90.0 if model.fidelity == 0 else 3.0) * BEAT
         hold = Hold(size, count, phase=0.5, frequency_ratio=1.0 + DETUNING)

@@ -13,6 +13,9 @@ SUBSTEPS = 3
 MIN_DIVISIBLE = 1e-300
 """Steps up to this size, s, are not divided."""
 
+LEAP_TOLERANCE = 1e-6
+"""Tolerance of averages of second order, under which they leap over periods."""
+
 
 @dataclass(frozen=True)
 class Hold:
@@ -90,7 +93,8 @@ class MatrixCell:
         chosen = {"fidelity": self.model.fidelity, "friction_law": self.model.friction_law}
         if self.model.fidelity == 0:
             chosen["averaging_order"] = self.model.averaging_order
-        return {**self.parameters, **chosen}
+        usual = {"tolerance": LEAP_TOLERANCE} if self.model.second_order else {}
+        return {**usual, **self.parameters, **chosen}
 
     @property
     def device(self) -> Device:

@@ -50,11 +50,12 @@ def device_cells() -> Iterator[MatrixCell]:
 def usual_holds(model: Model, parameters: Mapping[str, float]) -> tuple[Hold, ...]:
     """Return steps that show the motion: resolved 32 a period, averaged one in ten periods.
 
-    Averages of second order have a resolved reference, which makes their runs shorter.
+    Steps of averages of second order are long enough for leaps, their runs short enough for a
+    resolved reference.
     """
     period = tau / parameters.get("drive_frequency", W)
     if model.fidelity == 0:
-        return (Hold(10.0 * period, 12 if model.second_order else 100),)
+        return (Hold(120.0 * period, 4) if model.second_order else Hold(10.0 * period, 100),)
     return (Hold(period / 32.0, 160),)
 
 

@@ -8,6 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.checks.leap_error import MARGIN
+from slider_resonator.checks.natural_scale import fast_velocity
 from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.trials.extremes.cell import MatrixCell
@@ -71,15 +73,14 @@ def _friction_bound(cell: MatrixCell, seen: Observation) -> BoundCheck:
     device = cell.device
     normal = seen.signal("normal_force")
     max_normal = device.normal_preload + device.normal_amplitude
-    if device.fidelity == 0:
+    averaged = device.fidelity == 0 and not cell.model.second_order
+    if averaged:
         normal = np.full_like(normal, max_normal)
     share = np.full_like(normal, device.friction_coefficient)
     if device.friction_law == 1:
         velocity = np.abs(seen.signal("velocity"))
-        if device.fidelity == 0:
+        if averaged:
             velocity = np.abs(seen.signal("mean_velocity")) + _vibration(device)
-        if cell.model.second_order:
-            velocity = np.maximum(velocity, np.abs(seen.signal("velocity")))
         share += 2.0 * device.bristle_damping * velocity
     force = np.abs(seen.signal("friction_force"))
     allowed = BOUND * device.friction_faces * share * max_normal
@@ -100,7 +101,7 @@ def _momentum(cell: MatrixCell, seen: Observation, theta: Exact) -> BoundCheck:
 
     The averaged motion has the momentum (M+m) V - D cos(theta) with D the impulse of the drive; at
     fidelity 1 a mean over a period may differ from that by the vibration itself, with averages of
-    second order by what friction does in a period.
+    second order by the error of leaps.
     """
     device = cell.device
     drive = device.resonator_mass * device.base_amplitude * device.drive_frequency
@@ -113,10 +114,7 @@ def _momentum(cell: MatrixCell, seen: Observation, theta: Exact) -> BoundCheck:
     if device.fidelity == 2 or cell.model.second_order:
         momentum = body + resonator - drive * (1.0 - np.cos(theta)).astype(float)
         if cell.model.second_order:
-            momentum[0] = device.total_mass * device.initial_velocity
-            momentum[0] += device.resonator_mass * device.initial_resonator_velocity
-            slack = 3.0 * device.total_mass * float(seen.signal("slow_motion_error").max())
-            slack += max_friction * cell.period
+            slack = MARGIN * device.tolerance * device.total_mass * fast_velocity(device)
     else:
         momentum = device.total_mass * seen.signal("mean_velocity")
         if device.fidelity == 0:

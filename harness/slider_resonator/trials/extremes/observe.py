@@ -15,8 +15,8 @@ from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.trials.extremes.cell import Hold, MatrixCell
 
-NAMES = (*OUTPUTS, "slow_motion_error")
-"""Outputs that are read; the last only with averages of second order."""
+NAMES = tuple(OUTPUTS)
+"""Outputs that are read."""
 BASELINE_STEPS = 5
 """Steps of a drive period, or of the whole run if that is shorter, that measure its cost."""
 
@@ -25,8 +25,8 @@ BASELINE_STEPS = 5
 class Observation:
     """The outputs and costs of an FMU in a cell.
 
-    `sizes` (n,) and `inputs` (n, 3) are those of each step, `outputs` (n + 1, 13 or 14) start with
-    the first moment. `other` (13 or 14,) are the last outputs in the other partition, `from_zero`
+    `sizes` (n,) and `inputs` (n, 3) are those of each step, `outputs` (n + 1, 13) start with
+    the first moment. `other` (13,) are the last outputs in the other partition, `from_zero`
     those of a run from time 0, where one was made. `replayed` is whether a second run, and steps
     after a return to a stored state, were equal bit by bit. `worst_step` is the CPU time (s) of the
     most expensive step, the smaller of two runs, per drive period it spans (at least 1);
@@ -61,10 +61,9 @@ def observe(instance: Instance, cell: MatrixCell) -> Observation:
 
 def _observe(instance: Instance, cell: MatrixCell) -> Observation:
     begin(instance, cell, cell.start_time)
-    names = NAMES if cell.model.second_order else NAMES[:-1]
-    outputs, costs = _follow(instance, cell.holds, names)
+    outputs, costs = _follow(instance, cell.holds)
     begin(instance, cell, cell.start_time)
-    again, costs_again = _follow(instance, cell.holds, names)
+    again, costs_again = _follow(instance, cell.holds)
     costs = [min(pair) for pair in zip(costs, costs_again, strict=True)]
     replayed = bool(np.array_equal(outputs, again, equal_nan=True))
     if cell.restored:
@@ -72,13 +71,13 @@ def _observe(instance: Instance, cell: MatrixCell) -> Observation:
     from_zero = None
     if cell.from_zero:
         begin(instance, cell, 0.0)
-        from_zero = _follow(instance, cell.holds, names)[0][-1]
+        from_zero = _follow(instance, cell.holds)[0][-1]
     begin(instance, cell, cell.start_time)
-    other, _ = _follow(instance, cell.other_holds, names)
+    other, _ = _follow(instance, cell.other_holds)
     begin(instance, cell, 0.0)
     size = min(cell.period, sum(hold.size * hold.count for hold in cell.holds))
     baseline = (Hold(size, BASELINE_STEPS, *cell.holds[0].inputs),)
-    _, periods = _follow(instance, baseline, names)
+    _, periods = _follow(instance, baseline)
     sizes = [hold.size for hold in cell.holds for _ in range(hold.count)]
     inputs = [hold.inputs for hold in cell.holds for _ in range(hold.count)]
     return Observation(
@@ -99,11 +98,9 @@ def begin(instance: Instance, cell: MatrixCell, start_time: float) -> None:
     instance.start({**cell.settings, **first}, start_time=start_time)
 
 
-def _follow(
-    instance: Instance, holds: Sequence[Hold], names: Sequence[str]
-) -> tuple[Array, list[tuple[float, float]]]:
+def _follow(instance: Instance, holds: Sequence[Hold]) -> tuple[Array, list[tuple[float, float]]]:
     """Return the outputs at all points, and size and CPU time (s) of every step."""
-    block = instance.block(names)
+    block = instance.block(NAMES)
     clock = time.thread_time
     costs = []
     with instance.explained():
@@ -121,7 +118,7 @@ def _follow(
 def _replayed(instance: Instance, cell: MatrixCell) -> bool:
     """Return whether every second step, repeated from a stored state, gives the same outputs."""
     begin(instance, cell, 0.0)
-    block = instance.block(NAMES[:-1])
+    block = instance.block(NAMES)
     slave = instance.slave
     equal = True
     with instance.explained():

@@ -1,4 +1,4 @@
-"""Compare averaged motion of second order with the resolved motion of the full device."""
+"""Compare motion that leaps over periods with the resolved motion of the full device."""
 
 from __future__ import annotations
 
@@ -8,13 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.second_order import (
-    CENTRE,
-    CENTRE_VELOCITY,
-    allowed_off,
-    centre_signals,
-    lag_of,
-)
+from slider_resonator.checks.leap_error import allowed_by_leaps, centre_signals
 from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.trials.extremes.cell import MatrixCell
@@ -36,24 +30,16 @@ def compare(
 ) -> BoundCheck:
     """Return the check of slider and resonator as one mass; `motion` is that of the full device.
 
-    `own` is the error allowed of a resolved motion, as a fraction of peaks. Raises ValueError as
-    `lag_of` does.
+    `own` is the error allowed of a resolved motion, as a fraction of peaks.
     """
-    device, duration = cell.device, float(seen.sizes.sum())
-    estimate = float(seen.signal("slow_motion_error").max())
-    lag = lag_of(device, held)
-    allowed = allowed_off(device, lag, estimate, duration)
-    # Until the resonator's swing is settled, motion is resolved: with bristles to the tolerance.
-    resolved = device.tolerance * device.friction_law * lag.fast_velocity
-    by_tolerance = {CENTRE_VELOCITY: resolved, CENTRE: resolved * duration}
+    device = cell.device
+    allowed = allowed_by_leaps(device, held, float(seen.sizes.sum()))
     signals = {name: seen.signal(name) for name in motion}
     here, there = centre_signals(device, signals), centre_signals(device, motion)
     worst, words = 0.0, ""
     for name, bound in allowed.items():
-        # At the first point, averages without slow motion begin with the steady swing.
-        off = float(np.abs(here[name] - there[name])[1:].max())
-        size = float(np.abs(there[name]).max())
-        total = bound + by_tolerance[name] + own * size
+        off = float(np.abs(here[name] - there[name]).max())
+        total = bound + own * float(np.abs(there[name]).max())
         found = off / total if total else 2.0 * float(off > 0.0)
         if not found <= worst:
             worst, words = found, f"{name} off by {off:.3g}, allowed {total:.3g}"

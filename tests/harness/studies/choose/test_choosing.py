@@ -55,7 +55,7 @@ def test_a_long_run_takes_second_order_where_first_does_not_do(instance: Instanc
     assert orders == [1, 2]
 
 
-def test_there_are_no_held_orbits_without_damping(instance: Instance) -> None:
+def test_there_is_nothing_to_leap_over_without_damping(instance: Instance) -> None:
     scene = scene_of(
         "[device]\ndamping_ratio = 0.0\nresonator_frequency = 3000.0\n"
         "[run]\ndrive_periods = 50\nsteps_per_period = 1\n"
@@ -63,7 +63,7 @@ def test_there_are_no_held_orbits_without_damping(instance: Instance) -> None:
     )
     choice = choose_with(instance, scene)
     why = {m.averaging_order: m.why for m in choice.ruled_out if m.fidelity == 0}
-    assert "no held orbits" in why[2]
+    assert "nothing to leap over" in why[2]
 
 
 def lugre(need: str, stiffness: float = 1e5, periods: int = 200) -> Scene:
@@ -106,7 +106,7 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
     tight = choose_with(instance, scene_of("[need]\nsteady_velocity = { rel = 1e-7 }\n"))
     assert (loose.meets, loose.fidelity, loose.step) == (True, 0, None)
     assert (loose.averaging_order, tight.averaging_order) == (1, 2)
-    assert (tight.meets, tight.fidelity, tight.step) == (True, 0, None), "by held orbits: exact"
+    assert (tight.meets, tight.fidelity, tight.step) == (True, 0, None), "by the period map: exact"
 
 
 @pytest.mark.parametrize("need", ["steady_velocity", "blocking_force"])

@@ -69,10 +69,10 @@ def test_averaged_motion_has_a_mean_velocity_and_no_events(instance: Instance) -
     assert method.label.kind == AVERAGED
 
 
-def test_averages_of_second_order_are_far_closer(instance: Instance) -> None:
+def test_leaps_are_as_exact_as_their_tolerance(instance: Instance) -> None:
     table_1 = problem(TABLE_1, max_periods=200)
     found = followed(table_1, pick(table_1, instance, 0, 100.0, 2))
-    assert 1e-10 < found["mean_velocity"] < 1e-6
+    assert found["mean_velocity"] < 1e-6
     assert found["position"] < 1e-6
 
 

@@ -1,0 +1,275 @@
+"""Fidelity 0, order 2: motion that leaps over periods, against resolved motion of the same FMU."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import pytest
+
+from tests.fmu.host import OUTPUTS, Instance, Instantiate
+from tests.fmus import native_fmu_only
+
+pytestmark = native_fmu_only
+
+PERIOD = math.tau / 3500.0
+FAST = 0.2366097
+"""v_q of table 1, m/s."""
+EXACT = 1e-11
+"""Tolerance of bristles that are resolved for comparison."""
+
+Inputs = Callable[[int], Mapping[str, float]]
+
+
+@dataclass(frozen=True)
+class Found:
+    """At the ends of steps: errors of the mean velocity m/s and position m, and the estimate."""
+
+    errors: list[float]
+    travels: list[float]
+    estimates: list[float]
+
+
+def compared(
+    instantiate: Instantiate,
+    values: Mapping[str, float],
+    size: float,
+    steps: int,
+    inputs: Inputs = lambda _: {},
+    rates: Mapping[str, float] | None = None,
+) -> Found:
+    """Errors over steps of a size in s; `rates` are derivatives of inputs, the same in all."""
+    leaping = instantiate().initialize(**{**values, "fidelity": 0})
+    tolerance = {"tolerance": EXACT} if values.get("friction_law") else {}
+    full = instantiate().initialize(**{**values, **tolerance, "fidelity": 2})
+    found = Found([], [], [])
+    for i in range(steps):
+        for instance in (leaping, full):
+            instance.set(**inputs(i))
+            if rates:
+                now = {name: values.get(name, 0.0) + i * size * r for name, r in rates.items()}
+                instance.set(**now)
+                instance.ramp(**rates)
+            instance.step(size)
+        mean, position, estimate = leaping.get("mean_velocity", "position", "slow_motion_error")
+        reference, place = full.get("mean_velocity", "position")
+        found.errors.append(abs(mean - reference))
+        found.travels.append(abs(position - place))
+        found.estimates.append(estimate)
+    return found
+
+
+def test_the_error_follows_the_tolerance(instantiate: Instantiate) -> None:
+    largest = {}
+    for tolerance in (1e-5, 1e-6, 1e-7, 1e-8, 1e-9):
+        found = compared(instantiate, {"tolerance": tolerance}, 1000.0 * PERIOD, 4)
+        largest[tolerance] = max(found.errors)
+        assert max(found.errors) <= 3.0 * tolerance * FAST
+        assert max(found.travels) <= 3.0 * tolerance * FAST * 4000.0 * PERIOD
+        assert max(found.estimates) <= 3.0 * tolerance * FAST
+    assert largest[1e-9] <= 1e-3 * 3.0 * 1e-6 * FAST
+
+
+@dataclass(frozen=True)
+class Case:
+    """A device by its parameters, with v_q [m/s] and drive periods in which it nearly settles."""
+
+    values: dict[str, float]
+    fast: float
+    transient: float
+
+
+def case_of(draw: random.Random, law: int, tolerance: float) -> Case:
+    mass, w = 10.0 ** draw.uniform(-1.0, 0.5), 10.0 ** draw.uniform(2.5, 4.0)
+    m = mass * draw.uniform(0.02, 0.3)
+    wn, xi = w * 10.0 ** draw.uniform(-0.52, 0.48), 10.0 ** draw.uniform(-2.5, 0.3)
+    base, preload = 10.0 ** draw.uniform(-5.0, -3.5), 10.0 ** draw.uniform(-0.5, 1.0)
+    amplitude = draw.choice([draw.uniform(0.0, 1.0), draw.uniform(1.0, 1.8)])
+    share, total = 10.0 ** draw.uniform(-4.0, -1.52), mass + m
+    drive = m * base * w * w
+    spring = m * wn * wn + 2j * xi * m * wn * w
+    swing = drive * (1.0 - m / total) / (spring - m * w * w + m * m * w * w / total)
+    fast = abs((drive + m * w * w * swing) / (total * w))
+    friction = 0.5 * share * total * w * fast / (max(1.0, amplitude / math.pi) * preload)
+    values = {
+        "slider_mass": mass,
+        "resonator_mass": m,
+        "resonator_frequency": wn,
+        "damping_ratio": xi,
+        "base_amplitude": base,
+        "drive_frequency": w,
+        "normal_preload": preload,
+        "normal_amplitude": amplitude * preload,
+        "friction_coefficient": friction,
+        "frequency_ratio": draw.choice([1.0, 1.0, 1.0, 2.0, 3.0, 0.5, 1.5, 1.0001]),
+        "phase": draw.uniform(0.0, 6.2),
+        "load": draw.choice([0.0, draw.uniform(-0.6, 0.6)]) * 2.0 * friction * preload,
+        "tolerance": tolerance,
+    }
+    if law == 1:
+        stiffness = 10.0 ** draw.uniform(1.0, 3.5) * friction * w / fast
+        values |= {"friction_law": 1, "bristle_stiffness": stiffness}
+        values |= {"bristle_damping": 10.0 ** draw.uniform(-3.0, -1.0) * friction / fast}
+    return Case(values, fast, 1.0 / share)
+
+
+@pytest.mark.parametrize(("law", "count", "seed"), [(0, 60, 1707), (1, 16, 1708)])
+def test_random_devices_keep_the_tolerance_and_know_their_error(
+    instantiate: Instantiate, law: int, count: int, seed: int
+) -> None:
+    """Nearly all: at most ten times what is allowed, at most three times what is estimated.
+
+    The estimate is that of leaps: what bristles err by while they are resolved is not in it.
+    """
+    draw, covered, leapt, kept = random.Random(seed), [], 0, 0
+    for _ in range(count):
+        case = case_of(draw, law, 1e-6)
+        allowed = 1e-6 * case.fast
+        size = max(200.0, case.transient / 3.0) * math.tau / case.values["drive_frequency"]
+        found = compared(instantiate, case.values, size, 4)
+        kept += max(found.errors) <= 10.0 * allowed
+        leapt += found.estimates[-1] > 0.0
+        covered += [
+            error <= 3.0 * estimate
+            for error, estimate in zip(found.errors, found.estimates, strict=True)
+            if error > 0.1 * allowed and estimate > 0.0
+        ]
+    assert leapt >= 0.6 * count
+    assert kept >= 0.97 * count
+    assert sum(covered) >= 0.9 * len(covered)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_steps_cut_in_two_are_as_exact(instantiate: Instantiate, law: int) -> None:
+    values = {"friction_law": law, "tolerance": 1e-6, "phase": 0.4}
+    ends = []
+    for steps in (1, 2, 3):
+        instance = instantiate().initialize(**values, fidelity=0)
+        for _ in range(steps):
+            instance.step(1800.0 * PERIOD / steps)
+        ends.append(instance.get("mean_velocity")[0])
+    assert ends[1:] == pytest.approx(ends[:1] * 2, abs=6e-6 * FAST)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_inputs_that_jump(instantiate: Instantiate, law: int) -> None:
+    def inputs(i: int) -> Mapping[str, float]:
+        return {"phase": float(i % 2), "load": (0.0, 0.05, -0.04)[i % 3]}
+
+    values = {"friction_law": law, "tolerance": 1e-6}
+    found = compared(instantiate, values, 300.0 * PERIOD, 6, inputs)
+    assert max(found.errors) <= 3e-6 * FAST
+    assert found.estimates[-1] > 0.0, "it leapt"
+
+
+@pytest.mark.parametrize(
+    "rates",
+    [{"phase": 1.0}, {"load": 0.05}, {"phase": -0.7, "load": -0.04}],
+    ids=["phase", "load", "both"],
+)
+def test_inputs_that_grow(instantiate: Instantiate, rates: dict[str, float]) -> None:
+    found = compared(instantiate, {"tolerance": 1e-6}, 400.0 * PERIOD, 4, rates=rates)
+    assert max(found.errors) <= 3e-6 * FAST
+    assert found.estimates[-1] > 0.0, "it leapt"
+
+
+def test_a_ratio_that_grows_and_falls_within_steps(instantiate: Instantiate) -> None:
+    """What has grown before a leap counts in it: the phase of the load shows."""
+    leaping, full = (
+        instantiate().initialize(fidelity=fidelity, tolerance=1e-6) for fidelity in (0, 2)
+    )
+    ratio, size = 1.0, 400.0 * PERIOD
+    for rate in (4e-4, 4e-4, -8e-4):
+        for instance in (leaping, full):
+            instance.set(frequency_ratio=ratio)
+            instance.ramp(frequency_ratio=rate)
+            instance.step(size)
+        ratio += rate * size
+        names = ("normal_force", "mean_velocity")
+        assert leaping.get(*names) == pytest.approx(full.get(*names), abs=3e-6 * FAST)
+
+
+def last_outputs(instance: Instance, size: float) -> list[tuple[float, ...]]:
+    return instance.run(3, size)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_replay_is_equal_bit_by_bit(instantiate: Instantiate, law: int) -> None:
+    """In the same instance, in another, and after other motion between."""
+    values = {"friction_law": law, "tolerance": 1e-6, "fidelity": 0}
+    one, other = instantiate().initialize(**values), instantiate().initialize(**values)
+    one.step(500.0 * PERIOD)
+    data, time = one.state(), one.time
+    expected = last_outputs(one, 300.0 * PERIOD)
+    for instance in (one, other):
+        instance.set(load=0.1)
+        instance.step(100.0 * PERIOD)
+        instance.restore(data)
+        instance.time = time
+        assert last_outputs(instance, 300.0 * PERIOD) == expected
+
+
+def test_short_steps_are_resolved(instantiate: Instantiate) -> None:
+    rows = [
+        instantiate().initialize(fidelity=fidelity).run(60, 7.3 * PERIOD) for fidelity in (0, 2)
+    ]
+    predictions = {"steady_velocity", "blocking_force", "prediction_valid"}
+    for index, name in enumerate(OUTPUTS):
+        if name not in predictions:
+            one, other = ([row[index] for row in run] for run in rows)
+            assert one == pytest.approx(other, rel=1e-10, abs=1e-15), name
+
+
+def test_counts_and_the_last_event_are_those_of_resolved_motion(instantiate: Instantiate) -> None:
+    """Also once the slider runs away, and no event comes any more."""
+    for values in ({}, {"load": -1.2, "friction_coefficient": 0.5, "initial_velocity": 0.1}):
+        rows = []
+        for fidelity in (0, 2):
+            instance = instantiate().initialize(fidelity=fidelity, tolerance=1e-6, **values)
+            for _ in range(4):
+                instance.step(300.5 * PERIOD)
+            rows.append(instance.get("reversals", "last_event_time"))
+        assert rows[0] == pytest.approx(rows[1], abs=1e-5 * PERIOD)
+
+
+@pytest.mark.parametrize("fidelity", [0, 1, 2])
+@pytest.mark.parametrize(
+    ("values", "velocity", "force"),
+    [
+        ({}, 0.12666699702, 0.08518613221),
+        ({"phase": 0.4, "load": 0.05}, 0.0986950617, None),
+        ({"phase": 0.4, "frequency_ratio": 3.0}, -0.0362968157, None),
+    ],
+)
+def test_predictions_are_exact(
+    instantiate: Instantiate,
+    fidelity: int,
+    values: dict[str, float],
+    velocity: float,
+    force: float | None,
+) -> None:
+    """Against the steady motion of the full device, found by other methods."""
+    instance = instantiate().initialize(fidelity=fidelity, **values)
+    steady, blocking, valid = instance.get("steady_velocity", "blocking_force", "prediction_valid")
+    assert valid == 1.0
+    assert steady == pytest.approx(velocity, rel=2e-9)
+    assert force is None or blocking == pytest.approx(force, rel=2e-9)
+    first = instantiate().initialize(fidelity=fidelity, averaging_order=1, **values)
+    assert abs(first.get("steady_velocity")[0] - steady) > 1e-5
+
+
+@pytest.mark.parametrize(
+    "values", [{}, {"friction_law": 1}, {"frequency_ratio": 1.5, "normal_amplitude": 2.0}]
+)
+def test_motion_settles_at_the_prediction(
+    instantiate: Instantiate, values: dict[str, float]
+) -> None:
+    instance = instantiate().initialize(**values, phase=0.4, fidelity=0)
+    instance.step(22_000.0 * PERIOD)
+    means = []
+    for _ in range(2):
+        instance.step(PERIOD)
+        means.append(instance.get("mean_velocity")[0])
+    assert sum(means) / 2.0 == pytest.approx(instance.get("steady_velocity")[0], abs=3e-8 * FAST)
