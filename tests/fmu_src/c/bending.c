@@ -5,10 +5,10 @@
 #include <stdlib.h>
 
 #include "bending_panel.h"
-#include "event_search.h"
+#include "events.h"
 #include "fast_decay.h"
 #include "gauss_nodes.h"
-#include "law.h"
+#include "resolved_motion.h"
 #include "values.h"
 
 enum { STATES = 5 };
@@ -17,7 +17,7 @@ static bool law_of(Law *law, const double *values, double tolerance, Refusal *re
     Device device = device_of(values);
     Inputs inputs = inputs_of(values);
     device.tolerance = tolerance;
-    return law_prepare(law, &device, &inputs, NULL, refusal);
+    return law_prepare(law, &device, &inputs, refusal);
 }
 
 void decays(const double *x, int count, double *found) {
@@ -51,11 +51,11 @@ int run_bending(const double *values, double tolerance, int panels, int warm, do
     bool done = tables != NULL && law_of(&law, values, tolerance, &refusal);
     if (done) {
         law.bending = panels ? tables : NULL;
-        now = law_start(&law);
+        now = resolved_start(&law);
     }
     for (int i = 0; done && i < steps; i++) {
         Budget budget = budget_of(step_size);
-        done = law_advance(&law, &now, step_size, NULL, &budget, &after, &refusal);
+        done = events_advance(&law, &now, step_size, NULL, &budget, &after, &refusal);
         const double state[STATES] = {after.position, after.state.velocity, after.state.displacement,
                                       after.state.rate, after.bristle};
         for (int k = 0; k < STATES; k++) {
@@ -78,7 +78,7 @@ static bool compare(const Law *series, const BendingPanel *panel, const Moment *
     KnownPhasors known;
     double travel = bending_panel_travel(panel, t);
     Budget budget = budget_of(t);
-    if (!law_advance(series, now, t, NULL, &budget, &after, &refusal)) {
+    if (!events_advance(series, now, t, NULL, &budget, &after, &refusal)) {
         return false;
     }
     *travelled = fabs(travel - (after.position - now->position));
@@ -106,11 +106,11 @@ int panel_errors(const double *values, double start, double tolerance, double sh
         return 0;
     }
     const Plant *plant = &law.held.plant;
-    now = law_start(&law);
+    now = resolved_start(&law);
     EventSearch search = event_search(0.0);
     Budget budget = budget_of(start);
-    if (!law_advance(&law, &now, start, NULL, &budget, &later, &refusal) ||
-        !law_advance(&law, &later, TAU / plant->drive_frequency, &search, &budget, &reversal,
+    if (!events_advance(&law, &now, start, NULL, &budget, &later, &refusal) ||
+        !events_advance(&law, &later, TAU / plant->drive_frequency, &search, &budget, &reversal,
                      &refusal) ||
         !search.found || reversal.mode == LIFTED || reversal.state.velocity != 0.0) {
         return 0;
