@@ -1,34 +1,110 @@
-"""The interface of a motion in one contact mode, which a leg follows."""
+"""The motion of a device under held inputs: resolved, averaged, or leaping over periods."""
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from dataclasses import replace
+from typing import Protocol
 
-from .first_zero import Watch
-
-EPSILON = 2.0**-52
-"""Spacing of floating point numbers above 1: the unit of rounding errors."""
-
-
-class State(NamedTuple):
-    """Slider velocity [m/s], resonator displacement [m] and velocity [m/s]."""
-
-    velocity: float
-    displacement: float
-    rate: float
+from . import refusal_texts
+from .budget import Budget
+from .device import Device, System, hold, steady_swing
+from .events import advance, law_of
+from .moment import Moment
+from .parameters import Inputs
+from .slow_motion import Averaged
+from .values import Refusal
 
 
 class Motion(Protocol):
-    """Closed-form motion from a given state on, inputs held, contact mode unchanged."""
+    """A device in motion under held inputs."""
 
-    def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """Signals that are positive while the mode lasts, up to `horizon` [s]."""
+    system: System
+
+    def start(self) -> Moment:
+        """The first moment, at drive and normal phase 0."""
         ...
 
-    def travel(self, t: float) -> float:
-        """Displacement of the slider after `t` [s], in m."""
+    def advance(self, moment: Moment, duration: float) -> Moment:
+        """The moment after a communication step of `duration` > 0 [s].
+
+        Raises Refusal for more work than a step may take.
+        """
         ...
 
-    def state(self, t: float) -> State:
-        """State after `t` [s]."""
+    def mode(self, now: Moment) -> int:
+        """Contact mode under the held inputs."""
         ...
+
+    def friction_force(self, now: Moment, mode: int) -> float:
+        """Friction force [N] on the slider, positive against +X."""
+        ...
+
+    def resonator(self, now: Moment) -> tuple[float, float]:
+        """Displacement [m] and velocity [m/s] of the resonator."""
+        ...
+
+    def slow_motion_error(self, now: Moment) -> float:
+        """The estimate of the error of the slow velocity [m/s]; 0 for resolved motion."""
+        ...
+
+
+class Resolved:
+    """Resolved motion with one or two degrees of freedom (see `Motion`)."""
+
+    def __init__(self, system: System) -> None:
+        self.system, self.law = system, law_of(system)
+
+    def start(self) -> Moment:
+        """The initial values.
+
+        A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that
+        the momentum of the pair is that of the initial values.
+        """
+        device, system = self.system.device, self.system
+        velocity, rate = device.initial_velocity, device.initial_resonator_velocity
+        if system.resonator_amplitude is not None:
+            _, steady = steady_swing(system.resonator_amplitude, 0.0, system.drive_frequency)
+            velocity += device.mass_fraction * (rate - steady)
+        now = Moment(
+            velocity, device.initial_resonator_displacement, rate, device.initial_position
+        )
+        if device.friction_law == 1:
+            now.bristle = device.bristle_stiffness * device.initial_bristle_deflection
+        now.mode = self.law.mode(system, now)
+        return now
+
+    def advance(self, moment: Moment, duration: float) -> Moment:
+        """See Motion."""
+        return advance(self.system, moment, duration, Budget(duration))
+
+    def mode(self, now: Moment) -> int:
+        """See Motion."""
+        return self.law.mode(self.system, now)
+
+    def friction_force(self, now: Moment, mode: int) -> float:
+        """See Motion."""
+        return self.law.force(self.system, now, mode)
+
+    def resonator(self, now: Moment) -> tuple[float, float]:
+        """See Motion."""
+        return self.system.resonator(now.displacement, now.rate, now.theta)
+
+    def slow_motion_error(self, now: Moment) -> float:
+        """See Motion."""
+        return 0.0
+
+
+def motion_of(device: Device, inputs: Inputs) -> Motion:
+    """The motion of a device under held inputs.
+
+    Raises Refusal for LuGre friction without friction, where (8) divides by mu, and where undamped
+    resonance leaves no steady vibration that fidelity 0 or 1 needs.
+    """
+    if device.friction_law == 1 and device.friction_coefficient == 0.0:
+        raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
+    system = hold(device, inputs)
+    if device.fidelity > 0:
+        return Resolved(system)
+    if device.averaging_order == 1:
+        return Averaged(system, inputs.frequency_ratio)
+    return Resolved(hold(replace(device, fidelity=2), inputs))
