@@ -6,7 +6,6 @@ import json
 import struct
 from typing import Any
 
-from fmu_src.python.slider_component.orbit_state import OrbitValues, PaidTables
 from fmu_src.python.slider_component.variables import VARIABLES
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]
@@ -20,9 +19,11 @@ FIELDS = (
     *("backward_stop", "backward_drift", "forward_stop", "forward_drift"),
     *("stage", "to_go", "waited", "slow_velocity", "centre", "lead"),
     *("own_displacement", "own_rate"),
-    *(f"under_{name}" for name in OrbitValues._fields),
+    *("under_phase", "under_load", "under_ratio", "under_waves", "under_preload"),
+    *("under_amplitude", "under_coefficient", "under_base", "under_frequency", "under_force"),
     *("leads", "first_lead", "second_lead", "third_lead", "fourth_lead"),
-    *(f"paid_{name}" for name in PaidTables._fields),
+    *("paid_curves", *(f"paid_{i}_waves" for i in range(4)), *(f"paid_{i}_lead" for i in range(4))),
+    *("paid_has_series", "paid_series_waves"),
     *("varied", "loading", "ahead", "doubt", "unrest", "acceleration"),
     *("open_kind", "open_elapsed", "open_velocity", "open_angle"),
     *("open_displacement", "open_rate", "tunings"),
@@ -48,5 +49,5 @@ def moment_of(state: bytes) -> dict[str, Any]:
     """The motion in a state of either FMU by name, such as theta, psi and sticks."""
     if state.startswith(b"SLIDRES\x01") and len(state) == LAYOUT.size:
         return numbers(state)
-    moment = json.loads(state.partition(b"\n")[2])["moment"]
-    return {**moment, **moment["counts"]}
+    moment: dict[str, Any] = json.loads(state.partition(b"\n")[2])["moment"]
+    return moment

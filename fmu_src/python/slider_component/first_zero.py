@@ -74,14 +74,13 @@ def first_zero(watch: Watch, limit: float) -> float | None:
     shortest, short_steps = SHORTEST / fastest, 0
     for _ in range(MAX_EVALUATIONS):
         value, slope, bound = signal(t)
-        if value < -noise and t > 0.0:
+        if value < -noise and t > before:
             # Only a step of the shortest length can get here.
             return _refined(signal, before, t, fastest)
         square = slope * slope
         if slope < 0.0:
-            if value <= noise and (value < -noise or square > 16.0 * noise * bound):
-                return t
-            if value > noise and square > 2.2 * bound * (value + noise):
+            margin = 2.2 * (value + noise) if value > noise else 16.0 * noise
+            if square > bound * margin:
                 root = _refined(signal, t, inf, fastest)
                 return root if root < limit else None
             value = max(value, noise)

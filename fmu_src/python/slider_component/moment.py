@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import floor, inf, tau
 
+from .contact import STICK
+
 MARK_TOLERANCE = 1e-7
 """Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
 of whole periods complete their last period in spite of rounding."""
@@ -18,7 +20,8 @@ class Moment:
     Slider `velocity` [m/s] and `position` [m], resonator `displacement` [m] and `rate` [m/s], and
     the friction sigma_0 z of the `bristle` per unit normal load, 0 with Coulomb friction. Phases of
     the drive `theta` and of the normal load `psi` [rad]. `event_age` is the time since the last
-    event [s], infinite before any; `sliding` the direction of the last sliding, 0 before any.
+    event [s], infinite before any; `sliding` the direction of the last sliding, 0 before any;
+    `reversals` and `sticks` count.
     `travel` [m], `elapsed` [s] and `sticking` [s] are sums since the last drive period ended (or
     the start), `mean_velocity` [m/s] and `stick_fraction` the means of the last whole one once it
     is `complete`. `leap_error` [m/s] is what leaps over periods have erred by so far in the slow
@@ -36,6 +39,7 @@ class Moment:
     mode: int = 0
     sliding: int = 0
     reversals: int = 0
+    sticks: int = 0
     event_age: float = inf
     bristle: float = 0.0
     travel: float = 0.0
@@ -54,6 +58,7 @@ class Moment:
         """Change to contact mode `mode`; that is an event unless it is the present mode."""
         if mode != self.mode:
             self.mode, self.event_age = mode, 0.0
+            self.sticks += mode == STICK
 
     def turn(self, direction: int) -> None:
         """Begin to slide in another direction than before: an event."""

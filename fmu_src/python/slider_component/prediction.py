@@ -80,11 +80,11 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     delta = inputs.phase + normal_lead - ratio * argument(force)
     law, load = mean_friction(device, fast), VibratingLoad(device, ratio, delta)
 
-    def excess(turning: float) -> float:
-        return faces * law.mean(load, turning) + inputs.load
+    def friction(turning: float) -> float:
+        return faces * law.mean(load, turning)
 
-    sliding, standing = excess(0.0) - inputs.load, excess(0.5 * pi) - inputs.load
-    if sliding == excess(pi) - inputs.load:
+    sliding = friction(0.0)
+    if sliding == friction(pi):
         # No friction: every velocity is steady without a load, and none with one.
         fastest = -copysign(fast, inputs.load) if inputs.load else 0.0
         return Prediction(fastest, 0.0, valid=False)
@@ -93,7 +93,8 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     # The vibration alone must overcome friction: by its force on the pair and on a held slider.
     grip = sliding * (law.grip / law.coefficient)
     valid = abs(inputs.load) < sliding and min(abs(force), held_amplitude(device)) > grip
-    return Prediction(fast * cos(_balance(excess, noise)), -standing, valid)
+    turning = _balance(lambda turning: friction(turning) + inputs.load, noise)
+    return Prediction(fast * cos(turning), -friction(0.5 * pi), valid)
 
 
 def _balance(excess: Callable[[float], float], noise: float) -> float:

@@ -24,6 +24,7 @@ CHECKS: dict[str, Callable[[str, object], Any]] = {
     "mode": partial(integer_within, minimum=BACKWARD, maximum=LIFTED),
     "sliding": partial(integer_within, minimum=BACKWARD, maximum=FORWARD),
     "reversals": integer,
+    "sticks": integer,
     "complete": flag,
 }
 """What entries of a moment must be that are not just finite numbers."""
