@@ -9,12 +9,14 @@ from typing import Any
 
 from . import refusal_texts
 from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
-from .device import Device, System
+from .device import Device, System, hold
+from .leap import Leaping
 from .moment import Moment
-from .motion import Motion, motion_of
+from .motion import Motion, Resolved
 from .outputs import OUTPUTS, View
 from .parameters import Inputs
 from .prediction import theory_range
+from .slow_motion import Averaged
 from .snapshot import FORMAT, entries, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, Lifecycle, Refusal, checked, number, require
 from .variable import Variable
@@ -209,6 +211,22 @@ def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Motion]:
     if not finite:
         raise _extreme(values)
     return device, inputs, motion
+
+
+def motion_of(device: Device, inputs: Inputs) -> Motion:
+    """The motion of a device under held inputs.
+
+    Raises Refusal for LuGre friction without friction, where (8) divides by mu, and where undamped
+    resonance leaves no steady vibration that fidelity 0 or 1 needs.
+    """
+    if device.friction_law == 1 and device.friction_coefficient == 0.0:
+        raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
+    system = hold(device, inputs)
+    if device.fidelity > 0:
+        return Resolved(system)
+    if device.averaging_order == 1:
+        return Averaged(system, inputs.frequency_ratio)
+    return Leaping(hold(replace(device, fidelity=2), inputs))
 
 
 def _finite_output(name: str, output: Callable[[View], float], view: View) -> float:

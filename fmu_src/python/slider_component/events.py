@@ -61,8 +61,14 @@ def law_of(system: System) -> FrictionLaw:
     return FRICTION_LAWS[system.device.friction_law]
 
 
-def advance(system: System, moment: Moment, duration: float, budget: Budget) -> Moment:
-    """The moment `duration` > 0 [s] later, inputs held.
+def advance(
+    system: System,
+    moment: Moment,
+    duration: float,
+    budget: Budget,
+    modes: list[int] | None = None,
+) -> Moment:
+    """The moment `duration` > 0 [s] later, inputs held; `modes` collects changes of contact mode.
 
     Raises Refusal for a motion of more legs than the budget has, or of too many in a turn.
     """
@@ -85,6 +91,8 @@ def advance(system: System, moment: Moment, duration: float, budget: Budget) -> 
         if all_legs > allowed:
             raise budget.refusal(clock.elapsed, max_legs, "legs of motion")
         t = _leg(law, system, now, min(remaining, arc))
+        if modes is not None and modes[-1] != now.mode:
+            modes.append(now.mode)
         remaining = clock.advance(t) if t != remaining else 0.0
     budget.spend(all_legs, max_legs)
     return now
@@ -120,9 +128,9 @@ def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float
         zero = first_zero(watch, t)
         if zero is not None:
             t, zero_of = zero, index
-    if rests and zero_of is not None and switching - t < SAME * system.arc:
-        if _lifts_first(system, now.psi + system.normal_frequency * t):
-            t, zero_of = switching, None
+    near_switch = rests and zero_of is not None and switching - t < SAME * system.arc
+    if near_switch and _lifts_first(system, now.psi + system.normal_frequency * t):
+        t, zero_of = switching, None
     turns = direction not in (0, now.sliding) and watches and watches[0].exceeds_noise(t)
     now.velocity, now.displacement, now.rate = motion.at(t)
     if zero_of is not None and not rests:

@@ -275,7 +275,8 @@ _ANGLES = tuple(pi * (k + 0.5) / TERMS for k in range(TERMS))
 @lru_cache(maxsize=4)
 def tabulated_means(friction: MeanFriction, n: int) -> Callable[[float], Means]:
     """The means under n waves of the normal load over a turn, n not 0, to MAX_ERROR."""
-    ends, panels = [0.0], []
+    ends: list[float] = [0.0]
+    panels: list[list[list[float]]] = []
     todo = [(0, 0.0, 0.5 * pi)]
     while todo:
         halvings, low, high = todo.pop()

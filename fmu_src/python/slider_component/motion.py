@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Protocol
 
-from . import refusal_texts
 from .budget import Budget
-from .device import Device, System, hold, steady_swing
+from .device import System, steady_swing
 from .events import advance, law_of
 from .moment import Moment
-from .parameters import Inputs
-from .slow_motion import Averaged
-from .values import Refusal
 
 
 class Motion(Protocol):
@@ -65,9 +60,7 @@ class Resolved:
         if system.resonator_amplitude is not None:
             _, steady = steady_swing(system.resonator_amplitude, 0.0, system.drive_frequency)
             velocity += device.mass_fraction * (rate - steady)
-        now = Moment(
-            velocity, device.initial_resonator_displacement, rate, device.initial_position
-        )
+        now = Moment(velocity, device.initial_resonator_displacement, rate, device.initial_position)
         if device.friction_law == 1:
             now.bristle = device.bristle_stiffness * device.initial_bristle_deflection
         now.mode = self.law.mode(system, now)
@@ -92,19 +85,3 @@ class Resolved:
     def slow_motion_error(self, now: Moment) -> float:
         """See Motion."""
         return 0.0
-
-
-def motion_of(device: Device, inputs: Inputs) -> Motion:
-    """The motion of a device under held inputs.
-
-    Raises Refusal for LuGre friction without friction, where (8) divides by mu, and where undamped
-    resonance leaves no steady vibration that fidelity 0 or 1 needs.
-    """
-    if device.friction_law == 1 and device.friction_coefficient == 0.0:
-        raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
-    system = hold(device, inputs)
-    if device.fidelity > 0:
-        return Resolved(system)
-    if device.averaging_order == 1:
-        return Averaged(system, inputs.frequency_ratio)
-    return Resolved(hold(replace(device, fidelity=2), inputs))

@@ -52,6 +52,15 @@ class Oscillator:
         fast = -self.decay - root
         return (self.stiffness / fast if fast else 0j), fast
 
+    def free(self, t: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Displacement and rate after `t` >= 0 [s] without forcing: by the initial ones."""
+        slow, fast = self.eigenvalues
+        sine = divided(slow, fast, t).real
+        return (
+            ((exp(slow * t) - slow * sine).real, sine),
+            (-self.stiffness * sine, (exp(fast * t) + slow * sine).real),
+        )
+
     def transfer(self, frequency: float) -> complex:
         """Steady response to exp(i frequency t), as a complex amplitude [s^2]."""
         stiffness, damping = self.stiffness, 2.0 * self.decay * frequency
@@ -129,9 +138,8 @@ class ForcedMotion:
         """Displacement [m] and rate [m/s] after `t` >= 0 [s]."""
         slow, fast = self._oscillator.eigenvalues
         y0, u0 = self._start
-        sine = divided(slow, fast, t).real
-        y = y0 * (exp(slow * t) - slow * sine).real + u0 * sine
-        u = u0 * (exp(fast * t) + slow * sine).real - self._oscillator.stiffness * y0 * sine
+        (cosine, sine), (falling, slope) = self._oscillator.free(t)
+        y, u = cosine * y0 + sine * u0, falling * y0 + slope * u0
         for f, amplitude in self._forcing:
             forcing = complex(0.0, f)
             moved = divided_twice(slow, fast, forcing, t)

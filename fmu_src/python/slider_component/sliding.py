@@ -246,9 +246,7 @@ class Stick:
         if self._rests:
             return ()
         system, resonator = self._sys, self._resonator
-        fastest = max(
-            system.drive_frequency, abs(system.normal_frequency), system.stick.frequency
-        )
+        fastest = max(system.drive_frequency, abs(system.normal_frequency), system.stick.frequency)
         limit = system.friction_preload + system.friction_amplitude
         pull = abs(system.load) + abs(self._direct)
         pull += system.spring * resonator.reach / system.stick.frequency

@@ -13,14 +13,15 @@ periodically; it has no state here.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
-from math import ceil, copysign, cos, hypot, inf, isfinite, pi, sin, sqrt, tau
+from math import ceil, copysign, cos, hypot, inf, isfinite, pi, sin, tau
 
 from .budget import Budget
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, direction_of
 from .device import Device, System, Vibration, steady_swing, vibration
+from .dormand_prince import dormand_prince, step_growth
 from .mean_friction import (
     MAX_WAVES,
     MAX_WAVES_TABULATED,
@@ -248,50 +249,35 @@ def _integrated(
     fast, load, mass = friction.law.fast, system.load, system.total_mass
     longest, settles, first_step = BEAT_SHARE * friction.beat, friction.drift == 0.0, step
 
-    def acceleration(t: float, v: float) -> float:
-        return -(friction.at(t, v) + load) / mass
+    def rates(t: float, v: float) -> tuple[float, float]:
+        return -(friction.at(t, v) + load) / mass, v
 
     # No step is longer than a share of a beat: too many of them are refused before the first.
     if not settles and duration > max_steps * longest:
         raise budget.refusal(max_steps * longest, max_steps, STEPS)
-    t, moved, tried, k1 = 0.0, 0.0, 0, acceleration(0.0, velocity)
+    t, moved, tried, first = 0.0, 0.0, 0, rates(0.0, velocity)
     while t < duration and isfinite(velocity):
         if tried == max_steps:
             raise budget.refusal(t, max_steps, STEPS)
         left = duration - t
         if settles and tried % BLOCK == 0 and left > SETTLING * first_step:
-            end = _settled(partial(acceleration, 0.0), fast, velocity, left)
+            end = _settled(lambda v: rates(0.0, v)[0], fast, velocity, left)
             if end is not None:
                 return end[0], moved + end[1]
         end_of_smoothness = friction.smooth_until(t, duration)
         h = min(step, longest, end_of_smoothness - t)
         tried += 1
-        k2 = acceleration(t + h / 5, velocity + h * k1 / 5)
-        k3 = acceleration(t + 3 * h / 10, velocity + h * (3 * k1 + 9 * k2) / 40)
-        by_k4 = 44 * k1 / 45 - 56 * k2 / 15 + 32 * k3 / 9
-        k4 = acceleration(t + 4 * h / 5, velocity + h * by_k4)
-        by_k5 = 19372 * k1 / 6561 - 25360 * k2 / 2187 + 64448 * k3 / 6561 - 212 * k4 / 729
-        k5 = acceleration(t + 8 * h / 9, velocity + h * by_k5)
-        by_k6 = 9017 * k1 / 3168 - 355 * k2 / 33 + 46732 * k3 / 5247 + 49 * k4 / 176
-        k6 = acceleration(t + h, velocity + h * (by_k6 - 5103 * k5 / 18656))
-        by_k7 = 35 * k1 / 384 + 500 * k3 / 1113 + 125 * k4 / 192 - 2187 * k5 / 6784 + 11 * k6 / 84
-        k7 = acceleration(t + h, velocity + h * by_k7)
-        by_error = 71 * k1 / 57600 - 71 * k3 / 16695 + 71 * k4 / 1920 - 17253 * k5 / 339200
-        error = h * abs(by_error + 22 * k6 / 525 - k7 / 40)
-        if not error > TOLERANCE * fast:
-            # The weights of the fifth order, applied to the velocities at the stages.
-            by_stages = 35 * k1 / 384 + 50 * k3 / 159 + 25 * k4 / 192 - 243 * k5 / 6784
-            moved += h * velocity + h * h * by_stages
-            velocity += h * by_k7
+        to = dormand_prince(rates, t, velocity, h, first)
+        if not to.error > TOLERANCE * fast:
+            velocity, moved = to.velocity, moved + to.travel
             t = t + h if t + h < end_of_smoothness else end_of_smoothness
-            k1 = k7 if end_of_smoothness == duration else acceleration(t, velocity)
-        growth = 0.9 * (TOLERANCE * fast / error) ** 0.2 if error > 0.0 else 5.0
-        step = h * min(5.0, max(0.2, growth))
+            first = to.rates if end_of_smoothness == duration else rates(t, velocity)
+        step = h * step_growth(to.error, TOLERANCE * fast)
     return velocity, moved
 
 
 def _settled(
-    acceleration: partial[float], fast: float, velocity: float, left: float
+    acceleration: Callable[[float], float], fast: float, velocity: float, left: float
 ) -> tuple[float, float] | None:
     """Velocity [m/s] and displacement [m] after the time `left` [s] if forces balance before.
 
@@ -350,14 +336,19 @@ def _block(
     return acceleration * duration, moved + 0.5 * acceleration * duration * duration
 
 
+def full_friction(device: Device) -> float:
+    """Mean friction [N] of sliding in one direction, but for the shape of a clipped load."""
+    normal = max(device.normal_preload, device.normal_amplitude / pi)
+    return device.friction_faces * device.friction_coefficient * normal
+
+
 def friction_share(device: Device, fast: Vibration) -> float:
     """Share of friction in the inertia of the vibration, faces mu N0 / (Mt w v_q).
 
     It is the small number by which averages expand. What bristles damp while they bend counts, too:
     by the impulse of 2 mu s1/s0 per normal load after each reversal, but no more than s1 v_q.
     """
-    normal = max(device.normal_preload, device.normal_amplitude / pi)
-    friction = device.friction_faces * device.friction_coefficient * normal
+    friction = full_friction(device)
     if device.friction_law == 1:
         damped = device.bristle_damping * fast.velocity / device.friction_coefficient
         if device.bristle_stiffness > 0.0:
