@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
 from math import remainder, sin, tau
 from typing import NamedTuple
 
@@ -12,8 +11,7 @@ from .device import Device
 from .moment import Moment
 from .motion import Motion
 from .parameters import Inputs
-from .prediction import Prediction, first_order
-from .vibrating_load import EXACT, turns_to_repeat
+from .prediction import Prediction, prediction, turns_of_load
 
 LEAD_DIGITS = 9
 """Decimals to which leads of the normal load [rad] are rounded: without the rounding errors of
@@ -39,12 +37,10 @@ def _normal_force(view: View) -> float:
 
 def _theory(view: View) -> Prediction:
     ratio = view.inputs.frequency_ratio
-    repeats = turns_to_repeat(view.device, ratio, EXACT) is not None
+    repeats = turns_of_load(view.device, ratio) > 0
     lead = remainder(view.now.psi - ratio * view.now.theta, tau) if repeats else 0.0
-    return _prediction(view.device, view.inputs, round(lead, LEAD_DIGITS))
+    return prediction(view.device, view.inputs, round(lead, LEAD_DIGITS))
 
-
-_prediction = lru_cache(maxsize=8)(first_order)
 
 OUTPUTS: dict[str, Callable[[View], float]] = {
     "position": lambda view: view.now.position,

@@ -9,6 +9,7 @@ change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import replace
 from math import cos, exp, isfinite, pi, remainder, tau
 
@@ -66,6 +67,12 @@ class PeriodMap:
         self._determinant = (a - 1.0) * (d - 1.0) - b * c
         if not (self.decay < 1.0 and self._determinant != 0.0):
             raise NoMapError
+
+    def under_load(self, load: float) -> PeriodMap:
+        """The same under another load [N]."""
+        other = copy(self)
+        other.system = replace(self.system, load=load)
+        return other
 
     def slow_velocity(self, now: Moment) -> float:
         """The slow velocity V [m/s] at a moment, but for its change within a period."""

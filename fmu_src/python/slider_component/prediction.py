@@ -1,22 +1,26 @@
 """Steady velocity and blocking force for the present inputs, by averaged theory (20)-(22).
 
-It holds for any integer frequency ratio n, for lifting contact and for LuGre friction: the mean
-friction of `mean_friction` balances the load. At any other ratio all phases are met and the mean
-load counts.
+Under `averaging_order` 2 both are exact, by periodic motions of the full device; the theory is
+where they start. It holds for any integer frequency ratio n, for lifting contact and for LuGre
+friction: the mean friction of `mean_friction` balances the load. At any other ratio all phases are
+met and the mean load counts.
 """
 
 from __future__ import annotations
 
 from cmath import phase as argument
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import copysign, cos, pi, tau
 
-from .device import EPSILON, Device, equivalent_force, held_amplitude
+from .device import EPSILON, Device, equivalent_force, held_amplitude, hold, vibration
 from .mean_friction import mean_friction
 from .parameters import Inputs
+from .period_map import NoMapError, PeriodMap
+from .steady_motion import PeriodicMotion
 from .values import Refusal
-from .vibrating_load import VibratingLoad
+from .vibrating_load import EXACT, VibratingLoad
 
 BISECTIONS = 52
 """Halvings of [0, pi] in which the angle of balance is found."""
@@ -37,7 +41,45 @@ class Prediction:
     valid: bool
 
 
+MAX_TURNS = 32
+"""Largest number of turns of the drive after which the normal load may repeat."""
+
 NO_VIBRATION = Prediction(0.0, 0.0, False)
+
+
+@lru_cache(maxsize=8)
+def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:
+    """The prediction of the averaging order of the device; `normal_lead` [rad] as below.
+
+    By second order both are those of periodic motions of the full device, and valid only where such
+    were found.
+    """
+    first = first_order(device, inputs, normal_lead)
+    turns = turns_of_load(device, inputs.frequency_ratio)
+    if device.averaging_order == 1 or not first.valid or turns == 0:
+        return replace(first, valid=first.valid and (device.averaging_order == 1 or turns > 0))
+    try:
+        system = hold(replace(device, fidelity=2), inputs)
+        period_map = PeriodMap(system, vibration(device), turns)
+        psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
+        steady = PeriodicMotion(period_map, psi, blocked=False)
+        blocked = PeriodicMotion(period_map, psi, blocked=True)
+        return Prediction(
+            steady.found(first.steady_velocity, 0.0),
+            blocked.found(0.0, first.blocking_force),
+            valid=True,
+        )
+    except (NoMapError, Refusal, ArithmeticError, ValueError):
+        return replace(first, valid=False)
+
+
+def turns_of_load(device: Device, ratio: float) -> int:
+    """Number of turns of the drive after which the normal load repeats; 0 if it never does."""
+    for turns in range(1, MAX_TURNS + 1):
+        repeats = abs(turns * ratio - round(turns * ratio)) <= EXACT
+        if repeats or device.normal_amplitude == 0.0:
+            return turns
+    return 0
 
 
 def theory_range(device: Device) -> tuple[float, ...]:
