@@ -6,17 +6,11 @@ import pytest
 
 from tests.fmu_src.native_bending import NativeBending
 from tests.fmu_src.native_library import compiled_library
-from tests.fmu_src.native_orbits import NativeOrbits
 
 
 @pytest.fixture(scope="session")
 def native_library(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     return compiled_library(tmp_path_factory.mktemp("probes"))
-
-
-@pytest.fixture(scope="session")
-def native_orbits(native_library: ctypes.CDLL) -> NativeOrbits:
-    return NativeOrbits(native_library)
 
 
 @pytest.fixture(scope="session")
