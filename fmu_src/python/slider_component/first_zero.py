@@ -76,12 +76,12 @@ def first_zero(watch: Watch, limit: float) -> float | None:
         value, slope, bound = signal(t)
         if value < -noise and t > before:
             # Only a step of the shortest length can get here.
-            return _refined(signal, before, t, fastest)
+            return _refined(signal, before, t, noise, fastest)
         square = slope * slope
         if slope < 0.0:
             margin = 2.2 * (value + noise) if value > noise else 16.0 * noise
             if square > bound * margin:
-                root = _refined(signal, t, inf, fastest)
+                root = _refined(signal, t, inf, 0.0, fastest)
                 return root if root < limit else None
             value = max(value, noise)
             step = 2.0 * value / (sqrt(square + 2.0 * bound * value) - slope)
@@ -129,16 +129,17 @@ def _zero_near(
     return None, 0.0
 
 
-def _refined(signal: Signal, low: float, high: float, fastest: float) -> float:
-    """The zero after `low` [s], where the signal is positive, by Newton's method.
+def _refined(signal: Signal, low: float, high: float, noise: float, fastest: float) -> float:
+    """Where the signal falls through -noise after `low` [s], by Newton's method.
 
-    It stays within the bracket that ends at `high`, where the signal is negative, if that is
+    It stays within the bracket that ends at `high`, where the signal is below that, if that is
     finite: otherwise Newton's method is known to converge.
     """
     resolution = RESOLUTION / fastest
     t = low
     for _ in range(MAX_REFINEMENTS):
         value, slope, bound = signal(t)
+        value += noise
         if value > 0.0:
             low = max(low, t)
         else:
