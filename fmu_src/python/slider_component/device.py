@@ -201,6 +201,7 @@ def hold(device: Device, inputs: Inputs) -> System:
     faces_mu = device.friction_faces * device.friction_coefficient
     base = device.base_amplitude * w * w
     force = complex(m * base + device.tangential_force) if full else equivalent_force(device)
+    drive = force / device.total_mass
     slip, stick = device.slip_oscillator, device.stick_oscillator
     fastest = max(w, abs(q))
     if full:
@@ -225,7 +226,7 @@ def hold(device: Device, inputs: Inputs) -> System:
         window=flight_window(device),
         slip=slip,
         stick=stick,
-        drive=force / device.total_mass,
+        drive=drive,
         relative_drive=relative,
         base_acceleration=base,
         holding_drive=complex(device.tangential_force) if full else force,
@@ -236,7 +237,7 @@ def hold(device: Device, inputs: Inputs) -> System:
             slip if full else None,
             (w, q),
             fraction,
-            force / device.total_mass,
+            drive,
             relative,
             (amplitude / slider_mass, amplitude / device.total_mass),
             1.0 / slider_mass,

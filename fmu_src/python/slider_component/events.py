@@ -7,11 +7,11 @@ down, and is succeeded by another contact mode. There is no step size.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import tau
 from typing import Protocol
 
 from .budget import Budget
+from .clock import Clock
 from .constants import MAX_STEP_LEGS, PYTHON_SLOWDOWN
 from .contact import LIFTED
 from .coulomb import Coulomb
@@ -78,7 +78,8 @@ def advance(
     if duration > allowed * arc:
         raise budget.refusal(allowed * arc, max_legs, "legs of motion")
     clock, remaining = Clock(duration), duration
-    legs, all_legs, turn_began, turn = 0, 0, 0.0, tau / LONGEST_ARC * arc
+    legs, all_legs, turn_began = 0, 0, 0.0
+    turn = tau / LONGEST_ARC * arc
     now = moment.copied()
     now.enter(law.mode(system, now))
     while remaining > 0.0:
@@ -96,24 +97,6 @@ def advance(
         remaining = clock.advance(t) if t != remaining else 0.0
     budget.spend(all_legs, max_legs)
     return now
-
-
-@dataclass(slots=True)
-class Clock:
-    """Time `elapsed` [s] of a step of `duration` [s], with the rounding error of that sum."""
-
-    duration: float
-    elapsed: float = 0.0
-    carry: float = 0.0
-
-    def advance(self, t: float) -> float:
-        """Advance by `t` [s] and return the time left [s]; two-sum keeps the rounding errors."""
-        before = self.elapsed
-        total = before + t
-        carried = total - before
-        self.carry += (before - (total - carried)) + (t - carried)
-        self.elapsed = total
-        return (self.duration - total) - self.carry
 
 
 def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float:

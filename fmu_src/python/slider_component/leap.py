@@ -18,9 +18,10 @@ from math import ceil, exp, floor, inf, log, tau
 from typing import NamedTuple
 
 from .budget import Budget
+from .clock import Clock
 from .device import System, Vibration, vibration
 from .dormand_prince import Rates, dormand_prince, step_growth
-from .events import Clock, advance
+from .events import advance
 from .moment import Moment
 from .motion import Resolved
 from .period_map import Fast, NoMapError, PeriodMap, fast_of

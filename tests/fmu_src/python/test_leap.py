@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from fmu_src.python.slider_component import leap
 from fmu_src.python.slider_component.component import motion_of
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.parameters import Inputs
+from fmu_src.python.slider_component.period_map import PeriodMap
 from fmu_src.python.slider_component.prediction import prediction
 
 PERIOD = math.tau / 3500.0
@@ -84,13 +84,13 @@ def test_the_error_follows_the_tolerance() -> None:
 
 def test_a_long_step_takes_few_maps(monkeypatch: pytest.MonkeyPatch) -> None:
     maps = []
-    visits = leap.PeriodMap.visits
+    visits = PeriodMap.visits
 
-    def counted(self: leap.PeriodMap, now: Moment, count: int, budget: Any) -> Any:
+    def counted(self: PeriodMap, now: Moment, count: int, budget: Any) -> Any:
         maps.append(count)
         return visits(self, now, count, budget)
 
-    monkeypatch.setattr(leap.PeriodMap, "visits", counted)
+    monkeypatch.setattr(PeriodMap, "visits", counted)
     motion = motion_of(SLOW, Inputs())
     motion.advance(motion.start(), 20_000 * PERIOD)
     assert sum(maps) <= 1500
