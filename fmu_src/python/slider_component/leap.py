@@ -376,7 +376,7 @@ class Leaping(Resolved):
         except OffManifoldError as error:
             # Resolve until the transient has decayed.
             wait = log(error.offset / transient) / -log(period_map.decay)
-            return error.later, float(slow.order), float(ceil(wait))
+            return error.later, float(slow.order), max(PAUSE, float(ceil(wait)))
         later, n, travel, error_now = slow.here.later, 0.0, 0.0, now.leap_error
         try:
             step = slow.first_step(longest - ORDERS[-1])
