@@ -1,4 +1,6 @@
-"""The slider with an embedded resonator as a co-simulation component, standard library only.
+"""The slider with an embedded resonator as a co-simulation component.
+
+Standard library and relative imports only: the build renames the package for each FMU.
 
 How a step flows: `slave` (pythonfmu) calls `component`, which asks the `motion` of the device under
 the present inputs to advance a `moment`. There are three motions.

@@ -12,7 +12,7 @@ from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
 from .device import Device, System, hold
 from .leap import Leaping
 from .moment import Moment
-from .motion import Motion, Resolved
+from .motion import Resolved
 from .outputs import OUTPUTS, View
 from .parameters import Inputs
 from .prediction import theory_range
@@ -20,6 +20,9 @@ from .slow_motion import Averaged
 from .snapshot import FORMAT, entries, moment_from_plain, moment_to_plain
 from .values import BY_NAME, SETTABLE, Lifecycle, Refusal, checked, number, require
 from .variable import Variable
+
+Motion = Resolved | Averaged
+"""A device under held inputs; `Leaping` is one that is resolved."""
 
 
 class Component:

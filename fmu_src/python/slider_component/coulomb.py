@@ -18,7 +18,7 @@ BALANCED = 1e-12
 
 
 class Coulomb:
-    """See `events.FrictionLaw`."""
+    """A friction law, as the loop over events needs it."""
 
     def mode(self, system: System, now: Moment) -> int:
         """Contact mode under the held inputs."""
@@ -35,14 +35,17 @@ class Coulomb:
         return mode * system.friction_limit(now.psi)
 
     def begin(self, system: System, now: Moment) -> tuple[Motion, int, float]:
-        """See FrictionLaw."""
+        """The motion on from `now`, its direction, and how long it holds [s].
+
+        The direction is 0 where it does not matter.
+        """
         if now.mode == STICK:
             return Stick(system, now), 0, inf
         direction = 0 if now.mode == LIFTED else now.mode
         return slide(system, now, direction), direction, inf
 
     def succeed(self, system: System, now: Moment, end: End) -> None:
-        """See FrictionLaw."""
+        """Change from the end of a leg to the next contact mode."""
         if end.zero_of is not None and end.rests:
             now.enter(FORWARD if end.zero_of == 0 else BACKWARD)
         elif end.zero_of is not None:

@@ -8,7 +8,6 @@ down, and is succeeded by another contact mode. There is no step size.
 from __future__ import annotations
 
 from math import tau
-from typing import Protocol
 
 from .budget import Budget
 from .clock import Clock
@@ -19,7 +18,7 @@ from .device import EPSILON, LONGEST_ARC, System
 from .first_zero import first_zero
 from .lugre import LuGre
 from .moment import Moment
-from .sliding import End, Motion, Stick
+from .sliding import End, Stick
 
 MAX_LEGS = 20_000
 """Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
@@ -29,28 +28,7 @@ SAME = 1e-6
 """Share of the longest arc within which a release and a lift-off may be the same event."""
 
 
-class FrictionLaw(Protocol):
-    """A friction law, as the loop over events needs it."""
-
-    def mode(self, system: System, now: Moment) -> int:
-        """Contact mode under the held inputs."""
-        ...
-
-    def force(self, system: System, now: Moment, mode: int) -> float:
-        """Friction force [N] on the slider in contact mode `mode`, positive against +X."""
-        ...
-
-    def begin(self, system: System, now: Moment) -> tuple[Motion, int, float]:
-        """The motion on from `now`, its direction, and how long it holds [s].
-
-        The direction is 0 where it does not matter.
-        """
-        ...
-
-    def succeed(self, system: System, now: Moment, end: End) -> None:
-        """Change from the end of a leg to the next contact mode."""
-        ...
-
+FrictionLaw = Coulomb | LuGre
 
 FRICTION_LAWS: tuple[FrictionLaw, ...] = (Coulomb(), LuGre())
 """In the order of `friction_law`."""

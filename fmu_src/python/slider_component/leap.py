@@ -325,7 +325,7 @@ def _sum(a: Fast, b: Fast) -> Fast:
 
 
 class Leaping(Resolved):
-    """Motion of the full device that leaps over periods (see `motion.Motion`)."""
+    """Motion of the full device that leaps over periods (methods as of `Resolved`)."""
 
     def __init__(self, system: System) -> None:
         """Raises Refusal where undamped resonance leaves no steady vibration."""
@@ -337,7 +337,7 @@ class Leaping(Resolved):
         return now.leap_error
 
     def advance(self, moment: Moment, duration: float) -> Moment:
-        """See Motion."""
+        """As of `Resolved`."""
         budget, clock, now, left, pause = Budget(duration), Clock(duration), moment, duration, 0.0
         w = self.system.drive_frequency
         if duration * w > SHORTEST_LEAP * tau:

@@ -48,7 +48,7 @@ MAX_SHRINKS = 4
 
 
 class LuGre:
-    """See `events.FrictionLaw`."""
+    """A friction law, with the methods of `Coulomb`."""
 
     def mode(self, system: System, now: Moment) -> int:
         """Contact mode under the held inputs."""
@@ -64,7 +64,7 @@ class LuGre:
         return system.friction_limit(now.psi) * share
 
     def begin(self, system: System, now: Moment) -> tuple[Motion, int, float]:
-        """See FrictionLaw. The direction is that of the velocity or, at rest, of the force."""
+        """As of `Coulomb`. The direction is that of the velocity or, at rest, of the force."""
         direction = BACKWARD if now.velocity < 0.0 else FORWARD
         motion, reach = _motion(system, now, direction)
         if now.velocity == 0.0 and not _departs(motion, reach):
@@ -73,7 +73,7 @@ class LuGre:
         return motion, direction, reach
 
     def succeed(self, system: System, now: Moment, end: End) -> None:
-        """See FrictionLaw."""
+        """As of `Coulomb`."""
         lifted = (now.mode == LIFTED) != end.switches
         now.bristle = bristle_after(system, now.bristle, end.travelled)
         now.mode = LIFTED if lifted else direction_of(now.velocity)

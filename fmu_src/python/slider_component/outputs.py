@@ -9,9 +9,10 @@ from typing import NamedTuple
 from .contact import STICK
 from .device import Device
 from .moment import Moment
-from .motion import Motion
+from .motion import Resolved
 from .parameters import Inputs
 from .prediction import Prediction, prediction, turns_of_load
+from .slow_motion import Averaged
 
 LEAD_DIGITS = 9
 """Decimals to which leads of the normal load [rad] are rounded: without the rounding errors of
@@ -23,7 +24,7 @@ class View(NamedTuple):
 
     device: Device
     inputs: Inputs
-    motion: Motion
+    motion: Resolved | Averaged
     now: Moment
     mode: int
     last_event_time: float

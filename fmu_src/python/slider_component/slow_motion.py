@@ -157,7 +157,7 @@ def slow_friction(system: System, fast: Vibration, ratio: float, now: Moment) ->
 
 
 class Averaged:
-    """Motion averaged to first order (see `component.Motion`)."""
+    """Motion averaged to first order (methods as of `motion.Resolved`)."""
 
     def __init__(self, system: System, frequency_ratio: float) -> None:
         """Raises Refusal where undamped resonance leaves no steady vibration."""

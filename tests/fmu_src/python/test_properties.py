@@ -11,11 +11,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.component import motion_of
+from fmu_src.python.slider_component.component import Motion, motion_of
 from fmu_src.python.slider_component.contact import LIFTED, STICK
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.moment import Moment
-from fmu_src.python.slider_component.motion import Motion
 from fmu_src.python.slider_component.parameters import Inputs
 from tests.fmu_src.python.motions import after, begin
 
