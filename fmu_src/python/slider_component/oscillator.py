@@ -18,10 +18,10 @@ OSCILLATORY = 0.9
 """Damping ratio below which an oscillation sets the pace of a motion and may be split off."""
 
 CLOSE = 0.5
-"""Spread of the nodes times t up to which a divided difference is summed up as a series."""
+"""Spread of the nodes times t up to which differences of exponentials would lose digits."""
 
 TERMS = 14
-"""Terms of that series, which then holds to rounding."""
+"""Terms of a series up to that spread, which then holds to rounding."""
 
 AHEAD = 5.0
 """Horizon of the bounds below, as an angle [rad] of the highest frequency: longer than most
@@ -78,8 +78,8 @@ def divided(a: complex, b: complex, t: float) -> complex:
     """(exp(a t) - exp(b t)) / (a - b), regular at a = b [s]."""
     if a == b:
         return t * exp(b * t)
-    if a.real > b.real:
-        a, b = b, a
+    if abs(a - b) * t > CLOSE:
+        return (exp(a * t) - exp(b * t)) / (a - b)
     return exp(b * t) * complex_expm1((a - b) * t) / (a - b)
 
 
