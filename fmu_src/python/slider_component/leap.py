@@ -14,13 +14,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import ceil, exp, floor, inf, log, tau
+from math import ceil, exp, expm1, floor, inf, log, pi, sqrt, tau
 from typing import NamedTuple
 
 from .budget import Budget
 from .clock import Clock
 from .device import System, Vibration, vibration
-from .dormand_prince import Rates, dormand_prince, step_growth
+from .dormand_prince import Rates, Step, dormand_prince, step_growth
 from .events import advance
 from .moment import Moment
 from .motion import Resolved
@@ -45,13 +45,14 @@ MAX_COST = 0.5
 SHORTEST_STEP = 16.0
 """Fewest periods of a step: its evaluations would map more."""
 
-FIRST_STEP = 4.0
-"""First step of the solver at a tolerance of 1, over the time in which rates change."""
+FIRST_STEP = 3.3
+"""First step of the solver, over the time in which rates change, where all that the slow velocity
+still changes by is the tolerance."""
 
 STEP_TOLERANCE = 4.0
 """Estimated error of a step that is accepted, in tolerances."""
 
-OVERESTIMATE = 10.0
+OVERESTIMATE = 5.0
 """By how much that estimate, of the embedded method of order 4, exceeds the error."""
 
 FAST_SHARE = 0.3
@@ -63,6 +64,18 @@ outputs of the resonator do not show it."""
 
 TO_GRAZING = 0.5
 """Part of the way to a grazing velocity that a step may pass: the rates are singular there."""
+
+MAX_STEP_DRIFT = pi / 4.0
+"""Largest drift of the load's phase [rad] in a step: its stages then see all phases of a beat."""
+
+LINEAR = 0.3
+"""Change of V up to which its rate may be linear, over v_q and the root of the tolerance."""
+
+NO_DECAY = 1e-6
+"""Decay of V in a step below which its rate counts as constant."""
+
+MAX_DECAY = 4.0
+"""Largest decay of V in a period, over the share of friction: beyond, it is noise."""
 
 NO_DRIFT = 1e-9
 """Drift of the load's phase [rad] over a leap up to which its rates depend on V alone."""
@@ -264,10 +277,12 @@ class SlowMotion:
         """
         here, period_map = self.here, self.map
         # A rate below its error does not tell when it changes.
-        moves = abs(here.acceleration) > here.error
-        by_motion = abs(here.acceleration / here.jerk) if moves and here.jerk else inf
-        time = min(by_motion, 1.0 / abs(period_map.drift) if self.varies else inf)
-        step = float(FIRST_STEP * self.tolerance**0.2 * time)
+        moves = abs(here.acceleration) > here.error and here.jerk != 0.0
+        time = abs(here.acceleration / here.jerk) if moves else inf
+        time, step = min(time, 1.0 / abs(period_map.drift) if self.varies else inf), inf
+        if time < inf and here.acceleration:
+            change = abs(here.acceleration) * time / period_map.speed
+            step = min(FIRST_STEP * time * float((self.tolerance / change) ** 0.2), self._in_beat)
         placed = here.offset <= FAST_SHARE * self.tolerance
         self.max_sequences, self.allowed = MAX_SEQUENCES, FAST_SHARE * self.tolerance
         for self.order in ORDERS:
@@ -280,6 +295,11 @@ class SlowMotion:
             if self.here.error * min(time, longest) <= self.tolerance * period_map.speed:
                 return step
         return 0.0
+
+    @property
+    def _in_beat(self) -> float:
+        """Periods that a step may pass of a beat, in which the load's phase drifts by a turn."""
+        return MAX_STEP_DRIFT / abs(self.map.drift) if self.varies else inf
 
     def integrate(self, longest: float, step: float, error: float) -> tuple[float, float, float]:
         """Integrate over at most `longest` periods, as far as that goes.
@@ -294,25 +314,48 @@ class SlowMotion:
             if here.acceleration:
                 distance = abs(abs(here.velocity) - speed)
                 to_grazing = TO_GRAZING * distance / abs(here.acceleration)
-            h = float(floor(min(step, to_grazing, longest - n)))
+            h = float(floor(min(step, to_grazing, self._in_beat, longest - n)))
             if h < SHORTEST_STEP:
                 return n, travel, error
-            first = here.acceleration, here.travel
             try:
-                to = dormand_prince(self.rates, n, here.velocity, h, first)
+                to = self._linear_step(here, n, longest - n)
+                if to is not None:
+                    h = longest - n
+                else:
+                    first = here.acceleration, here.travel
+                    to = dormand_prince(self.rates, n, here.velocity, h, first)
             except (NoMapError, ArithmeticError, ValueError):
                 self.other, step = here, 0.5 * h
                 continue
             step = h * step_growth(to.error, allowed)
-            if to.error > allowed:
-                self.other = here
-                continue
-            end = self.other
-            decay = exp(to.gain * h) if to.gain < 0.0 and not self.varies else 1.0
-            of_rates = h * max(here.error, end.error)
-            error = decay * error + to.error / OVERESTIMATE + of_rates
-            n, travel = n + h, travel + to.travel
-            self.here, self.other = end, here
+            if to.error <= allowed:
+                gain = max(to.gain, -MAX_DECAY * self.map.share)
+                decay = exp(gain * h) if gain < 0.0 else 1.0
+                of_rates = h * max(here.error, self.other.error)
+                error = decay * error + to.error / OVERESTIMATE + of_rates
+                n, travel = n + h, travel + to.travel
+                self.here = self.other
+            self.other = here
+
+    def _linear_step(self, here: Point, n: float, h: float) -> Step | None:
+        """The rest of a leap in one step of `h` periods, near a steady velocity.
+
+        V changes so little that its rate is linear in it. None unless the rate at the end confirms
+        that.
+        """
+        z = h * min(0.0, here.jerk / here.acceleration) if here.acceleration else 0.0
+        decayed = exp(z)
+        mean = expm1(z) / z if z < -NO_DECAY else 1.0
+        change, speed = h * here.acceleration * mean, self.map.speed
+        if self.varies or abs(change) > LINEAR * sqrt(self.tolerance) * speed:
+            return None
+        end = self.rates(n + h, here.velocity + change)
+        error = h * mean * abs(end[0] - decayed * here.acceleration)
+        if error > self.tolerance * speed:
+            return None
+        weight = (mean - decayed) / (1.0 - decayed) if z < -NO_DECAY else 0.5
+        travel = h * (end[1] + weight * (here.travel - end[1]))
+        return Step(here.velocity + change, travel, error, end, z / h)
 
 
 def _fast(parts: Iterable[float]) -> Fast:

@@ -38,8 +38,8 @@ def _normal_force(view: View) -> float:
 
 def _theory(view: View) -> Prediction:
     ratio = view.inputs.frequency_ratio
-    repeats = turns_of_load(view.device, ratio) > 0
-    lead = remainder(view.now.psi - ratio * view.now.theta, tau) if repeats else 0.0
+    turns = turns_of_load(view.device, ratio)
+    lead = remainder(view.now.psi - ratio * view.now.theta, tau / turns) if turns else 0.0
     return prediction(view.device, view.inputs, round(lead, LEAD_DIGITS))
 
 
