@@ -318,10 +318,11 @@ class SlowMotion:
             if h < SHORTEST_STEP:
                 return n, travel, error
             try:
-                to = self._linear_step(here, n, longest - n)
+                to, exceeds = self._linear_step(here, n, longest - n), 1.0
                 if to is not None:
                     h = longest - n
                 else:
+                    exceeds = OVERESTIMATE
                     first = here.acceleration, here.travel
                     to = dormand_prince(self.rates, n, here.velocity, h, first)
             except (NoMapError, ArithmeticError, ValueError):
@@ -332,7 +333,7 @@ class SlowMotion:
                 gain = max(to.gain, -MAX_DECAY * self.map.share)
                 decay = exp(gain * h) if gain < 0.0 else 1.0
                 of_rates = h * max(here.error, self.other.error)
-                error = decay * error + to.error / OVERESTIMATE + of_rates
+                error = decay * error + to.error / exceeds + of_rates
                 n, travel = n + h, travel + to.travel
                 self.here = self.other
             self.other = here
