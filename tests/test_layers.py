@@ -61,7 +61,7 @@ def test_sources_keep_their_layers(copy: Path) -> None:
         ),
         pytest.param(
             "references/closed_forms.py",
-            "import fmu_src.python.slider_component.averaged",
+            "import fmu_src.python.slider_component.prediction",
             "slider_resonator is not allowed to import fmu_src",
             id="from a reference to the component",
         ),

@@ -42,7 +42,7 @@ def test_weak_vibration_settles(instantiate: Instantiate, law: int, ratio: float
 
 def test_a_strongly_varying_load_settles(instantiate: Instantiate) -> None:
     """LuGre friction over flight costs a quadrature each time it is asked for."""
-    values = {"fidelity": 0, "friction_law": 1, "normal_amplitude": 1e9, "phase": 0.4}
+    values = {"fidelity": 0, "averaging_order": 1, "friction_law": 1, "normal_amplitude": 1e9}
     instance = instantiate().initialize(**values)
     instance.step(100.0 * PERIOD)
     mean, steady = instance.get("mean_velocity", "steady_velocity")

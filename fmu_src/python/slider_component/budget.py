@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import floor, log10
 
 from . import refusal_texts
-from .refusal import Refusal
+from .values import Refusal
 
 
 @dataclass(slots=True)

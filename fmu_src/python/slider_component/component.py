@@ -8,20 +8,21 @@ from math import inf, isfinite, log10, nan, remainder, tau, ulp
 from typing import Any
 
 from . import refusal_texts
-from .averaged import theory_range
 from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
-from .device import Device, Inputs
-from .held import LONGEST_ARC
-from .law import Law, law_of
-from .lifecycle import Lifecycle, require
+from .device import Device, System, hold
+from .leap import Leaping
 from .moment import Moment
-from .motion import State
+from .motion import Resolved
 from .outputs import OUTPUTS, View
-from .plant import Plant
-from .refusal import Refusal
+from .parameters import Inputs
+from .prediction import theory_range
+from .slow_motion import Averaged
 from .snapshot import FORMAT, entries, moment_from_plain, moment_to_plain
-from .values import BY_NAME, SETTABLE, checked, number
+from .values import BY_NAME, SETTABLE, Lifecycle, Refusal, checked, number, require
 from .variable import Variable
+
+Motion = Resolved | Averaged
+"""A device under held inputs; `Leaping` is one that is resolved."""
 
 
 class Component:
@@ -37,7 +38,7 @@ class Component:
         self._last_event_time = 0.0
         self._values: dict[str, float] = {v.name: checked(v, v.start) for v in SETTABLE}
         self._moment: Moment | None = None
-        self._prepared: tuple[Device, Inputs, Law] | None = None
+        self._prepared: tuple[Device, Inputs, Motion] | None = None
 
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
@@ -64,7 +65,7 @@ class Component:
     def exit_initialization(self) -> None:
         """Fix the parameters and the first moment."""
         require("exitInitializationMode", self.lifecycle, Lifecycle.INITIALIZATION)
-        self._moment = self._first_moment()
+        self._moment = self._prepare()[2].start()
         self.lifecycle = Lifecycle.STEP_COMPLETE
 
     def terminate(self) -> None:
@@ -87,11 +88,7 @@ class Component:
             values[name] = checked(variable, value)
         if values == self._values:
             return
-        prepared = _prepare(values) if running else None
-        if running:
-            _, _, law = self._prepare()
-            self._moment = law.settled(self._present())
-        self._prepared = prepared
+        self._prepared = _prepare(values) if running else None
         self._values = values
 
     def get(self, *names: str) -> list[float]:
@@ -172,62 +169,67 @@ class Component:
     def _view(self, name: str) -> View:
         if self.lifecycle == Lifecycle.INSTANTIATED:
             require(f"reading {name}", self.lifecycle, Lifecycle.INITIALIZATION)
-        device, inputs, law = self._prepare()
-        moment = self._present()
-        return View(device, inputs, law, moment, law.mode(moment), self._last_event_time)
+        device, inputs, motion = self._prepare()
+        now = self._present()
+        return View(device, inputs, motion, now, motion.mode(now), self._last_event_time)
 
-    def _prepare(self) -> tuple[Device, Inputs, Law]:
+    def _prepare(self) -> tuple[Device, Inputs, Motion]:
         if self._prepared is None:
             self._prepared = _prepare(self._values)
         return self._prepared
 
     def _present(self) -> Moment:
-        return self._moment if self._moment is not None else self._first_moment()
-
-    def _first_moment(self) -> Moment:
-        device, _, law = self._prepare()
-        state = State(
-            device.initial_velocity,
-            device.initial_resonator_displacement,
-            device.initial_resonator_velocity,
-        )
-        return law.start(state, device.initial_position)
+        return self._moment if self._moment is not None else self._prepare()[2].start()
 
     def _require_bounded_work(self, step_size: float) -> None:
-        device, _, law = self._prepare()
-        frequency = LONGEST_ARC / law.held.arc
-        max_turns = MAX_TURNS // PYTHON_SLOWDOWN
+        device, _, motion = self._prepare()
+        frequency, max_turns = motion.system.fastest, MAX_TURNS // PYTHON_SLOWDOWN
         if device.fidelity > 0 and step_size * frequency > tau * max_turns:
             raise Refusal(refusal_texts.too_many_turns(step_size, frequency, max_turns))
 
     def _advanced(self, step_size: float) -> Moment:
-        _, _, law = self._prepare()
+        _, _, motion = self._prepare()
         try:
-            moment = law.advance(self._present(), step_size)
-            state = moment.state
-            travelled = (moment.position, state.velocity, state.displacement, state.rate)
-            finite = all(map(isfinite, (*travelled, moment.psi, moment.theta)))
+            now = motion.advance(self._present(), step_size)
+            numbers = now.position, now.velocity, now.displacement, now.rate, now.psi, now.theta
+            finite = all(map(isfinite, numbers))
         except Refusal:
             raise
         except (ArithmeticError, ValueError):
             finite = False
         if not finite:
             raise Refusal(refusal_texts.infinite_motion(step_size))
-        return moment
+        return now
 
 
-def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Law]:
+def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Motion]:
     device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
     inputs = Inputs(**{v.name: values[v.name] for v in SETTABLE if v.causality == "input"})
     inputs = replace(inputs, phase=remainder(inputs.phase, tau))
     try:
-        law = law_of(device, inputs)
-        finite = all(map(isfinite, (*_coefficients(law.held.plant), *theory_range(device))))
+        motion = motion_of(device, inputs)
+        finite = all(map(isfinite, (*_coefficients(motion.system), *theory_range(device))))
     except ArithmeticError:
         finite = False
     if not finite:
         raise _extreme(values)
-    return device, inputs, law
+    return device, inputs, motion
+
+
+def motion_of(device: Device, inputs: Inputs) -> Motion:
+    """The motion of a device under held inputs.
+
+    Raises Refusal for LuGre friction without friction, where (8) divides by mu, and where undamped
+    resonance leaves no steady vibration that fidelity 0 or 1 needs.
+    """
+    if device.friction_law == 1 and device.friction_coefficient == 0.0:
+        raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
+    system = hold(device, inputs)
+    if device.fidelity > 0:
+        return Resolved(system)
+    if device.averaging_order == 1:
+        return Averaged(system, inputs.frequency_ratio)
+    return Leaping(hold(replace(device, fidelity=2), inputs))
 
 
 def _finite_output(name: str, output: Callable[[View], float], view: View) -> float:
@@ -258,10 +260,11 @@ def _extreme(values: Mapping[str, Any]) -> Refusal:
     return Refusal(refusal_texts.extreme_value(furthest.name, value, furthest.start))
 
 
-def _coefficients(plant: Plant) -> tuple[float, ...]:
+def _coefficients(system: System) -> tuple[float, ...]:
+    complex_ones = system.drive, system.holding_drive
     return (
-        *(plant.total_mass, plant.mass_fraction, plant.normal_frequency),
-        *(plant.slip.decay, plant.slip.stiffness, plant.stick.decay, plant.stick.stiffness),
-        *(plant.drive.real, plant.drive.imag, plant.relative_drive, plant.base_acceleration),
-        *(plant.holding_drive.real, plant.holding_drive.imag, plant.spring, plant.damper),
+        *(system.total_mass, system.mass_fraction, system.normal_frequency),
+        *(system.slip.decay, system.slip.stiffness, system.stick.decay, system.stick.stiffness),
+        *(part for number in complex_ones for part in (number.real, number.imag)),
+        *(system.relative_drive, system.base_acceleration, system.spring, system.damper),
     )

@@ -1,12 +1,38 @@
-"""The device: its parameters, and the masses that follow from them."""
+"""The device under held inputs: the coefficients of its equations of motion (26)-(27).
+
+With theta the phase of the drive, chi = psi + phase that of the normal load, s the direction of
+sliding (0 in flight) and Y the resonator relative to the slider:
+
+    slip:   Y'' + 2 decay Y' + stiffness Y = relative_drive sin(theta) + (F + load) / M
+            (M + m) X'' = (M + m) Re(drive e) - F - load - m Y'',      F = s (F0 + F1 sin(chi))
+    stick:  Y'' + 2 xi wn Y' + wn^2 Y = A w^2 sin(theta),              X' = 0
+
+where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady force (34) alone.
+"""
 
 from __future__ import annotations
 
+from cmath import phase as argument
 from dataclasses import dataclass
+from math import asin, cos, hypot, inf, pi, sin, tau
 
+from . import refusal_texts
+from .contact import Window
+from .oscillator import Oscillator
 from .parameters import Inputs, Parameters
+from .split import Split, split_of
+from .values import Refusal
 
-__all__ = ["Device", "Inputs"]
+EPSILON = 2.0**-52
+"""Spacing of floating point numbers above 1: the unit of rounding errors."""
+
+AT_RESONANCE = 8.0 * EPSILON
+"""Relative difference of two squared frequencies that is due to rounding: without damping the
+steady force has no correct digit there."""
+
+LONGEST_ARC = 60.0
+"""The longest leg, as an angle [rad] of the fastest oscillation: avoids the rounding errors of
+large arguments of sine and cosine."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,3 +48,221 @@ class Device(Parameters):
     def mass_fraction(self) -> float:
         """Resonator mass over total mass, r_m (below eq. 29)."""
         return self.resonator_mass / self.total_mass
+
+    @property
+    def lifts(self) -> bool:
+        """Whether the contact lifts at times."""
+        return self.normal_amplitude > self.normal_preload
+
+    @property
+    def slip_oscillator(self) -> Oscillator:
+        """The resonator against a free slider (eq. 31 divided by 1 - r_m)."""
+        share, wn = self.slider_mass / self.total_mass, self.resonator_frequency
+        return Oscillator(self.damping_ratio * wn / share, wn * wn / share)
+
+    @property
+    def stick_oscillator(self) -> Oscillator:
+        """The resonator against a held slider."""
+        wn = self.resonator_frequency
+        return Oscillator(self.damping_ratio * wn, wn * wn)
+
+
+@dataclass(frozen=True, slots=True)
+class Vibration:
+    """The steady vibration without friction, in closed form (32)-(34).
+
+    Velocity amplitudes [m/s], lag theta_1 [rad], and the resonator's complex amplitude of e [m].
+    `velocity` is v_q of the slider, `pair_velocity` the one that the drive force gives to the pair.
+    """
+
+    velocity: float
+    pair_velocity: float
+    lag: float
+    resonator: complex
+
+
+def steady_resonator(device: Device) -> complex:
+    """Steady displacement of the resonator, complex amplitude of e [m] (eqs 31-32).
+
+    Friction and load are left out, a direct drive is kept. Raises Refusal where it is unbounded.
+    """
+    w, oscillator = device.drive_frequency, device.slip_oscillator
+    if _is_unbounded(device, oscillator):
+        raise Refusal(refusal_texts.unbounded_resonance(device.damping_ratio, w))
+    base = device.base_amplitude * w * w - device.tangential_force / device.slider_mass
+    return base * oscillator.transfer(w)
+
+
+def equivalent_force(device: Device) -> complex:
+    """F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, in N."""
+    w2 = device.drive_frequency * device.drive_frequency
+    shaken = device.base_amplitude + steady_resonator(device)
+    return device.resonator_mass * w2 * shaken + device.tangential_force
+
+
+def held_amplitude(device: Device) -> float:
+    """Amplitude of the steady force of resonator and direct drive on a held slider [N].
+
+    Infinite where undamped resonance leaves no steady vibration.
+    """
+    w, oscillator = device.drive_frequency, device.stick_oscillator
+    if _is_unbounded(device, oscillator):
+        return inf
+    amplitude = device.base_amplitude * (1.0 + w * w * oscillator.transfer(w))
+    force = device.resonator_mass * w * w * amplitude + device.tangential_force
+    return hypot(force.real, force.imag)
+
+
+def _is_unbounded(device: Device, oscillator: Oscillator) -> bool:
+    square = device.drive_frequency * device.drive_frequency
+    near = abs(oscillator.stiffness - square) <= AT_RESONANCE * square
+    return near and device.damping_ratio == 0.0
+
+
+def vibration(device: Device) -> Vibration:
+    """Raises Refusal where undamped resonance leaves no steady vibration."""
+    w, force = device.drive_frequency, equivalent_force(device)
+    inertia = device.total_mass * w
+    pair = device.resonator_mass * device.base_amplitude * w * w + device.tangential_force
+    resonator = steady_resonator(device)
+    return Vibration(abs(force) / inertia, pair / inertia, -argument(force), resonator)
+
+
+def steady_swing(amplitude: complex, theta: float, frequency: float) -> tuple[float, float]:
+    """Displacement [m] and velocity [m/s] of amplitude e at drive phase `theta` [rad]."""
+    real, imag, sine, cosine = amplitude.real, amplitude.imag, sin(theta), cos(theta)
+    return real * sine + imag * cosine, frequency * (real * cosine - imag * sine)
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """A device under held inputs (SI units; complex numbers are amplitudes of e).
+
+    At fidelity 1 the resonator acts by its steady force only: `slider_mass` is the total mass,
+    `mass_fraction`, `spring` and `damper` are 0, and `resonator_amplitude` is the steady
+    displacement of the resonator [m], which is None at fidelity 2. `holding_drive` is the part of
+    the force on a held slider that follows the drive directly [N], `drive` the force of the drive
+    on the pair per total mass [m/s^2]. `split` holds the amplitudes of sliding and flight as a sum
+    of exponentials, None where they do not split. `arc` [s] is the longest leg: after it a motion
+    begins anew from its state. Neither depends on `phase` and `load`.
+    """
+
+    device: Device
+    phase: float
+    load: float
+    slider_mass: float
+    total_mass: float
+    mass_fraction: float
+    drive_frequency: float
+    normal_frequency: float
+    friction_preload: float
+    friction_amplitude: float
+    window: Window
+    slip: Oscillator
+    stick: Oscillator
+    drive: complex
+    relative_drive: float
+    base_acceleration: float
+    holding_drive: complex
+    spring: float
+    damper: float
+    resonator_amplitude: complex | None
+    split: Split | None
+    fastest: float
+
+    @property
+    def arc(self) -> float:
+        """The longest leg [s]."""
+        return LONGEST_ARC / self.fastest
+
+    def friction_limit(self, psi: float) -> float:
+        """Friction force [N] of all faces at normal phase `psi` [rad] when sliding, 0 in flight."""
+        limit = self.friction_preload + self.friction_amplitude * sin(psi + self.phase)
+        return limit if limit > 0.0 else 0.0
+
+    def is_lifted(self, psi: float) -> bool:
+        """Whether the contact is lifted at normal phase `psi` [rad]."""
+        return self.window.is_lifted(psi + self.phase, self.normal_frequency)
+
+    def resonator(self, displacement: float, rate: float, theta: float) -> tuple[float, float]:
+        """Displacement [m] and velocity [m/s] of the resonator: its own or the steady ones."""
+        if self.resonator_amplitude is None:
+            return displacement, rate
+        return steady_swing(self.resonator_amplitude, theta, self.drive_frequency)
+
+
+def hold(device: Device, inputs: Inputs) -> System:
+    """Prepare the motion of `device` while `inputs` are held.
+
+    Raises Refusal at fidelity 1 where the steady force of the resonator is unbounded.
+    """
+    w, full = device.drive_frequency, device.fidelity == 2
+    q, m, wn = inputs.frequency_ratio * w, device.resonator_mass, device.resonator_frequency
+    faces_mu = device.friction_faces * device.friction_coefficient
+    base = device.base_amplitude * w * w
+    force = complex(m * base + device.tangential_force) if full else equivalent_force(device)
+    drive = force / device.total_mass
+    slip, stick = device.slip_oscillator, device.stick_oscillator
+    fastest = max(w, abs(q))
+    if full:
+        swinging = [o.frequency for o in (slip, stick) if o.is_oscillatory]
+        fastest = max([fastest, *swinging])
+    slider_mass, fraction = device.slider_mass, device.mass_fraction
+    relative = base - device.tangential_force / slider_mass
+    if not full:
+        slider_mass, fraction = device.total_mass, 0.0
+    amplitude = faces_mu * device.normal_amplitude
+    return System(
+        device=device,
+        phase=inputs.phase,
+        load=inputs.load,
+        slider_mass=slider_mass,
+        total_mass=device.total_mass,
+        mass_fraction=fraction,
+        drive_frequency=w,
+        normal_frequency=q,
+        friction_preload=faces_mu * device.normal_preload,
+        friction_amplitude=amplitude,
+        window=flight_window(device),
+        slip=slip,
+        stick=stick,
+        drive=drive,
+        relative_drive=relative,
+        base_acceleration=base,
+        holding_drive=complex(device.tangential_force) if full else force,
+        spring=m * wn * wn if full else 0.0,
+        damper=2.0 * device.damping_ratio * m * wn if full else 0.0,
+        resonator_amplitude=None if full else steady_resonator(device),
+        split=split_of(
+            slip if full else None,
+            (w, q),
+            fraction,
+            drive,
+            relative,
+            (amplitude / slider_mass, amplitude / device.total_mass),
+            1.0 / slider_mass,
+        ),
+        fastest=fastest,
+    )
+
+
+def flight_window(device: Device) -> Window:
+    """The range of chi in which the contact of `device` is lifted."""
+    if device.normal_preload == device.normal_amplitude == 0.0:
+        return Window(0.0, tau)
+    if not device.lifts:
+        return Window(0.0, 0.0)
+    dip = asin(device.normal_preload / device.normal_amplitude)
+    return Window(pi + dip, tau - dip)
+
+
+def velocity_scale(system: System, velocity: float, displacement: float, rate: float) -> float:
+    """The scale of velocities [m/s] to which tolerances refer.
+
+    The sum of the velocity amplitude of the drive, the velocity that friction and load change in a
+    radian of the drive, and the velocities of slider and resonator.
+    """
+    w = system.drive_frequency
+    forces = system.friction_preload + system.friction_amplitude + abs(system.load)
+    swing = system.mass_fraction * hypot(rate, system.stick.frequency * displacement)
+    return abs(system.drive) / w + forces / (system.total_mass * w) + abs(velocity) + swing

@@ -1,87 +1,52 @@
-"""Dormand and Prince's 5(4) pair for one velocity and the displacement, its integral."""
+"""One step of Dormand and Prince's 5(4) pair for a velocity and its travel."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf, isfinite
 from typing import NamedTuple
 
+Rates = tuple[float, float]
+"""Rates of the velocity and of the travel."""
 
-class Reached(NamedTuple):
-    """Where an integration is.
 
-    Time [s], velocity [m/s], displacement [m], the step size to try next [s], and the number of
-    steps `tried`.
+class Step(NamedTuple):
+    """Where a step of the solver leads.
+
+    The velocity at its end, the travel, the estimated `error` of the velocity, the rates at the
+    end, and the `gain` there: the derivative of the acceleration by the velocity.
     """
 
-    t: float
     velocity: float
-    moved: float
-    step: float
-    tried: int = 0
-
-
-class _Stage(NamedTuple):
-    """A step tried.
-
-    `change` of the velocity and its estimated `error` [m/s], displacement `moved` [m], and the
-    acceleration `last` at the end [m/s^2].
-    """
-
-    change: float
-    moved: float
+    travel: float
     error: float
-    last: float
+    rates: Rates
+    gain: float
 
 
-def integrate(
-    acceleration: Callable[[float, float], float],
-    now: Reached,
-    end: float,
-    tolerance: float,
-    max_steps: int,
-    longest: float = inf,
-) -> Reached:
-    """Integrate to time `end` [s], or for `max_steps` accepted and rejected steps.
-
-    `acceleration(t, v)` is in m/s^2; `tolerance` [m/s] is the error allowed in a step. `longest`
-    [s] bounds the step size: over the period of a periodic acceleration all stages would see the
-    same value.
-    """
-    t, velocity, displacement, step, tried = now
-    first = acceleration(t, velocity)
-    for _ in range(max_steps):
-        if not t < end or not isfinite(velocity):
-            break
-        left = end - t
-        tried += 1
-        h = min(step, longest, left)
-        stage = _try_step(acceleration, t, velocity, h, first)
-        if not stage.error > tolerance:
-            displacement += stage.moved
-            velocity, first = velocity + stage.change, stage.last
-            t = t + h if h < left else end
-        growth = 0.9 * (tolerance / stage.error) ** 0.2 if stage.error > 0.0 else 5.0
-        step = h * min(5.0, max(0.2, growth))
-    return Reached(t, velocity, displacement, step, tried)
+def dormand_prince(
+    rates: Callable[[float, float], Rates], t: float, v: float, h: float, first: Rates
+) -> Step:
+    """Step by `h` from time `t` and velocity `v`, where the rates are `first`."""
+    a1, x1 = first
+    a2, _ = rates(t + h / 5, v + h * a1 / 5)
+    a3, x3 = rates(t + 3 * h / 10, v + h * (3 * a1 + 9 * a2) / 40)
+    a4, x4 = rates(t + 4 * h / 5, v + h * (44 * a1 / 45 - 56 * a2 / 15 + 32 * a3 / 9))
+    by_5 = 19372 * a1 / 6561 - 25360 * a2 / 2187 + 64448 * a3 / 6561 - 212 * a4 / 729
+    a5, x5 = rates(t + 8 * h / 9, v + h * by_5)
+    by_6 = 9017 * a1 / 3168 - 355 * a2 / 33 + 46732 * a3 / 5247 + 49 * a4 / 176 - 5103 * a5 / 18656
+    before = v + h * by_6
+    a6, x6 = rates(t + h, before)
+    slope = 35 * a1 / 384 + 500 * a3 / 1113 + 125 * a4 / 192 - 2187 * a5 / 6784 + 11 * a6 / 84
+    end = v + h * slope
+    a7, x7 = rates(t + h, end)
+    by_error = 71 * a1 / 57600 - 71 * a3 / 16695 + 71 * a4 / 1920 - 17253 * a5 / 339200
+    error = h * abs(by_error + 22 * a6 / 525 - a7 / 40)
+    travel = 35 * x1 / 384 + 500 * x3 / 1113 + 125 * x4 / 192 - 2187 * x5 / 6784 + 11 * x6 / 84
+    gain = (a7 - a6) / (end - before) if end != before else 0.0
+    return Step(end, h * travel, error, (a7, x7), gain)
 
 
-def _try_step(
-    acceleration: Callable[[float, float], float], t: float, v: float, h: float, k1: float
-) -> _Stage:
-    k2 = acceleration(t + h / 5, v + h * k1 / 5)
-    k3 = acceleration(t + 3 * h / 10, v + h * (3 * k1 + 9 * k2) / 40)
-    k4 = acceleration(t + 4 * h / 5, v + h * (44 * k1 / 45 - 56 * k2 / 15 + 32 * k3 / 9))
-    by_k5 = 19372 * k1 / 6561 - 25360 * k2 / 2187 + 64448 * k3 / 6561 - 212 * k4 / 729
-    k5 = acceleration(t + 8 * h / 9, v + h * by_k5)
-    by_k6 = 9017 * k1 / 3168 - 355 * k2 / 33 + 46732 * k3 / 5247 + 49 * k4 / 176 - 5103 * k5 / 18656
-    k6 = acceleration(t + h, v + h * by_k6)
-    change = h * (
-        35 * k1 / 384 + 500 * k3 / 1113 + 125 * k4 / 192 - 2187 * k5 / 6784 + 11 * k6 / 84
-    )
-    last = acceleration(t + h, v + change)
-    by_error = 71 * k1 / 57600 - 71 * k3 / 16695 + 71 * k4 / 1920 - 17253 * k5 / 339200
-    error = h * abs(by_error + 22 * k6 / 525 - last / 40)
-    # The weights of the fifth order, applied to the velocities at the stages.
-    moved = h * v + h * h * (35 * k1 / 384 + 50 * k3 / 159 + 25 * k4 / 192 - 243 * k5 / 6784)
-    return _Stage(change, moved, error, last)
+def step_growth(error: float, tolerance: float) -> float:
+    """Factor by which the next step may be longer or shorter than one with this error."""
+    growth = 0.9 * (tolerance / error) ** 0.2 if error > 0.0 else 5.0
+    return min(5.0, max(0.2, growth))

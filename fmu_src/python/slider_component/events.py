@@ -1,69 +1,111 @@
-"""The loop over events: resolved motion under any friction law, leg by leg."""
+"""Resolved motion: the loop over events, leg by leg, under any friction law.
+
+A leg is motion without an event: it begins as the friction law says, ends at the first zero of what
+it watches (a stop of the slider, or a release), at the latest where the contact lifts or touches
+down, and is succeeded by another contact mode. There is no step size.
+"""
 
 from __future__ import annotations
 
-from math import inf, tau
+from math import tau
 
 from .budget import Budget
 from .clock import Clock
 from .constants import MAX_STEP_LEGS, PYTHON_SLOWDOWN
-from .contact import LIFTED, time_to_switch
-from .friction_law import FrictionLaw
-from .held import LONGEST_ARC, Held
+from .contact import LIFTED
+from .coulomb import Coulomb
+from .device import EPSILON, LONGEST_ARC, System
+from .first_zero import first_zero
+from .lugre import LuGre
 from .moment import Moment
-from .trace import Trace
+from .sliding import End, Stick
 
 MAX_LEGS = 20_000
 """Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
 presliding on the hardest bristles takes."""
 
+SAME = 1e-6
+"""Share of the longest arc within which a release and a lift-off may be the same event."""
+
+
+FrictionLaw = Coulomb | LuGre
+
+FRICTION_LAWS: tuple[FrictionLaw, ...] = (Coulomb(), LuGre())
+"""In the order of `friction_law`."""
+
+
+def law_of(system: System) -> FrictionLaw:
+    """The friction law of a system."""
+    return FRICTION_LAWS[system.device.friction_law]
+
 
 def advance(
-    friction: FrictionLaw,
-    held: Held,
+    system: System,
     moment: Moment,
     duration: float,
     budget: Budget,
-    trace: Trace | None = None,
+    modes: list[int] | None = None,
 ) -> Moment:
-    """The moment `duration` > 0 [s] later, inputs held; a `trace` looks at the motion on its way.
+    """The moment `duration` > 0 [s] later, inputs held; `modes` collects changes of contact mode.
 
     Raises Refusal for a motion of more legs than the budget has, or of too many in a turn.
     """
-    plant, arc, window = held.plant, held.arc, held.window
+    law, arc = law_of(system), system.arc
     max_legs = MAX_STEP_LEGS // PYTHON_SLOWDOWN
-    legs_left = budget.left(max_legs)
-    turn = tau / LONGEST_ARC * arc
-    if duration > legs_left * arc:
-        raise budget.refusal(legs_left * arc, max_legs, "legs of motion")
+    allowed = budget.left(max_legs)
+    if duration > allowed * arc:
+        raise budget.refusal(allowed * arc, max_legs, "legs of motion")
     clock, remaining = Clock(duration), duration
     legs, all_legs, turn_began = 0, 0, 0.0
-    departs = moment.state.velocity == 0.0
+    turn = tau / LONGEST_ARC * arc
     now = moment.copied()
-    now.enter(friction.mode(held, now))
+    now.enter(law.mode(system, now))
     while remaining > 0.0:
         if clock.elapsed - turn_began > turn:
             legs, turn_began = 0, clock.elapsed
-        legs += 1
+        legs, all_legs = legs + 1, all_legs + 1
         if legs > MAX_LEGS:
             what = "legs in a turn of the fastest oscillation"
             raise budget.refusal(clock.elapsed, MAX_LEGS, what)
-        all_legs += 1
-        if all_legs > legs_left:
+        if all_legs > allowed:
             raise budget.refusal(clock.elapsed, max_legs, "legs of motion")
-        switching, longest = inf, remaining if remaining < arc else arc
-        if window is not None:
-            chi, lifted = now.psi + plant.phase, now.mode == LIFTED
-            switching = time_to_switch(window, chi, plant.normal_frequency, lifted)
-            longest = min(longest, switching)
-        leg = friction.follow(held, now, longest, switching, departs)
-        if trace is not None:
-            trace.look(leg, now, clock.elapsed)
-        leg.finish(held, now)
-        friction.succeed(held, leg, now, leg.zero_of is None and leg.t == switching)
-        departs = now.state.velocity == 0.0 and now.mode != -leg.mode
-        remaining = clock.advance(leg.t) if leg.t != remaining else 0.0
+        t = _leg(law, system, now, min(remaining, arc))
+        if modes is not None and modes[-1] != now.mode:
+            modes.append(now.mode)
+        remaining = clock.advance(t) if t != remaining else 0.0
     budget.spend(all_legs, max_legs)
-    if trace is not None:
-        trace.look_at_end(now)
     return now
+
+
+def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float:
+    """Advance `now` by one leg of up to `longest` [s], and return its time [s]."""
+    chi, lifted = now.psi + system.phase, now.mode == LIFTED
+    switching = system.window.time_to_switch(chi, system.normal_frequency, lifted)
+    motion, direction, reach = law.begin(system, now)
+    rests = isinstance(motion, Stick)
+    t, zero_of = min(longest, switching, reach), None
+    watches = motion.watches(t) if t > 0.0 else ()
+    for index, watch in enumerate(watches):
+        zero = first_zero(watch, t)
+        if zero is not None:
+            t, zero_of = zero, index
+    near_switch = rests and zero_of is not None and switching - t < SAME * system.arc
+    if near_switch and _lifts_first(system, now.psi + system.normal_frequency * t):
+        t, zero_of = switching, None
+    turns = direction not in (0, now.sliding) and watches and watches[0].exceeds_noise(t)
+    now.velocity, now.displacement, now.rate = motion.at(t)
+    if zero_of is not None and not rests:
+        now.velocity = 0.0
+    if turns:
+        now.turn(direction)
+    travelled = now.pass_time(t, system.drive_frequency, rests, motion.travel)
+    now.psi = (now.psi + system.normal_frequency * t) % tau
+    switches = zero_of is None and t == switching
+    law.succeed(system, now, End(travelled, rests, zero_of, switches))
+    return t
+
+
+def _lifts_first(system: System, psi: float) -> bool:
+    """Whether a stick ends because the contact lifts: friction is 0 there."""
+    limit = system.friction_preload + system.friction_amplitude
+    return system.friction_limit(psi) <= 16.0 * EPSILON * limit

@@ -12,7 +12,7 @@ parabola from the start and that from the zero backwards leave no gap between th
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import sqrt
+from math import inf, sqrt
 from typing import NamedTuple
 
 Signal = Callable[[float], tuple[float, float, float]]
@@ -23,66 +23,72 @@ class Watch(NamedTuple):
     """A signal whose first zero ends the mode, with the scales that its search needs.
 
     `noise` is the rounding error of its values, `fastest` [rad/s] its highest frequency, and
-    `horizon` [s] how far ahead its curvature bound holds.
+    `horizon` [s] how far ahead its curvature bound holds. A zero may be `expected` at a time [s].
     """
 
     signal: Signal
     noise: float
     fastest: float
-    horizon: float
+    horizon: float = inf
+    expected: float = 0.0
+
+    def exceeds_noise(self, t: float) -> bool:
+        """Whether the signal exceeds its noise in the middle of a motion of `t` [s]."""
+        return self.signal(0.5 * t)[0] > self.noise
 
 
-FLOOR_DOUBLING = 20
-"""Short steps after which the shortest one doubles: bounds the work on signals that stay within
-rounding of zero."""
+SHORTEST = 1e-7
+"""Shortest step of the search, as an angle [rad] of the highest frequency. Two zeros closer than
+that enclose a dip within rounding, and count as a touch."""
 
-SHORT_STEP = 0.01
-"""How short these are, rad."""
+SHORT = 0.01
+"""Steps [rad] below this count as short. After `PATIENCE` of them the shortest step doubles, which
+bounds the work on signals that stay within rounding of zero."""
 
-MAX_SEARCH_EVALUATIONS = 1_000_000
+PATIENCE = 20
+
+MAX_EVALUATIONS = 1_000_000
 """Evaluations after which a search ends without a zero: reached only by motion at the limits of
 floating point."""
 
-MAX_NEWTON_STEPS = 60
+MAX_REFINEMENTS = 80
 MAX_EXPECTING_STEPS = 4
+
+RESOLUTION = 1e-16
+"""Angle [rad] of the highest frequency to which zeros are located."""
 
 SURE = 0.99
 """Share of the interval that two parabolas cover that is relied on: a margin for rounding."""
 
 
-def first_zero(
-    watch: Watch, limit: float, start: float = 0.0, expected: float | None = None
-) -> float | None:
-    """Time of the first downward zero in [start, limit) [s], or None.
+def first_zero(watch: Watch, limit: float) -> float | None:
+    """Time of the first downward zero in [0, limit) [s], or None.
 
-    The signal is non-negative at `start`. Two zeros closer than 1e-7 / fastest enclose a dip
-    within rounding and count as a touch, which is no zero. A zero near `expected` [s] is found
-    sooner.
+    The signal is non-negative at 0, up to its noise.
     """
-    signal, noise, fastest, horizon = watch
-    t = start
-    shortest = 1e-7 / fastest
+    signal, noise, fastest, horizon, expected = watch
     zero, steepness = None, 0.0
-    if expected is not None and start < expected < limit:
-        zero, steepness = _zero_near(signal, start, limit, expected, 1e-16 / fastest)
-    evaluations = short_steps = 0
-    while t < limit and evaluations < MAX_SEARCH_EVALUATIONS:
+    if 0.0 < expected < limit:
+        zero, steepness = _zero_near(signal, expected, limit, RESOLUTION / fastest)
+    t = before = 0.0
+    shortest, short_steps = SHORTEST / fastest, 0
+    for _ in range(MAX_EVALUATIONS):
         value, slope, bound = signal(t)
+        if value < -noise and t > before:
+            # Only a step of the shortest length can get here.
+            return _refined(signal, before, t, noise, fastest)
         square = slope * slope
-        evaluations += 1
         if slope < 0.0:
-            if value <= noise:
-                if value < -noise or square > 16.0 * noise * bound:
-                    return t
-                value = noise
-            elif square > 2.2 * bound * (value + noise):
-                root = _newton(signal, t, value, slope, fastest)
+            margin = 2.2 * (value + noise) if value > noise else 16.0 * noise
+            if square > bound * margin:
+                root = _refined(signal, t, inf, 0.0, fastest)
                 return root if root < limit else None
+            value = max(value, noise)
             step = 2.0 * value / (sqrt(square + 2.0 * bound * value) - slope)
         else:
-            value = value if value > noise else noise
-            root_term = sqrt(square + 2.0 * bound * value)
-            step = (slope + root_term) / bound if bound > 0.0 else horizon
+            value = max(value, noise)
+            reach = sqrt(square + 2.0 * bound * value)
+            step = (slope + reach) / bound if bound > 0.0 else horizon
         # The parabola from the zero backwards must cover the rest of the way, beyond rounding.
         if (
             zero is not None
@@ -91,30 +97,19 @@ def first_zero(
             and steepness * steepness > 16.0 * noise * bound
         ):
             return zero
-        if step * fastest < SHORT_STEP:
+        if step * fastest < SHORT:
             short_steps += 1
-            if short_steps % FLOOR_DOUBLING == 0:
+            if short_steps % PATIENCE == 0:
                 shortest *= 2.0
-        if step < shortest:
-            step = shortest
-        t += horizon if step > horizon else step  # not a number stays so, and ends the search
+        before = t
+        t += min(max(step, shortest), horizon)
+        if not t < limit:  # not a number ends the search, too
+            return None
     return None
 
 
-def exceeds_noise(watch: Watch, t: float) -> bool:
-    """Whether a watched signal exceeds its noise before `t` [s].
-
-    In most cases its lower bound, a parabola, shows that without another evaluation.
-    """
-    value, slope, bound = watch.signal(0.0)
-    ahead = t if t < watch.horizon else watch.horizon
-    if 0.0 < slope < bound * ahead and value + 0.5 * slope * slope / bound > watch.noise:
-        return True
-    return watch.signal(0.5 * t)[0] > watch.noise
-
-
 def _zero_near(
-    signal: Signal, start: float, limit: float, t: float, resolution: float
+    signal: Signal, t: float, limit: float, resolution: float
 ) -> tuple[float | None, float]:
     """The downward zero near `t`, if Newton's method finds one in a few steps, and the slope there.
 
@@ -126,7 +121,7 @@ def _zero_near(
             break
         step = -value / slope
         t += step
-        if not start < t < limit:
+        if not 0.0 < t < limit:
             break
         # The next step would be below the resolution.
         if bound * step * step <= -slope * resolution:
@@ -134,19 +129,29 @@ def _zero_near(
     return None, 0.0
 
 
-def _newton(signal: Signal, t: float, value: float, slope: float, fastest: float) -> float:
-    """Newton's method from a point that satisfies Kantorovich's condition."""
-    resolution = 1e-16 / fastest
-    for _ in range(MAX_NEWTON_STEPS):
-        step = -value / slope
-        t += step
-        if abs(step) <= resolution:
-            break
+def _refined(signal: Signal, low: float, high: float, noise: float, fastest: float) -> float:
+    """Where the signal falls through -noise after `low` [s], by Newton's method.
+
+    It stays within the bracket that ends at `high`, where the signal is below that, if that is
+    finite: otherwise Newton's method is known to converge.
+    """
+    resolution = RESOLUTION / fastest
+    t = low
+    for _ in range(MAX_REFINEMENTS):
         value, slope, bound = signal(t)
-        if slope >= 0.0:
-            break
-        remaining = -value / slope
-        if bound * remaining * remaining <= -slope * resolution:
-            t += remaining
-            break
+        value += noise
+        if value > 0.0:
+            low = max(low, t)
+        else:
+            high = min(high, t)
+        following = t - value / slope if slope < 0.0 else inf
+        if not low <= following <= high:
+            if high == inf:
+                break
+            following = 0.5 * (low + high)
+        step = following - t
+        # The next step would be below the resolution.
+        if bound * step * step <= -slope * resolution or abs(step) <= resolution:
+            return following
+        t = following
     return t

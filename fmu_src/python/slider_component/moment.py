@@ -2,72 +2,113 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from math import floor, inf, tau
 
 from .contact import STICK
-from .motion import State
-from .orbit_state import NO_ORBIT, OrbitState
-from .period import PeriodMeans
-from .stops import NO_STOPS, Stops
 
-
-class Counts(NamedTuple):
-    """Direction of the last sliding (0 before any), number of reversals, number of sticks begun."""
-
-    sliding: int = 0
-    reversals: int = 0
-    sticks: int = 0
-
-    def slid(self, direction: int) -> Counts:
-        """The counts after the slider has moved in `direction`."""
-        sliding, reversals, sticks = self
-        return Counts(direction, reversals + (sliding == -direction), sticks)
+MARK_TOLERANCE = 1e-7
+"""Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
+of whole periods complete their last period in spite of rounding."""
 
 
 @dataclass(slots=True)
 class Moment:
-    """Position [m], phases [rad], contact mode, and what outputs count.
+    """State, phases and contact mode, and what outputs count.
 
-    `event_age` is the time [s] since the last event, infinite before any; `bristle` is the friction
-    sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction. `stops` determine where
-    the search for a stop begins, and so the last digit of the time that it finds: as part of the
-    state they make a replay equal to the last bit. `orbit` is for averages of second order alone.
-    Only the loop over events changes a moment, and it begins with a copy.
+    Slider `velocity` [m/s] and `position` [m], resonator `displacement` [m] and `rate` [m/s], and
+    the friction sigma_0 z of the `bristle` per unit normal load, 0 with Coulomb friction. Phases of
+    the drive `theta` and of the normal load `psi` [rad]. `event_age` is the time since the last
+    event [s], infinite before any; `sliding` the direction of the last sliding, 0 before any;
+    `reversals` and `sticks` count.
+    `travel` [m], `elapsed` [s] and `sticking` [s] are sums since the last drive period ended (or
+    the start), `mean_velocity` [m/s] and `stick_fraction` the means of the last whole one once it
+    is `complete`. `leap_error` [m/s] is what leaps over periods have erred by so far in the slow
+    velocity.
+
+    Only a motion changes a moment, and it begins with a copy.
     """
 
-    state: State
+    velocity: float
+    displacement: float
+    rate: float
     position: float
-    theta: float
-    psi: float
-    mode: int
-    counts: Counts
-    event_age: float
-    means: PeriodMeans
+    theta: float = 0.0
+    psi: float = 0.0
+    mode: int = 0
+    sliding: int = 0
+    reversals: int = 0
+    sticks: int = 0
+    event_age: float = inf
     bristle: float = 0.0
-    stops: Stops = NO_STOPS
-    orbit: OrbitState = NO_ORBIT
+    travel: float = 0.0
+    elapsed: float = 0.0
+    sticking: float = 0.0
+    complete: bool = False
+    mean_velocity: float = 0.0
+    stick_fraction: float = 0.0
+    leap_error: float = 0.0
 
     def copied(self) -> Moment:
         """The same moment, to be changed."""
-        return Moment(
-            self.state,
-            self.position,
-            self.theta,
-            self.psi,
-            self.mode,
-            self.counts,
-            self.event_age,
-            self.means,
-            self.bristle,
-            self.stops,
-            self.orbit,
-        )
+        return Moment(*[getattr(self, name) for name in Moment.__slots__])
 
     def enter(self, mode: int) -> None:
         """Change to contact mode `mode`; that is an event unless it is the present mode."""
-        if mode == self.mode:
-            return
-        self.mode, self.event_age = mode, 0.0
-        if mode == STICK:
-            self.counts = self.counts._replace(sticks=self.counts.sticks + 1)
+        if mode != self.mode:
+            self.mode, self.event_age = mode, 0.0
+            self.sticks += mode == STICK
+
+    def turn(self, direction: int) -> None:
+        """Begin to slide in another direction than before: an event."""
+        self.reversals += self.sliding == -direction
+        self.sliding, self.event_age = direction, 0.0
+
+    def pass_time(
+        self, t: float, frequency: float, sticks: bool, travel_at: Callable[[float], float]
+    ) -> float:
+        """Advance position, drive phase and means over a motion of `t` [s]; return its travel [m].
+
+        `travel_at` gives its displacement [m] after a time [s]; `frequency` [rad/s] is the drive's.
+        """
+        travelled, end = travel_at(t), self.theta + frequency * t
+        self.position += travelled
+        self.event_age += t
+        ended = 0 if end + MARK_TOLERANCE < tau else floor((end + MARK_TOLERANCE) / tau)
+        if ended <= 0:
+            self.travel += travelled
+            self.elapsed += t
+            self.sticking += t if sticks else 0.0
+            self.theta = end
+            return travelled
+        last = (tau * ended - self.theta) / frequency
+        travel_last = travel_at(last)
+        if ended == 1:
+            length = self.elapsed + last
+            self.mean_velocity = (self.travel + travel_last) / length
+            fraction = (self.sticking + (last if sticks else 0.0)) / length
+        else:
+            length = tau / frequency
+            self.mean_velocity = (travel_last - travel_at(last - length)) / length
+            fraction = 1.0 if sticks else 0.0
+        rest = t - last
+        self.travel, self.elapsed = travelled - travel_last, rest
+        self.sticking = rest if sticks else 0.0
+        self.complete, self.stick_fraction = True, min(max(fraction, 0.0), 1.0)
+        self.theta = end - tau * ended
+        return travelled
+
+    def present_mean_velocity(self) -> float:
+        """Mean of the last whole period, or since the start, or the velocity at the start [m/s]."""
+        if self.complete:
+            return self.mean_velocity
+        return self.travel / self.elapsed if self.elapsed > 0.0 else self.velocity
+
+    def present_stick_fraction(self, sticks: bool) -> float:
+        """Fraction sticking of the last whole period, or since the start, or at the start."""
+        if self.complete:
+            return self.stick_fraction
+        if self.elapsed > 0.0:
+            return min(self.sticking / self.elapsed, 1.0)
+        return 1.0 if sticks else 0.0

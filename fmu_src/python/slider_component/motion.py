@@ -1,34 +1,55 @@
-"""The interface of a motion in one contact mode, which a leg follows."""
+"""Resolved motion of a device under held inputs; other motions have the same methods."""
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
-
-from .first_zero import Watch
-
-EPSILON = 2.0**-52
-"""Spacing of floating point numbers above 1: the unit of rounding errors."""
+from .budget import Budget
+from .device import System, steady_swing
+from .events import advance, law_of
+from .moment import Moment
 
 
-class State(NamedTuple):
-    """Slider velocity [m/s], resonator displacement [m] and velocity [m/s]."""
+class Resolved:
+    """Resolved motion with one or two degrees of freedom."""
 
-    velocity: float
-    displacement: float
-    rate: float
+    def __init__(self, system: System) -> None:
+        self.system, self.law = system, law_of(system)
 
+    def start(self) -> Moment:
+        """The first moment, at drive and normal phase 0: the initial values.
 
-class Motion(Protocol):
-    """Closed-form motion from a given state on, inputs held, contact mode unchanged."""
+        A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that
+        the momentum of the pair is that of the initial values.
+        """
+        device, system = self.system.device, self.system
+        velocity, rate = device.initial_velocity, device.initial_resonator_velocity
+        if system.resonator_amplitude is not None:
+            _, steady = steady_swing(system.resonator_amplitude, 0.0, system.drive_frequency)
+            velocity += device.mass_fraction * (rate - steady)
+        now = Moment(velocity, device.initial_resonator_displacement, rate, device.initial_position)
+        if device.friction_law == 1:
+            now.bristle = device.bristle_stiffness * device.initial_bristle_deflection
+        now.mode = self.law.mode(system, now)
+        return now
 
-    def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """Signals that are positive while the mode lasts, up to `horizon` [s]."""
-        ...
+    def advance(self, moment: Moment, duration: float) -> Moment:
+        """The moment after a communication step of `duration` > 0 [s].
 
-    def travel(self, t: float) -> float:
-        """Displacement of the slider after `t` [s], in m."""
-        ...
+        Raises Refusal for more work than a step may take.
+        """
+        return advance(self.system, moment, duration, Budget(duration))
 
-    def state(self, t: float) -> State:
-        """State after `t` [s]."""
-        ...
+    def mode(self, now: Moment) -> int:
+        """Contact mode under the held inputs."""
+        return self.law.mode(self.system, now)
+
+    def friction_force(self, now: Moment, mode: int) -> float:
+        """Friction force [N] on the slider, positive against +X."""
+        return self.law.force(self.system, now, mode)
+
+    def resonator(self, now: Moment) -> tuple[float, float]:
+        """Displacement [m] and velocity [m/s] of the resonator."""
+        return self.system.resonator(now.displacement, now.rate, now.theta)
+
+    def slow_motion_error(self, now: Moment) -> float:
+        """The estimate of the error of the slow velocity [m/s]; 0 for resolved motion."""
+        return 0.0

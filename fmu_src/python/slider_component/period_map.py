@@ -1,127 +1,145 @@
-"""The period map: the state of the full device after one period under a constant load.
+"""The period map: resolved motion of the full device, seen once in each period of the normal load.
 
-A period is `turns` of the drive, after which the normal load repeats too; at drive phase theta = 0
-the phase of the normal load is `lead`. The motion is resolved event by event with two degrees of
-freedom, whatever the fidelity of the device.
-
-The map begins at a section, the drive phase at which the vibration without friction is fastest
-forward, or backward: near it the slider neither reverses nor sticks, and a bristle is fully bent.
+It is seen at a section: the phase of the drive at which the vibration is fastest forward, where no
+reversal comes unless sliding is about to end reversing at all. There the slow state is V = W and
+the position X, with W = X' + r_m Y' + D / (Mt w) cos(theta) and exactly Mt W' = -F - load. The fast
+state is the resonator's Y and Y' and, with LuGre friction, the bristle. From period to period both
+change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import cos, inf, isfinite, pi, tau
+from copy import copy
+from dataclasses import replace
+from math import cos, exp, isfinite, pi, remainder, tau
 
-from . import events
 from .budget import Budget
 from .contact import LIFTED, STICK
-from .device import Device, Inputs
-from .fast_vibration import FastVibration, fast_vibration
-from .friction_law import FrictionLaw
-from .friction_laws import friction_law_of
-from .held import Held, hold
-from .moment import Counts, Moment
-from .motion import State
-from .period import PeriodMeans
-from .refusal import Refusal
-from .trace import Trace
-from .vibrating_load import VibratingLoad
+from .device import System, Vibration
+from .events import advance, law_of
+from .moment import Moment
+from .slow_motion import full_friction
 
 MAP_TOLERANCE = 1e-10
-"""Largest tolerance of a map under LuGre friction."""
+"""Largest tolerance of LuGre friction in a map: differences of high order amplify its error."""
+
+Fast = tuple[float, float, float]
+"""Fast states: Y [m], Y' [m/s], and the bristle's friction per unit load."""
 
 
-@dataclass(frozen=True, slots=True)
+class NoMapError(Exception):
+    """There is no period map, or no slow manifold, or the motion leaves it."""
+
+
 class PeriodMap:
-    """The period map of a device, at any lead and load.
+    """The period map of a system of the full device under held inputs.
 
-    `held` is the full device, `fast` its vibration without friction. `period` [s]; `speed` [m/s],
-    `swing` [m] and `force` [N] are the scales of velocity (v_q), resonator displacement and load
-    (the force that stops v_q in a period). `states` is the number of states that are mapped: 3,
-    with LuGre friction 4.
+    The normal load repeats after `turns` turns of the drive, in `period` [s], but for a `drift`
+    [rad] of its phase. `section` is the drive phase of the section [rad], `speed` the fast velocity
+    v_q [m/s], `share` the change of V by full friction in a period, over v_q. An error by `scale`
+    in a fast state is as large as the vibration, or changes V by v_q times `share`. `decay` is the
+    largest factor by which a transient decays in a period.
     """
 
-    held: Held
-    friction: FrictionLaw
-    fast: FastVibration
-    turns: int
-    states: int
-    period: float
-    speed: float
-    swing: float
-    force: float
+    def __init__(self, system: System, fast: Vibration, max_turns: int) -> None:
+        """Raises NoMapError without vibration, or where transients do not decay."""
+        device, w = system.device, system.drive_frequency
+        tight = replace(device, tolerance=min(device.tolerance, MAP_TOLERANCE))
+        self.system, self.vibration = replace(system, device=tight), fast
+        self.turns, self.drift = _turns_to_repeat_best(system, max_turns)
+        self.period, self.section = tau * self.turns / w, (fast.lag + pi) % tau
+        self.speed = fast.velocity
+        if not fast.velocity > 0.0:
+            raise NoMapError
+        self.share = full_friction(device) * self.period / (device.total_mass * self.speed)
+        swing = abs(fast.resonator) or self.speed / w
+        if system.mass_fraction > 0.0:
+            swing = min(swing, self.speed / (system.mass_fraction * w))
+        self.scale, self.kept = (swing, swing * w, 1.0), 0.0
+        self.decay = exp(system.slip.eigenvalues[0].real * self.period)
+        if device.friction_law == 1:
+            mu, path = device.friction_coefficient, 4.0 * self.turns * self.speed / w
+            self.scale = (swing, swing * w, mu)
+            self.kept = exp(-device.bristle_stiffness * path / mu)
+            self.decay = max(self.decay, self.kept)
+        (a, b), (c, d) = system.slip.free(self.period)
+        self._matrix = (a - 1.0, b, c, d - 1.0)
+        self._determinant = (a - 1.0) * (d - 1.0) - b * c
+        if not (self.decay < 1.0 and self._determinant != 0.0):
+            raise NoMapError
 
-    def section_phase(self, direction: int) -> float:
-        """Drive phase [rad] where the vibration is fastest in `direction`, 1 or -1."""
-        return (self.fast.lag + (pi if direction > 0 else 0.0)) % tau
+    def under_load(self, load: float) -> PeriodMap:
+        """The same under another load [N]."""
+        other = copy(self)
+        other.system = replace(self.system, load=load)
+        return other
 
-    def momentum_velocity(self, state: State, theta: float) -> float:
-        """Momentum of the pair over total mass, without the part that the drive makes: W [m/s].
+    def slow_velocity(self, now: Moment) -> float:
+        """The slow velocity V [m/s] at a moment, but for its change within a period."""
+        carried = now.velocity + self.system.mass_fraction * now.rate
+        return carried + self.vibration.pair_velocity * cos(now.theta)
 
-        W = X' + r Y' + D / (Mt w) cos(theta), D the amplitude of the drive force on the pair.
+    def psi_after(self, psi: float, periods: float) -> float:
+        """Phase of the normal load [rad] `periods` after it was `psi` [rad]."""
+        return (psi + remainder(self.drift * periods, tau)) % tau
+
+    def place(self, now: Moment, velocity: float, fast: Fast, psi: float) -> Moment:
+        """The moment put to V [m/s] and fast states at the section, at normal phase `psi` [rad]."""
+        placed = now.copied()
+        placed.theta, placed.psi = self.section, psi
+        placed.displacement, placed.rate, placed.bristle = fast
+        vibrating = self.vibration.pair_velocity * cos(self.section)
+        placed.velocity = velocity - vibrating - self.system.mass_fraction * placed.rate
+        placed.mode = law_of(self.system).mode(self.system, placed)
+        placed.sliding = STICK if placed.mode == LIFTED else placed.mode
+        return placed
+
+    def visits(self, now: Moment, count: int, budget: Budget) -> tuple[list[Moment], list[int]]:
+        """The moments at the section in `count` periods, `now` first, and all contact modes.
+
+        Raises NoMapError where the motion leaves the range of floating point, and Refusal where the
+        budget is spent.
         """
-        carried = state.velocity + self.held.plant.mass_fraction * state.rate
-        return carried + self.fast.pair_velocity * cos(theta)
+        visits, modes = [now], [now.mode]
+        for _ in range(count):
+            now = advance(self.system, now, self.period, budget, modes)
+            now.theta = self.section
+            visits.append(now)
+        if not isfinite(self.slow_velocity(now) + now.position + sum(fast_of(now))):
+            raise NoMapError
+        return visits, modes
 
-    def enter(self, lead: float, theta: float, state: State, bristle: float) -> Moment:
-        """The moment at drive phase `theta` [rad] and position 0 with which a motion begins."""
-        held = self.held.under(lead, 0.0)
-        psi = self.held.inputs.frequency_ratio * theta % tau
-        begin = Moment(state, 0.0, theta, psi, STICK, Counts(), inf, PeriodMeans(), bristle)
-        begin.mode = self.friction.mode(held, begin)
-        begin.counts = Counts(sliding=STICK if begin.mode == LIFTED else begin.mode)
-        return begin
+    def homing(self, times: int, change: Fast) -> Fast:
+        """The change of the fast state that undoes their differences of the order `times`.
 
-    def advance(
-        self,
-        lead: float,
-        load: float,
-        moment: Moment,
-        duration: float,
-        trace: Trace | None = None,
-    ) -> Moment | None:
-        """The moment `duration` [s] after one that `enter` gave, under `load` [N].
-
-        A `trace` looks at the motion on its way. None where the motion takes too many legs or
-        numbers leave the range of floating point.
+        By the inverse of the map without friction, less 1; a bristle forgets within a period.
         """
-        try:
-            held, budget = self.held.under(lead, load), Budget(duration)
-            after = events.advance(self.friction, held, moment, duration, budget, trace)
-        except (Refusal, ArithmeticError, ValueError):
-            return None
-        return after if isfinite(after.position + sum(after.state) + after.bristle) else None
+        y, u, bristle = change
+        a, b, c, d = self._matrix
+        for _ in range(times):
+            y, u = (d * y - b * u) / self._determinant, (a * u - c * y) / self._determinant
+            bristle /= self.kept - 1.0
+        return y, u, bristle
 
-    def sliding_friction(self, lead: float) -> float:
-        """Mean friction [N] over a period in which the slider slides forward throughout."""
-        device = self.held.device
-        load = VibratingLoad(device, self.held.inputs.frequency_ratio, lead)
-        mean = (load.flattened() if load.wave_number != 0.0 else load).at(0.0)
-        return device.friction_faces * device.friction_coefficient * mean
+    def size(self, change: Fast) -> float:
+        """Size of a change of the fast state, over the scales."""
+        return max(abs(part) / scale for part, scale in zip(change, self.scale, strict=True))
 
 
-def period_map(device: Device, ratio: float, turns: int) -> PeriodMap:
-    """The map of `device` at a frequency ratio for which `turns * ratio` is an integer.
+def fast_of(now: Moment) -> Fast:
+    """The fast states of a moment."""
+    return now.displacement, now.rate, now.bristle
 
-    Raises Refusal where device and friction law do not fit, and where undamped resonance leaves no
-    steady vibration.
+
+def _turns_to_repeat_best(system: System, max_turns: int) -> tuple[int, float]:
+    """Smallest number of turns, up to `max_turns`, after which the load repeats best.
+
+    One more turn must halve its drift [rad] at least.
     """
-    full = replace(device, fidelity=2, tolerance=min(device.tolerance, MAP_TOLERANCE))
-    friction = friction_law_of(full.friction_law)
-    friction.check(full)
-    held, fast = hold(full, Inputs(frequency_ratio=ratio)), fast_vibration(full)
-    w = held.plant.drive_frequency
-    period, speed = tau * turns / w, fast.velocity
-    swing = abs(fast.resonator) or speed / w
-    return PeriodMap(
-        held=held,
-        friction=friction,
-        fast=fast,
-        turns=turns,
-        states=3 if full.friction_law == 0 else 4,
-        period=period,
-        speed=speed,
-        swing=swing,
-        force=held.plant.total_mass * speed / period,
-    )
+    ratio = system.normal_frequency / system.drive_frequency
+    best, drift = 1, tau * (ratio - round(ratio))
+    for turns in range(2, max_turns + 1):
+        off = tau * (turns * ratio - round(turns * ratio))
+        if abs(off) < 0.5 * abs(drift):
+            best, drift = turns, off
+    return (best, drift) if system.device.normal_amplitude > 0.0 else (1, 0.0)

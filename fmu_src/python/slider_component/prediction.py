@@ -1,84 +1,160 @@
-"""Steady velocity and blocking force for the present inputs: by first-order averages, or exact."""
+"""Steady velocity and blocking force for the present inputs, by averaged theory (20)-(22).
+
+Under `averaging_order` 2 both are exact, by periodic motions of the full device; the theory is
+where they start. It holds for any integer frequency ratio n, for lifting contact and for LuGre
+friction: the mean friction of `mean_friction` balances the load. At any other ratio all phases are
+met and the mean load counts.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from cmath import phase as argument
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import copysign, cos, pi, tau
 
-from .averaged import Averaged, averaged
-from .bristle import bristle_of
-from .device import Device, Inputs
-from .fast_vibration import fast_vibration
-from .friction_laws import friction_law_of
-from .held_orbit import HeldOrbit, NoOrbitError, check_stable, held_orbit_at, steady_orbit_at
-from .orbit_motion import has_slow_motion
-from .orbit_ride import orbit_phase_of
-from .orbit_tables import orbit_map
-from .period_map import PeriodMap
-from .refusal import Refusal
-from .steady_orbit import blocking_orbit, check_unique, steady_orbit
-from .vibrating_load import EXACT, turns_to_repeat
+from .device import EPSILON, Device, equivalent_force, held_amplitude, hold, vibration
+from .mean_friction import mean_friction
+from .parameters import Inputs
+from .period_map import NoMapError, PeriodMap
+from .steady_motion import PeriodicMotion
+from .values import Refusal
+from .vibrating_load import EXACT, VibratingLoad
 
-SAME = 0.05
-"""Largest difference, in fast velocities, between steady velocities of first and second order that
-belong to the same balance."""
+BISECTIONS = 52
+"""Halvings of [0, pi] in which the angle of balance is found."""
+
+FLAT = 3e-3
+"""Width [rad] of a balance from which on it is flat, not just uncertain by rounding."""
+
+ROUNDING = 8.0
+"""Rounding error of a mean friction, in units of the last place of the largest friction."""
+
+
+@dataclass(frozen=True, slots=True)
+class Prediction:
+    """Steady velocity [m/s] and blocking force [N], and whether they apply."""
+
+    steady_velocity: float
+    blocking_force: float
+    valid: bool
+
+
+MAX_TURNS = 32
+"""Largest number of turns of the drive after which the normal load may repeat."""
+
+NO_VIBRATION = Prediction(0.0, 0.0, False)
 
 
 @lru_cache(maxsize=8)
-def prediction_of(device: Device, inputs: Inputs, normal_lead: float) -> Averaged:
-    """The prediction of the averaging order of the device; `normal_lead` [rad] as for `averaged`.
+def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:
+    """The prediction of the averaging order of the device; `normal_lead` [rad] as below.
 
-    By second order both are those of periodic motions of the full device. Where the normal load
-    never repeats there is no such motion, and the prediction is that of first order. So it is, but
-    not `valid`, where the vibration does not decay, where no steady motion or more than one is
-    found, or several at one velocity, and at fidelity 0 where the motion itself is averaged to
-    first order.
+    By second order both are those of periodic motions of the full device, and valid only where such
+    were found.
     """
-    prediction = averaged(device, inputs, normal_lead)
-    slow = orbit_phase_of(device, inputs.frequency_ratio)
-    repeats = turns_to_repeat(device, inputs.frequency_ratio, EXACT) is not None
-    repeats = repeats or device.normal_amplitude == 0.0
-    if device.averaging_order < 2 or not prediction.valid:
-        return prediction
-    if device.fidelity == 0 and not has_slow_motion(device, inputs, fast_vibration(device)):
-        return replace(prediction, valid=False)
-    if not repeats:
-        return prediction
-    if slow.turns is None:
-        return replace(prediction, valid=False)
-    first, lead = prediction.steady_velocity, inputs.phase + normal_lead
+    first = first_order(device, inputs, normal_lead)
+    turns = turns_of_load(device, inputs.frequency_ratio)
+    if device.averaging_order == 1 or not first.valid or turns == 0:
+        return replace(first, valid=first.valid and (device.averaging_order == 1 or turns > 0))
     try:
-        period_map = orbit_map(device, slow.waves, slow.turns)
-        steady = _steady(period_map, lead, inputs.load, first)
-        blocked = blocking_orbit(period_map, lead)
-        if not has_slow_motion(device, inputs, period_map.fast):
-            check_unique(period_map, steady)
-            check_unique(period_map, blocked)
-        return Averaged(steady.velocity, -blocked.friction, valid=True)
-    except (NoOrbitError, Refusal):
-        return replace(prediction, valid=False)
+        system = hold(replace(device, fidelity=2), inputs)
+        period_map = PeriodMap(system, vibration(device), turns)
+        psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
+        steady = PeriodicMotion(period_map, psi, blocked=False)
+        blocked = PeriodicMotion(period_map, psi, blocked=True)
+        return Prediction(
+            steady.found(first.steady_velocity, 0.0),
+            blocked.found(0.0, first.blocking_force),
+            valid=True,
+        )
+    except (NoMapError, Refusal, ArithmeticError, ValueError):
+        return replace(first, valid=False)
 
 
-def _steady(period_map: PeriodMap, lead: float, load: float, first: float) -> HeldOrbit:
-    """The steady motion, from the velocity of first order or else by a search over velocities.
+def turns_of_load(device: Device, ratio: float) -> int:
+    """Number of turns of the drive after which the normal load repeats; 0 if it never does."""
+    for turns in range(1, MAX_TURNS + 1):
+        repeats = abs(turns * ratio - round(turns * ratio)) <= EXACT
+        if repeats or device.normal_amplitude == 0.0:
+            return turns
+    return 0
 
-    Raises NoOrbitError.
+
+def theory_range(device: Device) -> tuple[float, ...]:
+    """Return numbers that are all finite where predictions stay in the range of floating point.
+
+    The fast velocity [m/s]; the drag over mu at the fast or the initial velocity, whichever is
+    larger; and a bound on integrals of load and friction [N], with the initial bristle deflection.
     """
-    if _is_monotonic(period_map):
-        try:
-            orbit = held_orbit_at(period_map, lead, first)
-            orbit = steady_orbit_at(period_map, lead, load, orbit)
-            if abs(orbit.velocity - first) <= SAME * period_map.speed:
-                check_stable(period_map, orbit)
-                return orbit
-        except NoOrbitError:
-            pass
-    return steady_orbit(period_map, lead, load)
+    try:
+        force = equivalent_force(device)
+    except Refusal:
+        force = 0j
+    velocity = abs(force) / (device.total_mass * device.drive_frequency)
+    mu, drag, bent = device.friction_coefficient, 0.0, 0.0
+    if device.friction_law == 1:
+        drag = device.bristle_damping * max(velocity, abs(device.initial_velocity))
+        bent = abs(device.bristle_stiffness * device.initial_bristle_deflection)
+        bent *= 1.0 + drag / mu
+    normal = device.normal_preload + device.normal_amplitude
+    strongest = tau * normal * (1.0 + device.friction_faces * (mu + drag + bent))
+    return velocity, drag / mu if drag else 0.0, strongest
 
 
-def _is_monotonic(period_map: PeriodMap) -> bool:
-    """Whether friction is monotonic in the slow velocity, so that there is one balance."""
-    device = period_map.held.device
-    bristle = bristle_of(device)
-    drag = friction_law_of(device.friction_law).averaged.drag(bristle, period_map.speed)
-    return device.normal_amplitude <= device.normal_preload and drag <= bristle.coefficient
+def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:
+    """Averaged theory at the present inputs (eqs 20-22 with both faces).
+
+    `normal_lead` [rad] is psi - n theta, which earlier changes of the ratio make different from 0.
+    Where the load exceeds full friction the velocity is the limit v_q of the theory, with its sign.
+    Both results are 0 without vibration, and where undamped resonance leaves no steady vibration.
+    In these cases, and where the vibration does not break the contact loose, they are not `valid`.
+    """
+    try:
+        force = equivalent_force(device)
+    except Refusal:
+        return NO_VIBRATION
+    fast = abs(force) / (device.total_mass * device.drive_frequency)
+    if fast == 0.0:
+        return NO_VIBRATION
+    ratio, faces = inputs.frequency_ratio, device.friction_faces
+    delta = inputs.phase + normal_lead - ratio * argument(force)
+    law, load = mean_friction(device, fast), VibratingLoad(device, ratio, delta)
+
+    def friction(turning: float) -> float:
+        return faces * law.mean(load, turning)
+
+    sliding = friction(0.0)
+    if sliding == friction(pi):
+        # No friction: every velocity is steady without a load, and none with one.
+        fastest = -copysign(fast, inputs.load) if inputs.load else 0.0
+        return Prediction(fastest, 0.0, valid=False)
+    normal = device.normal_preload + device.normal_amplitude
+    noise = ROUNDING * EPSILON * faces * (law.coefficient + law.drag) * normal
+    # The vibration alone must overcome friction: by its force on the pair and on a held slider.
+    grip = sliding * (law.grip / law.coefficient)
+    valid = abs(inputs.load) < sliding and min(abs(force), held_amplitude(device)) > grip
+    turning = _balance(lambda turning: friction(turning) + inputs.load, noise)
+    return Prediction(fast * cos(turning), -friction(0.5 * pi), valid)
+
+
+def _balance(excess: Callable[[float], float], noise: float) -> float:
+    """The angle Theta [rad] at which the excess of friction and load falls through 0.
+
+    Where it is 0 over a range (even ratios, with flight while sliding turns) it is the end of the
+    highest velocity; where it stays above or below 0, pi or 0.
+    """
+    balance = _bisected(excess, 0.0)
+    beside = (balance - FLAT, balance + FLAT)
+    if any(0.0 < turning < pi and abs(excess(turning)) <= noise for turning in beside):
+        return _bisected(excess, noise)
+    return balance
+
+
+def _bisected(excess: Callable[[float], float], above: float) -> float:
+    low, high = 0.0, pi
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) > above else (low, middle)
+    return 0.5 * (low + high)

@@ -22,8 +22,8 @@ from pythonfmu import Fmi2Slave
 
 from . import refusal_texts
 from .component import Component
-from .refusal import Refusal
 from .snapshot import from_bytes, to_bytes
+from .values import Refusal
 from .variable import Variable
 from .variables import VARIABLES
 

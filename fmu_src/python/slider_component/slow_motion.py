@@ -1,32 +1,40 @@
-"""Averaged motion, fidelity 0: the slow motion of the pair under mean friction.
+"""Averaged motion of first order: the slow motion of the pair under mean friction.
 
 With D the amplitude of the drive force on the pair, its momentum over the total mass is
 P = X' + r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous,
 also where a parameter is tuned. V is the slow velocity: (M + m) V' = -mean friction - load. The
 fast parts of all outputs are the steady vibration (32)-(33), added in closed form.
 
-The bristle follows the motion periodically; it has no state here.
+The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
+(ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact has
+harmonics, and counts with its phase near fractions too. The bristle follows the motion
+periodically; it has no state here.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil, copysign, cos, inf, sin, tau
+from math import ceil, copysign, cos, hypot, inf, isfinite, pi, sin, tau
 
-from .averaged_lugre import MAX_WAVES
 from .budget import Budget
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
-from .dormand_prince import Reached
-from .fast_vibration import FastVibration, fast_vibration, steady_swing
-from .friction_law import FrictionLaw
-from .held import Held
-from .moment import Counts, Moment
-from .motion import State
-from .orbit_state import Stage
-from .period import PeriodMeans
-from .slow_friction import SlowFriction, slow_friction
-from .slow_motion_error import first_order_error
-from .slow_pass import STEPS, SlowPass, first_step
+from .contact import LIFTED, direction_of
+from .device import Device, System, Vibration, steady_swing, vibration
+from .dormand_prince import dormand_prince, step_growth
+from .mean_friction import (
+    MAX_WAVES,
+    MAX_WAVES_TABULATED,
+    MeanFriction,
+    mean_friction,
+    tabulated_means,
+)
+from .moment import Moment
+from .vibrating_load import VibratingLoad, turns_to_repeat
+
+NEAR = 0.1
+"""Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under
+a lifting contact: largest distance of q times the ratio, times q, for q up to a few turns."""
 
 TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
@@ -37,141 +45,273 @@ WAVES = 10.0
 MIN_STEPS = 16
 """Lower limit of the number of steps that is accepted."""
 
+FIRST_STEP = 0.1
+"""Step tried first, as a share of the time in which friction changes the fast velocity."""
+
+BEAT_SHARE = 0.125
+"""Part of a beat that a step may have: its stages then see all phases of the normal load."""
+
+MIN_SHARE = 1e-9
+"""Part of a beat up to which a kink ahead counts as the one just passed."""
+
 PIECES = 256
 """Pieces of a beat, with constant friction in each, in motion without vibration."""
 
+SETTLING = 100.0
+"""What must be left, in first steps, for the motion to settle."""
+
+SETTLED = 20.0
+"""Number of time constants of the approach to a balance that the time left must exceed."""
+
+BESIDE = 1e-7
+"""Distance from balance, in fast velocities, at which motion settles: well above the error of the
+steps before, and so short that forces are linear over it."""
+
+BLOCK = 16
+"""Steps before each of which it may turn out that the motion has settled."""
+
+FIRST_ORDER = 2.0
+"""Error in friction shares and v_q: of the average, and of what the average leaves out, the
+resonator's first swing and the first bend of bristles."""
+
+STEPS = "steps of averaged motion"
+
 
 @dataclass(frozen=True, slots=True)
-class SlowLaw:
-    """The averaged device under held inputs (see `law.Law`)."""
+class SlowFriction:
+    """Mean friction over time and slow velocity, from drive and normal phase on.
 
-    held: Held
-    friction: FrictionLaw
-    fast: FastVibration
+    The normal load has `waves` waves in a turn of the drive, at `phase` [rad] in tau, which drifts
+    by `drift` [rad/s] and repeats after `beat` [s].
+    """
 
-    def start(self, state: State, position: float) -> Moment:
-        """See Law. Initial velocities determine the momentum of the pair, not the vibration."""
-        mode = self.held.mode_by_velocity(state.velocity, 0.0)
-        means = PeriodMeans(complete=True, mean_velocity=self._slow_velocity(state, 0.0))
-        return Moment(state, position, 0.0, 0.0, mode, Counts(), inf, means)
+    system: System
+    law: MeanFriction
+    turns: int | None
+    waves: float
+    phase: float
+    drift: float
+
+    @property
+    def beat(self) -> float:
+        """Time [s] in which the phase of the load repeats; infinite if it does not drift."""
+        return tau / ((self.turns or 1) * abs(self.drift)) if self.drift else inf
+
+    @property
+    def is_slow_load(self) -> bool:
+        """Whether the load itself is slow: near ratio 0."""
+        return self.turns is not None and self.waves == 0.0
+
+    @property
+    def takes_quadratures(self) -> bool:
+        """Whether no table serves: each value costs a quadrature."""
+        any_load = self.system.device.lifts or abs(self.waves) > MAX_WAVES_TABULATED
+        return self.law.is_expensive and any_load and not self._counts_by_mean
+
+    @property
+    def _counts_by_mean(self) -> bool:
+        return self.turns is None or self.waves == 0.0
+
+    def at(self, t: float, velocity: float) -> float:
+        """Mean friction [N] of all faces after `t` [s] at a slow velocity [m/s]."""
+        device, law = self.system.device, self.law
+        turning, delta = law.turning(velocity), self.phase + self.drift * t
+        if self._counts_by_mean:
+            load = VibratingLoad(device, self.waves, delta).integral(0.0, tau) / tau
+            return device.friction_faces * load * self._means(1, turning)[0]
+        if device.lifts or self.takes_quadratures:
+            load_at = VibratingLoad(device, self.waves, delta)
+            return device.friction_faces * law.mean(load_at, turning)
+        plain, sine, cosine = self._means(int(self.waves), turning)
+        swing = cos(delta) * sine + sin(delta) * cosine
+        face = device.normal_preload * plain + device.normal_amplitude * swing
+        return device.friction_faces * face
+
+    def _means(self, n: int, turning: float) -> tuple[float, float, float]:
+        if self.law.is_expensive:
+            return tabulated_means(self.law, n)(turning)
+        return self.law.means(n, turning)
+
+    def smooth_until(self, t: float, end: float) -> float:
+        """The time [s] up to which friction is smooth from `t` on, `end` at most.
+
+        A load that is slow itself has kinks where the contact lifts or touches down.
+        """
+        if not self.is_slow_load:
+            return end
+        window, chi = self.system.window, self.phase + self.drift * t
+        lifted = window.is_lifted(chi, self.drift)
+        ahead = window.time_to_switch(chi, self.drift, lifted)
+        return min(end, t + max(ahead, MIN_SHARE * self.beat))
+
+
+def slow_friction(system: System, fast: Vibration, ratio: float, now: Moment) -> SlowFriction:
+    """The mean friction from the phases of `now` on."""
+    device = system.device
+    turns = turns_to_repeat(device, ratio, NEAR)
+    waves = round(turns * ratio) / turns if turns else ratio
+    phase = system.phase + now.psi - waves * now.theta + waves * fast.lag
+    drift = (ratio - waves) * device.drive_frequency
+    law = mean_friction(device, fast.velocity)
+    return SlowFriction(system, law, turns, waves, phase, drift)
+
+
+class Averaged:
+    """Motion averaged to first order (methods as of `motion.Resolved`)."""
+
+    def __init__(self, system: System, frequency_ratio: float) -> None:
+        """Raises Refusal where undamped resonance leaves no steady vibration."""
+        self.system, self.ratio, self.fast = system, frequency_ratio, vibration(system.device)
+
+    def start(self) -> Moment:
+        """Initial velocities determine the momentum of the pair, not the vibration."""
+        device = self.system.device
+        now = Moment(
+            device.initial_velocity,
+            device.initial_resonator_displacement,
+            device.initial_resonator_velocity,
+            device.initial_position,
+        )
+        now.mode, now.complete = self.mode(now), True
+        now.mean_velocity = self._slow_velocity(now)
+        return now
 
     def advance(self, moment: Moment, duration: float) -> Moment:
-        """See Law."""
-        held, fast = self.held, self.fast
-        w, q = held.plant.drive_frequency, held.plant.normal_frequency
-        share, drive = held.device.mass_fraction, fast.pair_velocity
-        theta, psi, state = moment.theta, moment.psi, moment.state
-        slow = self._slow_velocity(state, theta)
-        centre = moment.position + share * state.displacement + drive / w * sin(theta)
-        slow, moved = self._passed(slow, theta, psi, duration)
-        theta = (theta + w * duration) % tau
-        psi = (psi + q * duration) % tau
-        displacement, rate = steady_swing(fast.resonator, theta, w)
-        state = State(slow - drive * cos(theta) - share * rate, displacement, rate)
-        position = centre + moved - drive / w * sin(theta) - share * displacement
-        means = PeriodMeans(complete=True, mean_velocity=slow)
-        mode = held.mode_by_velocity(state.velocity, psi)
-        return Moment(state, position, theta, psi, mode, moment.counts, inf, means)
+        """The moment `duration` > 0 [s] later. Raises Refusal for too many steps."""
+        system, fast, now = self.system, self.fast, moment.copied()
+        w, share = system.drive_frequency, system.device.mass_fraction
+        reach = fast.pair_velocity / w
+        slow = self._slow_velocity(now)
+        centre = now.position + share * now.displacement + reach * sin(now.theta)
+        slow, moved = self._passed(slow, now, duration)
+        now.theta = (now.theta + w * duration) % tau
+        now.psi = (now.psi + system.normal_frequency * duration) % tau
+        now.displacement, now.rate = steady_swing(fast.resonator, now.theta, w)
+        now.velocity = slow - fast.pair_velocity * cos(now.theta) - share * now.rate
+        now.position = centre + moved - reach * sin(now.theta) - share * now.displacement
+        now.mean_velocity, now.mode = slow, self.mode(now)
+        return now
 
-    def _slow_velocity(self, state: State, theta: float) -> float:
-        momentum = state.velocity + self.held.device.mass_fraction * state.rate
-        return momentum + self.fast.pair_velocity * cos(theta)
+    def mode(self, now: Moment) -> int:
+        """Contact mode, by the sign of the velocity with its fast part."""
+        return LIFTED if self.system.is_lifted(now.psi) else direction_of(now.velocity)
 
-    def _passed(
-        self, velocity: float, theta: float, psi: float, duration: float
-    ) -> tuple[float, float]:
-        """Slow velocity [m/s] and displacement [m] after `duration` [s].
-
-        A velocity that settles takes few steps, however long the duration is.
-        """
-        fast, load, total = self.fast.velocity, self.held.inputs.load, self.held.plant.total_mass
-        friction = self._friction(theta, psi)
-        if fast == 0.0:
-            return _unshaken(friction, velocity, load, total, duration)
-
-        def acceleration(t: float, v: float) -> float:
-            return -(friction.at(t, v) + load) / total
-
-        step = first_step(fast, total, self._strongest_friction() + abs(load), duration)
-        slow_pass = SlowPass(
-            acceleration,
-            fast,
-            TOLERANCE * fast,
-            step,
-            may_settle=friction.drift == 0.0,
-            max_steps=_max_steps(friction.is_expensive, self.held.inputs.frequency_ratio),
-            beat=friction.beat,
-            to_kink=friction.to_kink,
-        )
-        reached = slow_pass.reach(duration, Reached(0.0, velocity, 0.0, step), Budget(duration))
-        return reached.velocity, reached.moved
-
-    def _strongest_friction(self) -> float:
-        """Largest Coulomb friction [N] over all phases of the normal load."""
-        device = self.held.device
-        normal = device.normal_preload + device.normal_amplitude
-        return device.friction_faces * device.friction_coefficient * normal
-
-    def mode(self, moment: Moment) -> int:
-        """See Law: by the sign of the velocity with its fast part."""
-        return self.held.mode_by_velocity(moment.state.velocity, moment.psi)
-
-    def friction_force(self, moment: Moment, mode: int) -> float:
+    def friction_force(self, now: Moment, mode: int) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
-        velocity = moment.means.present_mean_velocity(moment.state.velocity)
-        friction = self._friction(moment.theta, moment.psi)
+        velocity, friction = now.present_mean_velocity(), self._friction(now)
         if self.fast.velocity == 0.0 and velocity == 0.0:
             full = friction.at(0.0, inf)
-            return max(-full, min(full, -self.held.inputs.load))
+            return max(-full, min(full, -self.system.load))
         return friction.at(0.0, velocity)
 
-    def swing(self, moment: Moment) -> tuple[float, float]:
-        """See Law: the steady vibration, or the resolved one of motion along orbits."""
-        if moment.orbit.stage != Stage.AVERAGED:
-            return moment.state.displacement, moment.state.rate
-        return steady_swing(self.fast.resonator, moment.theta, self.held.plant.drive_frequency)
+    def resonator(self, now: Moment) -> tuple[float, float]:
+        """Displacement [m] and velocity [m/s] of the steady vibration."""
+        return steady_swing(self.fast.resonator, now.theta, self.system.drive_frequency)
 
-    def settled(self, moment: Moment) -> Moment:
-        """See Law."""
-        return moment
+    def slow_motion_error(self, now: Moment) -> float:
+        """The estimate of the error of the slow velocity [m/s]."""
+        return first_order_error(self.system.device, self.fast)
 
-    def slow_motion_error(self, moment: Moment) -> float:
-        """See Law."""
-        return first_order_error(self.held.device, self.fast)
+    def _friction(self, now: Moment) -> SlowFriction:
+        return slow_friction(self.system, self.fast, self.ratio, now)
 
-    def _friction(self, theta: float, psi: float) -> SlowFriction:
-        return slow_friction(self.held, self.friction.averaged, self.fast, theta, psi)
+    def _slow_velocity(self, now: Moment) -> float:
+        momentum = now.velocity + self.system.device.mass_fraction * now.rate
+        return momentum + self.fast.pair_velocity * cos(now.theta)
+
+    def _passed(self, velocity: float, now: Moment, duration: float) -> tuple[float, float]:
+        """Slow velocity [m/s] and displacement [m] after `duration` [s]."""
+        device, system, friction = self.system.device, self.system, self._friction(now)
+        max_steps = MAX_SLOW_STEPS // PYTHON_SLOWDOWN
+        if self.fast.velocity == 0.0:
+            return _unshaken(friction, velocity, duration, max_steps)
+        if friction.takes_quadratures:
+            waves = min(abs(self.ratio), MAX_WAVES)
+            bought = MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)
+            max_steps = max(MIN_STEPS, int(bought))
+        normal = device.normal_preload + device.normal_amplitude
+        strongest = device.friction_faces * device.friction_coefficient * normal
+        strongest += abs(system.load)
+        step = duration
+        if strongest > 0.0:
+            step = FIRST_STEP * self.fast.velocity * device.total_mass / strongest
+        return _integrated(friction, velocity, duration, step, max_steps)
 
 
-def slow_law(held: Held, friction: FrictionLaw) -> SlowLaw:
-    """The averaged law. Raises Refusal where averages do not apply."""
-    return SlowLaw(held, friction, fast_vibration(held.device))
+def _integrated(
+    friction: SlowFriction, velocity: float, duration: float, step: float, max_steps: int
+) -> tuple[float, float]:
+    """Slow velocity [m/s] and displacement [m] after `duration` [s], by Dormand and Prince's pair.
+
+    A velocity that settles takes few steps, however long the duration is.
+    """
+    system, budget = friction.system, Budget(duration)
+    fast, load, mass = friction.law.fast, system.load, system.total_mass
+    longest, settles, first_step = BEAT_SHARE * friction.beat, friction.drift == 0.0, step
+
+    def rates(t: float, v: float) -> tuple[float, float]:
+        return -(friction.at(t, v) + load) / mass, v
+
+    # No step is longer than a share of a beat: too many of them are refused before the first.
+    if not settles and duration > max_steps * longest:
+        raise budget.refusal(max_steps * longest, max_steps, STEPS)
+    t, moved, tried, first = 0.0, 0.0, 0, rates(0.0, velocity)
+    while t < duration and isfinite(velocity):
+        if tried == max_steps:
+            raise budget.refusal(t, max_steps, STEPS)
+        left = duration - t
+        if settles and tried % BLOCK == 0 and left > SETTLING * first_step:
+            end = _settled(lambda v: rates(0.0, v)[0], fast, velocity, left)
+            if end is not None:
+                return end[0], moved + end[1]
+        end_of_smoothness = friction.smooth_until(t, duration)
+        h = min(step, longest, end_of_smoothness - t)
+        tried += 1
+        to = dormand_prince(rates, t, velocity, h, first)
+        if not to.error > TOLERANCE * fast:
+            velocity, moved = to.velocity, moved + to.travel
+            t = t + h if t + h < end_of_smoothness else end_of_smoothness
+            first = to.rates if end_of_smoothness == duration else rates(t, velocity)
+        step = h * step_growth(to.error, TOLERANCE * fast)
+    return velocity, moved
 
 
-def _max_steps(is_expensive: bool, ratio: float) -> int:
-    """Steps of averaged motion that a whole budget buys."""
-    if not is_expensive:
-        return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
-    waves = min(abs(ratio), MAX_WAVES)
-    return max(MIN_STEPS, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
+def _settled(
+    acceleration: Callable[[float], float], fast: float, velocity: float, left: float
+) -> tuple[float, float] | None:
+    """Velocity [m/s] and displacement [m] after the time `left` [s] if forces balance before.
+
+    None unless the velocity is already close to that balance, relative to the `fast` velocity
+    [m/s]. The last approach is exponential.
+    """
+    low, high = velocity - BESIDE * fast, velocity + BESIDE * fast
+    at_low, at_high = acceleration(low), acceleration(high)
+    if not at_low > 0.0 > at_high:
+        return None
+    rate = (at_low - at_high) / (high - low)
+    if not rate * left > SETTLED:
+        return None
+    balance = 0.5 * (low + high)
+    while low < balance < high:
+        low, high = (balance, high) if acceleration(balance) > 0.0 else (low, balance)
+        balance = 0.5 * (low + high)
+    return balance, balance * left + (velocity - balance) / rate
 
 
 def _unshaken(
-    friction: SlowFriction, velocity: float, load: float, mass: float, duration: float
+    friction: SlowFriction, velocity: float, duration: float, max_pieces: int
 ) -> tuple[float, float]:
-    """Velocity [m/s] and displacement [m] without vibration.
-
-    Friction is constant in each piece of time.
-    """
-    longest = duration if friction.to_kink is None else min(duration, friction.beat / PIECES)
+    """Velocity [m/s] and displacement [m] without vibration, under friction constant in pieces."""
+    system, longest = friction.system, duration
+    if friction.is_slow_load:
+        longest = min(duration, friction.beat / PIECES)
     pieces = ceil(duration / longest)
-    max_pieces = _max_steps(is_expensive=False, ratio=0.0)
     if pieces > max_pieces:
         raise Budget(duration).refusal(max_pieces * longest, max_pieces, STEPS)
     moved, piece = 0.0, duration / pieces
     for k in range(pieces):
         resisting = friction.at((k + 0.5) * piece, inf)
-        velocity, passed = _block(velocity, resisting, load, mass, piece)
+        velocity, passed = _block(velocity, resisting, system.load, system.total_mass, piece)
         moved += passed
     return velocity, moved
 
@@ -194,3 +334,47 @@ def _block(
         return 0.0, moved
     acceleration = -copysign(spare, load) / mass
     return acceleration * duration, moved + 0.5 * acceleration * duration * duration
+
+
+def full_friction(device: Device) -> float:
+    """Mean friction [N] of sliding in one direction, but for the shape of a clipped load."""
+    normal = max(device.normal_preload, device.normal_amplitude / pi)
+    return device.friction_faces * device.friction_coefficient * normal
+
+
+def friction_share(device: Device, fast: Vibration) -> float:
+    """Share of friction in the inertia of the vibration, faces mu N0 / (Mt w v_q).
+
+    It is the small number by which averages expand. What bristles damp while they bend counts, too:
+    by the impulse of 2 mu s1/s0 per normal load after each reversal, but no more than s1 v_q.
+    """
+    friction = full_friction(device)
+    if device.friction_law == 1:
+        damped = device.bristle_damping * fast.velocity / device.friction_coefficient
+        if device.bristle_stiffness > 0.0:
+            bends = 2.0 / pi * device.bristle_damping / device.bristle_stiffness
+            damped = min(damped, bends * device.drive_frequency)
+        friction *= hypot(1.0, damped)
+    return friction / (device.total_mass * device.drive_frequency * fast.velocity)
+
+
+def decay_in_turn(device: Device, fast: Vibration) -> float:
+    """Decay of the slowest transient of resonator and bristle in a turn of the drive."""
+    decays = [inf]
+    if device.resonator_mass > 0.0:
+        slow = max(z.real for z in device.slip_oscillator.eigenvalues)
+        decays.append(-slow * tau / device.drive_frequency)
+    if device.friction_law == 1:
+        path = 4.0 * fast.velocity / device.drive_frequency
+        decays.append(device.bristle_stiffness * path / device.friction_coefficient)
+    return min(decays)
+
+
+def first_order_error(device: Device, fast: Vibration) -> float:
+    """Error [m/s] of averages of first order."""
+    share = friction_share(device, fast) if fast.velocity > 0.0 else 0.0
+    if not share > 0.0:
+        return 0.0
+    decay = decay_in_turn(device, fast)
+    swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
+    return min(FIRST_ORDER * share * swing, 1.0) * fast.velocity

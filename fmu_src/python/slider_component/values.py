@@ -1,17 +1,36 @@
-"""Checks of values that a host sets, and of numbers in a stored state."""
+"""What a call must respect: the states of FMI, and the bounds of values."""
 
 from __future__ import annotations
 
+from enum import StrEnum
 from math import isfinite, tau
 from typing import TypeGuard
 
 from . import refusal_texts
-from .refusal import Refusal
 from .variable import Variable
 from .variables import VARIABLES
 
 BY_NAME = {variable.name: variable for variable in VARIABLES}
 SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "output")
+
+
+class Refusal(ValueError):
+    """A refused call. The component is as it was before the call."""
+
+
+class Lifecycle(StrEnum):
+    """State of an instance, by FMI's names."""
+
+    INSTANTIATED = "instantiated"
+    INITIALIZATION = "initialization mode"
+    STEP_COMPLETE = "step complete"
+    TERMINATED = "terminated"
+
+
+def require(call: str, state: Lifecycle, required: Lifecycle) -> None:
+    """Raise Refusal for a call in any state but `required`."""
+    if state != required:
+        raise Refusal(refusal_texts.wrong_state(call, state, required))
 
 
 def checked(variable: Variable, value: object) -> float:

@@ -22,8 +22,7 @@ def turns_to_repeat(device: Device, ratio: float, tolerance: float) -> int | Non
     `tolerance` is the largest distance of q ratio from an integer, times q. Without flight the load
     is a sine and q is 1: over several turns it would average out.
     """
-    lifts = device.normal_amplitude > device.normal_preload
-    for turns in range(1, MAX_TURNS_TO_REPEAT + 1 if lifts else 2):
+    for turns in range(1, MAX_TURNS_TO_REPEAT + 1 if device.lifts else 2):
         if abs(turns * ratio - round(turns * ratio)) <= tolerance / turns:
             return turns
     return None

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.averaged import averaged
-from fmu_src.python.slider_component.device import Device, Inputs
-from fmu_src.python.slider_component.plant import equivalent_force
+from fmu_src.python.slider_component.device import Device, equivalent_force
+from fmu_src.python.slider_component.parameters import Inputs
+from fmu_src.python.slider_component.prediction import first_order
 from slider_resonator.device.device import Device as ReferenceDevice
 from slider_resonator.references.averaged.prediction_validity import prediction_valid
 from tests.problems import STEADY_VELOCITIES
@@ -29,7 +29,7 @@ def test_equivalent_force_of_table_1() -> None:
 
 
 def test_table_1() -> None:
-    theory = averaged(TABLE_1, Inputs(), 0.0)
+    theory = first_order(TABLE_1, Inputs(), 0.0)
     assert theory.steady_velocity == pytest.approx(0.126731, abs=5e-7)
     assert theory.blocking_force == pytest.approx(0.085222, abs=5e-7)
 
@@ -37,7 +37,7 @@ def test_table_1() -> None:
 @pytest.mark.parametrize("phase", [-2.0, 0.0, 0.4, 1.5])
 @pytest.mark.parametrize("load", [-0.05, 0.0, 0.05])
 def test_load_speed_curve_is_equation_20(phase: float, load: float) -> None:
-    theory = averaged(TABLE_1, Inputs(phase, load), 0.0)
+    theory = first_order(TABLE_1, Inputs(phase, load), 0.0)
     turning = math.acos(theory.steady_velocity / FAST_VELOCITY)
     lead = math.sin(turning) * math.sin(phase + LAG)
     balance = 1.0 - 2.0 / math.pi * turning - 2.0 / math.pi * lead + load / 0.2
@@ -50,7 +50,7 @@ def test_load_speed_curve_is_equation_20(phase: float, load: float) -> None:
 @pytest.mark.parametrize(("ratio", "phase"), STEADY_VELOCITIES)
 def test_integer_ratios(ratio: int, phase: float) -> None:
     """Averaging errs by 1 / Omega."""
-    theory = averaged(TABLE_1, Inputs(phase, 0.0, float(ratio)), 0.0)
+    theory = first_order(TABLE_1, Inputs(phase, 0.0, float(ratio)), 0.0)
     expected = STEADY_VELOCITIES[ratio, phase]
     assert theory.steady_velocity / (0.2 / 1.1) == pytest.approx(expected, abs=1e-3)
 
@@ -61,7 +61,7 @@ def test_mean_friction_by_quadrature(ratio: float, amplitude: float) -> None:
     """At the steady velocity, with flight, friction and load cancel over the phases met."""
     device = replace(TABLE_1, normal_amplitude=amplitude)
     inputs = Inputs(0.3, 0.02, ratio)
-    velocity = averaged(device, inputs, 0.0).steady_velocity
+    velocity = first_order(device, inputs, 0.0).steady_velocity
     angles = (np.arange(400_000) + 0.5) / 400_000 * math.tau
     if ratio == round(ratio):
         load = np.maximum(0.0, 1.0 + amplitude * np.sin(ratio * (angles + LAG) + 0.3))
@@ -72,17 +72,17 @@ def test_mean_friction_by_quadrature(ratio: float, amplitude: float) -> None:
 
 
 def test_lead_of_the_normal_drive_counts_as_phase() -> None:
-    assert averaged(TABLE_1, Inputs(0.1), 0.3) == averaged(TABLE_1, Inputs(0.4), 0.0)
+    assert first_order(TABLE_1, Inputs(0.1), 0.3) == first_order(TABLE_1, Inputs(0.4), 0.0)
 
 
 def test_no_vibration_no_velocity() -> None:
     still = replace(TABLE_1, base_amplitude=0.0)
-    assert averaged(still, Inputs(0.5, 0.1), 0.0) == averaged(still, Inputs(), 0.0)
+    assert first_order(still, Inputs(0.5, 0.1), 0.0) == first_order(still, Inputs(), 0.0)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_overload_saturates(sign: float) -> None:
-    theory = averaged(TABLE_1, Inputs(load=0.3 * sign), 0.0)
+    theory = first_order(TABLE_1, Inputs(load=0.3 * sign), 0.0)
     assert theory.steady_velocity == pytest.approx(-sign * FAST_VELOCITY, rel=1e-12)
 
 
@@ -95,7 +95,7 @@ def test_undamped_resonance_has_no_steady_velocity() -> None:
         resonator_frequency=8.0,
         drive_frequency=16.0,
     )
-    assert averaged(resonant, Inputs(), 0.0).steady_velocity == 0.0
+    assert first_order(resonant, Inputs(), 0.0).steady_velocity == 0.0
 
 
 devices = st.builds(
@@ -123,4 +123,4 @@ def test_validity_is_that_of_the_reference(
 ) -> None:
     reference = ReferenceDevice.from_mapping(asdict(device))
     expected = prediction_valid(reference, phase, load, ratio)
-    assert averaged(device, Inputs(phase, load, ratio), 0.0).valid == expected
+    assert first_order(device, Inputs(phase, load, ratio), 0.0).valid == expected

@@ -8,16 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fmu_src.python.slider_component.averaged import averaged
-from fmu_src.python.slider_component.averaged_friction import FastMotion
-from fmu_src.python.slider_component.averaged_lugre import (
+from fmu_src.python.slider_component.device import Device
+from fmu_src.python.slider_component.mean_friction import (
     MAX_WAVES,
-    friction_means,
-    gauss_legendre,
-    mean_friction,
+    MeanFriction,
+    _gauss_legendre,
+    tabulated_means,
 )
-from fmu_src.python.slider_component.bristle import Bristle
-from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.parameters import Inputs
+from fmu_src.python.slider_component.prediction import first_order
 from fmu_src.python.slider_component.vibrating_load import VibratingLoad
 
 UNIT = Device(
@@ -36,7 +35,7 @@ def steady(stiffness: float, omega: float) -> float:
     device = replace(
         UNIT, bristle_stiffness=stiffness, drive_frequency=omega, tangential_force=omega
     )
-    return averaged(device, Inputs(phase=math.pi / 2), 0.0).steady_velocity
+    return first_order(device, Inputs(phase=math.pi / 2), 0.0).steady_velocity
 
 
 @pytest.mark.parametrize(
@@ -51,11 +50,11 @@ def test_uniform_average(stiffness: float, omega: float, velocity: float) -> Non
 
 def test_hard_bristles_are_coulomb_friction() -> None:
     """The time that bending takes falls with stiffness^(-1/2), and so does the difference."""
-    coulomb = averaged(Device(), Inputs(), 0.0)
+    coulomb = first_order(Device(), Inputs(), 0.0)
     gaps = []
     for stiffness in (1e6, 1e8, 1e10):
         hard = Device(friction_law=1, bristle_stiffness=stiffness, bristle_damping=0.0)
-        lugre = averaged(hard, Inputs(), 0.0)
+        lugre = first_order(hard, Inputs(), 0.0)
         gaps.append(abs(lugre.steady_velocity - coulomb.steady_velocity))
     assert gaps[1] / gaps[2] == pytest.approx(10.0, rel=0.05)
     assert gaps[2] < 5e-4 * coulomb.steady_velocity
@@ -63,7 +62,7 @@ def test_hard_bristles_are_coulomb_friction() -> None:
 
 def test_quadrature_rule() -> None:
     nodes, weights = np.polynomial.legendre.leggauss(12)
-    ours = np.array(sorted(gauss_legendre(12)))
+    ours = np.array(sorted(_gauss_legendre(12)))
     assert ours[:, 0] == pytest.approx(nodes, abs=1e-15)
     assert ours[:, 1] == pytest.approx(weights, abs=1e-14)
 
@@ -71,20 +70,20 @@ def test_quadrature_rule() -> None:
 @pytest.mark.parametrize("stiffness", [50.0, 1e4, 1e7])
 @pytest.mark.parametrize("n", [1, -3, 40])
 def test_the_load_enters_by_three_means(n: int, stiffness: float) -> None:
-    bristle, fast = Bristle(0.1, stiffness, 10.0), FastMotion(0.2366, 3500.0)
+    friction = MeanFriction(0.1, stiffness, 10.0, 0.2366, 3500.0)
     device = Device(normal_preload=1.3, normal_amplitude=0.8)
-    plain, sine, cosine = friction_means(bristle, fast, n, 1.1)
+    plain, sine, cosine = friction.means(n, 1.1)
     for delta in (0.0, 0.7, 2.5):
         means = 1.3 * plain + 0.8 * (math.cos(delta) * sine + math.sin(delta) * cosine)
         load = VibratingLoad(device, float(n), delta)
-        assert mean_friction(bristle, fast, load, 1.1) == pytest.approx(means, abs=1e-13)
+        assert friction.mean(load, 1.1) == pytest.approx(means, abs=1e-13)
 
 
 @pytest.mark.parametrize("n", [1, 3, 50])
 @pytest.mark.parametrize("amplitude", [0.8, 2.0])
 def test_quadrature_follows_many_waves_and_flight(n: int, amplitude: float) -> None:
     """A bristle this soft keeps its deflection over a turn, and the mean of the load counts."""
-    bristle, fast = Bristle(0.1, 1e-6, 0.0), FastMotion(0.2366, 3500.0)
+    friction = MeanFriction(0.1, 1e-6, 0.0, 0.2366, 3500.0)
     load = VibratingLoad(Device(normal_amplitude=amplitude), float(n), 0.7)
     mean = load.integral(0.0, math.tau) / math.tau
     turning = 1.1
@@ -93,12 +92,23 @@ def test_quadrature_follows_many_waves_and_flight(n: int, amplitude: float) -> N
     forward = velocity * (math.tau - 2.0 * turning) + 2.0 * math.sin(turning)
     backward = 2.0 * math.sin(turning) - 2.0 * turning * velocity
     bent = 0.1 * (forward - backward) / (forward + backward)
-    assert mean_friction(bristle, fast, load, turning) == pytest.approx(mean * bent, rel=1e-8)
+    assert friction.mean(load, turning) == pytest.approx(mean * bent, rel=1e-8)
 
 
 def test_beyond_a_thousand_waves_only_the_mean_counts() -> None:
-    bristle, fast = Bristle(0.1, 1e4, 10.0), FastMotion(0.2366, 3500.0)
-    exact = friction_means(bristle, fast, MAX_WAVES, 1.1)
-    assert max(abs(exact.sine), abs(exact.cosine)) < 1e-3 * bristle.coefficient
-    beyond = friction_means(bristle, fast, MAX_WAVES + 1, 1.1)
-    assert tuple(beyond) == pytest.approx((exact.plain, 0.0, 0.0), abs=1e-13)
+    friction = MeanFriction(0.1, 1e4, 10.0, 0.2366, 3500.0)
+    exact = friction.means(MAX_WAVES, 1.1)
+    assert max(map(abs, exact[1:])) < 1e-3 * friction.coefficient
+    beyond = friction.means(MAX_WAVES + 1, 1.1)
+    assert beyond == pytest.approx((exact[0], 0.0, 0.0), abs=1e-13)
+
+
+@pytest.mark.parametrize("stiffness", [50.0, 1e5, 1e9])
+@pytest.mark.parametrize("n", [1, 2, -3])
+def test_tables_hold(stiffness: float, n: int) -> None:
+    friction = MeanFriction(0.1, stiffness, 10.0, 0.2366, 3500.0)
+    table = tabulated_means(friction, n)
+    for turning in np.linspace(0.0, math.pi, 23):
+        exact = friction.means(n, float(turning))
+        scale = max(0.1, *map(abs, exact))
+        assert table(float(turning)) == pytest.approx(exact, abs=3e-8 * scale)

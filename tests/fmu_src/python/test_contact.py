@@ -8,29 +8,27 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.contact import flight_window, is_lifted, time_to_switch
-from fmu_src.python.slider_component.device import Device, Inputs
-from fmu_src.python.slider_component.plant import plant
+from fmu_src.python.slider_component.contact import Window
+from fmu_src.python.slider_component.device import Device, flight_window
 
 
-def window_of(preload: float, amplitude: float) -> tuple[float, float] | None:
+def window_of(preload: float, amplitude: float) -> Window:
     device = Device(normal_preload=preload, normal_amplitude=amplitude)
-    return flight_window(plant(device, Inputs()))
+    return flight_window(device)
 
 
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0])
 def test_no_flight_up_to_full_modulation(amplitude: float) -> None:
     window = window_of(1.0, amplitude)
-    assert window is None
-    assert not is_lifted(window, 1.5 * math.pi, 1.0)
-    assert time_to_switch(window, 0.0, 10.0, lifted=False) == math.inf
+    assert not window.is_lifted(1.5 * math.pi, 1.0)
+    assert window.time_to_switch(0.0, 10.0, lifted=False) == math.inf
 
 
 @given(st.floats(0.0, 0.999999), st.floats(-20.0, 20.0))
 def test_window_is_where_the_load_would_be_negative(share: float, chi: float) -> None:
     load = share + math.sin(chi)
     if abs(load) > 1e-12:
-        assert is_lifted(window_of(share, 1.0), chi, 1.0) == (load < 0.0)
+        assert window_of(share, 1.0).is_lifted(chi, 1.0) == (load < 0.0)
 
 
 @given(
@@ -40,54 +38,53 @@ def test_window_is_where_the_load_would_be_negative(share: float, chi: float) ->
 )
 def test_load_is_zero_at_the_next_switch(share: float, chi: float, frequency: float) -> None:
     window = window_of(share, 1.0)
-    lifted = is_lifted(window, chi, frequency)
-    time = time_to_switch(window, chi, frequency, lifted)
+    lifted = window.is_lifted(chi, frequency)
+    time = window.time_to_switch(chi, frequency, lifted)
     assert 0.0 <= time <= math.tau / abs(frequency)
     assert share + math.sin(chi + frequency * time) == pytest.approx(0.0, abs=2e-12)
     for part in (0.1, 0.5, 0.9):
         between = chi + frequency * time * part
         if abs(share + math.sin(between)) > 1e-12:
-            assert is_lifted(window, between, frequency) == lifted, "a switch was passed over"
+            assert window.is_lifted(between, frequency) == lifted, "a switch was passed over"
 
 
 def test_shortest_flight() -> None:
     window = window_of(1.0, 1.0 + 2.0**-52)
-    assert window is not None
     first, last = window
     assert 1e-8 < last - first < 1e-7
-    assert time_to_switch(window, first, 1.0, lifted=False) == 0.0
-    assert time_to_switch(window, first, 1.0, lifted=True) == pytest.approx(last - first)
-    assert time_to_switch(window, last, 1.0, lifted=False) == pytest.approx(math.tau, rel=1e-7)
+    assert window.time_to_switch(first, 1.0, lifted=False) == 0.0
+    assert window.time_to_switch(first, 1.0, lifted=True) == pytest.approx(last - first)
+    assert window.time_to_switch(last, 1.0, lifted=False) == pytest.approx(math.tau, rel=1e-7)
 
 
 @pytest.mark.parametrize("past", [0.0, 4e-16])
 def test_rounding_past_a_boundary_is_not_a_turn_more(past: float) -> None:
-    first, last = window_of(0.5, 1.0) or (0.0, 0.0)
-    assert time_to_switch((first, last), first + past, 1.0, lifted=False) == 0.0
-    assert time_to_switch((first, last), last + past, 1.0, lifted=True) == 0.0
-    assert time_to_switch((first, last), last - past, -1.0, lifted=False) == 0.0
+    window = window_of(0.5, 1.0)
+    first, last = window
+    assert window.time_to_switch(first + past, 1.0, lifted=False) == 0.0
+    assert window.time_to_switch(last + past, 1.0, lifted=True) == 0.0
+    assert window.time_to_switch(last - past, -1.0, lifted=False) == 0.0
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5])
 @pytest.mark.parametrize("past", [-4e-16, 0.0, 4e-16])
 def test_on_a_boundary_the_direction_decides(share: float, past: float) -> None:
     window = window_of(share, 1.0)
-    assert window is not None
     first, last = window
-    assert is_lifted(window, first + past, 1.0)
-    assert not is_lifted(window, last + past, 1.0)
-    assert not is_lifted(window, first + past, -1.0)
-    assert is_lifted(window, last + past, -1.0)
+    assert window.is_lifted(first + past, 1.0)
+    assert not window.is_lifted(last + past, 1.0)
+    assert not window.is_lifted(first + past, -1.0)
+    assert window.is_lifted(last + past, -1.0)
 
 
 def test_constant_load_never_switches() -> None:
-    assert time_to_switch(window_of(0.5, 1.0), 4.0, 0.0, lifted=True) == math.inf
-    assert is_lifted(window_of(0.0, 1.0), 0.0, 0.0), "a load of zero is flight"
-    assert not is_lifted(window_of(0.0, 1.0), 0.5, 0.0)
+    assert window_of(0.5, 1.0).time_to_switch(4.0, 0.0, lifted=True) == math.inf
+    assert window_of(0.0, 1.0).is_lifted(0.0, 0.0), "a load of zero is flight"
+    assert not window_of(0.0, 1.0).is_lifted(0.5, 0.0)
 
 
 def test_no_normal_load_at_all_is_flight() -> None:
     window = window_of(0.0, 0.0)
     for chi in (0.0, 1.0, 5.0):
-        assert is_lifted(window, chi, 1.0)
-        assert time_to_switch(window, chi, 1.0, lifted=True) == math.inf
+        assert window.is_lifted(chi, 1.0)
+        assert window.time_to_switch(chi, 1.0, lifted=True) == math.inf

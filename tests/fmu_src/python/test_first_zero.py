@@ -8,12 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.first_zero import (
-    Signal,
-    Watch,
-    exceeds_noise,
-    first_zero,
-)
+from fmu_src.python.slider_component.first_zero import Signal, Watch, first_zero
 
 
 def sine_sum(offset: float, waves: list[tuple[float, float, float]]) -> Signal:
@@ -28,8 +23,10 @@ def sine_sum(offset: float, waves: list[tuple[float, float, float]]) -> Signal:
     return signal
 
 
-def watch(signal: Signal, noise: float = 1e-16, fastest: float = 1.0) -> Watch:
-    return Watch(signal, noise, fastest, math.inf)
+def watch(
+    signal: Signal, noise: float = 1e-16, fastest: float = 1.0, expected: float = 0.0
+) -> Watch:
+    return Watch(signal, noise, fastest, math.inf, expected)
 
 
 @pytest.mark.parametrize("start", [0.5, 0.0])
@@ -124,8 +121,9 @@ def test_an_expected_zero_changes_nothing(
     signal = sine_sum(offset, [(1.0, 1.0, phase), second])
     if signal(0.0)[0] <= 0.0:
         return
-    watched = watch(signal, noise=4e-16, fastest=4.0)
-    plain, guided = (first_zero(watched, 10.0, 0.0, guess) for guess in (None, expected))
+    plain, guided = (
+        first_zero(watch(signal, 4e-16, 4.0, guess), 10.0) for guess in (0.0, expected)
+    )
     assert (plain is None) == (guided is None)
     if plain is not None and guided is not None:
         steepness = max(-signal(plain)[1], 1e-7)
@@ -140,14 +138,14 @@ def test_a_zero_where_it_is_expected_costs_few_evaluations() -> None:
         return math.sin(t + 0.1), math.cos(t + 0.1), 1.0
 
     zero = math.pi - 0.1
-    assert first_zero(watch(counted), 10.0, 0.0, zero + 1e-6) == pytest.approx(zero, abs=4e-16)
+    assert first_zero(watch(counted, expected=zero + 1e-6), 10.0) == pytest.approx(zero, abs=4e-16)
     assert len(calls) <= 3
 
 
 @pytest.mark.parametrize(("height", "expected"), [(1e-3, True), (1e-20, False)])
 def test_a_motion_within_rounding_does_not_exceed_it(height: float, expected: bool) -> None:
     signal = sine_sum(0.0, [(height, 1.0, 0.0)])
-    assert exceeds_noise(watch(signal), math.pi) is expected
+    assert watch(signal).exceeds_noise(math.pi) is expected
 
 
 @pytest.mark.parametrize("expected", [0.97, 0.98, 0.99])
@@ -159,7 +157,7 @@ def test_a_zero_expected_beyond_the_limit_does_not_hide_the_first(expected: floa
         value, slope, bound = smooth(min(t, 1.0))
         return value - 1e4 * max(0.0, t - 1.0), slope - 1e4 * (t > 1.0), bound
 
-    zero = first_zero(watch(signal), 1.0, 0.0, expected)
+    zero = first_zero(watch(signal, expected=expected), 1.0)
     assert zero == pytest.approx(0.32, abs=1e-15)
 
 
@@ -167,3 +165,14 @@ def test_a_search_that_hardly_advances_ends() -> None:
     """A horizon next to nothing, as of frequencies beyond all devices."""
     watch = Watch(lambda t: (1.0, 0.0, 0.0), 0.0, 1e300, 1e-300)
     assert first_zero(watch, 1.0) is None
+
+
+def test_a_zero_that_short_steps_pass_is_refined() -> None:
+    """A bound of the curvature far above it makes all steps short, and then longer."""
+    zero = 2e-3
+
+    def signal(t: float) -> tuple[float, float, float]:
+        return (zero - t) * 1e-9, -1e-9, 1.0
+
+    found = first_zero(watch(signal, noise=1e-30), 1.0)
+    assert found == pytest.approx(zero, rel=1e-12)

@@ -11,13 +11,12 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.contact import LIFTED, STICK, friction_limit
-from fmu_src.python.slider_component.device import Device, Inputs
-from fmu_src.python.slider_component.law import Law, law_of
+from fmu_src.python.slider_component.component import Motion, motion_of
+from fmu_src.python.slider_component.contact import LIFTED, STICK
+from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.moment import Moment
-from fmu_src.python.slider_component.motion import State
-from fmu_src.python.slider_component.plant import steady_resonator
-from tests.fmu_src.python.motions import REST, after, begin
+from fmu_src.python.slider_component.parameters import Inputs
+from tests.fmu_src.python.motions import after, begin
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5]), st.floats(-3.0, 3.0))
 devices = st.builds(
@@ -56,7 +55,7 @@ def duration(device: Device) -> float:
 def scale(device: Device, moment: Moment) -> float:
     """Velocity scale of the device [m/s], for tolerances."""
     w = device.drive_frequency
-    fast = device.base_amplitude * w * (1.0 + abs(moment.state.rate)) + abs(moment.state.velocity)
+    fast = device.base_amplitude * w * (1.0 + abs(moment.rate)) + abs(moment.velocity)
     forces = device.friction_coefficient * device.friction_faces * (
         device.normal_preload + device.normal_amplitude
     ) + abs(device.tangential_force)
@@ -68,17 +67,17 @@ def test_the_partition_into_steps_does_not_matter(
     device: Device, held_inputs: Inputs, parts: list[float]
 ) -> None:
     assume(bounded(device))
-    law, moment = law_of(device, held_inputs), begin(device, held_inputs)
+    law, moment = motion_of(device, held_inputs), begin(device, held_inputs)
     whole = law.advance(moment, duration(device))
     for part in parts:
         moment = law.advance(moment, duration(device) * part / sum(parts))
     size = scale(device, whole)
-    assert moment.state.velocity == pytest.approx(whole.state.velocity, abs=1e-9 * size)
+    assert moment.velocity == pytest.approx(whole.velocity, abs=1e-9 * size)
     assert moment.position == pytest.approx(
         whole.position, abs=1e-9 * size / device.drive_frequency
     )
-    assert moment.state.displacement == pytest.approx(
-        whole.state.displacement, rel=1e-9, abs=1e-9 * size / device.drive_frequency
+    assert moment.displacement == pytest.approx(
+        whole.displacement, rel=1e-9, abs=1e-9 * size / device.drive_frequency
     )
 
 
@@ -90,23 +89,21 @@ def test_mirror_symmetry(device: Device, held_inputs: Inputs) -> None:
     """
     assume(bounded(device))
     half = math.pi / device.drive_frequency
-    law = law_of(device, held_inputs)
+    law = motion_of(device, held_inputs)
     moment = after(half, device, held_inputs)
     mirrored_inputs = Inputs(
         held_inputs.phase + held_inputs.frequency_ratio * math.pi,
         -held_inputs.load,
         held_inputs.frequency_ratio,
     )
-    mirrored_law = law_of(device, mirrored_inputs)
-    start = State(*(-part for part in moment.state))
-    if device.fidelity == 1:
-        rate = (device.drive_frequency * steady_resonator(device)).real
-        start = start._replace(rate=rate)  # the velocity is then that of the slider
-    mirrored = mirrored_law.start(start, -moment.position)
+    mirrored_law = motion_of(device, mirrored_inputs)
+    names = ("velocity", "displacement", "rate", "position")
+    state = {name: -getattr(moment, name) for name in names}
+    mirrored = begin(device, mirrored_inputs, **state)
     moment = law.advance(moment, duration(device))
     mirrored = mirrored_law.advance(mirrored, duration(device))
     size = scale(device, moment)
-    assert mirrored.state.velocity == pytest.approx(-moment.state.velocity, abs=1e-9 * size)
+    assert mirrored.velocity == pytest.approx(-moment.velocity, abs=1e-9 * size)
     assert mirrored.position == pytest.approx(
         -moment.position, abs=1e-9 * size / device.drive_frequency
     )
@@ -117,19 +114,19 @@ def test_friction_within_the_limit_and_equal_to_it_in_slip(
     device: Device, held_inputs: Inputs
 ) -> None:
     assume(bounded(device))
-    law = law_of(device, held_inputs)
-    moment = law.start(REST, 0.0)
+    law = motion_of(device, held_inputs)
+    moment = law.start()
     for _ in range(40):
         moment = law.advance(moment, duration(device) / 40)
         mode = law.mode(moment)
         force = law.friction_force(moment, mode)
-        limit = friction_limit(law.held.plant, moment.psi)
+        limit = law.system.friction_limit(moment.psi)
         slack = 1e-9 * (limit + abs(held_inputs.load) + 1e-3)
         assert abs(force) <= limit + slack, f"friction {force} N exceeds its limit {limit} N"
         if mode == LIFTED:
             assert force == 0.0
         elif mode != STICK:
-            assert force == math.copysign(limit, moment.state.velocity or mode)
+            assert force == math.copysign(limit, moment.velocity or mode)
 
 
 @given(devices, st.floats(0.0, 1.0), st.floats(0.0, 0.999), st.floats(-math.pi, math.pi), ratios)
@@ -146,11 +143,11 @@ def test_no_motion_below_the_stick_limit(
     least = device.friction_faces * device.friction_coefficient * (1.0 - amplitude)
     held_inputs = Inputs(phase, share * least * device.normal_preload, ratio)
     moment = after(10 * duration(device), device, held_inputs)
-    assert (moment.position, moment.state.velocity) == (0.0, 0.0)
-    assert moment.counts.reversals == 0
+    assert (moment.position, moment.velocity) == (0.0, 0.0)
+    assert moment.reversals == 0
 
 
-def event_times(law: Law, moment: Moment, length: float) -> list[float]:
+def event_times(law: Motion, moment: Moment, length: float) -> list[float]:
     """Times [s] of all events within `length` [s]: each run reports its last one."""
     later = law.advance(moment, length)
     if later.event_age >= length:
@@ -165,20 +162,20 @@ def event_times(law: Law, moment: Moment, length: float) -> list[float]:
 def test_energy_balance_closes(device: Device, held_inputs: Inputs) -> None:
     """Energy gained = work of drives and load, less friction and damper; by Gauss quadrature."""
     device = replace(device, fidelity=2)
-    law = law_of(device, held_inputs)
-    first = law.start(REST, 0.0)
+    law = motion_of(device, held_inputs)
+    first = law.start()
     length = 1.2 * math.tau / device.drive_frequency
     m, big = device.resonator_mass, device.slider_mass
     k = m * device.resonator_frequency**2
     c = 2.0 * device.damping_ratio * m * device.resonator_frequency
     w = device.drive_frequency
 
-    def energy(state: State) -> float:
+    def energy(state: Moment) -> float:
         kinetic = big * state.velocity**2 + m * (state.velocity + state.rate) ** 2
         return 0.5 * (kinetic + k * state.displacement**2)
 
     def powers(moment: Moment) -> tuple[float, float]:
-        v, _, u = moment.state
+        v, u = moment.velocity, moment.rate
         mode = law.mode(moment)
         push = device.tangential_force * math.sin(moment.theta) - held_inputs.load
         base = m * device.base_amplitude * w * w * math.sin(moment.theta)
@@ -200,5 +197,5 @@ def test_energy_balance_closes(device: Device, held_inputs: Inputs) -> None:
                 net, gross = powers(moment)
                 gained += half * float(weight) * net
                 moved += half * float(weight) * gross
-    balance = energy(law.advance(first, length).state) - gained
+    balance = energy(law.advance(first, length)) - gained
     assert abs(balance) <= 1e-8 * (moved + 1e-12), f"{balance:.3g} J of {moved:.3g} J unaccounted"

@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 
 from fmu_src.python.slider_component.component import Component
-from fmu_src.python.slider_component.refusal import Refusal
 from fmu_src.python.slider_component.snapshot import from_bytes, to_bytes
+from fmu_src.python.slider_component.values import Refusal
 from fmu_src.python.slider_component.variables import VARIABLES
 
 OUTPUTS = [variable.name for variable in VARIABLES if variable.causality == "output"]

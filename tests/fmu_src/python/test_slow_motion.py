@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from fmu_src.python.slider_component.device import Device, Inputs
-from fmu_src.python.slider_component.law import law_of
+from fmu_src.python.slider_component.component import motion_of
+from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.moment import Moment
-from fmu_src.python.slider_component.motion import State
+from fmu_src.python.slider_component.parameters import Inputs
 from tests.fmu_src.python.motions import after
 
 TABLE_1 = Device(fidelity=0, averaging_order=1)
@@ -21,9 +21,8 @@ FAST_VELOCITY = 0.2366097
 
 
 def run(device: Device, inputs: Inputs, periods: int, steps: int = 40) -> Moment:
-    law = law_of(device, inputs)
-    state = State(device.initial_velocity, device.initial_resonator_displacement, 0.0)
-    moment = law.start(state, device.initial_position)
+    law = motion_of(device, inputs)
+    moment = law.start()
     for _ in range(steps):
         moment = law.advance(moment, periods * math.tau / device.drive_frequency / steps)
     return moment
@@ -76,7 +75,7 @@ def test_against_the_resolved_device(parameters: dict[str, Any], inputs: Inputs)
     device = replace(BRISTLES if lugre else TABLE_1, **parameters)
     slow, full = pair(device, inputs, 280 if lugre else 560)
     allowed = 0.004 * FAST_VELOCITY
-    assert slow.means.mean_velocity == pytest.approx(full.means.mean_velocity, abs=allowed)
+    assert slow.mean_velocity == pytest.approx(full.mean_velocity, abs=allowed)
     # A slaved bristle does not know the path on which it is first bent.
     bending = device.friction_coefficient / device.bristle_stiffness if lugre else 0.0
     assert slow.position == pytest.approx(full.position, abs=allowed + 1.5 * bending)
@@ -96,25 +95,25 @@ def test_error_falls_with_the_drive_frequency(device: Device, periods: int) -> N
             resonator_frequency=3500.0 * factor,
         )
         slow, full = pair(faster, Inputs(), round(periods * factor))
-        errors.append(abs(slow.means.mean_velocity - full.means.mean_velocity))
+        errors.append(abs(slow.mean_velocity - full.mean_velocity))
     for one, other in itertools.pairwise(errors):
         assert one / other == pytest.approx(3.0, rel=0.15), "averaging errs by 1 / Omega"
 
 
 def test_instantaneous_outputs_carry_the_vibration() -> None:
     slow, full = pair(TABLE_1, Inputs(), 560)
-    assert slow.state.velocity - slow.means.mean_velocity == pytest.approx(
-        full.state.velocity - full.means.mean_velocity, abs=0.005 * FAST_VELOCITY
+    assert slow.velocity - slow.mean_velocity == pytest.approx(
+        full.velocity - full.mean_velocity, abs=0.005 * FAST_VELOCITY
     )
-    assert slow.state.displacement == pytest.approx(full.state.displacement, rel=2e-3)
-    assert slow.state.rate == pytest.approx(full.state.rate, rel=2e-3)
+    assert slow.displacement == pytest.approx(full.displacement, rel=2e-3)
+    assert slow.rate == pytest.approx(full.rate, rel=2e-3)
 
 
 @pytest.mark.parametrize("steps", [1, 7, 400])
 def test_any_communication_step(steps: int) -> None:
     one = run(TABLE_1, Inputs(0.3, 0.02), 560, steps)
     other = run(TABLE_1, Inputs(0.3, 0.02), 560, 50)
-    assert one.means.mean_velocity == pytest.approx(other.means.mean_velocity, abs=1e-8)
+    assert one.mean_velocity == pytest.approx(other.mean_velocity, abs=1e-8)
     assert one.position == pytest.approx(other.position, abs=1e-8)
 
 
@@ -123,9 +122,9 @@ def test_a_tuned_drive_makes_no_jump() -> None:
     device, inputs = replace(TABLE_1, tangential_force=0.0), Inputs()
     moment = after(0.0123, device, inputs)
     weaker = replace(device, base_amplitude=5e-5)
-    tuned = law_of(weaker, inputs).advance(moment, 1e-9)
+    tuned = motion_of(weaker, inputs).advance(moment, 1e-9)
     share = device.mass_fraction
-    momentum = [m.state.velocity + share * m.state.rate for m in (moment, tuned)]
+    momentum = [m.velocity + share * m.rate for m in (moment, tuned)]
     assert momentum[1] == pytest.approx(momentum[0], abs=1e-6)
 
 
@@ -150,4 +149,4 @@ def test_a_block_without_vibration_slides_to_rest(law: int, normal_amplitude: fl
     )
     end = run(still, Inputs(), 560)
     assert end.position == pytest.approx(0.05**2 / (2 * 0.2 / 1.1), rel=1e-9)
-    assert end.means.mean_velocity == 0.0
+    assert end.mean_velocity == 0.0

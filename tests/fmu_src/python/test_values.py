@@ -7,10 +7,10 @@ from dataclasses import fields
 
 import pytest
 
-from fmu_src.python.slider_component.device import Device, Inputs
+from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.outputs import OUTPUTS
-from fmu_src.python.slider_component.refusal import Refusal
-from fmu_src.python.slider_component.values import BY_NAME, SETTABLE, checked
+from fmu_src.python.slider_component.parameters import Inputs
+from fmu_src.python.slider_component.values import BY_NAME, SETTABLE, Refusal, checked
 from fmu_src.python.slider_component.variables import VARIABLES
 
 

@@ -44,12 +44,17 @@ def first_zero(*arguments):
 """
 
 _HELD_FOR_EVER = "\nStick.watches = lambda self, horizon: ()\n"
-_NOT_NOTICED = "\ntime_to_switch = lambda *arguments: inf\n"
-_GROUNDED = "\nis_lifted = lambda *arguments: False\n"
-_UNCOUNTED = (
-    "\nCounts.slid = lambda self, direction: Counts(direction, self.reversals, self.sticks)\n"
-)
-_STICKS = "\n_mode_in_contact = lambda plant, moment: STICK\n"
+_NOT_NOTICED = "\nWindow.time_to_switch = lambda *arguments: inf\n"
+_GROUNDED = "\nWindow.is_lifted = lambda *arguments: False\n"
+_UNCOUNTED = """
+
+def _turn_uncounted(self, direction):
+    self.sliding, self.event_age = direction, 0.0
+
+
+Moment.turn = _turn_uncounted
+"""
+_STICKS = "\n_mode_in_contact = lambda system, now: STICK\n"
 
 _AFTER_SET = """
 _set = Component.set
@@ -129,12 +134,12 @@ def _events() -> Iterator[Fault]:
     late = "each stop or release is late by a millionth of the time to it"
     switch = "lift-off and touchdown happen at the next step only"
     for file, change, needs, code in (
-        ("leg.py", every, ("first_zero",), _EVERY_50TH),
-        ("leg.py", late, ("first_zero",), _LATE),
-        ("stick.py", "a stick is never released", ("Stick",), _HELD_FOR_EVER),
-        ("contact.py", switch, ("time_to_switch", "inf"), _NOT_NOTICED),
-        ("contact.py", "the contact never lifts", ("is_lifted",), _GROUNDED),
-        ("moment.py", "reversals are not counted", ("Counts",), _UNCOUNTED),
+        ("events.py", every, ("first_zero",), _EVERY_50TH),
+        ("events.py", late, ("first_zero",), _LATE),
+        ("sliding.py", "a stick is never released", ("Stick",), _HELD_FOR_EVER),
+        ("contact.py", switch, ("Window", "time_to_switch", "inf"), _NOT_NOTICED),
+        ("contact.py", "the contact never lifts", ("Window", "is_lifted"), _GROUNDED),
+        ("moment.py", "reversals are not counted", ("Moment", "turn"), _UNCOUNTED),
         ("coulomb.py", "the slider sticks at each stop", ("_mode_in_contact", "STICK"), _STICKS),
     ):
         yield Fault(file, "event", change, needs, code)

@@ -8,7 +8,7 @@ def test_a_module_that_lacks_a_name_is_told() -> None:
     every_name = " ".join(name for fault in FAULTS for name in fault.needs)
     modules = {fault.file: every_name for fault in FAULTS}
     assert missing_names(modules) == []
-    assert missing_names({**modules, "stick.py": "nothing"}) == ["stick.py: Stick"]
+    assert missing_names({**modules, "sliding.py": "nothing"}) == ["sliding.py: Stick"]
 
 
 def test_a_fault_is_appended_and_takes_the_place_of_a_function() -> None:
@@ -32,7 +32,7 @@ def test_every_real_parameter_and_input_is_off_by_a_per_cent_once() -> None:
 
 def test_every_50th_event_is_passed_over() -> None:
     text = "def first_zero(watch, limit, start=0.0):\n    return watch\n"
-    dropped = next(m for m in fault_mutants("leg.py", "p", text) if "50th" in m.change)
+    dropped = next(m for m in fault_mutants("events.py", "p", text) if "50th" in m.change)
     namespace: dict[str, object] = {}
     exec(dropped.new, namespace)
     first_zero = namespace["first_zero"]

@@ -23,10 +23,10 @@ from tests.harness import faulty_fmus
 SCENES = ("changing_inputs", "input_jumps", "initial_state", "stick_slip", "lugre", "lift_off")
 
 HARMFUL = (
-    ("leg.py", "each 50th stop or release is skipped"),
+    ("events.py", "each 50th stop or release is skipped"),
     ("moment.py", "reversals are not counted"),
     ("contact.py", "lift-off and touchdown happen at the next step only"),
-    ("stick.py", "a stick is never released"),
+    ("sliding.py", "a stick is never released"),
     ("component.py", "the normal phase jumps by 0.01 rad when phase changes"),
     ("component.py", "changed inputs act one communication step late"),
     ("component.py", "slider_mass acts 1 % too large"),

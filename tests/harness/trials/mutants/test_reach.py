@@ -46,9 +46,9 @@ def test_a_scene_reaches_what_its_device_asks_for(python_fmu: Path, tmp_path: Pa
     ]
     reached = reaches(read_python_fmu(python_fmu), points, 60.0, jobs=1)
     found = [{file for file, _ in reach.places} for reach in reached]
-    assert "departure.py" in found[0]
-    assert "departure.py" not in found[1]
-    assert "stick.py" in found[1]
-    assert "taylor_slide.py" in found[2]
-    assert "taylor_slide.py" not in found[0] | found[1]
-    assert all("friction_table.py" in files for files in found), "its table is made at loading"
+    assert "first_zero.py" in found[0]
+    assert "first_zero.py" not in found[1]
+    assert "oscillator.py" in found[1]
+    assert "lugre.py" in found[2]
+    assert "lugre.py" not in found[0] | found[1]
+    assert all("mean_friction.py" in files for files in found), "its rule is made at loading"

@@ -39,7 +39,7 @@ def test_the_original_passes(python_fmu: Path, points: list[ExpectedPoint]) -> N
 
 
 def test_a_failed_check_rejects(faulty: Faulty, points: list[ExpectedPoint]) -> None:
-    fmu = faulty("plant.py", "drive=force / total", "drive=1.01 * force / total")
+    fmu = faulty("device.py", "drive = force", "drive = 1.01 * force")
     outcome = trial(fmu, points, 60.0)
     assert isinstance(outcome, Rejection)
     assert (outcome.scene, outcome.quantity) == ("short", "position")
@@ -91,7 +91,7 @@ def test_a_probe_sees_an_output_that_is_wrong_in_the_run_only(
     probe = scene_from(content, "probe")
     points = probe_points(python_fmu, [probe], 60.0)
     assert trial(python_fmu, points, 60.0) is None
-    wrong = faulty("outputs.py", "view.moment.psi - ratio", "view.moment.psi + ratio")
+    wrong = faulty("outputs.py", "view.now.psi - ratio", "view.now.psi + ratio")
     outcome = trial(wrong, points, 60.0)
     assert isinstance(outcome, Rejection)
     assert outcome.quantity in ("steady_velocity", "blocking_force")

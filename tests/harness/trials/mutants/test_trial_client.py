@@ -44,7 +44,7 @@ def tried(servers: TrialServers, fmu: PythonFmu, file: str, old: str, new: str) 
 
 
 def test_the_original_passes_also_after_faulty_ones(servers: TrialServers, fmu: PythonFmu) -> None:
-    faulty = tried(servers, fmu, "plant.py", "drive=force / total", "drive=1.01 * force / total")
+    faulty = tried(servers, fmu, "device.py", "drive = force", "drive = 1.01 * force")
     assert faulty.rejection is not None
     assert (faulty.rejection.scene, faulty.rejection.quantity) == ("second", "position")
     assert "off by" in faulty.rejection.reason
