@@ -19,7 +19,7 @@
 /* Estimated error of a step that is accepted, in tolerances; by how much that estimate, of the embedded method of order 4,
  * exceeds the error. */
 #define STEP_TOLERANCE 4.0
-#define OVERESTIMATE 10.0
+#define OVERESTIMATE 5.0
 
 /* Share of the tolerance for errors of the fast states: on the manifold, and where a transient is left out. Such a transient
  * is so small, over the scales of the fast states, that outputs of the resonator do not show it. */
@@ -32,6 +32,9 @@
 /* Factor by which a step becomes shorter that meets a kink. */
 #define ON_KINK 0.5
 
+/* Largest drift of the load's phase [rad] in a step: an eighth of a beat, so that its stages see all phases. */
+#define MAX_STEP_DRIFT (PI / 4.0)
+
 /* Drift of the load's phase [rad] over a leap up to which its rates depend on the slow velocity alone. */
 #define NO_DRIFT 1e-9
 
@@ -42,6 +45,9 @@
  * which it is constant. */
 #define LINEAR 0.3
 #define NO_DECAY 1e-6
+
+/* Largest decay of the slow velocity in a period, over the share of friction: beyond, it is noise. */
+#define MAX_DECAY 4.0
 
 /* How far fast states are extrapolated by a cubic, over the distance of its two points. */
 #define FARTHEST 8.0
@@ -54,12 +60,11 @@ typedef struct {
     Moment landing, after;
 } Visited;
 
-/* The slow motion from a moment at the section, `begin` periods after the inputs began to grow, at normal phase `psi`
- * [rad]. `varies`: its rates depend on time, too. Fast states are extrapolated from two points, that where the present
+/* The slow motion from a moment at the section on, at normal phase `psi` [rad]. `varies`: its rates depend on time, too. Fast states are extrapolated from two points, that where the present
  * step begins (`here`) and another. */
 typedef struct {
     Manifold manifold;
-    double begin, psi;
+    double psi;
     bool varies;
     Visited here, other;
 } SlowMotion;
@@ -106,9 +111,8 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
     double fast[MAX_FAST];
     visited.landing.stops = motion->other.after.stops;
     guess_fast(motion, n, velocity, fast);
-    moment_place(map, velocity, fast, psi_after(map, motion->psi, motion->begin, n),
-                 &visited.landing);
-    if (!slow_rates(&motion->manifold, motion->begin + n, &visited.landing, &visited.after,
+    moment_place(map, velocity, fast, psi_after(map, motion->psi, n), &visited.landing);
+    if (!slow_rates(&motion->manifold, n, &visited.landing, &visited.after,
                     &visited.rates) ||
         visited.rates.itinerary != motion->here.rates.itinerary) {
         return false;
@@ -126,11 +130,19 @@ static double time_of_change(const SlowMotion *motion) {
     return fmin(by_motion, by_drift);
 }
 
+/* Periods that a step may pass of a beat, in which the load's phase drifts by a turn. */
+static double in_beat(const SlowMotion *motion, double n) {
+    return motion->varies ? MAX_STEP_DRIFT / fabs(drift_after(motion->manifold.map, n)) : INFINITY;
+}
+
 /* The step that a pair of an order is expected to accept, in periods. */
 static double first_step(const SlowMotion *motion, double share, int order) {
     const PeriodMap *map = motion->manifold.map;
-    double time = time_of_change(motion);
-    double change = fabs(motion->here.rates.acceleration) * time / map->speed;
+    double acceleration = fabs(motion->here.rates.acceleration), time = time_of_change(motion);
+    if (acceleration == 0.0 || isinf(time)) {
+        return INFINITY;
+    }
+    double change = acceleration * time / map->speed;
     return share * time * pow(map->tolerance / change, 1.0 / order);
 }
 
@@ -149,7 +161,7 @@ static bool prepare(SlowMotion *motion, double longest, double *h) {
     Visited *here = &motion->here;
     double time = time_of_change(motion), allowed = map->tolerance * map->speed;
     bool placed = here->rates.offset <= FAST_SHARE * map->tolerance;
-    *h = first_step(motion, FIRST_STEP_5, DORMAND_PRINCE.order);
+    *h = fmin(first_step(motion, FIRST_STEP_5, DORMAND_PRINCE.order), in_beat(motion, 0.0));
     manifold->max_sequences = MAX_SEQUENCES;
     manifold->allowed = FAST_SHARE * map->tolerance;
     motion->other = *here;
@@ -178,13 +190,14 @@ static double step_of(const SlowMotion *motion, const SlowPoint *now, double h, 
     const PeriodMap *map = motion->manifold.map;
     double distance = fabs(fabs(now->velocity) - map->speed);
     double to_grazing = TO_GRAZING * distance / fabs(now->rate.acceleration);
-    return floor(fmin(fmin(h, to_grazing), longest - now->t));
+    return floor(fmin(fmin(h, in_beat(motion, now->t)), fmin(to_grazing, longest - now->t)));
 }
 
 /* The error of the slow velocity [m/s] behind a step: what there was before has decayed as differences of velocity do, and the
  * step adds that of the solver and that of the rates. */
 static double error_behind(const SlowMotion *motion, const SlowStep *step, double h, double before) {
-    double decay = step->gain < 0.0 ? exp(step->gain * h) : 1.0;
+    double gain = fmax(step->gain, -MAX_DECAY * motion->manifold.map->share);
+    double decay = gain < 0.0 ? exp(gain * h) : 1.0;
     double of_rates = fmax(motion->here.rates.error, motion->other.rates.error);
     return decay * before + step->error / OVERESTIMATE + h * of_rates;
 }
@@ -238,11 +251,23 @@ static SlowPoint integrate(SlowMotion *motion, double longest, double h, double 
     return now;
 }
 
-Leap leap(const PeriodMap *map, const Moment *moment, double begin, double longest, Budget *budget,
+/* The moment behind the landing. All periods of a leap have the same events. */
+static void land(const SlowMotion *motion, const SlowPoint *end, Moment *after) {
+    const Visited *here = &motion->here;
+    double period = motion->manifold.map->period;
+    *after = here->after;
+    after->position += end->travel;
+    after->counts.reversals += end->t * here->rates.reversals;
+    after->counts.sticks += end->t * here->rates.sticks;
+    if (here->after.event_age > here->landing.event_age) {
+        after->event_age += end->t * period;
+    }
+}
+
+Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *budget,
           Moment *after) {
     SlowMotion motion = {
         .manifold = {map, budget, MIN_ORDER, 1, max_transient(map), 0},
-        .begin = begin,
         .psi = moment->psi,
         .varies = fabs(map->drift) * longest > NO_DRIFT || is_ramped(&map->law.held.plant),
         .here = {.velocity = momentum_velocity(map, moment), .landing = *moment},
@@ -251,7 +276,7 @@ Leap leap(const PeriodMap *map, const Moment *moment, double begin, double longe
     Visited *here = &motion.here;
     Leap done = {.outcome = NO_GAIN, .periods = MIN_ORDER};
     double h, error = moment->leap_error;
-    bool found = slow_rates(manifold, begin, &here->landing, &here->after, &here->rates);
+    bool found = slow_rates(manifold, 0.0, &here->landing, &here->after, &here->rates);
     *after = here->after;
     if (!found) {
         done.outcome = NOT_ON_MANIFOLD;
@@ -261,13 +286,7 @@ Leap leap(const PeriodMap *map, const Moment *moment, double begin, double longe
     if (prepare(&motion, longest - MAX_ORDER, &h)) {
         SlowPoint end = integrate(&motion, longest - manifold->order, h, &error);
         if (end.t > 0.0) {
-            *after = here->after;
-            after->position += end.travel;
-            after->counts.reversals += end.t * here->rates.reversals;
-            after->counts.sticks += end.t * here->rates.sticks;
-            if (after->event_age > manifold->order * map->period) {
-                after->event_age += end.t * map->period;
-            }
+            land(&motion, &end, after);
             after->leap_error = error;
             done.outcome = LEAPT;
             done.periods = end.t + manifold->order;

@@ -19,10 +19,9 @@ typedef struct {
     int in_vain;
 } Leap;
 
-/* Leap from a moment at the section, `begin` periods after inputs began to grow, over at most `longest` periods. `after` is
- * then the moment a few resolved periods behind the landing. Its `leap_error` has grown by the estimated error of the slow
+/* Leap from a moment at the section over at most `longest` periods; inputs may grow. `after` is then the moment a few resolved periods behind the landing. Its `leap_error` has grown by the estimated error of the slow
  * velocity, of which the tolerance of the map is allowed. */
-Leap leap(const PeriodMap *map, const Moment *moment, double begin, double longest, Budget *budget,
+Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *budget,
           Moment *after);
 
 #endif

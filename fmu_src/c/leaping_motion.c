@@ -66,21 +66,28 @@ static double pause_after(const Leap *leap) {
     return PAUSE * leap->in_vain;
 }
 
+/* The period map under the inputs of now. */
+static bool prepare_map(const Way *way, PeriodMap *map) {
+    Law law = law_after(way->law, way->clock.elapsed);
+    return period_map_prepare(map, &law, MAX_TURNS_OF_PERIOD);
+}
+
 static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
     Way way = {law, budget, clock_of(duration), duration, *moment};
+    double turn = TAU / law->held.plant.drive_frequency, pause = 0.0;
     PeriodMap map;
-    bool leaps = duration > SHORTEST_LEAP * TAU / law->held.plant.drive_frequency &&
-                 period_map_prepare(&map, law, MAX_TURNS_OF_PERIOD);
-    double pause = 0.0;
+    bool leaps = way.left > SHORTEST_LEAP * turn && prepare_map(&way, &map);
     while (leaps && way.left > (SHORTEST_LEAP + pause) * map.period) {
         if (!resolve_to_section(&way, &map, pause, refusal)) {
             return false;
         }
+        if (is_ramped(&law->held.plant) && !prepare_map(&way, &map)) {
+            break;
+        }
         Moment before = way.now;
-        double begin = way.clock.elapsed / map.period, longest = floor(way.left / map.period);
-        Leap done = leap(&map, &before, begin, longest, budget, &way.now);
+        Leap done = leap(&map, &before, floor(way.left / map.period), budget, &way.now);
         way.left = clock_advance(&way.clock, done.periods * map.period);
         pause = pause_after(&done);
     }

@@ -98,11 +98,16 @@ double momentum_velocity(const PeriodMap *map, const Moment *moment) {
            map->vibration.pair_velocity * cos(moment->theta);
 }
 
-double psi_after(const PeriodMap *map, double psi, double begin, double periods) {
+double psi_after(const PeriodMap *map, double psi, double periods) {
     const Plant *plant = &map->law.held.plant;
-    double t = periods * map->period, middle = (begin + 0.5 * periods) * map->period;
-    double chirp = plant->normal_rate * middle * t;
+    double t = periods * map->period;
+    double chirp = 0.5 * plant->normal_rate * t * t;
     return within_turn(psi + remainder(map->drift * periods + chirp, TAU));
+}
+
+double drift_after(const PeriodMap *map, double periods) {
+    double chirp = map->law.held.plant.normal_rate * map->period * map->period;
+    return map->drift + chirp * periods;
 }
 
 void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,

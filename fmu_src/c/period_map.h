@@ -52,9 +52,12 @@ bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns);
 /* The slow velocity V [m/s] at a moment, but for its change within a period. */
 double momentum_velocity(const PeriodMap *map, const Moment *moment);
 
-/* Phase of the normal load [rad] `periods` after it was `psi` [rad], `begin` periods after the inputs of the law began to
- * grow; periods need not be whole. */
-double psi_after(const PeriodMap *map, double psi, double begin, double periods);
+/* Phase of the normal load [rad] at the section `periods` after it was `psi` [rad], as the inputs of the law began to grow;
+ * between whole periods, that of a section which the drift would bring there. */
+double psi_after(const PeriodMap *map, double psi, double periods);
+
+/* Drift of that phase in a period [rad], `periods` after the inputs began to grow. */
+double drift_after(const PeriodMap *map, double periods);
 
 /* Put a moment to the slow velocity V [m/s] and the fast states of a section at normal phase `psi` [rad]. */
 void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,
