@@ -259,7 +259,7 @@ static void land(const SlowMotion *motion, const SlowPoint *end, Moment *after) 
     after->position += end->travel;
     after->counts.reversals += end->t * here->rates.reversals;
     after->counts.sticks += end->t * here->rates.sticks;
-    if (here->after.event_age > here->landing.event_age) {
+    if (after->event_age > motion->manifold.order * period) {
         after->event_age += end->t * period;
     }
 }

@@ -10,7 +10,6 @@ from math import inf
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene

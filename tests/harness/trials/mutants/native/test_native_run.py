@@ -31,7 +31,7 @@ ONCE_PASSED = {
     "overdamped": ("oscillator_near_critical",),
     "phases_beyond_pi": ("large_phase_off",),
     "ramps_averaged_block": ("time_to_stop",),
-    "leap_chirp": ("leap_drift_from_start",),
+    "leap_chirp": ("leap_chirp_twice",),
     "leap_table_1": ("leap_counts_no_reversals",),
     "leap_outrun": ("leap_keeps_event_age",),
 }
