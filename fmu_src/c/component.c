@@ -43,8 +43,8 @@ static bool provide_tables(Component *component, Law *law, Refusal *refusal) {
     if ((tabulates && component->table == NULL) || (bends && component->bending == NULL)) {
         return refuse(refusal, "out of memory: the host gives none for tables of friction");
     }
-    law->table = component->table;
-    law->bending = component->bending;
+    law->table = tabulates ? component->table : NULL;
+    law->bending = bends ? component->bending : NULL;
     return true;
 }
 
