@@ -138,6 +138,7 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw COULOMB = {
     .sticks = true,
+    .bends = false,
     .check = check,
     .first_bristle = first_bristle,
     .bristle = bristle,

@@ -16,6 +16,9 @@ typedef struct FrictionLaw {
     /* Whether a slider at rest sticks: friction then balances the other forces. */
     bool sticks;
 
+    /* Whether a bristle bends after each reversal, so that panels need tables. */
+    bool bends;
+
     /* Refuses a device for which the law is not defined. */
     bool (*check)(const Device *device, Refusal *refusal);
 
@@ -43,8 +46,5 @@ typedef struct FrictionLaw {
 } FrictionLaw;
 
 extern const FrictionLaw COULOMB, LUGRE;
-
-/* The law with this `friction_law` of the interface, or NULL. */
-const FrictionLaw *friction_law_of(int number);
 
 #endif

@@ -89,6 +89,7 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw LUGRE = {
     .sticks = false,
+    .bends = true,
     .check = check,
     .first_bristle = first_bristle,
     .bristle = bristle,

@@ -264,7 +264,12 @@ static double part(const Device *device, const Ramp *ramp, double left) {
     return fmin(left, ahead / fabs(ramp->ratio_rate));
 }
 
+static bool prepare(Law *law, Refusal *refusal) {
+    return fast_vibration_prepare(&law->fast, &law->device, refusal);
+}
+
 const Motion AVERAGED_MOTION = {
+    .prepare = prepare,
     .start = start,
     .advance = advance,
     .mode = mode,
