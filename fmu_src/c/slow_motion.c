@@ -195,6 +195,8 @@ static Moment start(const Law *law) {
     return first;
 }
 
+/* In this order: take the slow velocity and the centre of the pair from the state; pass the slow motion; turn the phases;
+ * add the steady vibration again. */
 static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
