@@ -74,6 +74,8 @@ static bool prepare_map(const Way *way, PeriodMap *map) {
     return period_map_prepare(map, &law, MAX_TURNS_OF_PERIOD);
 }
 
+/* In this order, while the time left is long enough: resolve to the next section; leap as far as possible; pause for a
+ * number of periods after a leap that failed. Then resolve the rest. */
 static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
